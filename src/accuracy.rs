@@ -23,6 +23,7 @@ pub use goal::{Accuracy, AccurateSolution, Plan};
 /// The quantity of which an accuracy is asked.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Quantity {
     /// The contact area corrected for its edge,
     /// [`ContactArea::corrected_contact_fraction`](crate::contact::ContactArea::corrected_contact_fraction).
@@ -223,6 +224,7 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// row, the area by a coarser grid. All others are [`rough`](Self::rough).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GridError {
     /// The error, relative to the value on the finest grid.
     pub relative: f64,

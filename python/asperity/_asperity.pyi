@@ -201,6 +201,7 @@ class Problem:
         modulus: float,
         law: Any,
         wall: str,
+        adhesion: dict[str, Any],
         precision: str,
         tolerance: float | None,
         max_iterations: int | None,
@@ -209,9 +210,15 @@ class Problem:
         nested: bool | None,
         threads: int | None,
         original: Original | None,
+        part: str | None,
         unit: str | None,
+        source: str | None,
     ) -> Problem: ...
-    def inputs(self) -> tuple[int, int]: ...
+    @property
+    def initial_gap(self) -> str | None: ...
+    @initial_gap.setter
+    def initial_gap(self, word: str) -> None: ...
+    def full_pressure(self) -> float: ...
     def plan(
         self, load: tuple[str, list[float]], accuracy: tuple[float, str, float | None]
     ) -> tuple[float, float, tuple[int, int], float, float]: ...

@@ -80,7 +80,7 @@ class Cycle(Rows[Step]):
         if found is None:
             self._ended = True
             raise StopIteration
-        solution = self._scene.solution("cycle", found)
+        solution = self._scene.solution(found)
         step = Step(solution, self._direction(found["leg"]), found)
         self.append({**found, **state(solution), "direction": step.direction})
         if self._is_apart():
@@ -93,7 +93,7 @@ class Cycle(Rows[Step]):
             return "start"
         (name, before), (_, after) = self._loads[leg - 1 : leg + 1]
         # the loads under which bodies come together as they grow
-        free = self._scene.inputs["boundary"] == "free"
+        free = self._scene.boundary == "free"
         pressing = free if name == "spring" else name != "mean_gap"
         return "approach" if (after[-1] > before[-1]) == pressing else "withdrawal"
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity, _law, surface
+from . import _asperity, _law
 from ._accuracy import shortfall
 from ._control import Load, number
 from ._solution import Solution
@@ -52,6 +52,7 @@ class Scene:
             modulus,
             law,
             wall,
+            _law.entries(law, wall),
             precision,
             tolerance,
             max_iterations,
@@ -60,27 +61,11 @@ class Scene:
             nested,
             threads,
             self.original,
+            None if original is None else "whole" if self.original is None else "original",
             self.topography.unit,
+            self.topography.source,
         )
-        max_iterations, threads = self.problem.inputs()
-        self.inputs: dict[str, Any] = {
-            "heights": self.topography.source,
-            "initial_gap": None,
-            "part": None if original is None else "whole" if self.original is None else "original",
-            **self._shapes(self.topography),
-            "length_unit": self.topography.unit,
-            "pressure_unit": None,
-            "given": None,
-            "boundary": boundary,
-            "modulus": modulus,
-            **_law.entries(law, wall),
-            "method": method,
-            "precision": precision,
-            "tolerance": None,
-            "max_iterations": max_iterations,
-            "threads": threads,
-            "version": _asperity.VERSION,
-        }
+        self.boundary = boundary
         self._adhesion = law
         self._unloads = branch == "unloading"
         self._warned: set[str] = set()
@@ -91,22 +76,12 @@ class Scene:
                 InputWarning,
             )
 
-    def _shapes(self, topography: Topography) -> dict[str, Any]:
-        """The nodes and side lengths of results, and the nodes that are solved if these are more."""
-        solved = list(topography.heights.shape)
-        original = None if self.original is None else original_of(topography)
-        if original is None:
-            return {"solved_shape": None, "shape": solved, "lengths": list(sides(topography))}
-        return {"solved_shape": solved, "shape": list(original.shape), "lengths": list(original.lengths)}
-
     def held(self, loads: list[Load]) -> list[Load]:
         """Loads with reduced pressures as pressures, over the rms slope of the surface."""
         if loads[:1] and loads[0][0] != "reduced_pressure":
             return loads
-        if np.isnan(self.topography.heights).any():
-            raise ValueError("a reduced pressure is over the rms slope, and nodes that are absent have none: give a pressure")
-        slope = surface.statistics(self.topography).rms_slope
-        return [("mean_pressure", [ratio * (self.inputs["modulus"] * slope)]) for _, (ratio,) in loads]
+        full = self.problem.full_pressure()
+        return [("mean_pressure", [ratio * full]) for _, (ratio,) in loads]
 
     def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
         """The gap from which to start under the first of some loads."""
@@ -120,9 +95,9 @@ class Scene:
         if isinstance(start, str):
             if start != "apart":
                 raise ValueError(f"start is {start!r}: it must be 'apart', an array of gaps, or a solution")
-            self.inputs["initial_gap"] = "apart"
+            self.problem.initial_gap = "apart"
             return self._apart(*loads[0])
-        self.inputs["initial_gap"] = "array"
+        self.problem.initial_gap = "array"
         gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
         original = original_of(self.topography)
         return gap if original is None or gap.shape != original.shape else original.mirrored(gap)
@@ -132,14 +107,14 @@ class Scene:
 
         Under a pull the default start of a solve with adhesion would find them sticking.
         """
-        if len(loads) < 2 or self.inputs["boundary"] != "free" or loads[0][0] not in ("approach", "spring"):
+        if len(loads) < 2 or self.boundary != "free" or loads[0][0] not in ("approach", "spring"):
             return None
         (name, first), (_, second) = loads[:2]
         return self._apart(name, first) if first[-1] < min(0.0, second[-1]) else None
 
     def _apart(self, name: str, numbers: list[float]) -> NDArray[np.float64]:
         """The gap of undeformed bodies at the approach, the mean gap, or the position at rest of a load."""
-        heights, at, free = self.topography.heights, numbers[-1], self.inputs["boundary"] == "free"
+        heights, at, free = self.topography.heights, numbers[-1], self.boundary == "free"
         if name not in ("approach", "mean_gap", "spring"):
             remedy = "an approach or a spring" if free else "a mean gap or a spring"
             raise ValueError(f"start is 'apart', but {name} does not say how far: give {remedy}, or a gap to start from")
@@ -150,14 +125,12 @@ class Scene:
             )
         return gap
 
-    def solution(self, command: str, found: dict[str, Any]) -> Solution:
+    def solution(self, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
-        told = {"command": command, **found["report"], **self.inputs, "tolerance": found["tolerance"]}
-        topography = self.topography
+        told, topography = found["report"], self.topography
         if "heights" in found:
             # those of an accuracy
             topography = refined(topography, found["heights"])
-            told |= self._shapes(topography)
         solution = Solution(topography, self._adhesion, told, found)
         raised = found["raised"]
         if raised is not None:

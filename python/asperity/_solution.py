@@ -181,7 +181,7 @@ class Solution:
 
         ``"heights"`` is the file that they came from, if they came from one.
         """
-        return {**self._told, **self._looked[1]}
+        return self._looked[1]
 
     @property
     def heights(self) -> NDArray[np.float64]:

@@ -231,7 +231,7 @@ def solve(
     plan = goal.plan(scene.problem, load) if goal else None
     given = goal.given if goal else None
     found = scene.problem.solve(load, begin, observe, stability or leave, leave, stiffness, given)
-    return scene.solution("solve", {**found, "plan": plan})
+    return scene.solution({**found, "plan": plan})
 
 
 def _check_both(

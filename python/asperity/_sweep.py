@@ -42,7 +42,7 @@ class Sweep(Rows[Solution]):
             raise StopIteration
         start = self._start if done == 0 else None
         found = self._scene.problem.next_load(self._loads[done], start, self._observe, self._stiffness)
-        solution = self._scene.solution("sweep", found)
+        solution = self._scene.solution(found)
         if solution.status == "stopped":
             # ended by the observer: the sweep goes no further
             self._loads = self._loads[: done + 1]

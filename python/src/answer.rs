@@ -1,44 +1,63 @@
-//! The answer to a solve: the dictionary in which Python gets an account.
+//! The answer to a solve: the dictionary in which Python gets what was found.
 
-use asperity::Solution;
-use numpy::{IntoPyArray, PyArrayMethods};
+use asperity::{Real, Solution, Status};
+use asperity_maps::Topography;
+use asperity_maps::warning::Warning;
+use asperity_scene::{Account, Found, Told, check_finite};
+use numpy::{Element, IntoPyArray, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde_pyobject::to_pyobject;
 
-use crate::account::{Account, Reached, Scalar};
 use crate::look::Look;
 use crate::refusal::refusal;
-use crate::report;
 
-/// The dictionary of an account, and the exception that ended its solve early.
+/// A scalar in which one can solve, and that numpy has.
+pub trait Scalar: Real + Element {}
+impl<T: Real + Element> Scalar for T {}
+
+/// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(
     py: Python<'py>,
-    found: (asperity::Result<Account<T>>, Option<PyErr>),
+    threads: Option<usize>,
+    found: (asperity::Result<(Found<T>, Account)>, Option<PyErr>),
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (account, raised) = match found {
-        (Ok(account), raised) => (account, raised),
+    let ((found, account), raised) = match found {
+        (Ok(found), raised) => (found, raised),
         (Err(_), Some(raised)) => return Err(raised),
         (Err(error), None) => return Err(refusal(error)),
     };
+    let Found { solution, sight, mode, refined, accuracy, .. } = found;
+    if solution.report.status != Status::Stopped {
+        let other = if T::NAME == "f32" { "precision='f64'" } else { "another start" };
+        let refused = |found| format!("{found}; use {other}, or units in which the numbers are moderate");
+        check_finite(&solution).map_err(|found| PyValueError::new_err(refused(found)))?;
+    }
     let found = PyDict::new(py);
-    found.set_item("report", report::of(py, &account)?)?;
-    let Account { solution, sight, stability, reached, .. } = account;
-    let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
-    found.set_item("tolerance", report.tolerance)?;
+    found.set_item("report", to_pyobject(py, &account)?)?;
+    let Solution { gap, pressure, contact_pressure, .. } = solution;
     let fields = [gap, pressure, contact_pressure].map(|field| field.into_pyarray(py));
     for (name, field) in ["gap", "pressure", "contact_pressure"].into_iter().zip(&fields) {
         // what is found of them later is about what they are now
         field.readwrite().make_nonwriteable();
         found.set_item(name, field)?;
     }
-    found.set_item("look", Look::at(sight, (grid, report), [&fields[0], &fields[1], &fields[2]]))?;
-    found.set_item("mode", stability.map(|stability| stability.mode.into_pyarray(py)))?;
+    found.set_item("look", Look::at(sight, account, threads, fields))?;
+    found.set_item("mode", mode.map(|mode| mode.into_pyarray(py)))?;
     // the grid of an accuracy, and what keeps it from being finer
-    if let Some(Reached { heights, refinable, unaffordable, .. }) = reached {
-        found.set_item("heights", heights.into_pyarray(py))?;
-        found.set_item("refinable", refinable)?;
-        found.set_item("unaffordable", unaffordable)?;
+    if let (Some(surface), Some(reached)) = (refined, accuracy) {
+        found.set_item("heights", Topography::from(surface).heights.into_pyarray(py))?;
+        found.set_item("refinable", reached.refinable)?;
+        found.set_item("unaffordable", reached.unaffordable)?;
     }
     found.set_item("raised", raised)?;
     Ok(found)
+}
+
+/// A warning, whose lengths have their unit if it is known.
+pub fn told(found: &Warning, unit: Option<&str>) -> Told {
+    let length =
+        |value| unit.map_or_else(|| Warning::figure(value), |unit| format!("{} {unit}", Warning::figure(value)));
+    Told::new(found, length, Warning::figure)
 }

@@ -1,85 +1,17 @@
-//! The inputs of a problem by the names of their keywords: body, wall, load and settings. The law has a file of its
-//! own.
+//! The inputs of a problem by the names of their keywords. The law has a file of its own.
 
-use asperity::accuracy::{Accuracy, Quantity};
-use asperity::{
-    Boussinesq, Branch, ContactConstraint, Control, ElasticOperator, Grid, NoWall, Projection, Real, Settings, Solver,
-    Surface, Westergaard,
-};
-use asperity_maps::io::{available_memory, check_memory};
-use asperity_maps::warning::{Warning, WarningCode};
+use asperity::Control;
+use asperity_scene::Goal;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::Error;
 
-/// What is beyond the surface.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Beyond {
-    /// the same again
-    Periodic,
-    /// nothing
-    Free,
-}
-
-impl Beyond {
-    /// The boundary of a name.
-    pub fn of(name: &str) -> PyResult<Self> {
-        match name {
-            "periodic" => Ok(Self::Periodic),
-            "free" => Ok(Self::Free),
-            other => Err(PyValueError::new_err(format!("boundary is {other}: it must be periodic or free"))),
-        }
-    }
-
-    /// The elastic body of a problem, if the machine has the memory for a solve: five fields of `f64`, and four times
-    /// as many with a free boundary.
-    pub fn half_space<T: Real>(self, grid: Grid, modulus: f64) -> asperity::Result<Box<dyn ElasticOperator<T>>> {
-        check_memory("a solve", grid.shape(), if self == Self::Free { 160 } else { 40 })?;
-        Ok(match self {
-            Self::Periodic => Box::new(Westergaard::<T>::new(grid, modulus)?),
-            Self::Free => Box::new(Boussinesq::<T>::new(grid, modulus)?),
-        })
-    }
-
-    /// The probable mistakes in the heights: where nothing repeats, nothing has to meet, and a body that ends may be
-    /// flat.
-    pub fn warnings(self, surface: &Surface) -> Vec<Warning> {
-        let (mut found, free) = (Warning::of_surface(surface), self == Self::Free);
-        found.retain(|warning| match warning.code {
-            WarningCode::Tilt | WarningCode::OpenEdges | WarningCode::Ends => !free,
-            WarningCode::Flat => !free && surface.absent().is_none(),
-            _ => true,
-        });
-        found
-    }
-}
-
-/// What keeps the surfaces apart.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Wall {
-    /// A rigid wall, at zero gap
-    Hard,
-    /// The law itself
-    None,
-}
-
-impl Wall {
-    /// The wall of a name.
-    pub fn of(name: &str) -> PyResult<Self> {
-        match name {
-            "hard" => Ok(Self::Hard),
-            "none" => Ok(Self::None),
-            other => Err(PyValueError::new_err(format!("wall is {other}: it must be hard or none"))),
-        }
-    }
-}
-
-impl<T: Real> ContactConstraint<T> for Wall {
-    fn wall(&self) -> asperity::constraint::Wall<'_, T> {
-        match self {
-            Self::Hard => Projection.wall(),
-            Self::None => NoWall.wall(),
-        }
-    }
+/// The value of a keyword by its name, which is one of `names`.
+pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
+    let found: Result<V, Error> = V::deserialize(name.into_deserializer());
+    found.map_err(|_| PyValueError::new_err(format!("{keyword} is {name}: it must be {names}")))
 }
 
 /// A load as Python passes it: the name of the keyword and its numbers.
@@ -105,52 +37,13 @@ pub fn contact_fraction((name, numbers): &Load) -> Option<f64> {
 }
 
 /// An accuracy as Python passes it: the relative error, the name of the quantity, and the memory in GiB.
-pub type Goal = (f64, String, Option<f64>);
+pub type Accuracy = (f64, String, Option<f64>);
 
-/// The bytes of a GiB.
-const GIB: f64 = 1_073_741_824.0;
-
-/// The accuracy that is asked for, by a solver.
-pub fn accuracy((target, of, memory): &Goal, solver: Solver<Wall>) -> PyResult<Accuracy<Wall>> {
-    let quantities = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
-    let Some(quantity) = quantities.into_iter().find(|quantity| quantity.name() == of) else {
-        let names = quantities.map(Quantity::name).join(", ");
-        return Err(PyValueError::new_err(format!("accuracy_of is {of}: it must be one of {names}")));
-    };
-    let mut wanted = Accuracy::with_solver(*target, quantity, solver);
-    wanted.memory = match *memory {
-        None => available_memory(),
-        Some(memory) if memory > 0.0 => memory * GIB,
-        Some(memory) => return Err(PyValueError::new_err(format!("memory is {memory}: it must be positive, in GiB"))),
-    };
-    Ok(wanted)
-}
-
-/// The stiffness of a spring, if the load is one.
-pub fn stiffness(control: Control) -> Option<f64> {
-    if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
-}
-
-/// The settings of a solver.
-pub fn settings(
-    tolerance: Option<f64>,
-    max_iterations: Option<usize>,
-    method: &str,
-    branch: Option<&str>,
-) -> PyResult<Settings> {
-    let default = match method {
-        "default" => Settings::default(),
-        "rey2017" => Settings::rey2017(),
-        other => return Err(PyValueError::new_err(format!("method is {other}: it must be default or rey2017"))),
-    };
-    let max_iterations = max_iterations.unwrap_or(default.max_iterations);
-    let branch = match branch {
-        None | Some("both") => None,
-        Some("loading") => Some(Branch::Loading),
-        Some("unloading") => Some(Branch::Unloading),
-        Some(other) => {
-            return Err(PyValueError::new_err(format!("branch is {other}: it must be loading, unloading or both")));
-        }
-    };
-    Ok(default.tolerance(tolerance).max_iterations(max_iterations).branch(branch))
+/// The accuracy that is asked for.
+pub fn goal((accuracy, of, memory): Accuracy) -> PyResult<Goal> {
+    let of = named("accuracy_of", &of, "one of area, gap, pressure, stiffness")?;
+    match memory.filter(|&memory| memory <= 0.0 || memory.is_nan()) {
+        None => Ok(Goal { accuracy, of, memory }),
+        Some(memory) => Err(PyValueError::new_err(format!("memory is {memory}: it must be positive, in GiB"))),
+    }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use asperity::adhesion::{Discretisation, Hints, Values};
-use asperity::{AdhesionLaw, Error, NoAdhesion, Real};
+use asperity::{AdhesionLaw, NoAdhesion, Real};
 use numpy::ndarray::ArrayD;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -362,8 +362,10 @@ impl Tabulated {
     #[new]
     #[pyo3(signature = (gaps, tractions, source = None))]
     fn new(gaps: Numbers<'_>, tractions: Numbers<'_>, source: Option<String>) -> PyResult<PyClassInitializer<Self>> {
-        let [gaps, tractions] = [gaps, tractions].map(|values| values.as_array().iter().copied().collect());
-        Self::through(gaps, tractions, source).map_err(refusal)
+        let [gaps, tractions]: [Vec<f64>; 2] =
+            [gaps, tractions].map(|values| values.as_array().iter().copied().collect());
+        let law = Law(Form::Tabulated(asperity::Tabulated::new(&gaps, &tractions).map_err(refusal)?));
+        Ok(PyClassInitializer::from(law).add_subclass(Self { gaps, tractions, source }))
     }
     /// The law of a file with a gap and a traction on each line.
     ///
@@ -392,25 +394,12 @@ impl Tabulated {
 }
 
 impl Tabulated {
-    fn through(
-        gaps: Vec<f64>,
-        tractions: Vec<f64>,
-        source: Option<String>,
-    ) -> asperity::Result<PyClassInitializer<Self>> {
-        let law = Law(Form::Tabulated(asperity::Tabulated::new(&gaps, &tractions)?));
-        Ok(PyClassInitializer::from(law).add_subclass(Self { gaps, tractions, source }))
-    }
-
     fn of_file(path: &Path) -> asperity::Result<PyClassInitializer<Self>> {
         let table = asperity_maps::io::read_field(path)?;
-        if table.ncols() != 2 {
-            let columns = table.ncols();
-            let reason = format!("has {columns} columns, not two: put a gap and a traction on each line");
-            return Err(Error::file(path, reason));
-        }
+        let law = Law(Form::Tabulated(asperity_scene::tabulated(path, &table)?));
         let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
         let source = Some(path.to_string_lossy().into_owned());
-        Self::through(gaps, tractions, source).map_err(|error| Error::file(path, format!("is no law: {error}")))
+        Ok(PyClassInitializer::from(law).add_subclass(Self { gaps, tractions, source }))
     }
 }
 

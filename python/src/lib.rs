@@ -1,7 +1,6 @@
 //! The compiled core of the Python package `asperity`: arrays in, arrays out. What users see is written in Python, in
 //! the folder `asperity` beside this one.
 
-mod account;
 mod answer;
 mod contact;
 mod exact;
@@ -15,10 +14,9 @@ mod original;
 mod pools;
 mod problem;
 mod refusal;
-mod report;
 mod running;
 mod scales;
-mod sight;
+mod state;
 mod surface;
 mod table;
 

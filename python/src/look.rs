@@ -3,31 +3,24 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::contact::ContactStatistics;
-use asperity::{Grid, Real, Report};
-use numpy::ndarray::ArrayView2;
+use asperity_scene::{Account, Sight};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use serde_pyobject::to_pyobject;
 
-use crate::account::Scalar;
+use crate::answer::Scalar;
 use crate::pools::Pool;
 use crate::refusal::refusal;
-use crate::report;
-use crate::sight::{Estimate, Sight};
 
 /// A sight in either precision, with the fields.
 trait Looks: Send + Sync {
-    fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyDict>)>;
+    fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyAny>)>;
 }
 
 struct Seen<T: Scalar> {
-    sight: Sight<T>,
-    grid: Grid,
-    report: Report,
-    estimate: Mutex<Option<Estimate>>,
-    gap: Py<PyArray2<T>>,
-    pressure: Py<PyArray2<T>>,
-    contact_pressure: Py<PyArray2<T>>,
+    seen: Mutex<(Sight<T>, Account)>,
+    threads: Option<usize>,
+    fields: [Py<PyArray2<T>>; 3],
 }
 
 /// The look at a solution, whose fields it holds.
@@ -35,56 +28,40 @@ struct Seen<T: Scalar> {
 pub struct Look(Box<dyn Looks>);
 
 impl Look {
-    /// The look at gap, pressure and contact pressure, with the grid and the report of the solution.
+    /// The look at gap, pressure and contact pressure, with the account of their solve.
     pub fn at<T: Scalar>(
-        mut sight: Sight<T>,
-        (grid, report): (Grid, Report),
-        fields: [&Bound<'_, PyArray2<T>>; 3],
+        sight: Sight<T>,
+        account: Account,
+        threads: Option<usize>,
+        fields: [Bound<'_, PyArray2<T>>; 3],
     ) -> Self {
-        let estimate = Mutex::new(sight.estimate.take());
-        let [gap, pressure, contact_pressure] = fields.map(|field| field.clone().unbind());
-        Self(Box::new(Seen { sight, grid, report, estimate, gap, pressure, contact_pressure }))
+        Self(Box::new(Seen { seen: Mutex::new((sight, account)), threads, fields: fields.map(Bound::unbind) }))
     }
 }
 
 #[pymethods]
 impl Look {
-    /// The statistics of the contact, and the entries of the report that the fields have.
-    fn found<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyDict>)> {
+    /// The statistics of the contact, and the whole report.
+    fn found<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyAny>)> {
         self.0.look(py)
     }
 }
 
 impl<T: Scalar> Looks for Seen<T> {
-    fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyDict>)> {
-        let (Sight { law, original, threads, .. }, report) = (&self.sight, &self.report);
-        let [gap, pressure, contact_pressure] =
-            [&self.gap, &self.pressure, &self.contact_pressure].map(|field| field.bind(py).readonly());
-        let [gap, pressure, contact_pressure] = [&gap, &pressure, &contact_pressure].map(|field| field.as_array());
-        let statistics = || match original {
-            Some(original) => original.statistics_of_fields(gap, contact_pressure, report.modulus, law),
-            None => {
-                let body = (report.boundary, report.modulus);
-                ContactStatistics::of_fields(gap, contact_pressure, &self.grid, body, law)
-            }
+    fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyAny>)> {
+        let fields = self.fields.each_ref().map(|field| field.bind(py).readonly());
+        let fields = fields.each_ref().map(|field| field.as_array());
+        let pool = Pool::of(self.threads)?;
+        let look = || {
+            // not on a thread of the pool, which may take up another look while it waits in this one
+            let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+            let (sight, account) = &mut *seen;
+            let found = pool.get().install(|| sight.look(account, fields))?;
+            Ok((found, account.clone()))
         };
-        let errors = || {
-            let mut estimate = self.estimate.lock().unwrap_or_else(PoisonError::into_inner);
-            estimate.as_mut().map(|estimate| estimate.errors(report))
-        };
-        let all = || rayon::join(statistics, || rayon::join(|| extremes(pressure), errors));
-        let pool = Pool::of(*threads)?;
-        let (found, (pressures, errors)) = py.detach(|| pool.get().install(all));
-        let found = found.map_err(refusal)?;
-        let entries = report::of_fields(py, &found, pressures, errors.as_ref())?;
-        Ok((statistics_of(py, found), entries))
+        let (found, account) = py.detach(look).map_err(refusal)?;
+        Ok((statistics_of(py, found), to_pyobject(py, &account)?))
     }
-}
-
-/// The least and the greatest value of a field.
-fn extremes<T: Real>(field: ArrayView2<'_, T>) -> (f64, f64) {
-    let none = (f64::INFINITY, f64::NEG_INFINITY);
-    field.iter().fold(none, |(low, high), value| (low.min(value.widen()), high.max(value.widen())))
 }
 
 /// Nodes in contact, their share, its corrected value, the perimeter, sizes of clusters, and the shares of the nodes

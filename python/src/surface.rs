@@ -11,12 +11,12 @@ use asperity_maps::{Form, RowAlignment, ScanAxis, Trend};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use serde_pyobject::to_pyobject;
 
+use crate::answer::told;
 use crate::numbers::{Field, afford};
 use crate::pools::Pool;
 use crate::refusal::refusal;
-use crate::report;
 
 /// Heights, side lengths and unit of a map, the nodes of the original of a mirrored one, and the seed of a random one.
 type Map<'py> = (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>, Option<u64>);
@@ -138,7 +138,7 @@ pub fn prepare<'py>(
     window: Option<f64>,
     mirror: bool,
     resample: Option<(usize, usize)>,
-) -> PyResult<(Map<'py>, Vec<Bound<'py, PyDict>>)> {
+) -> PyResult<(Map<'py>, Bound<'py, PyAny>)> {
     let unknown = |name, value, expected| PyValueError::new_err(format!("{name} is {value}: it must be {expected}"));
     let trend = match detrend {
         None => None,
@@ -210,7 +210,7 @@ pub fn prepare<'py>(
         Ok((map, warnings))
     })?;
     let unit = prepared.unit.clone();
-    let warnings = warnings.iter().map(|found| report::warning(py, found, unit.as_deref()));
-    let warnings = warnings.collect::<PyResult<_>>()?;
+    let warnings: Vec<_> = warnings.iter().map(|found| told(found, unit.as_deref())).collect();
+    let warnings = to_pyobject(py, &warnings)?;
     Ok((map(py, prepared), warnings))
 }

@@ -1,21 +1,11 @@
 //! The accuracy that is asked for: its options, its plan, and what was reached.
 
-use std::time::Instant;
-
-use asperity::accuracy::{Accuracy, GridError, Plan, Quantity};
-use asperity::nested::Level;
-use asperity::{ElasticOperator, Real, Report, Result, Solver};
-use asperity_maps::io::available_memory;
+use asperity::accuracy::{GridError, Plan, Quantity};
+use asperity_scene::{Account, GIB, Goal, GridErrors, Reached};
 use clap::{Args, ValueEnum};
-use ndarray::Array2;
-use serde_json::{Map, Value, json};
 
-use crate::adhesion::Wall;
 use crate::allowed::positive;
 use crate::numbers::percent;
-
-/// The bytes of a GiB.
-const GIB: f64 = 1_073_741_824.0;
 
 /// The accuracy that is asked for, from which tolerance and grid follow.
 #[derive(Args)]
@@ -47,34 +37,20 @@ pub enum Of {
 }
 
 impl AccuracyOptions {
-    /// The accuracy, if one is asked for, by a solver; with the contact stiffness to a relative error, if that is
-    /// found.
-    pub fn goal(&self, solver: Solver<Wall>, stiffness: Option<f64>) -> Option<Accuracy<Wall>> {
-        let quantity = match self.accuracy_of.unwrap_or(Of::Area) {
+    /// The accuracy, if one is asked for.
+    pub fn goal(&self) -> Option<Goal> {
+        let of = match self.accuracy_of.unwrap_or(Of::Area) {
             Of::Area => Quantity::Area,
             Of::Gap => Quantity::Gap,
             Of::Pressure => Quantity::Pressure,
             Of::Stiffness => Quantity::Stiffness,
         };
-        let mut wanted = Accuracy::with_solver(self.accuracy?, quantity, solver);
-        wanted.memory = self.memory.map_or_else(available_memory, |memory| memory * GIB);
-        wanted.nested.stiffness = stiffness;
-        Some(wanted)
+        self.accuracy.map(|accuracy| Goal { accuracy, of, memory: self.memory })
     }
 }
 
-/// The seconds of an operator application.
-pub fn seconds_of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<f64> {
-    let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
-    let [u, p] = &mut fields;
-    operator.pressure(u.view(), p.view_mut())?;
-    let clock = Instant::now();
-    operator.pressure(u.view(), p.view_mut())?;
-    Ok(clock.elapsed().as_secs_f64())
-}
-
-/// The plan in words, by the seconds of an operator application.
-pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan, application: f64) -> String {
+/// The plan of a goal in words, with the time in seconds.
+pub fn announced(goal: Goal, plan: &Plan, time: f64) -> String {
     let waves = if plan.nodes_per_wave.is_finite() {
         format!("the shortest wave has {:.1} nodes; ", plan.nodes_per_wave)
     } else {
@@ -82,12 +58,12 @@ pub fn announced<C>(wanted: &Accuracy<C>, plan: &Plan, application: f64) -> Stri
     };
     format!(
         "accuracy {} of the {}: {waves}likely {} x {} nodes, tolerance {:.0e}, about {}, {}",
-        wanted.target,
-        wanted.of,
+        goal.accuracy,
+        goal.of,
         plan.shape.0,
         plan.shape.1,
         plan.tolerance,
-        seconds(plan.applications * application),
+        seconds(time),
         bytes(plan.bytes)
     )
 }
@@ -101,75 +77,44 @@ fn seconds(seconds: f64) -> String {
 }
 
 /// Bytes in words.
-pub fn bytes(bytes: f64) -> String {
+fn bytes(bytes: f64) -> String {
     if bytes < GIB { format!("{:.0} MiB", bytes * 1024.0 / GIB) } else { format!("{:.1} GiB", bytes / GIB) }
 }
 
-/// The result of a solve to an accuracy.
-pub struct Reached {
-    pub accuracy: f64,
-    pub of: Quantity,
-    pub reached: bool,
-    pub error: Option<GridError>,
-    /// The next finer grid, and its bytes, if that was too much.
-    pub unaffordable: Option<((usize, usize), f64)>,
-    /// Whether the surface could have been refined.
-    pub refinable: bool,
-}
-
-impl Reached {
-    /// The estimated error in words.
-    pub fn estimate(&self) -> String {
-        self.error.map_or("unknown".to_owned(), |error| estimate(&error, self.of))
-    }
-
-    /// The reason why the accuracy was not reached, with a remedy.
-    pub fn reason(&self) -> String {
-        match self.unaffordable {
-            Some(((nx, ny), size)) => {
-                format!("{nx} x {ny} nodes would be next, and take {}: raise --memory, or ask for less", bytes(size))
-            }
-            None if !self.refinable => {
-                "a single node, absent nodes, and a work of adhesion from a map are known on this grid alone: give a finer one"
-                    .to_owned()
-            }
-            None => "the solve has not converged".to_owned(),
+/// The reason why an accuracy was not reached, with a remedy.
+pub fn reason(reached: &Reached) -> String {
+    match reached.unaffordable {
+        Some(((nx, ny), size)) => {
+            format!("{nx} x {ny} nodes would be next, and take {}: raise --memory, or ask for less", bytes(size))
         }
+        None if !reached.refinable => {
+            "a single node, absent nodes, and a work of adhesion from a map are known on this grid alone: give a finer one"
+                .to_owned()
+        }
+        None => "the solve has not converged".to_owned(),
     }
 }
 
-/// An estimated error in words.
-fn estimate(error: &GridError, of: Quantity) -> String {
-    format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" })
-}
-
-/// Why no error is estimated, in words, with a remedy where the waves of the surface are the reason.
-pub fn unknown(nodes_per_wave: f64) -> String {
+/// The estimated error of the grid in words: that of the quantity that has an accuracy; or that of the area, if it can
+/// be told, and those that are sure; or why there is none, with a remedy where the waves of the surface are the reason.
+pub fn estimate(account: &Account) -> String {
+    let of_accuracy = account.accuracy.map(|reached| reached.of);
+    let counts = |of: Quantity, error: &GridError| match of_accuracy {
+        Some(wanted) => of == wanted,
+        None => of == Quantity::Area || !error.rough,
+    };
+    let told = account.grid_error.iter().flat_map(GridErrors::all).filter_map(|(of, error)| {
+        let error = error.filter(|error| counts(of, error))?;
+        Some(format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" }))
+    });
+    let words: Vec<_> = told.collect();
     let least = GridError::LEAST_NODES_PER_WAVE;
-    if nodes_per_wave >= least {
+    if !words.is_empty() {
+        return words.join(", ");
+    } else if of_accuracy.is_some() || account.nodes_per_wave >= least {
         return "unknown".to_owned();
     }
     // rounded down: 3.96 nodes are not the 4.0 that are needed
-    let has = (10.0 * nodes_per_wave).floor() / 10.0;
+    let has = (10.0 * account.nodes_per_wave).floor() / 10.0;
     format!("unknown: the shortest wave has {has:.1} nodes and needs {least}: refine the map (--accuracy)")
-}
-
-/// The estimated errors of the finest of some grids, by quantity; `null` where one cannot be told, or is given.
-pub fn errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Value {
-    let all = GridError::of_all(levels, report, nodes_per_wave);
-    let told =
-        |GridError { relative, order, rough, .. }| json!({ "relative": relative, "order": order, "rough": rough });
-    Value::Object(
-        all.map(|(of, error)| (of.name().to_owned(), error.map(told).into())).into_iter().collect::<Map<_, _>>(),
-    )
-}
-
-/// The estimated errors in words: that of the area, if it can be told, and those that are sure.
-pub fn told_errors(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Option<String> {
-    let all = GridError::of_all(levels, report, nodes_per_wave).into_iter();
-    let told = all.filter_map(|(of, error)| {
-        error.filter(|error| of == Quantity::Area || !error.rough).map(|error| estimate(&error, of))
-    });
-    let words: Vec<_> = told.collect();
-    (!words.is_empty()).then(|| words.join(", "))
 }

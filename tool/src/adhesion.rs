@@ -1,14 +1,14 @@
 //! The adhesion between the surfaces: its law with the parameters, where it varies, and the wall.
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use asperity::adhesion::{CutOff, Varying};
 use asperity::{
-    AdhesionLaw, ContactConstraint, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, NoWall,
-    PowerLaw, Projection, Real, Tabulated,
+    AdhesionLaw, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Real, Tabulated,
 };
 use asperity_maps::io::read_field;
+use asperity_scene::{Wall, tabulated};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
@@ -73,26 +73,6 @@ pub enum Law {
     VanDerWaals,
     /// a monotone cubic through the points of a file
     Table,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Wall {
-    /// rigid, at zero gap
-    Hard,
-    /// the law itself
-    None,
-}
-
-impl<T: Real> ContactConstraint<T> for Wall {
-    fn wall(&self) -> asperity::constraint::Wall<'_, T> {
-        match self {
-            Self::Hard => Projection.wall(),
-            Self::None => NoWall.wall(),
-        }
-    }
-    fn takes_slabs(&self) -> bool {
-        true
-    }
 }
 
 /// The law that the options choose, with what their files hold.
@@ -276,19 +256,6 @@ impl AdhesionOptions {
     }
 }
 
-/// The law of a table that was read from a file.
-fn tabulated(path: &Path, table: &Array2<f64>) -> asperity::Result<Tabulated> {
-    if table.ncols() != 2 {
-        let columns = table.ncols();
-        return Err(Error::file(
-            path,
-            format!("has {columns} columns, not two: put a gap and a traction on each line"),
-        ));
-    }
-    let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
-    Tabulated::new(&gaps, &tractions).map_err(|error| Error::file(path, format!("is no law: {error}")))
-}
-
 impl Adhesion<'_> {
     /// The same with works of adhesion, if the law accepts them.
     fn with(self, works: Option<Works>) -> asperity::Result<Self> {
@@ -366,14 +333,5 @@ impl Adhesion<'_> {
 impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.to_possible_value().as_ref().map_or("", |value| value.get_name()))
-    }
-}
-
-impl fmt::Display for Wall {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Hard => "hard",
-            Self::None => "none",
-        })
     }
 }

@@ -1,11 +1,8 @@
-//! The boundary of the half-space, and the loads that it has: options, and what they make.
+//! The boundary of the half-space, and the loads that it has: their options.
 
-use std::fmt;
-
-use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
-use asperity_maps::io::check_memory;
-use clap::{Args, ValueEnum};
-use ndarray::Array2;
+use asperity::Control;
+use asperity_scene::Boundary;
+use clap::Args;
 
 use crate::allowed::{finite, share};
 use crate::loads::{Loads, list};
@@ -24,65 +21,20 @@ pub struct BoundaryOptions {
     pub absent_missing: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub enum Boundary {
-    /// the same again: a piece of a surface that goes on
-    Periodic,
-    /// nothing: a tip, an indenter, a chip; the half-space is free of load there
-    Free,
-}
-
-impl Boundary {
-    /// The half-space under the nodes of `grid`, if the machine has the memory for a solve: five fields of `f64`, and
-    /// four times as many with a free boundary.
-    pub fn half_space<T: Real>(self, grid: Grid, modulus: f64) -> Result<Box<dyn ElasticOperator<T>>> {
-        if !grid.is_shared() {
-            check_memory("a solve", grid.shape(), if self == Self::Free { 160 } else { 40 })?;
+/// Refuses a load that a boundary does not have.
+pub fn check_load(boundary: Boundary, control: Control) -> Outcome<()> {
+    match (boundary, control) {
+        (Boundary::Periodic, Control::Approach(_)) => {
+            Err("an approach needs --boundary free: in a periodic cell bodies \
+                                                       have none, give a mean gap, a pressure or a force"
+                .into())
         }
-        Ok(match self {
-            Self::Periodic => Box::new(Westergaard::new(grid, modulus)?),
-            Self::Free => Box::new(Boussinesq::new(grid, modulus)?),
-        })
-    }
-
-    /// The gap of a body that comes from afar: undeformed, at the approach at which `loads` begin, if they grow from
-    /// one before touch. The default start of a solve under a pull would find the body sticking.
-    pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {
-        let (from, to) = match *loads {
-            [Control::Approach(from), Control::Approach(to), ..] => (from, to),
-            [Control::Spring { rest: from, .. }, Control::Spring { rest: to, .. }, ..] => (from, to),
-            _ => return None,
-        };
-        let comes = self == Self::Free && from < 0.0 && to > from;
-        let peak = surface.heights().fold(f64::NEG_INFINITY, |peak, &height| peak.max(height));
-        let (_, peak) = surface.grid().extremes((0.0, peak));
-        comes.then(|| surface.heights().mapv(|height| peak - height - from))
-    }
-
-    /// Refuses a load that the boundary does not have.
-    pub fn check(self, control: Control) -> Outcome<()> {
-        match (self, control) {
-            (Self::Periodic, Control::Approach(_)) => {
-                Err("an approach needs --boundary free: in a periodic cell bodies \
-                                                           have none, give a mean gap, a pressure or a force"
-                    .into())
-            }
-            (Self::Free, Control::MeanGap(_)) => {
-                Err("a mean gap needs --boundary periodic: a free half-space has none \
-                                                      to be held, give an approach, a force, a pressure or a spring"
-                    .into())
-            }
-            _ => Ok(()),
+        (Boundary::Free, Control::MeanGap(_)) => {
+            Err("a mean gap needs --boundary periodic: a free half-space has none \
+                                                  to be held, give an approach, a force, a pressure or a spring"
+                .into())
         }
-    }
-}
-
-impl fmt::Display for Boundary {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Periodic => "periodic",
-            Self::Free => "free",
-        })
+        _ => Ok(()),
     }
 }
 

@@ -3,9 +3,9 @@
 use asperity::Report;
 use asperity::contact::ContactStatistics;
 use asperity::stability::ContactStiffness;
+use asperity_scene::Search;
 use serde_json::Value;
 
-use crate::case::Search;
 use crate::loads::name_and_value;
 use crate::options::ProblemOptions;
 use crate::part::Part;

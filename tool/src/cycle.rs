@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use asperity::contact::ContactStatistics;
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::{Control, Error, Problem, Report, Solver, Status, Surface};
+use asperity_scene::Boundary;
 use clap::{ArgGroup, Args};
 use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::positive;
-use crate::boundary::{Boundary, LOADS, LoadsOptions};
+use crate::boundary::{LOADS, LoadsOptions, check_load};
 use crate::columns::{Cell, INPUTS, OUTCOME, STATE, inputs, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
@@ -128,7 +129,7 @@ fn names() -> Vec<&'static str> {
 pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     processes.first(|| options.check_files())?;
     options.solver.check_table()?;
-    options.surface.beyond.boundary.check(options.loads.control(0.0))?;
+    check_load(options.surface.beyond.boundary, options.loads.control(0.0))?;
     let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene, processes),
@@ -152,7 +153,7 @@ impl Options {
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part) = (self.problem(), &part);
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
+        let operator = self.surface.half_space().operator(grid)?;
         let nodes = *operator.grid();
         let options =
             TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };

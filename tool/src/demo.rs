@@ -1,6 +1,7 @@
 //! `asperity demo`: a rough contact with and without adhesion, from nothing.
 
 use std::ffi::{OsStr, OsString};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use asperity::{AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
@@ -11,7 +12,6 @@ use ndarray::Array2;
 use serde_json::json;
 
 use crate::allowed::threads;
-use crate::case;
 use crate::numbers::si;
 use crate::outcome::Outcome;
 use crate::output::{at_destination, write_text};
@@ -96,13 +96,24 @@ pub fn run(options: &Options) -> Outcome<bool> {
         side = si(SIDE, "m"),
     ));
     let heights = surface.heights().clone();
-    let case = sticky_options.case(Control::MeanPressure(PRESSURE));
-    let progress =
-        |name| Progress::new(name, case.settings.tolerance_in::<f64>(), grid.nodes(), printing.without_bars());
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
-    let (bare, without) =
-        case::solve::<f64, _>(surface.clone(), NoAdhesion, &case, None, progress("without adhesion"))?;
-    let (sticky, with) = case::solve::<f64, _>(surface, law, &case, None, progress("with adhesion"))?;
+    let part = Part::all(grid);
+    let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
+        let tolerance = options.solver().settings.tolerance_in::<f64>();
+        let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
+        let asked = options.asked(Control::MeanPressure(PRESSURE));
+        let mut found =
+            options.posed::<f64>(surface, law, &part).solve(&asked, None, &mut |grid, state, tolerance| {
+                progress.update_on(grid, state, tolerance);
+                ControlFlow::Continue(())
+            })?;
+        let mut account = found.account("solve", &options.inputs(&part, &units, scene), None, Vec::new())?;
+        found.sight.look_at(&mut account, &found.solution)?;
+        Ok((found.solution, account))
+    };
+    let none = Box::new(NoAdhesion);
+    let (bare, without) = solved(surface.clone(), none, "without adhesion", &bare_options, &bare_scene)?;
+    let (sticky, with) = solved(surface, Box::new(law), "with adhesion", &sticky_options, &scene)?;
 
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {
@@ -127,7 +138,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     draw().map_err(|error| at_destination(error, out))?;
     folder.commit()?;
 
-    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], true, &units, &Part::all(grid)));
+    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], true, &units, &part));
     printing.say(&format!("\nmaps in {}: {}\n", name(out), names.join(", ")));
     let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
@@ -139,13 +150,13 @@ pub fn run(options: &Options) -> Outcome<bool> {
     printing.report(|| {
         json!({
             "command": "demo",
-            "without_adhesion": bare_options.report(&Part::all(grid), &without, &units, &bare_scene),
-            "with_adhesion": sticky_options.report(&Part::all(grid), &with, &units, &scene),
+            "without_adhesion": without,
+            "with_adhesion": with,
         })
     });
-    warn("without adhesion", &without, &case);
-    warn("with adhesion", &with, &case);
-    Ok([without, with].iter().all(|account| account.report.status == Status::Converged))
+    warn("without adhesion", &without);
+    warn("with adhesion", &with);
+    Ok([without, with].iter().all(|account| account.status == Status::Converged))
 }
 
 /// The surface of the demo: one of a fixed seed, on any grid that resolves its waves.

@@ -1,8 +1,9 @@
 //! Fields as files, of which each process writes its rows.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use asperity::Grid;
+use asperity::{Grid, Solution};
 use asperity_maps::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
 use ndarray::Array2;
 
@@ -31,4 +32,19 @@ pub fn write_fields<T: Scalar>(
     processes.first(|| create.try_for_each(|created| created).map_err(at_destination))?;
     let mut write = named.map(|(path, field)| write_npy_rows(&path, grid.shape(), grid.rows().start, field));
     processes.agree(write.try_for_each(|written| written).map_err(at_destination))
+}
+
+/// Refuses a solution of a solve that has run away.
+pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
+    let other = if T::NAME == "f32" { "--precision f64" } else { "another start by --initial-gap" };
+    let refused = |found| format!("{found}; use {other}, or units in which the numbers are moderate").into();
+    asperity_scene::check_finite(solution).map_err(refused)
+}
+
+/// The gap as files have it: NaN at absent nodes, where there is none.
+pub fn gap_to_write<T: Scalar>(solution: &Solution<T>) -> Cow<'_, Array2<T>> {
+    if solution.report.absent_nodes == 0 {
+        return Cow::Borrowed(&solution.gap);
+    }
+    Cow::Owned(solution.gap.mapv(|gap| if gap.is_finite() { gap } else { T::nan() }))
 }

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use asperity::{Grid, Solution};
 use asperity_maps::io::OutputFolder;
 
-use crate::case::gap_to_write;
-use crate::fields::write_fields;
+use crate::fields::{gap_to_write, write_fields};
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::check_free;

@@ -28,7 +28,6 @@ mod accuracy;
 mod adhesion;
 mod allowed;
 mod boundary;
-mod case;
 mod citation;
 mod columns;
 mod csv;

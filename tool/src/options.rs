@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::{Branch, Error, Real, Settings, Surface};
+use asperity::{Error, Method, Real, Settings, Surface};
 use asperity_maps::io::read_field;
+use asperity_scene::{Branches, HalfSpace, settings};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -74,14 +75,6 @@ pub struct SolverOptions {
 pub enum Iteration {
     Default,
     Rey2017,
-}
-
-/// The branches of equilibria to solve on.
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Branches {
-    Loading,
-    Unloading,
-    Both,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -156,16 +149,14 @@ impl SurfaceOptions {
         self.modulus.value
     }
 
+    /// The half-space.
+    pub fn half_space(&self) -> HalfSpace {
+        HalfSpace { boundary: self.beyond.boundary, modulus: self.modulus() }
+    }
+
     /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
     pub fn full_pressure(&self, surface: &Surface, wanted: bool) -> Outcome<f64> {
-        match (wanted, surface.absent_nodes()) {
-            (false, _) => Ok(1.0),
-            (true, 0) => Ok(self.modulus() * surface.statistics().rms_slope),
-            (true, absent) => {
-                let reason = "which have no slope: give a pressure";
-                Err(format!("a reduced pressure is over the rms slope, but {absent} nodes are absent, {reason}").into())
-            }
-        }
+        if wanted { Ok(self.half_space().full_pressure(surface)?) } else { Ok(1.0) }
     }
 }
 
@@ -234,16 +225,10 @@ impl SolverOptions {
 
     /// The settings, with the defaults of the method.
     pub fn settings(&self) -> Settings {
-        let default = match self.method {
-            Iteration::Default => Settings::default(),
-            Iteration::Rey2017 => Settings::rey2017(),
+        let method = match self.method {
+            Iteration::Default => Method::Preconditioned,
+            Iteration::Rey2017 => Method::Rey2017,
         };
-        default.tolerance(self.tolerance).max_iterations(self.max_iterations.unwrap_or(default.max_iterations)).branch(
-            match self.branch {
-                Some(Branches::Loading) => Some(Branch::Loading),
-                Some(Branches::Unloading) => Some(Branch::Unloading),
-                Some(Branches::Both) | None => None,
-            },
-        )
+        settings(method, self.tolerance, self.max_iterations, self.branch)
     }
 }

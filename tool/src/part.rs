@@ -4,10 +4,9 @@ use std::borrow::Cow;
 
 use asperity::contact::{ContactStatistics, Original};
 use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solution};
-use asperity_maps::warning::Warning;
+use asperity_scene::Boundary;
 use ndarray::Array2;
 
-use crate::boundary::Boundary;
 use crate::heights::Origin;
 use crate::outcome::Outcome;
 
@@ -59,7 +58,7 @@ impl Part {
     }
 
     /// The original, if results are of it.
-    fn wanted(&self) -> Option<Original> {
+    pub fn wanted(&self) -> Option<Original> {
         self.original.filter(|_| !self.is_whole)
     }
 
@@ -118,10 +117,5 @@ impl Part {
             Some(original) => original.statistics(solution, law),
             None => ContactStatistics::of(solution, law),
         }
-    }
-
-    /// The warning that a solution does not have the symmetry of the map.
-    pub fn warning<T: Real>(&self, solution: &Solution<T>) -> Result<Option<Warning>> {
-        self.wanted().map_or(Ok(None), |original| Warning::of_images(&original, solution))
     }
 }

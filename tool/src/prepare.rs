@@ -6,6 +6,7 @@ use asperity_maps::Topography;
 use asperity_maps::io::{read_channel, read_topography, write_topography};
 use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Form, FormFit, RowAlignment, ScanAxis, Trend};
+use asperity_scene::Told;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
@@ -18,7 +19,6 @@ use crate::printing::{Printing, complain, name, say};
 use crate::quantity::{LENGTH, PER_LENGTH, Quantity, power_of_length, times_ten_to};
 use crate::scene::Scene;
 use crate::units::{Units, unit};
-use crate::warnings::{self, Told};
 
 /// Make a measured map into a surface that can be solved.
 ///
@@ -198,7 +198,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
             "length_unit": map.unit,
             "original": map.original,
             "steps": lines.iter().map(|(step, text)| json!({ "step": step, "what": text })).collect::<Vec<_>>(),
-            "warnings": warnings::report(&warnings),
+            "warnings": warnings,
             "version": env!("CARGO_PKG_VERSION"),
         })
     });
@@ -349,7 +349,7 @@ fn prepared(
 /// Warnings about a map, which are printed.
 fn told(found: impl IntoIterator<Item = Warning>, map: &Topography) -> Vec<Told> {
     let units = Units::of_map(map.unit.as_deref());
-    let told: Vec<_> = found.into_iter().map(|warning| Told::new(&warning, &units)).collect();
+    let told: Vec<_> = found.into_iter().map(|warning| units.told(&warning)).collect();
     told.iter().for_each(|warning| complain("warning", &warning.to_string()));
     told
 }

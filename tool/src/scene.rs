@@ -89,9 +89,9 @@ impl Scene {
     }
 
     /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
-    pub fn given(&self) -> serde_json::Value {
+    pub fn given(&self) -> Option<serde_json::Value> {
         if !self.is_si() {
-            return serde_json::Value::Null;
+            return None;
         }
         let entry = |given: &Given| {
             let texts = match &given.texts[..] {
@@ -100,7 +100,7 @@ impl Scene {
             };
             (given.key.replace('-', "_"), texts)
         };
-        self.quantities.iter().map(entry).collect::<Map<_, _>>().into()
+        Some(self.quantities.iter().map(entry).collect::<Map<_, _>>().into())
     }
 
     /// The scene file, to be put into `folder`.

@@ -1,26 +1,27 @@
 //! `asperity solve`: the equilibrium at one load.
 
 mod distribution;
-mod report;
+mod problem;
 
 use std::borrow::Cow;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use asperity::contact::PressureDistribution;
-use asperity::{AdhesionLaw, Control, Solution, Status, Surface};
+use asperity::{AdhesionLaw, Solution, Status};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
+use asperity_scene::{Account, Asked};
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::CowArray;
-use serde_json::Value;
+use ndarray::{Array2, CowArray};
+use serde_json::json;
 
 use crate::accuracy::{self, AccuracyOptions};
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::allowed::bins;
-use crate::boundary::{LOAD, LoadOptions};
-use crate::case::{self, Account, Case, Other};
-use crate::fields::write_fields;
+use crate::boundary::{LOAD, LoadOptions, check_load};
+use crate::fields::{check_finite, gap_to_write, write_fields};
 use crate::numbers::plain;
-use crate::options::{Branches, Given, Iteration, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
@@ -175,7 +176,7 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     options.check_shared(processes)?;
     problem.adhesion.check()?;
     options.check_branches()?;
-    problem.surface.beyond.boundary.check(options.load.control(1.0))?;
+    check_load(problem.surface.beyond.boundary, options.load.control(1.0))?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
         return Err(format!("--colour-limits {} {}: the lower one must come first", plain(low), plain(high)).into());
@@ -203,9 +204,9 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     let given = problem.read(si, processes)?;
     let units = processes.agree(options.units.units(given.origin.unit.as_deref(), si))?;
     let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
-    let (case, part) = (options.case(options.load.control(full)), given.part);
-    part.check(case.control)?;
-    let job = Job { options, scene, processes, names, case, units, part };
+    let (asked, part) = (options.asked(options.load.control(full)), given.part);
+    part.check(asked.control)?;
+    let job = Job { options, scene, processes, names, asked, units, part };
     match options.solver.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -213,27 +214,6 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
 }
 
 impl Options {
-    /// Whether both branches of equilibria are asked for.
-    fn wants_both(&self) -> bool {
-        self.solver.branch == Some(Branches::Both)
-    }
-
-    /// Refuses both branches where there is nothing to be compared.
-    fn check_branches(&self) -> Outcome<()> {
-        let reason = match self {
-            _ if !self.wants_both() => return Ok(()),
-            _ if self.adhesion.law == Law::None => "without adhesion there is but one equilibrium",
-            _ if self.load.contact_fraction.is_some() => {
-                "each branch has a load of its own for a contact fraction: give a load"
-            }
-            _ if self.accuracy.accuracy.is_some() => "each branch has an accuracy of its own: give one branch",
-            _ if self.leave => "an equilibrium that is left leads off its branch: give one branch",
-            _ if self.solver.method == Iteration::Rey2017 => "rey2017 has one start: take the default method",
-            _ => return Ok(()),
-        };
-        Err(format!("--branch both: {reason}").into())
-    }
-
     /// Refuses what has no form for several processes.
     fn check_shared(&self, processes: &Processes) -> Outcome<()> {
         if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
@@ -250,26 +230,6 @@ impl Options {
     fn problem(&self) -> ProblemOptions<'_> {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
-
-    /// The case that the options choose, under a load.
-    pub fn case(&self, control: Control) -> Case {
-        let SurfaceOptions { beyond, .. } = self.surface;
-        let settings = self.solver.settings();
-        let stability = self.stability || self.leave;
-        let wall = self.adhesion.wall;
-        Case {
-            boundary: beyond.boundary,
-            modulus: self.surface.modulus(),
-            control,
-            fraction: self.load.contact_fraction,
-            settings,
-            wall,
-            stability,
-            leave: self.leave,
-            stiffness: self.stiffness,
-            nested: (self.nested || self.no_nested).then_some(self.nested),
-        }
-    }
 }
 
 /// A solve with all that was chosen for it.
@@ -278,7 +238,7 @@ struct Job<'a> {
     scene: &'a Scene,
     processes: &'a Processes,
     names: Vec<&'static str>,
-    case: Case,
+    asked: Asked,
     units: Units,
     part: Part,
 }
@@ -292,12 +252,12 @@ impl Job<'_> {
             self.leave_out_what_takes_whole_fields()?;
         }
         let start = start.map(T::field);
-        let mut wanted = self.options.accuracy.goal(self.case.solver(), self.case.stiffness_to());
-        let tolerance = match &wanted {
-            Some(wanted) => wanted.tolerance()?,
-            None => self.case.settings.tolerance_in::<T>(),
+        let solver = self.options.solver();
+        let tolerance = match self.asked.goal {
+            Some(goal) => goal.by(solver, false).tolerance()?,
+            None => solver.settings.tolerance_in::<T>(),
         };
-        let progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
+        let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let strictness = self.options.strictness;
         let whole_adhesion = if fits { adhesion.gathered() } else { None };
         let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
@@ -309,53 +269,50 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
-        let law = adhesion.law()?;
-        let (solution, mut account) = if let Some(wanted) = &mut wanted {
-            let mut operator = self.case.boundary.half_space(grid, self.case.modulus)?;
-            let plan = wanted.plan::<T>(&surface, &mut operator, &law, self.case.control)?;
-            printing.say(&accuracy::announced(wanted, &plan, accuracy::seconds_of(&mut *operator)?));
-            drop(operator);
-            let (fine, solution, account) = case::solve_to(&surface, law, &self.case, wanted, progress)?;
-            grid = *fine.grid();
+        let mut posed = self.options.posed::<T>(surface, adhesion.law()?, &self.part);
+        if let Some(goal) = self.asked.goal {
+            let (plan, time) = posed.plan(self.asked.control, goal)?;
+            printing.say(&accuracy::announced(goal, &plan, time));
+        }
+        let mut found = posed.solve(&self.asked, start, &mut |grid, state, tolerance| {
+            progress.update_on(grid, state, tolerance);
+            ControlFlow::Continue(())
+        })?;
+        drop((posed, progress));
+        check_finite(&found.solution)?;
+        if found.refined.take().is_some() {
+            grid = found.solution.grid;
             self.part = self.part.on(grid)?;
-            (solution, account)
-        } else {
-            let again = self.options.wants_both().then(|| surface.clone());
-            let (solution, mut account) = case::solve::<T, _>(surface, law, &self.case, start, progress)?;
-            if let Some(surface) = again {
-                account.other = Some(self.other_branch(surface, &adhesion, &solution)?);
-            }
-            (solution, account)
-        };
-        let whole = if fits { solution.gathered() } else { None };
+        }
+        let whole = if fits { found.solution.gathered() } else { None };
         let look = |whole: &Cow<'_, _>| warnings.look_at(whole, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
-        account.warnings = warnings.report();
-        let law = adhesion.law()?;
-        self.part_of(&mut account, &solution, &law)?;
-        account.strongest = adhesion.strongest();
+        let inputs = self.options.inputs(&self.part, &self.units, self.scene);
+        let mut account = found.account("solve", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
+        found.sight.look_at(&mut account, &found.solution)?;
+        let (solution, mut mode) = (&found.solution, found.mode.map(|mode| mode.mapv_into_any(T::widen)));
 
         let folder = processes.is_first().then(|| output_folder(out, &FILES, *force)).transpose();
         let folder = processes.agree(folder)?;
         if self.options.writes(Format::Npy) {
-            let (shown, part) = (&*self.part.of_solution(&solution)?, self.part.grid());
-            let gap = case::gap_to_write(shown);
+            let (shown, part) = (&*self.part.of_solution(solution)?, self.part.grid());
+            let gap = gap_to_write(shown);
             let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
             let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
             write_fields(processes, folder.as_ref(), out, part, &named)?;
-            if let Some(stability) = &account.stability {
-                let mode = self.part.of_field(stability.mode.clone())?;
+            if let Some(mode) = &mode {
+                let mode = self.part.of_field(mode.clone())?;
                 write_fields(processes, folder.as_ref(), out, part, &[(MODE.to_owned(), &mode)])?;
             }
         }
-        if let Some(stability) = account.stability.as_mut().filter(|_| fits && grid.is_shared()) {
-            stability.mode = grid.gathered(&stability.mode).map(CowArray::into_owned).unwrap_or_default();
+        if let Some(mode) = mode.as_mut().filter(|_| fits && grid.is_shared()) {
+            *mode = grid.gathered(mode).map(CowArray::into_owned).unwrap_or_default();
         }
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
             let law = whole_adhesion.as_ref().map(Adhesion::law).transpose()?;
             let whole = whole.as_deref().zip(law.as_ref());
-            let written = self.write(&folder, whole, &account);
+            let written = self.write(&folder, whole, mode.as_ref(), &account);
             written.map_err(|error| at_destination(error, out))?;
             Ok(folder.commit()?)
         })?;
@@ -365,11 +322,11 @@ impl Job<'_> {
             say(&table(&[], &[&account], adhesive, &self.units, &self.part));
             say(&format!("results in {}: {}", name(out), self.names.join(", ")));
         }
-        printing.report(|| self.report(&account));
-        warn("", &account, &self.case);
-        let reached = account.reached.as_ref().is_none_or(|reached| reached.reached)
+        printing.report(|| json!(account));
+        warn("", &account);
+        let reached = account.accuracy.as_ref().is_none_or(|reached| reached.reached)
             && account.search.as_ref().is_none_or(|search| search.reached);
-        Ok(account.report.status == Status::Converged && reached)
+        Ok(account.status == Status::Converged && reached)
     }
 
     /// Leaves out the pictures, and refuses files, for which one process would have to take the whole of the fields.
@@ -394,60 +351,23 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn report(&self, account: &Account) -> Value {
-        self.options.report(&self.part, account, &self.units, self.scene)
-    }
-
-    /// The solution on the other branch, beside that of the account.
-    fn other_branch<T: Scalar>(
-        &self,
-        surface: Surface,
-        adhesion: &Adhesion<'_>,
-        solution: &Solution<T>,
-    ) -> Outcome<Other> {
-        let (grid, case) = (*surface.grid(), self.case.on_other_branch(&solution.report)?);
-        let tolerance = case.settings.tolerance_in::<T>();
-        let progress = Progress::new("", tolerance, grid.nodes(), self.options.printing.without_bars());
-        let (found, _) = case::solve::<T, _>(surface, adhesion.law()?, &case, None, progress)?;
-        let (distance, same) = (found.distance(solution), found.agrees_with(solution));
-        let report = self.part.of_solution(&found)?.report.clone();
-        Ok(Other { report, distance, same })
-    }
-
-    /// Makes the account of the whole one of the part that results are of.
-    fn part_of<T: Scalar>(
-        &self,
-        account: &mut Account,
-        solution: &Solution<T>,
-        law: &impl AdhesionLaw<T>,
-    ) -> Outcome<()> {
-        if self.part.solved().is_some() {
-            account.report = self.part.of_solution(solution)?.report.clone();
-            account.contact = self.part.statistics(solution, law)?;
-            account.nodes = self.part.grid().nodes();
-            let share = self.part.share();
-            account.stiffness.iter_mut().for_each(|found| found.force_per_length *= share);
-        }
-        Ok(())
-    }
-
     /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
     /// with its law, where there is one.
     fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
         whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
+        mode: Option<&Array2<f64>>,
         account: &Account,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
-        write_text(&path(REPORT), &format!("{:#}\n", self.report(account)))?;
+        write_text(&path(REPORT), &format!("{:#}\n", json!(account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
         let Some((whole, law)) = whole else { return Ok(()) };
         let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
-        let gap = case::gap_to_write(solution);
+        let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        let mode =
-            account.stability.as_ref().map(|stability| self.part.of_field(stability.mode.mapv(T::lit))).transpose()?;
+        let mode = mode.map(|mode| self.part.of_field(mode.mapv(T::lit))).transpose()?;
         let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
         let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field.view())).collect();
         if self.options.writes(Format::Npz) {

@@ -77,7 +77,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     options.printing.say(&table(&map, &found));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
-        report::report("stats", statistics(&map, &found, path), version)
+        report::report("stats", statistics(&map, &found, path), &version)
     });
     Ok(true)
 }

@@ -166,7 +166,7 @@ pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
             "out": study.out.to_string_lossy(),
             "version": env!("CARGO_PKG_VERSION"),
         });
-        report::report("study", outcome, serde_json::Map::new())
+        report::report("study", outcome, &())
     });
     match unconverged {
         Some(count) if count > 0 => {

@@ -193,8 +193,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
             "seed": rough.map(|rough| rough.seed),
             "version": env!("CARGO_PKG_VERSION"),
         });
-        let made = made.as_object().cloned().unwrap_or_default();
-        report::report("surface", figures, made)
+        report::report("surface", figures, &made)
     });
     Ok(true)
 }

@@ -9,13 +9,13 @@ use asperity::{
     AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Iteration, Problem, Report, Solution, Solver, Status,
     Surface, Sweep,
 };
+use asperity_scene::{Boundary, Search, Wall};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{ArrayRef2, ArrayView2};
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::{Adhesion, AdhesionOptions, Law, Wall};
-use crate::boundary::{Boundary, FractionsOptions, LOADS, LoadsOptions};
-use crate::case::Search;
+use crate::adhesion::{Adhesion, AdhesionOptions, Law};
+use crate::boundary::{FractionsOptions, LOADS, LoadsOptions, check_load};
 use crate::columns::{Cell, INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
@@ -26,6 +26,7 @@ use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain, name};
 use crate::processes::Processes;
 use crate::scene::Scene;
+use crate::summary::jump;
 use crate::table::{self, Table, TableOptions};
 use crate::units::UnitOptions;
 use crate::warnings::Strictness;
@@ -106,7 +107,7 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     options.format()?;
     processes.first(|| options.plot.check(&options.out, options.force))?;
     options.solver.check_table()?;
-    options.surface.beyond.boundary.check(options.loads.control(0.0))?;
+    check_load(options.surface.beyond.boundary, options.loads.control(0.0))?;
     let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {
         Precision::F32 => options.run::<f32>(given, scene, processes),
@@ -135,7 +136,7 @@ impl Options {
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part) = (self.problem(), &part);
-        let operator = self.surface.beyond.boundary.half_space(grid, self.surface.modulus())?;
+        let operator = self.surface.half_space().operator(grid)?;
         let nodes = *operator.grid();
         let options =
             TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
@@ -201,7 +202,7 @@ impl Options {
             table.append(&row, &shown)?;
             self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&shown.report, units)));
             if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
-                complain("warning", &format!("row {}: {}", k + 1, searched.told()));
+                complain("warning", &format!("row {}: {}", k + 1, jump(&searched)));
             }
         }
         let text = table.text()?;

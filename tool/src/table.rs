@@ -9,7 +9,7 @@ use ndarray::{Array2, ArrayRef2, Axis, Slice};
 use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
-use crate::case::check_finite;
+use crate::fields::check_finite;
 use crate::heights::Origin;
 use crate::identity::Identity;
 use crate::interruption;
@@ -217,10 +217,10 @@ impl<'a> Table<'a> {
         });
         if let (Value::Object(outcome), Value::Object(found)) = (&mut outcome, found) {
             outcome.extend(found);
-            outcome.insert("warnings".to_owned(), self.warnings.report());
+            outcome.insert("warnings".to_owned(), json!(self.warnings.found()));
         }
         let TableOptions { problem, units, scene, part, .. } = self.options;
-        report::report(command, outcome, report::inputs(problem, part, units, scene))
+        report::report(command, outcome, &report::inputs(problem, part, units, scene))
     }
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.

@@ -1,6 +1,8 @@
 //! The units of the numbers that a command gives, as far as they are known.
 
 use asperity_maps::io::LONGEST_UNIT;
+use asperity_maps::warning::Warning;
+use asperity_scene::Told;
 use clap::Args;
 
 use crate::csv;
@@ -69,6 +71,11 @@ impl Units {
     /// The units of a map, of which that of length alone may be known.
     pub fn of_map(length: Option<&str>) -> Self {
         Self { length: length.map(str::to_owned), ..Self::default() }
+    }
+
+    /// A warning in these units.
+    pub fn told(&self, warning: &Warning) -> Told {
+        Told::new(warning, |value| self.number(value, LENGTH), |value| self.number(value, PRESSURE))
     }
 
     /// The unit of a dimension: its own of the SI, or a product of those that are known.

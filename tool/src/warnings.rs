@@ -1,23 +1,22 @@
 //! The warnings of a command: printed, reported, kept beside a table, or refused with `--strict`.
 
 use std::path::{Path, PathBuf};
-use std::{fmt, fs, io};
+use std::{fs, io};
 
 use asperity::{Error, Solution, Surface};
 use asperity_maps::Topography;
 use asperity_maps::warning::{Warning, WarningCode};
+use asperity_scene::{Told, warnings_of};
 use clap::Args;
-use serde_json::{Value, json};
 
 use crate::adhesion::Adhesion;
-use crate::boundary::Boundary;
 use crate::heights::Origin;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_free, with_suffix, write_text};
 use crate::part::Part;
 use crate::printing::complain;
-use crate::quantity::{LENGTH, PRESSURE, power_of_length, times_ten_to};
+use crate::quantity::{power_of_length, times_ten_to};
 use crate::units::Units;
 
 /// Whether warnings are errors.
@@ -26,53 +25,6 @@ pub struct Strictness {
     /// Take warnings for errors: refuse input with a probable mistake in it, and write no solution with one
     #[arg(long, help_heading = "Output")]
     strict: bool,
-}
-
-/// A warning in the units of a run.
-#[derive(Clone, PartialEq)]
-pub struct Told {
-    pub code: String,
-    pub message: String,
-    /// How bad it is, among those of its code
-    severity: f64,
-}
-
-impl Told {
-    pub fn new(warning: &Warning, units: &Units) -> Self {
-        let [length, pressure] = [LENGTH, PRESSURE].map(|dimension| move |value| units.number(value, dimension));
-        let message = warning.message_with(length, pressure);
-        Self { code: warning.code.name().to_owned(), message, severity: warning.severity() }
-    }
-
-    /// Takes the place of another one of its code, if it is worse; whether it is.
-    pub fn replace_if_worse(self, known: &mut Self) -> bool {
-        let worse = self.severity > known.severity;
-        if worse {
-            *known = self;
-        }
-        worse
-    }
-
-    /// The warning as a file has it on a line, with how bad it is behind its code.
-    fn line(&self) -> String {
-        format!("{} [{}]: {}\n", self.code, Warning::figure(self.severity), self.message)
-    }
-
-    /// The warning of such a line.
-    fn parse(line: &str) -> Option<Self> {
-        let (code, message) = line.split_once(": ")?;
-        let (code, severity) = match code.strip_suffix(']').and_then(|code| code.split_once(" [")) {
-            Some((code, severity)) => (code, severity.parse().ok()?),
-            None => (code, 0.0),
-        };
-        Some(Self { code: code.to_owned(), message: message.to_owned(), severity })
-    }
-}
-
-impl fmt::Display for Told {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.code, self.message)
-    }
 }
 
 /// The file with the warnings of a table, beside it, a line for each; there is none if nothing was said.
@@ -135,25 +87,18 @@ impl Warnings {
     ) -> Outcome<Self> {
         let law = adhesion.law::<T>()?;
         let mut warnings = Self::empty(strictness, units);
-        let mut found = Warning::of_surface(surface);
+        let mut found = options.surface.beyond.boundary.warnings(surface);
         let codes = codes_in_file(surface, origin);
         if !codes.is_empty() {
             // nothing else can be told of the heights
             found.retain(|warning| warning.code == WarningCode::Cells);
         }
-        // where nothing repeats, nothing has to meet, and a body that ends may be flat
-        let free = options.surface.beyond.boundary == Boundary::Free;
-        found.retain(|warning| match warning.code {
-            WarningCode::Tilt | WarningCode::OpenEdges | WarningCode::Ends => !free,
-            WarningCode::Flat => !free && surface.absent().is_none(),
-            _ => true,
-        });
         let modulus = options.surface.modulus();
         // a unit of pressure that is known says what the modulus is in
         let bare = units.pressure.is_none();
         found.extend(Warning::of_modulus(modulus, surface.grid(), origin.unit.as_deref()).filter(|_| bare));
         found.extend(Warning::of_law(&law, surface, modulus));
-        let told = found.iter().map(|warning| Told::new(warning, units));
+        let told = found.iter().map(|warning| units.told(warning));
         warnings.add(told.chain(codes).collect())?;
         Ok(warnings)
     }
@@ -174,9 +119,8 @@ impl Warnings {
 
     /// Looks at an answer, and prints its warnings; of many answers, the worst counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, part: &Part) -> Outcome<()> {
-        let mut found = Warning::of_solution(solution);
-        found.extend(part.warning(solution)?);
-        self.add(found.iter().map(|warning| Told::new(warning, &self.units)).collect())?;
+        let found = warnings_of(solution, part.wanted())?;
+        self.add(found.iter().map(|warning| self.units.told(warning)).collect())?;
         self.say()
     }
 
@@ -222,9 +166,9 @@ impl Warnings {
         Ok(())
     }
 
-    /// The warnings as a report lists them.
-    pub fn report(&self) -> Value {
-        report(&self.found)
+    /// All warnings so far.
+    pub fn found(&self) -> &[Told] {
+        &self.found
     }
 }
 
@@ -243,10 +187,5 @@ fn codes_in_file(surface: &Surface, origin: &Origin) -> Vec<Told> {
     let mut codes = Warning::of_topography(&Topography::new(in_file));
     codes.retain(|warning| warning.code == WarningCode::MissingCode);
     let units = Units::of_map(Some(unit));
-    codes.iter().map(|warning| Told::new(warning, &units)).collect()
-}
-
-/// Warnings as a report lists them.
-pub fn report(warnings: &[Told]) -> Value {
-    warnings.iter().map(|warning| json!({ "code": warning.code, "message": warning.message })).collect()
+    codes.iter().map(|warning| units.told(warning)).collect()
 }

@@ -3,6 +3,7 @@
 use std::fs;
 
 use asperity::Error;
+use asperity_scene::Told;
 use serde_json::{Map, Number, Value};
 
 use super::cases::{Case, Format, Study, text};
@@ -10,7 +11,7 @@ use super::work::Folder;
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, write_text};
-use crate::warnings::{Told, read_beside, write_beside};
+use crate::warnings::{read_beside, write_beside};
 
 /// The rows of a table that was written.
 pub struct Merged {

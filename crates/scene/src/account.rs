@@ -1,0 +1,201 @@
+//! The account of a solve, with the keys of its report.
+
+use asperity::contact::Patch;
+use asperity::{Branch, Control, Criterion, Method, Real, Report, Status};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
+use crate::found::Found;
+use crate::half_space::Boundary;
+use crate::record::record;
+use crate::told::Told;
+use crate::wall::Wall;
+
+record! {
+    /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
+    /// reports in Python, in their order; numbers are in the units of the input, energies per area.
+    #[derive(Clone, Debug, Serialize)]
+    Account of <T: Real> (
+        command: &'static str,
+        found: &Found<T>,
+        report: &Report,
+        share: f64,
+        inputs: Inputs,
+        strongest: Option<(usize, usize)>,
+        warnings: Vec<Told>,
+    ) {
+        /// The command.
+        command: &'static str = command,
+        /// The status.
+        status: Status = report.status,
+        /// The branch of the start, if it has one.
+        branch: Option<Branch> = report.branch,
+        /// The equilibrium on the other branch, if both were asked for.
+        other_branch: Option<OtherBranch> = found.other_branch.clone(),
+        /// The certified relative error.
+        relative_error: f64 = report.relative_error,
+        /// The error of the load.
+        load_error: f64 = report.load_error,
+        /// The measure that was compared with the tolerance.
+        criterion: Criterion = report.criterion,
+        /// The number of steps.
+        iterations: usize = report.iterations,
+        /// The number of operator applications.
+        operator_applications: usize = report.operator_applications,
+        /// The nested grids, the finest last, if they were used.
+        levels: Option<Vec<GridLevel>> = found.levels.as_ref().map(|all| all.iter().map(GridLevel::of).collect()),
+        /// The operator applications on all of them, in units of one on the finest.
+        equivalent_applications: Option<f64> = found.equivalent_applications,
+        /// The estimated errors of the finest of nested grids, known after a look.
+        grid_error: Option<GridErrors> = None,
+        /// The end of a solve to an accuracy.
+        accuracy: Option<Reached> = found.accuracy,
+        /// The search for the load of a contact fraction.
+        search: Option<Search> = found.search,
+        /// The mean gap.
+        mean_gap: f64 = report.mean_gap,
+        /// The mean external pressure.
+        mean_pressure: f64 = report.mean_pressure,
+        /// The normal force.
+        normal_force: f64 = report.normal_force,
+        /// The approach, with a free boundary.
+        approach: Option<f64> = report.approach,
+        /// The stiffness of a spring, if the load is one.
+        spring_stiffness: Option<f64> = stiffness(report.control),
+        /// The mean pressure that the fields carry.
+        net_pressure: f64 = report.net_pressure,
+        /// The mean contact pressure.
+        mean_contact_pressure: f64 = report.mean_contact_pressure,
+        /// The share of the nodes in contact.
+        contact_fraction: f64 = report.contact_fraction,
+        /// The number of nodes in contact.
+        contact_nodes: usize = report.contact_nodes,
+        /// The number of absent nodes.
+        absent_nodes: usize = report.absent_nodes,
+        /// The largest traction at the edge of a free boundary over the largest anywhere.
+        edge_traction: Option<f64> = report.edge_traction,
+        /// The contact area within its edge between the nodes, known after a look.
+        corrected_contact_fraction: Option<f64> = None,
+        /// The length of the edge, known after a look.
+        perimeter: Option<f64> = None,
+        /// The share of the nodes with a contact pressure, known after a look.
+        repulsive_fraction: Option<f64> = None,
+        /// The share of the nodes that attract without contact, known after a look.
+        attractive_fraction: Option<f64> = None,
+        /// The contact by works of adhesion, known after a look.
+        patches: Option<Vec<Patch>> = None,
+        /// The smallest gap.
+        min_gap: f64 = report.min_gap,
+        /// The least (most tensile) elastic pressure, known after a look.
+        min_pressure: Option<f64> = None,
+        /// The greatest elastic pressure, known after a look.
+        max_pressure: Option<f64> = None,
+        /// The elastic energy.
+        elastic_energy: f64 = report.elastic_energy,
+        /// The adhesive energy.
+        adhesive_energy: f64 = report.adhesive_energy,
+        /// The stability, if it was asked for.
+        stability: Option<Steadiness> = found.stability,
+        /// The contact stiffness, a pressure per length, if it was asked for.
+        contact_stiffness: Option<f64> = found.stiffness.map(|found| found.pressure_per_length),
+        /// The normal stiffness, a force per length, with the contact stiffness.
+        normal_stiffness: Option<f64> = found.stiffness.map(|found| share * found.force_per_length),
+        /// The unstable equilibria that were left, if they were to be.
+        departures: Option<Vec<Left>> = found.departures.clone(),
+        /// The resolution measure μ_ρ.
+        mu_rho: f64 = report.mu_rho,
+        /// The node with the largest work of adhesion, where that varies.
+        #[serde(serialize_with = "list")]
+        mu_rho_node: Option<(usize, usize)> = strongest,
+        /// Whether the grid does not resolve the adhesion.
+        under_resolved: bool = report.under_resolved,
+        /// The warnings.
+        warnings: Vec<Told> = warnings,
+        /// The time of the solve in seconds.
+        seconds: f64 = found.seconds,
+        /// The kind of the load.
+        control: &'static str = report.control.name(),
+        /// The value of the load.
+        control_value: f64 = report.control.value(),
+        /// The inputs.
+        #[serde(flatten)]
+        inputs: Inputs = inputs,
+        /// The nodes of the shortest wave of the surface, for the errors of nested grids; zero where there are none.
+        #[serde(skip)]
+        nodes_per_wave: f64 = 0.0,
+    }
+}
+
+/// The stiffness of a spring, if the load is one.
+fn stiffness(control: Control) -> Option<f64> {
+    if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
+}
+
+/// The inputs of a command, by their names in every report.
+#[derive(Clone, Debug, Serialize)]
+pub struct Inputs {
+    /// The file of the heights.
+    pub heights: Option<String>,
+    /// The file of the gap from which the solve started, or a word for it.
+    pub initial_gap: Option<String>,
+    /// The part of a mirrored map that results are of.
+    pub part: Option<String>,
+    /// The nodes that are solved, if results are of fewer.
+    #[serde(serialize_with = "list")]
+    pub solved_shape: Option<(usize, usize)>,
+    /// The nodes of the results.
+    #[serde(serialize_with = "list")]
+    pub shape: (usize, usize),
+    /// The side lengths of the results.
+    #[serde(serialize_with = "list")]
+    pub lengths: (f64, f64),
+    /// The unit of lengths, if it is known.
+    pub length_unit: Option<String>,
+    /// The unit of pressures, if it is known.
+    pub pressure_unit: Option<String>,
+    /// The quantities as they were typed, if they have units.
+    pub given: Option<Value>,
+    /// The boundary.
+    pub boundary: Boundary,
+    /// The contact modulus.
+    pub modulus: f64,
+    /// The adhesion and the wall.
+    #[serde(flatten)]
+    pub adhesion: Adhesion,
+    /// The method.
+    pub method: Method,
+    /// The precision.
+    pub precision: &'static str,
+    /// The tolerance to which the solve was held.
+    pub tolerance: f64,
+    /// The iterations after which to give up.
+    pub max_iterations: usize,
+    /// The number of threads.
+    pub threads: usize,
+    /// The version of the program.
+    pub version: &'static str,
+}
+
+/// The adhesion and the wall, by their names in every report.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Adhesion {
+    /// The name of the law.
+    pub law: String,
+    /// The work of adhesion, if it is a parameter.
+    pub work_of_adhesion: Option<f64>,
+    /// The range, if it is a parameter.
+    pub range: Option<f64>,
+    /// The exponent of a power law.
+    pub exponent: Option<f64>,
+    /// Hamaker's constant, if it is a parameter.
+    pub hamaker: Option<f64>,
+    /// The file of a table.
+    pub law_table: Option<String>,
+    /// The gap at which the law is cut off, if it is.
+    pub cut_off: Option<f64>,
+    /// The file of works of adhesion that vary.
+    pub work_of_adhesion_map: Option<String>,
+    /// The wall.
+    pub wall: Wall,
+}

@@ -1,0 +1,57 @@
+//! The accuracy that is asked for, and its plan.
+
+use std::time::Instant;
+
+use asperity::accuracy::{Accuracy, Plan, Quantity};
+use asperity::stability::ContactStiffness;
+use asperity::{AdhesionLaw, Control, Real, Result, Solver, Surface};
+use asperity_maps::io::available_memory;
+use ndarray::Array2;
+
+use crate::half_space::HalfSpace;
+use crate::wall::Wall;
+
+/// The bytes of a GiB.
+pub const GIB: f64 = 1_073_741_824.0;
+
+/// The accuracy that is asked for, from which tolerance and grid follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// The relative error that is wanted, between 0 and 1.
+    pub accuracy: f64,
+    /// The quantity that has it.
+    pub of: Quantity,
+    /// The memory that it may take, in GiB; all that is free if none is given.
+    pub memory: Option<f64>,
+}
+
+impl Goal {
+    /// The accuracy by a solver, with the contact stiffness if that is asked for.
+    pub fn by(&self, solver: Solver<Wall>, stiffness: bool) -> Accuracy<Wall> {
+        let mut wanted = Accuracy::with_solver(self.accuracy, self.of, solver);
+        wanted.memory = self.memory.map_or_else(available_memory, |memory| memory * GIB);
+        wanted.nested.stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
+        wanted
+    }
+}
+
+/// The plan of a solve to an accuracy, and the seconds that it is likely to take, by those of an operator application.
+///
+/// # Errors
+/// Those of the operator and of [`Accuracy::plan`].
+pub(crate) fn planned<T: Real>(
+    wanted: &Accuracy<Wall>,
+    surface: &Surface,
+    half_space: HalfSpace,
+    law: &dyn AdhesionLaw<T>,
+    control: Control,
+) -> Result<(Plan, f64)> {
+    let mut operator = half_space.operator::<T>(*surface.grid())?;
+    let plan = wanted.plan(surface, &mut operator, &law, control)?;
+    let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
+    let [u, p] = &mut fields;
+    operator.pressure(u.view(), p.view_mut())?;
+    let clock = Instant::now();
+    operator.pressure(u.view(), p.view_mut())?;
+    Ok((plan, plan.applications * clock.elapsed().as_secs_f64()))
+}

@@ -1,0 +1,222 @@
+//! The findings of a solve: the solution, and all that was asked for beside it.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use asperity::contact::{ContactStatistics, Original};
+use asperity::nested::Level;
+use asperity::stability::ContactStiffness;
+use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
+use asperity_maps::warning::Warning;
+use ndarray::{Array2, ArrayView2};
+
+use crate::account::{Account, Inputs};
+use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness};
+use crate::told::Told;
+
+/// The solution of a contact problem, with all that was asked for beside it.
+pub struct Found<T> {
+    /// The solution, on all nodes that were solved.
+    pub solution: Solution<T>,
+    /// The law and the grids of the solution, for a look at its fields.
+    pub sight: Sight<T>,
+    /// The nested grids, if they were used.
+    pub levels: Option<Vec<Level>>,
+    /// The operator applications on all of them, in units of one on the finest.
+    pub equivalent_applications: Option<f64>,
+    /// The surface on the grid of the solution, if an accuracy was asked for.
+    pub refined: Option<Surface>,
+    /// The end of a solve to an accuracy, if one was asked for.
+    pub accuracy: Option<Reached>,
+    /// The search for the load of a contact fraction, if there was one.
+    pub search: Option<Search>,
+    /// The equilibrium on the other branch, if both are asked for and the solution has a branch.
+    pub other_branch: Option<OtherBranch>,
+    /// The stability, if it was asked for.
+    pub stability: Option<Steadiness>,
+    /// The change of the gap along which the energy is softest, with the stability.
+    pub mode: Option<Array2<T>>,
+    /// The unstable equilibria on the way to the solution, in order, if they were to be left.
+    pub departures: Option<Vec<Left>>,
+    /// The contact stiffness, if it was asked for.
+    pub stiffness: Option<ContactStiffness>,
+    /// The time for setting up and solving, stability included, in seconds.
+    pub seconds: f64,
+}
+
+/// The sight of a solution: all that a look at its fields needs beside them.
+pub struct Sight<T> {
+    law: Arc<dyn AdhesionLaw<T>>,
+    original: Option<Original>,
+    grid: Grid,
+    /// The report on the whole.
+    report: Report,
+    /// The surface and the nested grids, whose errors are estimated with the first look.
+    pub(crate) open: Option<(Arc<Surface>, Vec<Level>)>,
+    /// The errors that are known, and the nodes of the shortest wave.
+    errors: Option<(GridErrors, f64)>,
+}
+
+impl<T: Real> Found<T> {
+    /// A solution by a solve that began at a time; numbers are of the `original`, if there is one.
+    pub(crate) fn new(
+        solution: Solution<T>,
+        law: Arc<dyn AdhesionLaw<T>>,
+        original: Option<Original>,
+        clock: Instant,
+    ) -> Result<Self> {
+        let seconds = clock.elapsed().as_secs_f64();
+        let original = original.map(|original| original.on(&solution.grid)).transpose()?;
+        let (grid, report) = (solution.grid, solution.report.clone());
+        Ok(Self {
+            solution,
+            sight: Sight { law, original, grid, report, open: None, errors: None },
+            levels: None,
+            equivalent_applications: None,
+            refined: None,
+            accuracy: None,
+            search: None,
+            other_branch: None,
+            stability: None,
+            mode: None,
+            departures: None,
+            stiffness: None,
+            seconds,
+        })
+    }
+
+    /// The same by nested grids, with the applications on all of them.
+    pub(crate) fn by(self, levels: Vec<Level>, applications: f64) -> Self {
+        let stiffness = levels.last().and_then(|finest| finest.stiffness);
+        Self { levels: Some(levels), equivalent_applications: Some(applications), stiffness, ..self }
+    }
+
+    /// The probable mistakes that the solution shows.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
+    pub fn warnings(&self) -> Result<Vec<Warning>> {
+        warnings_of(&self.solution, self.sight.original)
+    }
+
+    /// The account of the solve by a command, of which [`Sight::look`] adds the keys that are found of the fields.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
+    pub fn account(
+        &self,
+        command: &'static str,
+        inputs: &Inputs,
+        strongest: Option<(usize, usize)>,
+        warnings: Vec<Told>,
+    ) -> Result<Account> {
+        let original = self.sight.original;
+        let part = original.map(|original| original.of_solution(&self.solution)).transpose()?;
+        let (grid, report) =
+            part.as_ref().map_or((&self.solution.grid, &self.solution.report), |part| (&part.grid, &part.report));
+        let share = original.map_or(1.0, |original| original.share());
+        let inputs = Inputs {
+            solved_shape: part.as_ref().map(|_| self.solution.grid.shape()),
+            shape: grid.shape(),
+            lengths: grid.lengths(),
+            tolerance: report.tolerance,
+            ..inputs.clone()
+        };
+        let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);
+        self.sight.tell(&mut account);
+        Ok(account)
+    }
+}
+
+impl<T: Real> Sight<T> {
+    /// Looks at the fields of the solution, as [`Sight::look`].
+    ///
+    /// # Errors
+    /// Those of [`Sight::look`].
+    pub fn look_at(&mut self, account: &mut Account, solution: &Solution<T>) -> Result<ContactStatistics> {
+        let Solution { gap, pressure, contact_pressure, .. } = solution;
+        self.look(account, [gap.view(), pressure.view(), contact_pressure.view()])
+    }
+
+    /// Looks at gap, pressure and contact pressure: fills in the keys of the account that are found of them, and
+    /// returns the statistics of the contact. All processes that share the grid have to look.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](asperity::Error::Shape) if a field does not have the shape of the grid.
+    pub fn look(
+        &mut self,
+        account: &mut Account,
+        [gap, pressure, contact_pressure]: [ArrayView2<'_, T>; 3],
+    ) -> Result<ContactStatistics> {
+        let (law, modulus) = (&self.law, self.report.modulus);
+        let found = match &self.original {
+            Some(original) => original.statistics_of_fields(gap, contact_pressure, modulus, law)?,
+            None => {
+                let body = (self.report.boundary, modulus);
+                ContactStatistics::of_fields(gap, contact_pressure, &self.grid, body, law)?
+            }
+        };
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let extremes = pressure.iter().fold(none, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
+        let (min_pressure, max_pressure) = self.grid.extremes(extremes);
+        if let Some((surface, levels)) = self.open.take() {
+            self.estimate(&surface, &levels);
+        }
+        self.tell(account);
+        account.corrected_contact_fraction = Some(found.corrected_contact_fraction);
+        account.perimeter = Some(found.perimeter);
+        account.repulsive_fraction = Some(found.repulsive_fraction);
+        account.attractive_fraction = Some(found.attractive_fraction);
+        account.patches = Some(found.patches.clone());
+        account.min_pressure = Some(min_pressure);
+        account.max_pressure = Some(max_pressure);
+        Ok(found)
+    }
+
+    /// Estimates the errors of nested grids of a surface.
+    pub(crate) fn estimate(&mut self, surface: &Surface, levels: &[Level]) {
+        let nodes_per_wave = surface.nodes_per_wave(self.report.boundary);
+        self.errors = Some((GridErrors::of(levels, &self.report, nodes_per_wave), nodes_per_wave));
+    }
+
+    /// Puts the errors that are known into an account.
+    fn tell(&self, account: &mut Account) {
+        if let Some((errors, nodes_per_wave)) = self.errors {
+            (account.grid_error, account.nodes_per_wave) = (Some(errors), nodes_per_wave);
+        }
+    }
+}
+
+/// The probable mistakes that a solution shows; of the whole of an `original`, whether its images differ from it.
+///
+/// # Errors
+/// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
+pub fn warnings_of<T: Real>(solution: &Solution<T>, original: Option<Original>) -> Result<Vec<Warning>> {
+    let mut found = Warning::of_solution(solution);
+    let images = original.map(|original| Warning::of_images(&original, solution)).transpose()?;
+    found.extend(images.flatten());
+    Ok(found)
+}
+
+/// Refuses a solution of a solve that has run away.
+///
+/// # Errors
+/// The first field that is not finite, in words to which a remedy may be added.
+pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), String> {
+    let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
+    // at absent nodes the gap is infinite
+    let fields =
+        [("gap", gap, report.absent_nodes), ("pressure", pressure, 0), ("contact pressure", contact_pressure, 0)];
+    for (name, field, absent) in fields {
+        let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());
+        if count != absent {
+            return Err(format!(
+                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes",
+                report.iterations,
+                T::NAME,
+                grid.nodes()
+            ));
+        }
+    }
+    Ok(())
+}

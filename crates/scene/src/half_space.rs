@@ -1,0 +1,87 @@
+//! The elastic half-space, and its boundary.
+
+use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
+use asperity_maps::io::check_memory;
+use asperity_maps::warning::{Warning, WarningCode};
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+/// The boundary of the half-space, by the surroundings of the map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
+pub enum Boundary {
+    /// the same again: a piece of a surface that goes on
+    #[default]
+    Periodic,
+    /// nothing: a tip, an indenter, a chip; the half-space is free of load there
+    Free,
+}
+
+impl Boundary {
+    /// The probable mistakes in the heights: with a free boundary opposite sides need not meet, and a body that ends
+    /// may be flat.
+    pub fn warnings(self, surface: &Surface) -> Vec<Warning> {
+        let (mut found, free) = (Warning::of_surface(surface), self == Self::Free);
+        found.retain(|warning| match warning.code {
+            WarningCode::Tilt | WarningCode::OpenEdges | WarningCode::Ends => !free,
+            WarningCode::Flat => !free && surface.absent().is_none(),
+            _ => true,
+        });
+        found
+    }
+
+    /// The gap of a body that comes from afar: undeformed, at the approach at which `loads` begin, if they grow from
+    /// one before touch. The default start of a solve under a pull would find the body sticking.
+    pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {
+        let (from, to) = match *loads {
+            [Control::Approach(from), Control::Approach(to), ..] => (from, to),
+            [Control::Spring { rest: from, .. }, Control::Spring { rest: to, .. }, ..] => (from, to),
+            _ => return None,
+        };
+        let comes = self == Self::Free && from < 0.0 && to > from;
+        let peak = surface.heights().fold(f64::NEG_INFINITY, |peak, &height| peak.max(height));
+        let (_, peak) = surface.grid().extremes((0.0, peak));
+        comes.then(|| surface.heights().mapv(|height| peak - height - from))
+    }
+}
+
+/// The elastic half-space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// The boundary.
+    pub boundary: Boundary,
+    /// The contact modulus E*, a pressure.
+    pub modulus: f64,
+}
+
+impl HalfSpace {
+    /// The operator on the nodes of `grid`, if the machine has the memory for a solve: five fields of `f64`, and four
+    /// times as many with a free boundary.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](asperity::Error::Memory) if the memory is too small, and those of the operator.
+    pub fn operator<T: Real>(self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
+        if !grid.is_shared() {
+            check_memory("a solve", grid.shape(), if self.boundary == Boundary::Free { 160 } else { 40 })?;
+        }
+        Ok(match self.boundary {
+            Boundary::Periodic => Box::new(Westergaard::new(grid, self.modulus)?),
+            Boundary::Free => Box::new(Boussinesq::new(grid, self.modulus)?),
+        })
+    }
+
+    /// The pressure E* h'rms, of which a reduced pressure is a part.
+    ///
+    /// # Errors
+    /// The reason why a surface with absent nodes has none, and a remedy.
+    pub fn full_pressure(self, surface: &Surface) -> std::result::Result<f64, String> {
+        match surface.absent_nodes() {
+            0 => Ok(self.modulus * surface.statistics().rms_slope),
+            absent => Err(format!(
+                "a reduced pressure is over the rms slope, but {absent} nodes are absent, which have no slope: give a \
+                 pressure"
+            )),
+        }
+    }
+}

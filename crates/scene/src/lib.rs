@@ -1,0 +1,25 @@
+//! The contact problem of a run, its solve and the account of it, by the names that the program `asperity` and the
+//! Python package share.
+
+mod account;
+mod accuracy;
+mod entries;
+mod found;
+mod half_space;
+mod law;
+mod posed;
+mod record;
+mod settings;
+mod told;
+mod wall;
+
+pub use account::{Account, Adhesion, Inputs};
+pub use accuracy::{GIB, Goal};
+pub use entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
+pub use found::{Found, Sight, check_finite, warnings_of};
+pub use half_space::{Boundary, HalfSpace};
+pub use law::tabulated;
+pub use posed::{AnyProblem, Asked, Observe, Posed};
+pub use settings::{Branches, settings};
+pub use told::Told;
+pub use wall::Wall;

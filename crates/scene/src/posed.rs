@@ -1,0 +1,284 @@
+//! A contact problem, and its solve.
+
+use std::mem;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::Instant;
+
+use asperity::accuracy::{AccurateSolution, GridError, Plan};
+use asperity::contact::Original;
+use asperity::nested::NestedSolution;
+use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
+use asperity::{
+    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Iteration, Nested, Problem, Real, Result,
+    Solution, Solver, Start, Status, Surface,
+};
+use ndarray::Array2;
+
+use crate::accuracy::{Goal, planned};
+use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
+use crate::found::Found;
+use crate::half_space::HalfSpace;
+use crate::wall::Wall;
+
+/// The largest number of departures from unstable equilibria; a sane problem takes a few.
+const MOST_DEPARTURES: usize = 10;
+
+/// A contact problem on one grid, of an elastic body and a law of whatever kind they are.
+pub type AnyProblem<T> = Problem<T, Box<dyn ElasticOperator<T>>, Arc<dyn AdhesionLaw<T>>>;
+
+/// The observer of a solve: it sees each iteration with the grid and the tolerance of the solve on it, and may end the
+/// solve.
+pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> + Send);
+
+/// The surface, of which a problem is made on each of nested grids, or the problem on its grid alone: never both.
+enum Body<T: Real> {
+    Surface(Arc<Surface>),
+    Problem(Box<AnyProblem<T>>),
+    /// While a problem is made of a surface, and after that has failed.
+    Spent,
+}
+
+/// A contact problem with its solver.
+pub struct Posed<T: Real> {
+    body: Body<T>,
+    law: Arc<dyn AdhesionLaw<T>>,
+    half_space: HalfSpace,
+    solver: Solver<Wall>,
+    original: Option<Original>,
+}
+
+/// The load of a solve, and the findings that are asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asked {
+    /// The load; of no meaning where a contact fraction is wanted.
+    pub control: Control,
+    /// The contact fraction for which a load is to be found, if one is.
+    pub fraction: Option<f64>,
+    /// Whether to solve on nested grids; if it is not said, where that is faster from the default start.
+    pub nested: Option<bool>,
+    /// Whether to solve on the other branch of equilibria, too.
+    pub other_branch: bool,
+    /// Whether to test the stability of the solution.
+    pub stability: bool,
+    /// Whether to go on from an unstable solution.
+    pub leave: bool,
+    /// Whether to find the contact stiffness of the solution.
+    pub stiffness: bool,
+    /// The accuracy, if one is asked for.
+    pub goal: Option<Goal>,
+}
+
+impl Asked {
+    /// The solution under a load, without anything beside it.
+    pub fn under(control: Control) -> Self {
+        let (fraction, nested, goal) = (None, None, None);
+        Self { control, fraction, nested, other_branch: false, stability: false, leave: false, stiffness: false, goal }
+    }
+}
+
+impl<T: Real> Posed<T> {
+    /// The problem of a surface with an adhesion law on a half-space, whose results are of the `original` of a mirrored
+    /// surface, or of the whole.
+    pub fn new(
+        surface: Surface,
+        law: Arc<dyn AdhesionLaw<T>>,
+        half_space: HalfSpace,
+        solver: Solver<Wall>,
+        original: Option<Original>,
+    ) -> Self {
+        Self { body: Body::Surface(Arc::new(surface)), law, half_space, solver, original }
+    }
+
+    /// The solver, and the problem on the grid of the surface, which is made with its first use in the place of the
+    /// surface.
+    ///
+    /// # Errors
+    /// Those of [`HalfSpace::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
+    pub fn parts(&mut self) -> Result<(&mut Solver<Wall>, &mut AnyProblem<T>)> {
+        if let Body::Surface(surface) = &self.body {
+            let operator = self.half_space.operator(*surface.grid())?;
+            if let Body::Surface(surface) = mem::replace(&mut self.body, Body::Spent) {
+                self.body = Body::Problem(Box::new(Problem::new(&surface, operator, self.law.clone())?));
+            }
+        }
+        match &mut self.body {
+            Body::Problem(problem) => Ok((&mut self.solver, problem)),
+            _ => Err(spent()),
+        }
+    }
+
+    /// The pressure of which a reduced pressure is a part, before the first solve.
+    ///
+    /// # Errors
+    /// Those of [`HalfSpace::full_pressure`].
+    pub fn full_pressure(&self) -> std::result::Result<f64, String> {
+        let Body::Surface(surface) = &self.body else { return Err(spent().to_string()) };
+        self.half_space.full_pressure(surface)
+    }
+
+    /// The plan of a solve to an accuracy, and the seconds that it is likely to take.
+    ///
+    /// # Errors
+    /// Those of [`HalfSpace::operator`] and [`Accuracy::plan`](asperity::accuracy::Accuracy::plan).
+    pub fn plan(&self, control: Control, goal: Goal) -> Result<(Plan, f64)> {
+        let Body::Surface(surface) = &self.body else { return Err(spent()) };
+        planned(&goal.by(self.solver.clone(), false), surface, self.half_space, &self.law, control)
+    }
+
+    /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
+    ///
+    /// # Errors
+    /// Those of the solvers of the library.
+    pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
+        if let Some(goal) = asked.goal {
+            return self.to_accuracy(goal, asked, observe);
+        }
+        let found = match self.on_nested_grids(asked, start.is_some(), &mut *observe)? {
+            Some(found) => found,
+            None => self.on_one_grid(asked, start, &mut *observe)?,
+        };
+        let other_branch = match asked.other_branch {
+            true => self.other_branch(&found.solution, observe)?,
+            false => None,
+        };
+        Ok(Found { other_branch, ..found })
+    }
+
+    /// The solution and its sight, by a solve that began at a time.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the solution is not one of the surface.
+    pub fn found(&self, solution: Solution<T>, clock: Instant) -> Result<Found<T>> {
+        Found::new(solution, self.law.clone(), self.original, clock)
+    }
+
+    /// The contact stiffness of a solution, unless its solve was stopped.
+    ///
+    /// # Errors
+    /// Those of [`ContactStiffness::of_constrained`].
+    pub fn stiffness(&mut self, solution: &Solution<T>) -> Result<Option<ContactStiffness>> {
+        if solution.report.status == Status::Stopped {
+            return Ok(None);
+        }
+        let (solver, problem) = self.parts()?;
+        let (wall, tolerance) = (&solver.constraint, ContactStiffness::TOLERANCE);
+        ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
+    }
+
+    /// The stability of a gap under a load, of which the certified error is known, and its softest mode.
+    ///
+    /// # Errors
+    /// Those of [`StabilityTest::of_gap`].
+    pub fn stability(&mut self, control: Control, gap: &Array2<T>, error: f64) -> Result<(Steadiness, Array2<T>)> {
+        let (solver, problem) = self.parts()?;
+        let found = StabilityTest::default().of_gap(problem, &solver.constraint, control, gap, error)?;
+        Ok((Steadiness::of(&found), found.mode))
+    }
+
+    fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
+        let Body::Surface(surface) = &self.body else { return Err(spent()) };
+        let clock = Instant::now();
+        let mut wanted = goal.by(self.solver.clone(), asked.stiffness);
+        let tolerance = wanted.tolerance()?;
+        let half_space = |grid| self.half_space.operator(grid);
+        let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
+        let found = wanted.solve_observed(surface, half_space, &self.law, asked.control, observe)?;
+        let applications = found.equivalent_applications();
+        let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
+        let reached = Reached { wanted: goal.accuracy, of: goal.of, reached, refinable, unaffordable };
+        let mut found = self.found(solution, clock)?;
+        found.sight.estimate(&surface, &levels);
+        Ok(Found { refined: Some(surface), accuracy: Some(reached), ..found.by(levels, applications) })
+    }
+
+    fn on_nested_grids(&self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
+        let Body::Surface(surface) = &self.body else { return Ok(None) };
+        let (control, settings) = (asked.control, self.solver.settings);
+        let may = !started && !asked.stability && self.solver.constraint == Wall::Hard;
+        let pays = || may && Nested::new(settings).pays(surface, &self.law, control);
+        if asked.fraction.is_some() || !asked.nested.unwrap_or_else(pays) {
+            return Ok(None);
+        }
+        let clock = Instant::now();
+        let (finest, tolerance) = (surface.grid().nodes(), settings.tolerance_in::<T>());
+        let found = Nested::with_solver(self.solver.clone())
+            .coarse_tolerance(GridError::COARSE_TOLERANCE)
+            .stiffness(asked.stiffness.then_some(ContactStiffness::TOLERANCE))
+            .solve_observed(
+                surface,
+                |grid| self.half_space.operator(grid),
+                &self.law,
+                control,
+                |grid, state| {
+                    let coarse = if grid.nodes() == finest { 0.0 } else { GridError::COARSE_TOLERANCE };
+                    observe(grid, state, tolerance.max(coarse))
+                },
+            )?;
+        let applications = found.equivalent_applications();
+        let NestedSolution { solution, levels, .. } = found;
+        let mut found = self.found(solution, clock)?;
+        found.sight.open = Some((surface.clone(), levels.clone()));
+        Ok(Some(found.by(levels, applications)))
+    }
+
+    fn on_one_grid(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
+        let clock = Instant::now();
+        let (solver, problem) = self.parts()?;
+        let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
+        let observe = |state: &Iteration| observe(&grid, state, tolerance);
+        let (mut solution, search) = match asked.fraction {
+            Some(fraction) => {
+                let mut search = ContactSearch::new(solver, problem)?;
+                if let Some(start) = start {
+                    search = search.starting_from(start);
+                }
+                let found = search.at_observed(fraction, observe)?;
+                let search = Search::of(fraction, &found);
+                (found.solution, Some(search))
+            }
+            None => {
+                let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
+                (solver.solve_with(problem, asked.control, start, observe)?, None)
+            }
+        };
+        let (mut departures, mut verdict) = (Vec::new(), None);
+        while asked.stability && solution.report.status != Status::Stopped {
+            let found = StabilityTest::default().run_with(problem, &solver.constraint, &solution)?;
+            let leaves = asked.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
+            let left = if leaves { found.leave(solver, problem, &solution)? } else { None };
+            let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
+                verdict = Some(found);
+                break;
+            };
+            let (energy_drop, distance) = (left.energy_drop, left.distance);
+            departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
+            solution = left.solution;
+        }
+        let stiffness = if asked.stiffness { self.stiffness(&solution)? } else { None };
+        let found = self.found(solution, clock)?;
+        let stability = verdict.as_ref().map(Steadiness::of);
+        let (mode, departures) = (verdict.map(|verdict| verdict.mode), asked.leave.then_some(departures));
+        Ok(Found { search, stability, mode, departures, stiffness, ..found })
+    }
+
+    /// The solution on the other branch of equilibria, if the solution has a branch.
+    fn other_branch(&mut self, solution: &Solution<T>, observe: Observe<'_>) -> Result<Option<OtherBranch>> {
+        let Some(branch) = solution.report.branch else { return Ok(None) };
+        let original = self.original;
+        let (solver, problem) = self.parts()?;
+        let settings = solver.settings.branch(branch.other());
+        let (grid, tolerance) = (*problem.grid(), settings.tolerance_in::<T>());
+        let mut solver = Solver { settings, ..solver.clone() };
+        let observe = |state: &Iteration| observe(&grid, state, tolerance);
+        let found = solver.solve_with(problem, solution.report.control, Start::Default, observe)?;
+        let part = original.map(|original| original.of_solution(&found)).transpose()?;
+        let report = part.as_ref().map_or(&found.report, |part| &part.report);
+        Ok(Some(OtherBranch::of(report, found.distance(solution), found.agrees_with(solution))))
+    }
+}
+
+/// A problem that could not be made the first time cannot be made the second time.
+fn spent() -> Error {
+    Error::Control { control: "problem", reason: "it was refused before: make it anew" }
+}

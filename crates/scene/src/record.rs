@@ -1,0 +1,23 @@
+//! Records: structs whose fields say from where they are taken.
+
+/// A struct of public fields, each with its value, and the function that makes it of those values.
+macro_rules! record {
+    (
+        $(#[$about:meta])*
+        $name:ident of $(<$scalar:ident $(: $bound:path)?>)? ($($given:ident: $kind:ty),* $(,)?) {
+            $($(#[$meta:meta])* $key:ident: $type:ty = $value:expr,)*
+        }
+    ) => {
+        $(#[$about])*
+        pub struct $name {
+            $($(#[$meta])* pub $key: $type,)*
+        }
+
+        impl $name {
+            pub(crate) fn of$(<$scalar $(: $bound)?>)?($($given: $kind),*) -> Self {
+                Self { $($key: $value,)* }
+            }
+        }
+    };
+}
+pub(crate) use record;

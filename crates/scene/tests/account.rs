@@ -1,0 +1,157 @@
+//! A problem is posed and solved, and its account has the keys of every report.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use asperity::accuracy::Quantity;
+use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver};
+use asperity_scene::{Account, Adhesion, Asked, Boundary, Found, Goal, HalfSpace, Inputs, Posed, Wall, check_finite};
+use serde_json::{Value, json};
+
+/// The keys of a report, in their order.
+const OUTCOME: &str = "\
+    command status branch other_branch relative_error load_error criterion iterations operator_applications \
+    levels equivalent_applications grid_error accuracy search mean_gap mean_pressure normal_force approach \
+    spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
+    edge_traction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
+    min_pressure max_pressure elastic_energy adhesive_energy stability contact_stiffness normal_stiffness \
+    departures mu_rho mu_rho_node under_resolved warnings seconds control control_value";
+const INPUTS: &str = "\
+    heights initial_gap part solved_shape shape lengths length_unit pressure_unit given boundary modulus law \
+    work_of_adhesion range exponent hamaker law_table cut_off work_of_adhesion_map wall method precision \
+    tolerance max_iterations threads version";
+const OTHER_BRANCH: &str = "\
+    branch status relative_error load_error operator_applications contact_fraction mean_gap mean_pressure \
+    elastic_energy adhesive_energy distance same";
+const LEVEL: &str = "\
+    shape status iterations operator_applications relative_error mean_gap mean_pressure mean_contact_pressure \
+    elastic_energy contact_fraction corrected_contact_fraction contact_stiffness";
+const STABILITY: &str = "\
+    verdict eigenvalue residual lower_bound error_bound smoothed operator_applications";
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+fn words(text: &str) -> Vec<&str> {
+    text.split_whitespace().collect()
+}
+
+fn inputs() -> Inputs {
+    let law = "exponential".to_owned();
+    let (range, work_of_adhesion) = (Some(8e-3), Some(2e-5));
+    Inputs {
+        heights: None,
+        initial_gap: None,
+        part: None,
+        solved_shape: None,
+        shape: (0, 0),
+        lengths: (0.0, 0.0),
+        length_unit: None,
+        pressure_unit: None,
+        given: None,
+        boundary: Boundary::Periodic,
+        modulus: 1.0,
+        adhesion: Adhesion {
+            law,
+            work_of_adhesion,
+            range,
+            exponent: None,
+            hamaker: None,
+            law_table: None,
+            cut_off: None,
+            work_of_adhesion_map: None,
+            wall: Wall::Hard,
+        },
+        method: Method::Preconditioned,
+        precision: "f64",
+        tolerance: 0.0,
+        max_iterations: 0,
+        threads: 1,
+        version: "0",
+    }
+}
+
+/// A rough surface with adhesion.
+fn posed() -> Posed<f64> {
+    let surface = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap();
+    let law = Arc::new(Exponential::new(2e-5, 8e-3).unwrap());
+    let half_space = HalfSpace { boundary: Boundary::Periodic, modulus: 1.0 };
+    Posed::new(surface, law, half_space, Solver { settings: Settings::default(), constraint: Wall::Hard }, None)
+}
+
+fn solved(asked: &Asked) -> (Found<f64>, Account) {
+    let found = posed().solve(asked, None, &mut |_, _, _| ControlFlow::Continue(())).unwrap();
+    let account = found.account("solve", &inputs(), None, Vec::new()).unwrap();
+    (found, account)
+}
+
+#[test]
+fn an_account_has_the_keys_of_a_report() {
+    let asked = Asked {
+        other_branch: true,
+        stability: true,
+        leave: true,
+        stiffness: true,
+        ..Asked::under(Control::MeanPressure(0.01))
+    };
+    let (mut found, mut account) = solved(&asked);
+    let report = json!(account);
+    assert_eq!(keys(&report), [words(OUTCOME), words(INPUTS)].concat());
+    assert_eq!(keys(&report["other_branch"]), words(OTHER_BRANCH));
+    assert_eq!(keys(&report["stability"]), words(STABILITY));
+    assert_eq!((&report["shape"], &report["tolerance"]), (&json!([32, 32]), &json!(1e-6)));
+    assert!(report["contact_stiffness"].is_f64() && report["departures"] == json!([]));
+
+    // the keys that are found of the fields
+    let open = ["corrected_contact_fraction", "perimeter", "patches", "min_pressure", "max_pressure"];
+    assert!(open.iter().all(|key| report[key].is_null()));
+    let statistics = found.sight.look_at(&mut account, &found.solution).unwrap();
+    assert_eq!(account.corrected_contact_fraction, Some(statistics.corrected_contact_fraction));
+    assert!(open.iter().all(|key| !json!(account)[key].is_null()));
+}
+
+#[test]
+fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once() {
+    let under = Asked::under(Control::MeanPressure(0.01));
+    let (mut found, mut account) = solved(&Asked { nested: Some(true), ..under });
+    assert!(account.grid_error.is_none());
+    found.sight.look_at(&mut account, &found.solution).unwrap();
+    let report = json!(account);
+    assert_eq!(keys(&report["levels"][0]), words(LEVEL));
+    assert_eq!(keys(&report["grid_error"]), ["area", "gap", "pressure", "stiffness"]);
+
+    let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
+    let (found, account) = solved(&Asked { goal: Some(goal), ..under });
+    let report = json!(account);
+    assert_eq!(keys(&report["accuracy"]), ["wanted", "of", "reached"]);
+    assert_eq!(keys(&report["grid_error"]["area"]), ["relative", "order", "rough"]);
+    let shape = found.refined.unwrap().grid().shape();
+    assert_eq!(report["shape"], json!([shape.0, shape.1]));
+}
+
+#[test]
+fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
+    let asked = Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) };
+    let (_, account) = solved(&asked);
+    let wanted = ["wanted", "reached", "below", "above", "solves", "operator_applications"];
+    assert_eq!(keys(&json!(account)["search"]), wanted);
+
+    let asked = Asked { stability: true, stiffness: true, ..Asked::under(Control::MeanPressure(0.01)) };
+    let found = posed().solve(&asked, None, &mut |_, _, _| ControlFlow::Break(())).unwrap();
+    let report = json!(found.account("solve", &inputs(), None, Vec::new()).unwrap());
+    assert_eq!(report["status"], "stopped");
+    assert!(report["stability"].is_null() && report["contact_stiffness"].is_null());
+}
+
+#[test]
+fn fields_that_are_not_finite_are_refused() {
+    let (mut found, _) = solved(&Asked::under(Control::MeanPressure(0.01)));
+    check_finite(&found.solution).unwrap();
+    found.solution.pressure[(3, 4)] = f64::NAN;
+    let told = check_finite(&found.solution).unwrap_err();
+    assert!(
+        told.starts_with("the solve ran away") && told.ends_with("the pressure is not finite at 1 of 1024 nodes"),
+        "{told}"
+    );
+}
