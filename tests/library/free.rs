@@ -627,6 +627,19 @@ fn a_wavy_sphere_jumps_where_guduru_says() {
 }
 
 #[test]
+fn a_traction_at_the_edge_reaches_it_without_contact_there() {
+    let surface = sphere(32, 0.24);
+    let reaches = |range: f64| {
+        let mut problem = problem(&surface, Exponential::new(2e-6, range).unwrap());
+        let found = solve(&mut problem, Control::Approach(1e-3), 1e-8);
+        assert!(found.report.contact_nodes > 0 && found.gap.row(0).iter().all(|gap| *gap > 0.0));
+        found.report.reaches_edge
+    };
+    // the gap is 3.6e-3 there, and deeper by the displacement
+    assert!(reaches(1e-3) && !reaches(2e-4));
+}
+
+#[test]
 fn bodies_that_are_nearly_apart_do_not_reach_the_edge() {
     let surface = sphere(32, 0.24);
     let mut problem = problem(&surface, Exponential::new(2e-5, 2e-3).unwrap());
