@@ -166,7 +166,7 @@ impl<T: Real> Course<T> {
                     sweep = sweep.starting_from(start);
                 }
                 let Some(solution) = sweep.next_observed(observe) else { return Ok(None) };
-                *fields = sweep.history().iter().map(|(_, gap)| gap.clone()).collect();
+                *fields = sweep.into_history().into_iter().map(|(_, gap)| gap).collect();
                 (solution?, None, None)
             }
             Way::Search(fractions) => {
