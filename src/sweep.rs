@@ -84,6 +84,11 @@ where
         &self.history
     }
 
+    /// The [`Sweep::history`] of a sweep that ends here, without a copy of its gaps.
+    pub fn into_history(self) -> Vec<(Control, Array2<T>)> {
+        self.history
+    }
+
     /// The problem.
     pub fn problem(&mut self) -> &mut Problem<T, O, L> {
         self.problem

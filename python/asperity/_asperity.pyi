@@ -232,24 +232,14 @@ class Problem:
         stiffness: bool,
         accuracy: tuple[float, str, float | None] | None,
     ) -> dict[str, Any]: ...
-    def next_load(
-        self,
-        load: tuple[str, list[float]],
-        start: _Field | None,
-        observe: Callable[[Iteration], object] | None,
-        stiffness: bool,
-    ) -> dict[str, Any]: ...
-    def next_step(
+    def begin(
         self,
         loads: list[tuple[str, list[float]]],
-        steps: int,
-        smallest_step: float,
-        imbalance: float,
-        smooth: bool,
         start: _Field | None,
-        observe: Callable[[Iteration], object] | None,
-    ) -> dict[str, Any] | None: ...
-    def end_leg(self) -> None: ...
+        stiffness: bool,
+        path: tuple[int, float, float, bool] | None,
+    ) -> list[str]: ...
+    def next(self, observe: Callable[[Iteration], object] | None) -> dict[str, Any] | None: ...
     def stability(
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...

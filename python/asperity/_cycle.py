@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import INPUTS, OUTCOME, STATE, Rows, state
+from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
 
@@ -38,9 +38,9 @@ class Step:
         Energy that the jump dissipates, per area.
     """
 
-    def __init__(self, solution: Solution, direction: str, found: dict[str, Any]) -> None:
+    def __init__(self, solution: Solution, found: dict[str, Any]) -> None:
         self.solution = solution
-        self.direction = direction
+        self.direction: str = found["direction"]
         self.leg: int = found["leg"]
         self.work: float = found["work"]
         self.dissipated: float = found["dissipated"]
@@ -57,51 +57,8 @@ class Step:
 class Cycle(Rows[Step]):
     """The states of a cycle, each found when it is asked for, and the columns of their numbers."""
 
-    names = ("leg", "direction", *STATE, "work", "dissipated", "imbalance", "event", "energy_drop", *OUTCOME, *INPUTS)
-
-    def __init__(
-        self,
-        scene: Scene,
-        loads: list[_control.Load],
-        settings: tuple[int, float, float, bool],
-        start: Any,
-        observe: Any,
-    ) -> None:
-        super().__init__()
-        self._scene, self._loads, self._settings, self._observe = scene, loads, settings, observe
-        self._start = scene.start(start, loads)
-        self._ended = False
-
     def __next__(self) -> Step:
-        if self._ended:
-            raise StopIteration
-        start = None if self.rows else self._start
-        found = self._scene.problem.next_step(self._loads, *self._settings, start, self._observe)
-        if found is None:
-            self._ended = True
-            raise StopIteration
-        solution = self._scene.solution(found)
-        step = Step(solution, self._direction(found["leg"]), found)
-        self.append({**found, **state(solution), "direction": step.direction})
-        if self._is_apart():
-            self._scene.problem.end_leg()
-        return step
-
-    def _direction(self, leg: int) -> str:
-        """The direction of a leg; the start has none."""
-        if leg == 0:
-            return "start"
-        (name, before), (_, after) = self._loads[leg - 1 : leg + 1]
-        # the loads under which bodies come together as they grow
-        free = self._scene.boundary == "free"
-        pressing = free if name == "spring" else name != "mean_gap"
-        return "approach" if (after[-1] > before[-1]) == pressing else "withdrawal"
-
-    def _is_apart(self) -> bool:
-        """Whether the surfaces are apart in a withdrawal: there is no more to find in its leg."""
-        row = self.rows[-1]
-        apart = row["contact_fraction"] == row["attractive_fraction"] == 0.0
-        return bool(apart and row["direction"] == "withdrawal")
+        return Step(self._solve(), self.rows[-1])
 
     @property
     def events(self) -> list[dict[str, Any]]:
@@ -238,4 +195,4 @@ def cycle(
         threads=threads,
         whole=whole,
     )
-    return Cycle(scene, scene.held(loads), (steps, smallest_step, imbalance, smooth), start, observe)
+    return Cycle(scene, loads, start, observe, path=(steps, smallest_step, imbalance, smooth))

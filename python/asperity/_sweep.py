@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
-from ._columns import INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, Rows, state
+from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
 
@@ -22,32 +22,12 @@ class Sweep(Rows[Solution]):
     solve.
     """
 
-    def __init__(
-        self, scene: Scene, loads: list[_control.Load], start: Any, observe: Any, stiffness: bool
-    ) -> None:
-        super().__init__()
-        loads = scene.held(loads)
-        searched = loads[:1] and loads[0][0] == "contact_fraction"
-        self.names = STATE + OUTCOME + INPUTS + (SEARCH if searched else ()) + (STIFFNESS if stiffness else ())
-        self._scene, self._loads, self._observe, self._stiffness = scene, loads, observe, stiffness
-        self._start = scene.start(start, loads)
-
     def __len__(self) -> int:
         """The number of loads."""
-        return len(self._loads)
+        return len(self.rows) if self._ended else len(self._loads)
 
     def __next__(self) -> Solution:
-        done = len(self.rows)
-        if done == len(self._loads):
-            raise StopIteration
-        start = self._start if done == 0 else None
-        found = self._scene.problem.next_load(self._loads[done], start, self._observe, self._stiffness)
-        solution = self._scene.solution(found)
-        if solution.status == "stopped":
-            # ended by the observer: the sweep goes no further
-            self._loads = self._loads[: done + 1]
-        self.append(state(solution))
-        return solution
+        return self._solve()
 
     def __repr__(self) -> str:
         return f"Sweep({len(self.rows)} of {len(self)} loads solved)"

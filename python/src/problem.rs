@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use asperity::accuracy::Plan;
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
-use asperity_scene::{Asked, Branches, Inputs, Wall, settings};
+use asperity_scene::{Asked, Branches, Inputs, Wall, Way, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -159,45 +159,34 @@ impl Problem {
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
     }
 
-    /// The equilibrium at the next load of a sweep.
-    #[pyo3(signature = (load, start, observe, stiffness))]
-    fn next_load<'py>(
+    /// Begins a sweep of loads, or with the settings of a path a cycle through them, and returns the names of its
+    /// columns.
+    #[pyo3(signature = (loads, start, stiffness, path))]
+    fn begin(
         &mut self,
-        py: Python<'py>,
-        load: Load,
-        start: Option<Field<'py>>,
-        observe: Option<Py<PyAny>>,
-        stiffness: bool,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let asked = Asked { stiffness, ..self.asked(&load)? };
-        let (pool, inputs, solves) = self.parts()?;
-        solves.next_load(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
-    }
-
-    /// The next state of a path through loads; none at its end.
-    #[pyo3(signature = (loads, steps, smallest_step, imbalance, smooth, start, observe))]
-    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
-    fn next_step<'py>(
-        &mut self,
-        py: Python<'py>,
         loads: Vec<Load>,
-        steps: usize,
-        smallest_step: f64,
-        imbalance: f64,
-        smooth: bool,
-        start: Option<Field<'py>>,
-        observe: Option<Py<PyAny>>,
-    ) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let loads = loads.iter().map(control).collect::<PyResult<_>>()?;
-        let settings =
-            PathSettings::default().steps(steps).smallest_step(smallest_step).imbalance(imbalance).smooth(smooth);
-        let (pool, inputs, solves) = self.parts()?;
-        solves.next_step(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, (loads, settings), start)
+        start: Option<Field<'_>>,
+        stiffness: bool,
+        path: Option<(usize, f64, f64, bool)>,
+    ) -> PyResult<Vec<&'static str>> {
+        let controls = loads.iter().map(control).collect::<PyResult<_>>()?;
+        let fractions: Vec<_> = loads.iter().filter_map(contact_fraction).collect();
+        let way = match path {
+            Some((steps, smallest_step, imbalance, smooth)) => {
+                let settings = PathSettings::default().steps(steps).smallest_step(smallest_step);
+                Way::Cycle(controls, settings.imbalance(imbalance).smooth(smooth))
+            }
+            None if fractions.is_empty() => Way::Sweep(controls),
+            None => Way::Search(fractions),
+        };
+        Ok(self.solves.get_mut().unwrap_or_else(PoisonError::into_inner).begin(way, stiffness, start))
     }
 
-    /// Ends the present leg of the path: the next step heads for the next load.
-    fn end_leg(&mut self) {
-        self.solves.get_mut().unwrap_or_else(PoisonError::into_inner).end_leg();
+    /// The next state of the sweep or the cycle that was begun last; none at its end.
+    #[pyo3(signature = (observe))]
+    fn next<'py>(&mut self, py: Python<'py>, observe: Option<Py<PyAny>>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let (pool, inputs, solves) = self.parts()?;
+        solves.next(py, Run { pool: &pool, observer: observe.as_ref(), inputs })
     }
 
     /// The stability of a gap under a load, of which the certified error is known.

@@ -1,13 +1,10 @@
 //! The state of a contact problem, with all that a sequence of solves carries on.
 
-use std::time::Instant;
-
 use asperity::accuracy::Plan;
 use asperity::contact::Original;
-use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
-use asperity::{ContactSearch, Control, Error, Settings, Solution, Solver, Status, Surface, Sweep};
+use asperity::{Control, Settings, Solver, Status, Surface};
 use asperity_maps::warning::Warning;
-use asperity_scene::{Account, Asked, Found, Goal, HalfSpace, Inputs, Posed, Search};
+use asperity_scene::{Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Posed, Way};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
@@ -28,12 +25,7 @@ struct State<T: Scalar> {
     strongest: Option<(usize, usize)>,
     /// of the input
     warnings: Vec<Warning>,
-    history: Vec<(Control, Array2<T>)>,
-    /// the numbers and the gap of a search for contact fractions
-    search: (Vec<f64>, Option<Array2<T>>),
-    place: Option<PathCheckpoint<T>>,
-    /// whether the present leg of the path ends at that place
-    leg_ends: bool,
+    course: Option<Course<T>>,
 }
 
 /// The gap from which a solve starts, if one is given.
@@ -45,15 +37,8 @@ type Answered<'py> = PyResult<Bound<'py, PyDict>>;
 /// What a problem does in either precision.
 pub trait Solves: Send {
     fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py>;
-    fn next_load<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py>;
-    fn next_step<'py>(
-        &mut self,
-        py: Python<'py>,
-        run: Run<'_>,
-        path: (Vec<Control>, PathSettings),
-        start: Begin<'py>,
-    ) -> PyResult<Option<Bound<'py, PyDict>>>;
-    fn end_leg(&mut self);
+    fn begin(&mut self, way: Way, stiffness: bool, start: Begin<'_>) -> Vec<&'static str>;
+    fn next<'py>(&mut self, py: Python<'py>, run: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn full_pressure(&self) -> Result<f64, String>;
     fn plan(&mut self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)>;
     fn stability<'py>(
@@ -104,92 +89,31 @@ impl<T: Scalar> Solves for State<T> {
         answer(py, self.threads, found)
     }
 
-    fn next_load<'py>(&mut self, py: Python<'py>, at: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py> {
-        let Asked { control, fraction, stiffness, .. } = asked;
-        let start = start.map(field::<T>);
-        let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
-            let clock = Instant::now();
-            let (solver, problem) = self.posed.parts()?;
-            // a load that was not reached is tried again from where the ones before lead
-            let stopped = |solution: &Solution<T>| solution.report.status == Status::Stopped;
-            let (solution, search) = if let Some(fraction) = fraction {
-                let (numbers, gap) = self.search.clone();
-                let mut search = ContactSearch::new(solver, problem)?.continuing(&numbers, gap);
-                if let Some(start) = start {
-                    search = search.starting_from(start);
-                }
-                let found = search.at_observed(fraction, observe)?;
-                let (numbers, gap) = search.checkpoint();
-                if !stopped(&found.solution) {
-                    self.search = (numbers, gap.cloned());
-                }
-                let search = Search::of(fraction, &found);
-                (found.solution, Some(search))
-            } else {
-                let history = std::mem::take(&mut self.history);
-                let kept = history.clone();
-                let mut sweep = Sweep::new(solver, problem, [control]).continuing(history);
-                if let Some(start) = start {
-                    sweep = sweep.starting_from(start);
-                }
-                let next = sweep.next_observed(observe);
-                let history = sweep.history().to_vec();
-                let Some(next) = next else { return Err(no_load()) };
-                let solution = next?;
-                self.history = if stopped(&solution) { kept } else { history };
-                (solution, None)
-            };
-            let stiffness = if stiffness { self.posed.stiffness(&solution)? } else { None };
-            let found = Found { search, stiffness, ..self.posed.found(solution, clock)? };
-            self.account("sweep", at.inputs, found)
-        })?;
-        answer(py, self.threads, found)
+    fn begin(&mut self, way: Way, stiffness: bool, start: Begin<'_>) -> Vec<&'static str> {
+        let course = Course::new(way, stiffness).starting_from(start.map(field::<T>));
+        self.course.insert(course).columns()
     }
 
-    fn next_step<'py>(
-        &mut self,
-        py: Python<'py>,
-        at: Run<'_>,
-        (loads, settings): (Vec<Control>, PathSettings),
-        start: Begin<'py>,
-    ) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let start = start.map(field::<T>);
+    fn next<'py>(&mut self, py: Python<'py>, at: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(mut course) = self.course.clone() else { return Ok(None) };
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
-            let clock = Instant::now();
-            let (solver, problem) = self.posed.parts()?;
-            let mut path = Path::new(solver, problem, loads, settings)?;
-            path = match (self.place.clone(), start) {
-                (Some(place), _) => path.continuing(place)?,
-                (None, Some(start)) => path.starting_from(start),
-                (None, None) => path,
-            };
-            if std::mem::take(&mut self.leg_ends) {
-                path.end_leg();
-            }
-            let Some(step) = path.next_observed(observe) else { return Ok(None) };
-            let step = step?;
-            self.place = Some(path.checkpoint());
-            let found = self.account("cycle", at.inputs, self.posed.found(step.solution, clock)?)?;
-            let balance = [("work", step.work), ("dissipated", step.dissipated), ("imbalance", step.imbalance)];
-            Ok(Some((found, step.leg, balance, step.event)))
+            let Some(found) = course.next(&mut self.posed, observe)? else { return Ok(None) };
+            let (mut found, account) = self.account(course.command(), at.inputs, found)?;
+            let row = course.row(&mut found, account, None)?;
+            Ok(Some((found, row)))
         })?;
-        let (found, leg, balance, event) = match (found, raised) {
-            (_, Some(raised)) => return Err(raised),
-            (found, None) => match found.map_err(refusal)? {
-                Some(found) => found,
-                None => return Ok(None),
-            },
-        };
-        let step = answer(py, self.threads, (Ok(found), None))?;
-        step.set_item("leg", leg)?;
-        balance.into_iter().try_for_each(|(name, value)| step.set_item(name, value))?;
-        step.set_item("event", event.as_ref().map(Event::name))?;
-        step.set_item("energy_drop", event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop))?;
-        Ok(Some(step))
-    }
-
-    fn end_leg(&mut self) {
-        self.leg_ends = true;
+        let Some(found) = found.transpose() else { return raised.map_or(Ok(None), Err) };
+        let mut entries = None;
+        let found = found.map(|(found, row)| {
+            // a state that was not reached is looked for again from where the ones before lead
+            if raised.is_none() && found.solution.report.status != Status::Stopped {
+                self.course = Some(course);
+            }
+            (found, entries.insert(row).account.clone())
+        });
+        let found = answer(py, self.threads, (found, raised))?;
+        found.set_item("row", entries.map(|row| to_pyobject(py, &row)).transpose()?)?;
+        Ok(Some(found))
     }
 
     fn full_pressure(&self) -> Result<f64, String> {
@@ -233,13 +157,7 @@ pub fn state<T: Scalar>(
         warnings.extend(Warning::of_modulus(modulus, surface.grid(), length_unit.as_deref()));
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         let posed = Posed::new(surface, law.into(), half_space, solver, original);
-        let (history, search) = (Vec::new(), (Vec::new(), None));
-        State { posed, threads, strongest, warnings, history, search, place: None, leg_ends: false }
+        State { posed, threads, strongest, warnings, course: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))
-}
-
-/// A sweep of one load always has a next one.
-fn no_load() -> Error {
-    Error::Value { name: "number of loads", value: 0.0, requirement: "at least 1" }
 }

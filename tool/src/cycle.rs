@@ -1,11 +1,11 @@
 //! `asperity cycle`: a path of equilibria through loading and unloading, with its jumps.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use asperity::contact::ContactStatistics;
-use asperity::path::{Event, Path, PathCheckpoint, PathSettings, PathStep};
-use asperity::{Control, Error, Problem, Report, Solver, Status, Surface};
-use asperity_scene::Boundary;
+use asperity::path::PathSettings;
+use asperity::{Error, Surface};
+use asperity_scene::{Boundary, Course, Way};
 use clap::{ArgGroup, Args};
 use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
@@ -13,11 +13,8 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::positive;
 use crate::boundary::{LOADS, LoadsOptions, check_load};
-use crate::columns::{Cell, INPUTS, OUTCOME, STATE, inputs, outcome, state};
 use crate::csv;
 use crate::identity::{Identity, identity};
-use crate::journal::Row;
-use crate::loads::name_and_value;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
@@ -106,24 +103,8 @@ const EXAMPLES: &str = "\
     asperity cycle --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \\
       --range 4e-3 --approaches -0.03,0.01,-0.03 --out tip.csv --plot tip.png";
 
-/// The names of the directions of legs.
-const APPROACH: &str = "approach";
-const WITHDRAWAL: &str = "withdrawal";
-
 /// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
-
-/// The names of the columns.
-fn names() -> Vec<&'static str> {
-    [
-        &["leg", "direction"],
-        &STATE[..],
-        &["work", "dissipated", "imbalance", "event", "energy_drop"],
-        &OUTCOME[..],
-        &INPUTS[..],
-    ]
-    .concat()
-}
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
@@ -148,96 +129,47 @@ impl Options {
         }
         let grid = *surface.grid();
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
-        let names = names();
-        let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
-        let &Self { ref out, force, printing, strictness, .. } = self;
-        let (fields, units) = (self.fields.as_deref(), &units);
-        let (problem, part) = (self.problem(), &part);
-        let operator = self.surface.half_space().operator(grid)?;
-        let nodes = *operator.grid();
-        let options =
-            TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
-        let identity =
-            |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start, &values);
-        let law = adhesion.law::<T>()?;
-        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
-        let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
         let settings = PathSettings::default()
             .steps(self.steps)
             .smallest_step(self.smallest_step)
             .imbalance(self.imbalance)
             .smooth(!self.sharp);
-        let comes = start.is_none() && self.solver.comes_from_afar();
-        let afar = if comes { self.surface.beyond.boundary.start_afar(&surface, &loads) } else { None };
-        let mut path = Path::new(&mut solver, &mut problem, loads, settings)?;
-        let given = (&surface, &origin, &adhesion, start.as_ref());
+        let course = Course::new(Way::Cycle(loads.clone(), settings), false);
+        let names = course.columns();
+        let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
+        let &Self { ref out, force, printing, strictness, .. } = self;
+        let (fields, units) = (self.fields.as_deref(), &units);
+        let (problem, part, surface) = (self.problem(), &part, Arc::new(surface));
+        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law()?, part);
+        let nodes = *posed.parts()?.1.operator().grid();
+        let options =
+            TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
+        let identity =
+            |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start, &values);
+        course.check(&mut posed)?;
+        let given = (&*surface, &origin, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, None)?;
+        let start = start.or_else(|| problem.start_afar(&surface, &loads));
         drop(surface);
-        if table.rows() > 0 {
-            let fields = saved.fields.into_iter().map(T::field).collect();
-            path = path.continuing(PathCheckpoint { values: saved.values, fields })?;
-        } else if let Some(start) = start.or(afar) {
-            path = path.starting_from(T::field(start));
-        }
-        let text = table.text()?;
-        let mut had_event = text.lines().next_back().is_some_and(|row| !csv::parsed(&names, row)["event"].is_null());
-        let mut apart = Self::is_apart(&csv::parsed(&names, text.lines().next_back().unwrap_or_default()));
-        loop {
-            if apart {
-                path.end_leg();
-            }
-            let name = (table.rows() + 1).to_string();
-            let step = table.observed(&name, grid.nodes(), |observe| path.next_observed(observe));
-            let Some(step) = step else { break };
-            let step = step?;
-            table.check(&step.solution)?;
-            let (shown, statistics) = (part.of_solution(&step.solution)?, part.statistics(&step.solution, &law)?);
-            let inputs = inputs(self.problem(), part, origin.seed);
-            let row = row(&step, &shown.report, self.direction(step.leg), &statistics, inputs);
-            let checkpoint = path.checkpoint();
-            let fields: Vec<_> = checkpoint.fields.iter().map(|field| field.view()).collect();
-            let report = &shown.report;
-            let (_, load) = name_and_value(report.control);
-            let (text, converged) = (csv::line(&row), report.status == Status::Converged);
-            let row_to_keep = Row { text: &text, load, converged, fields: &fields, values: &checkpoint.values };
-            table.append(&row_to_keep, &shown)?;
+        let last = csv::parsed(&names, table.text()?.lines().next_back().unwrap_or_default());
+        let mut had_event = !last["event"].is_null();
+        let mut course = table.course(course, saved, &last, start);
+        while let Some(row) = table.extend(&mut course, &mut posed, origin.seed, csv::line)? {
+            let event = row.step.and_then(|step| step.event);
             // the fields of a row stay where it or the next one has an event
-            if !had_event && step.event.is_none() {
+            if !had_event && event.is_none() {
                 table.forget(table.rows() - 1);
             }
-            had_event = step.event.is_some();
-            let event = step.event.map_or(String::new(), |event| format!("  {event}"));
-            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(report, units)));
-            apart = Self::is_apart(&row.into());
+            had_event = event.is_some();
+            let event = event.map_or(String::new(), |event| format!("  {event}"));
+            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(&row.account, units)));
         }
-        drop(path);
-        self.conclude(&table, units, processes)?;
+        self.conclude(&table, &names, units, processes)?;
         Ok(table.converged("or use a larger --tolerance"))
     }
 
     fn problem(&self) -> ProblemOptions<'_> {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
-    }
-
-    /// The direction of a leg; the start has none.
-    fn direction(&self, leg: usize) -> &'static str {
-        let values = self.loads.list();
-        let (Some(from), Some(to)) = (leg.checked_sub(1).and_then(|before| values.get(before)), values.get(leg)) else {
-            return "start";
-        };
-        // the loads under which bodies come together as they grow
-        let pressing = match self.loads.control(0.0) {
-            Control::MeanGap(_) => false,
-            Control::Spring { .. } => self.surface.beyond.boundary == Boundary::Free,
-            _ => true,
-        };
-        if (to > from) == pressing { APPROACH } else { WITHDRAWAL }
-    }
-
-    /// Whether a row ends its leg: the surfaces are apart in a withdrawal.
-    fn is_apart(row: &Value) -> bool {
-        let is_none = |name: &str| row[name].as_f64() == Some(0.0);
-        row["direction"] == WITHDRAWAL && is_none("contact_fraction") && is_none("attractive_fraction")
     }
 
     fn check_files(&self) -> Outcome<()> {
@@ -274,9 +206,9 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude(&self, table: &Table<'_>, units: &Units, processes: &Processes) -> Outcome<()> {
-        let (text, names) = (table.text()?, names());
-        let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(&names, row)).collect();
+    fn conclude(&self, table: &Table<'_>, names: &[&str], units: &Units, processes: &Processes) -> Outcome<()> {
+        let text = table.text()?;
+        let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(names, row)).collect();
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
         let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
         let tension = -least("mean_pressure");
@@ -340,26 +272,4 @@ impl Options {
         let Some(plot) = &self.plot else { return Ok(()) };
         processes.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.resolution.dpi)?))
     }
-}
-
-/// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row<T>(
-    step: &PathStep<T>,
-    report: &Report,
-    direction: &str,
-    statistics: &ContactStatistics,
-    inputs: impl Iterator<Item = Cell>,
-) -> Map<String, Value> {
-    let drop = step.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop);
-    let leg = [("leg", step.leg.into()), ("direction", direction.into())];
-    let balance: [Cell; 5] = [
-        ("work", step.work.into()),
-        ("dissipated", step.dissipated.into()),
-        ("imbalance", step.imbalance.into()),
-        ("event", step.event.as_ref().map_or(Value::Null, |event| event.name().into())),
-        ("energy_drop", drop.into()),
-    ];
-    let state = state(report, statistics);
-    let cells = leg.into_iter().chain(state).chain(balance).chain(outcome(report)).chain(inputs);
-    cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

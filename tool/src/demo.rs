@@ -102,11 +102,14 @@ pub fn run(options: &Options) -> Outcome<bool> {
         let tolerance = options.solver().settings.tolerance_in::<f64>();
         let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
         let asked = options.asked(Control::MeanPressure(PRESSURE));
-        let mut found =
-            options.posed::<f64>(surface, law, &part).solve(&asked, None, &mut |grid, state, tolerance| {
+        let mut found = options.problem().posed::<f64>(surface, law, &part).solve(
+            &asked,
+            None,
+            &mut |grid, state, tolerance| {
                 progress.update_on(grid, state, tolerance);
                 ControlFlow::Continue(())
-            })?;
+            },
+        )?;
         let mut account = found.account("solve", &options.inputs(&part, &units, scene), None, Vec::new())?;
         found.sight.look_at(&mut account, &found.solution)?;
         Ok((found.solution, account))

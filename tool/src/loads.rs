@@ -1,7 +1,5 @@
 //! Lists of loads: numbers and ranges on the command line.
 
-use asperity::Control;
-
 use crate::quantity::Quantity;
 
 /// Loads in the order of a list.
@@ -14,11 +12,6 @@ pub struct Loads {
 
 /// The largest number of loads; more are taken for a slip of the pen.
 const MOST_LOADS: usize = 100_000;
-
-/// The name of the kind of a load, and its value.
-pub fn name_and_value(control: Control) -> (&'static str, f64) {
-    (control.name(), control.value())
-}
 
 /// The parser of numbers and ranges with commas between, from that of a number.
 pub fn list<P>(number: P) -> impl Fn(&str) -> Result<Loads, String> + Clone + Send + Sync + 'static

@@ -29,7 +29,6 @@ mod adhesion;
 mod allowed;
 mod boundary;
 mod citation;
-mod columns;
 mod csv;
 mod entries;
 mod fields;

@@ -1,10 +1,11 @@
 //! The options that more than one command has.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use asperity::{Error, Method, Real, Settings, Surface};
+use asperity::{AdhesionLaw, Control, Error, Method, Real, Settings, Solver, Surface};
 use asperity_maps::io::read_field;
-use asperity_scene::{Branches, HalfSpace, settings};
+use asperity_scene::{Branches, HalfSpace, Posed, settings};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -166,6 +167,23 @@ impl<'a> ProblemOptions<'a> {
         let adhesion = [&self.adhesion.law_table, &self.adhesion.work_of_adhesion_map];
         std::iter::once(&*self.surface.heights).chain(adhesion.into_iter().filter_map(Option::as_deref))
     }
+
+    /// The problem of a surface with a law, whose results are of a part.
+    pub fn posed<T: Scalar>(
+        self,
+        surface: impl Into<Arc<Surface>>,
+        law: Box<dyn AdhesionLaw<T>>,
+        part: &Part,
+    ) -> Posed<T> {
+        let solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
+        Posed::new(surface, law.into(), self.surface.half_space(), solver, part.wanted())
+    }
+
+    /// The gap at which bodies that come from afar begin under `loads`; on the branch of unloading they do not.
+    pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {
+        let comes = self.solver.branch != Some(Branches::Unloading);
+        comes.then(|| self.surface.beyond.boundary.start_afar(surface, loads)).flatten()
+    }
 }
 
 impl SolverOptions {
@@ -197,11 +215,6 @@ impl SolverOptions {
             .into());
         }
         Ok(Some(start))
-    }
-
-    /// Whether bodies may come from afar: not on the branch of unloading.
-    pub fn comes_from_afar(&self) -> bool {
-        self.branch != Some(Branches::Unloading)
     }
 
     /// Refuses both branches of equilibria where each state starts from the one before.

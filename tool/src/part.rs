@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use asperity::contact::{ContactStatistics, Original};
-use asperity::{AdhesionLaw, Control, Grid, Real, Result, Solution};
+use asperity::contact::Original;
+use asperity::{Control, Grid, Real, Result, Solution};
 use asperity_scene::Boundary;
 use ndarray::Array2;
 
@@ -72,11 +72,6 @@ impl Part {
         self.wanted().map(|_| self.whole.shape())
     }
 
-    /// The share of the nodes of which results are.
-    pub fn share(&self) -> f64 {
-        self.wanted().map_or(1.0, |original| original.share())
-    }
-
     /// Refuses a force, which would be on the images as well.
     pub fn check(&self, control: Control) -> Outcome<()> {
         match (self.wanted(), control) {
@@ -108,14 +103,6 @@ impl Part {
         match self.original.filter(|original| field.dim() == original.grid().shape()) {
             Some(original) => original.mirrored(&field),
             None => Ok(field),
-        }
-    }
-
-    /// The statistics of the part of a solution on the whole.
-    pub fn statistics<T: Real>(&self, solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<ContactStatistics> {
-        match self.wanted() {
-            Some(original) => original.statistics(solution, law),
-            None => ContactStatistics::of(solution, law),
         }
     }
 }

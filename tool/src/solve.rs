@@ -227,7 +227,8 @@ impl Options {
         self.colour_limits.as_deref().map(|limits| (limits[0].value, limits[1].value))
     }
 
-    fn problem(&self) -> ProblemOptions<'_> {
+    /// The problem.
+    pub fn problem(&self) -> ProblemOptions<'_> {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 }
@@ -269,7 +270,7 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
-        let mut posed = self.options.posed::<T>(surface, adhesion.law()?, &self.part);
+        let mut posed = self.options.problem().posed::<T>(surface, adhesion.law()?, &self.part);
         if let Some(goal) = self.asked.goal {
             let (plan, time) = posed.plan(self.asked.control, goal)?;
             printing.say(&accuracy::announced(goal, &plan, time));

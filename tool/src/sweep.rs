@@ -1,25 +1,18 @@
 //! `asperity sweep`: equilibria at a list of loads, as a table.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use asperity::contact::ContactStatistics;
-use asperity::stability::ContactStiffness;
-use asperity::{
-    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Iteration, Problem, Report, Solution, Solver, Status,
-    Surface, Sweep,
-};
-use asperity_scene::{Boundary, Search, Wall};
+use asperity::{Control, Error, Status, Surface};
+use asperity_scene::{Boundary, Course, Way};
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::{ArrayRef2, ArrayView2};
+use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::boundary::{FractionsOptions, LOADS, LoadsOptions, check_load};
-use crate::columns::{Cell, INPUTS, OUTCOME, SEARCH, STATE, STIFFNESS, inputs, outcome, search, state, stiffness};
 use crate::csv;
 use crate::identity::{Identity, identity};
-use crate::journal::{Row, Values};
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
@@ -129,84 +122,47 @@ impl Options {
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let format = self.format()?;
         let control = self.control().name();
+        let controls = self.loads.controls(&listed);
+        let way = match self.fractions.values() {
+            Some(fractions) => Way::Search(fractions.to_vec()),
+            None => Way::Sweep(controls.clone()),
+        };
+        let course = Course::new(way, self.stiffness);
+        let names = course.columns();
         let header = match format {
-            Format::Csv => units.header(&self.names(), control, grid.is_line()),
+            Format::Csv => units.header(&names, control, grid.is_line()),
             Format::Jsonl => String::new(),
         };
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
-        let (problem, part) = (self.problem(), &part);
-        let operator = self.surface.half_space().operator(grid)?;
-        let nodes = *operator.grid();
+        let (problem, part, surface) = (self.problem(), &part, Arc::new(surface));
+        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law()?, part);
+        let nodes = *posed.parts()?.1.operator().grid();
         let options =
             TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
         let identity =
             |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start);
-        let mut problem = Problem::new(&surface, operator, adhesion.law::<T>()?)?;
-        let given = (&surface, &origin, &adhesion, start.as_ref());
+        let given = (&*surface, &origin, &adhesion, start.as_ref());
         let (mut table, saved) = Table::open::<T>(options, &header, given, identity, Some(loads))?;
-        let done = table.rows();
-        let afar = || self.surface.beyond.boundary.start_afar(&surface, &self.loads.controls(&listed));
-        let start = start.or_else(|| self.solver.comes_from_afar().then(afar).flatten());
+        let start = start.or_else(|| problem.start_afar(&surface, &controls));
         drop(surface);
-        let controls = self.loads.controls(loads);
 
-        let law = adhesion.law::<T>()?;
-        let mut solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
-        let mut steps = match self.fractions.values() {
-            Some(_) => {
-                let gap = saved.fields.into_iter().next_back().map(T::field);
-                let points = saved.values.get("points").map_or(&[][..], Vec::as_slice);
-                let search = ContactSearch::new(&mut solver, &mut problem)?.continuing(points, gap);
-                Steps::Search(match start {
-                    Some(start) if done == 0 => search.starting_from(T::field(start)),
-                    _ => search,
-                })
-            }
-            None => {
-                let first = done.saturating_sub(saved.fields.len());
-                let history =
-                    controls[first..done].iter().copied().zip(saved.fields.into_iter().map(T::field)).collect();
-                let rest = controls[done..].to_vec();
-                let sweep = Sweep::new(&mut solver, &mut problem, rest).continuing(history);
-                Steps::Sweep(match start {
-                    Some(start) if done == 0 => sweep.starting_from(T::field(start)),
-                    _ => sweep,
-                })
-            }
-        };
+        let mut course = table.course(course, saved, &Value::Null, start);
         let (count, width) = (loads.len(), loads.len().to_string().len());
-        for (k, &load) in loads.iter().enumerate().skip(done) {
-            let name = format!("{}/{count}", k + 1);
-            let step = table.observed(&name, grid.nodes(), |observe| steps.next(load, observe));
-            let Some(step) = step else { break };
-            let (solution, searched) = step?;
-            table.check(&solution)?;
-            let (shown, statistics) = (part.of_solution(&solution)?, part.statistics(&solution, &law)?);
-            let inputs = inputs(self.problem(), part, origin.seed);
-            let mut row = row(&shown.report, &statistics, inputs);
-            row.extend(searched.iter().flat_map(search).map(|(name, value)| (name.to_owned(), value)));
-            if self.stiffness {
-                let (problem, tolerance) = (steps.problem(), ContactStiffness::TOLERANCE);
-                let found = ContactStiffness::of_constrained(problem, &self.adhesion.wall, &solution, tolerance)?;
-                row.extend(stiffness(&found, part.share()).map(|(name, value)| (name.to_owned(), value)));
-            }
-            let text = match format {
-                Format::Csv => csv::line(&row),
-                Format::Jsonl => Value::Object(row).to_string(),
+        while table.rows() < count {
+            let line = |row: &Map<_, _>| match format {
+                Format::Csv => csv::line(row),
+                Format::Jsonl => json!(row).to_string(),
             };
-            let (fields, values) = steps.place();
-            let reached = searched.as_ref().is_none_or(|searched| searched.reached);
-            let converged = solution.report.status == Status::Converged;
-            let row = Row { text: &text, load, converged: converged && reached, fields: &fields, values: &values };
-            table.append(&row, &shown)?;
-            self.printing.say(&format!("{:>width$}/{count}  {}", k + 1, table::brief(&shown.report, units)));
-            if let Some(searched) = searched.filter(|searched| converged && !searched.reached) {
-                complain("warning", &format!("row {}: {}", k + 1, jump(&searched)));
+            let Some(row) = table.extend(&mut course, &mut posed, origin.seed, line)? else { break };
+            let (rows, account) = (table.rows(), &row.account);
+            self.printing.say(&format!("{rows:>width$}/{count}  {}", table::brief(account, units)));
+            let converged = account.status == Status::Converged;
+            if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
+                complain("warning", &format!("row {rows}: {}", jump(&searched)));
             }
         }
         let text = table.text()?;
-        let names = self.names();
         let rows = text.lines().skip(usize::from(format == Format::Csv)).map(|row| parsed(format, &names, row));
         processes.first(|| self.plot.draw(&rows.collect::<Vec<_>>(), units))?;
         self.printing.say(&format!("{count} rows in {}", name(&self.out)));
@@ -218,12 +174,6 @@ impl Options {
             Some(_) => "or leave out the contact fractions past which the contact jumps",
             None => "use a larger --tolerance or finer steps, or less tension where they are detached",
         }))
-    }
-
-    /// The names of the columns: with those of a search or without, and with the contact stiffness or without.
-    fn names(&self) -> Vec<&'static str> {
-        let searched: &[_] = if self.fractions.values().is_some() { &SEARCH } else { &[] };
-        [&STATE[..], &OUTCOME[..], &INPUTS[..], searched, if self.stiffness { &STIFFNESS[..] } else { &[] }].concat()
     }
 
     /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
@@ -263,64 +213,10 @@ impl Options {
     }
 }
 
-/// The elastic body, and the adhesion on it.
-type Body<T> = Box<dyn ElasticOperator<T>>;
-type Adhesive<T> = Box<dyn AdhesionLaw<T>>;
-
-/// The solves of the rows: under loads that are given, or that are found for contact fractions.
-enum Steps<'a, T: Scalar> {
-    Sweep(Sweep<'a, T, Body<T>, Adhesive<T>, std::vec::IntoIter<Control>, Wall>),
-    Search(ContactSearch<'a, T, Body<T>, Adhesive<T>, Wall>),
-}
-
-/// A solution, and the search for its load if there was one.
-type Step<T> = (Solution<T>, Option<Search>);
-
-impl<T: Scalar> Steps<'_, T> {
-    /// The next solution; `load` is a contact fraction if that is searched for.
-    fn next(
-        &mut self,
-        load: f64,
-        observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
-    ) -> Option<asperity::Result<Step<T>>> {
-        match self {
-            Self::Sweep(sweep) => Some(sweep.next_observed(observe)?.map(|solution| (solution, None))),
-            Self::Search(search) => Some(search.at_observed(load, observe).map(|found| {
-                let searched = Search::of(load, &found);
-                (found.solution, Some(searched))
-            })),
-        }
-    }
-
-    fn problem(&mut self) -> &mut Problem<T, Body<T>, Adhesive<T>> {
-        match self {
-            Self::Sweep(sweep) => sweep.problem(),
-            Self::Search(search) => search.problem(),
-        }
-    }
-
-    /// The fields and values from which the next solve starts.
-    fn place(&self) -> (Vec<ArrayView2<'_, T>>, Values) {
-        match self {
-            Self::Sweep(sweep) => (sweep.history().iter().map(|(_, gap)| gap.view()).collect(), Values::new()),
-            Self::Search(search) => {
-                let (points, gap) = search.checkpoint();
-                (gap.into_iter().map(|gap| gap.view()).collect(), Values::from([("points".to_owned(), points)]))
-            }
-        }
-    }
-}
-
 /// A row of the file.
 fn parsed(format: Format, names: &[&'static str], row: &str) -> Value {
     match format {
         Format::Csv => csv::parsed(names, row),
         Format::Jsonl => serde_json::from_str(row).unwrap_or_default(),
     }
-}
-
-/// The content of a row, by the names of the columns. Nothing in it depends on the clock.
-fn row(report: &Report, statistics: &ContactStatistics, inputs: impl Iterator<Item = Cell>) -> Map<String, Value> {
-    let cells = state(report, statistics).chain(outcome(report)).chain(inputs);
-    cells.map(|(name, value)| (name.to_owned(), value)).collect()
 }

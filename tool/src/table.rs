@@ -4,9 +4,11 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use asperity::{Grid, Iteration, Report, Solution, Surface};
+use asperity::path::PathCheckpoint;
+use asperity::{Grid, Status, Surface};
+use asperity_scene::{Account, Course, Posed, is_apart};
 use ndarray::{Array2, ArrayRef2, Axis, Slice};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::adhesion::Adhesion;
 use crate::fields::check_finite;
@@ -162,42 +164,63 @@ impl<'a> Table<'a> {
         Ok(processes.told(processes.agree(text)?))
     }
 
-    /// Shows a bar with this name while `solve` runs, which gets the observer of its iterations.
-    pub fn observed<S>(
+    /// The course of its rows: from the place of the last one, the cells of which tell whether a leg of a cycle ends
+    /// there, or from a start.
+    pub fn course<T: Scalar>(
         &self,
-        name: &str,
-        nodes: usize,
-        solve: impl FnOnce(&mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send)) -> S,
-    ) -> S {
-        let tolerance = self.options.problem.solver.tolerance();
-        let mut progress = Progress::new(name, tolerance, nodes, self.options.printing.without_bars());
-        solve(&mut |state| {
+        course: Course<T>,
+        Saved { fields, values }: Saved,
+        last: &Value,
+        start: Option<Array2<f64>>,
+    ) -> Course<T> {
+        if self.rows == 0 {
+            return course.starting_from(start.map(T::field));
+        }
+        let shares = ["contact_fraction", "attractive_fraction"].map(|name| last[name].as_f64());
+        let fields = fields.into_iter().map(T::field).collect();
+        course.continuing(self.rows, PathCheckpoint { values, fields }, is_apart(last["direction"].as_str(), shares))
+    }
+
+    /// Solves the next row of a course, while a bar has its number, and appends its cells as `line` writes them, with
+    /// the fields of its solution on the part of the surface, if they are kept. Refuses a solution that ran away, and
+    /// says its warnings; returns no row at the end of the course.
+    pub fn extend<T: Scalar>(
+        &mut self,
+        course: &mut Course<T>,
+        posed: &mut Posed<T>,
+        seed: Option<u64>,
+        line: impl FnOnce(&Map<String, Value>) -> String,
+    ) -> Outcome<Option<asperity_scene::Row>> {
+        let TableOptions { problem, printing, scene, units, fields, processes, part, nodes, .. } = self.options;
+        let name = format!("{}{}", self.rows + 1, self.loads.map_or(String::new(), |loads| format!("/{loads}")));
+        let (tolerance, grid) = (problem.solver.tolerance(), *posed.parts()?.1.grid());
+        let mut progress = Progress::new(&name, tolerance, grid.nodes(), printing.without_bars());
+        let found = course.next(posed, &mut |state| {
             progress.update(state);
             ControlFlow::Continue(())
-        })
-    }
-
-    /// Looks at a solution before its row is written: refuses one that ran away, and says its warnings.
-    pub fn check<T: Scalar>(&mut self, solution: &Solution<T>) -> Outcome<()> {
-        check_finite(solution)?;
-        let TableOptions { part, processes, .. } = self.options;
-        processes.agree(solution.gathered().map_or(Ok(()), |whole| self.warnings.look_at(&whole, part)))
-    }
-
-    /// Appends a row, with the fields of its solution on the part of the surface, if they are kept.
-    pub fn append<T: Scalar>(&mut self, row: &Row<'_, T>, shown: &Solution<T>) -> Outcome<()> {
-        let TableOptions { fields, processes, part, nodes, .. } = self.options;
-        Kept(fields).write(self.rows + 1, part.grid(), shown, processes)?;
-        let whole: Vec<_> = row.fields.iter().map(|field| nodes.gathered(field)).collect();
+        });
+        drop(progress);
+        let Some(mut found) = found? else { return Ok(None) };
+        check_finite(&found.solution)?;
+        processes.agree(found.solution.gathered().map_or(Ok(()), |whole| self.warnings.look_at(&whole, part)))?;
+        let inputs = report::inputs(problem, part, units, scene);
+        let row = found.account(course.command(), &inputs, None, Vec::new())?;
+        let row = course.row(&mut found, row, seed)?;
+        Kept(fields).write(self.rows + 1, part.grid(), &*part.of_solution(&found.solution)?, processes)?;
+        let PathCheckpoint { fields, values } = course.place();
+        let whole: Vec<_> = fields.iter().map(|field| nodes.gathered(field)).collect();
+        let load = row.wanted_contact_fraction.unwrap_or(row.account.control_value);
+        let converged = row.account.status == Status::Converged && row.reached != Some(false);
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
             let fields: Vec<_> = whole.iter().flatten().map(|field| field.view()).collect();
-            journal.append(&Row { fields: &fields, ..*row })
+            let text = line(&row.cells(&course.columns()));
+            journal.append(&Row { text: &text, load, converged, fields: &fields, values })
         })?;
         self.rows += 1;
-        self.unconverged += usize::from(!row.converged);
+        self.unconverged += usize::from(!converged);
         self.stands();
-        Ok(())
+        Ok(Some(row))
     }
 
     /// Removes the fields of a row, if they were kept.
@@ -259,16 +282,17 @@ fn remove(made: &[PathBuf]) {
 }
 
 /// The fields of a row that are printed.
-pub fn brief(report: &Report, units: &Units) -> String {
-    let load = match report.approach {
+pub fn brief(account: &Account, units: &Units) -> String {
+    let load = match account.approach {
         Some(approach) => {
-            let (force, approach) = (units.number(report.normal_force, FORCE), units.number(approach, LENGTH));
+            let (force, approach) = (units.number(account.normal_force, FORCE), units.number(approach, LENGTH));
             format!("normal force {force}  approach {approach}")
         }
         None => {
-            let (pressure, gap) = (units.number(report.mean_pressure, PRESSURE), units.number(report.mean_gap, LENGTH));
+            let (pressure, gap) =
+                (units.number(account.mean_pressure, PRESSURE), units.number(account.mean_gap, LENGTH));
             format!("mean pressure {pressure}  mean gap {gap}")
         }
     };
-    format!("{load}  contact {} %  {}", percent(report.contact_fraction), report.status)
+    format!("{load}  contact {} %  {}", percent(account.contact_fraction), account.status)
 }

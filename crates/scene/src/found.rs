@@ -11,6 +11,7 @@ use asperity_maps::warning::Warning;
 use ndarray::{Array2, ArrayView2};
 
 use crate::account::{Account, Inputs};
+use crate::course::Step;
 use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness};
 use crate::told::Told;
 
@@ -40,6 +41,8 @@ pub struct Found<T> {
     pub departures: Option<Vec<Left>>,
     /// The contact stiffness, if it was asked for.
     pub stiffness: Option<ContactStiffness>,
+    /// The place on a cycle, if there is one.
+    pub step: Option<Step>,
     /// The time for setting up and solving, stability included, in seconds.
     pub seconds: f64,
 }
@@ -55,7 +58,12 @@ pub struct Sight<T> {
     pub(crate) open: Option<(Arc<Surface>, Vec<Level>)>,
     /// The errors that are known, and the nodes of the shortest wave.
     errors: Option<(GridErrors, f64)>,
+    /// The findings of the first look.
+    seen: Option<Seen>,
 }
+
+/// The statistics of the contact, and the least and the greatest elastic pressure.
+type Seen = (ContactStatistics, (f64, f64));
 
 impl<T: Real> Found<T> {
     /// A solution by a solve that began at a time; numbers are of the `original`, if there is one.
@@ -70,7 +78,7 @@ impl<T: Real> Found<T> {
         let (grid, report) = (solution.grid, solution.report.clone());
         Ok(Self {
             solution,
-            sight: Sight { law, original, grid, report, open: None, errors: None },
+            sight: Sight { law, original, grid, report, open: None, errors: None, seen: None },
             levels: None,
             equivalent_applications: None,
             refined: None,
@@ -81,6 +89,7 @@ impl<T: Real> Found<T> {
             mode: None,
             departures: None,
             stiffness: None,
+            step: None,
             seconds,
         })
     }
@@ -143,22 +152,12 @@ impl<T: Real> Sight<T> {
     ///
     /// # Errors
     /// [`Error::Shape`](asperity::Error::Shape) if a field does not have the shape of the grid.
-    pub fn look(
-        &mut self,
-        account: &mut Account,
-        [gap, pressure, contact_pressure]: [ArrayView2<'_, T>; 3],
-    ) -> Result<ContactStatistics> {
-        let (law, modulus) = (&self.law, self.report.modulus);
-        let found = match &self.original {
-            Some(original) => original.statistics_of_fields(gap, contact_pressure, modulus, law)?,
-            None => {
-                let body = (self.report.boundary, modulus);
-                ContactStatistics::of_fields(gap, contact_pressure, &self.grid, body, law)?
-            }
+    pub fn look(&mut self, account: &mut Account, fields: [ArrayView2<'_, T>; 3]) -> Result<ContactStatistics> {
+        let seen = match self.seen.take() {
+            Some(seen) => seen,
+            None => self.see(fields)?,
         };
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let extremes = pressure.iter().fold(none, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-        let (min_pressure, max_pressure) = self.grid.extremes(extremes);
+        let (found, (min_pressure, max_pressure)) = self.seen.insert(seen).clone();
         if let Some((surface, levels)) = self.open.take() {
             self.estimate(&surface, &levels);
         }
@@ -171,6 +170,20 @@ impl<T: Real> Sight<T> {
         account.min_pressure = Some(min_pressure);
         account.max_pressure = Some(max_pressure);
         Ok(found)
+    }
+
+    fn see(&self, [gap, pressure, contact_pressure]: [ArrayView2<'_, T>; 3]) -> Result<Seen> {
+        let (law, modulus) = (&self.law, self.report.modulus);
+        let found = match &self.original {
+            Some(original) => original.statistics_of_fields(gap, contact_pressure, modulus, law)?,
+            None => {
+                let body = (self.report.boundary, modulus);
+                ContactStatistics::of_fields(gap, contact_pressure, &self.grid, body, law)?
+            }
+        };
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let extremes = pressure.iter().fold(none, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
+        Ok((found, self.grid.extremes(extremes)))
     }
 
     /// Estimates the errors of nested grids of a surface.

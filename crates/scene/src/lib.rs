@@ -3,6 +3,7 @@
 
 mod account;
 mod accuracy;
+mod course;
 mod entries;
 mod found;
 mod half_space;
@@ -15,6 +16,7 @@ mod wall;
 
 pub use account::{Account, Adhesion, Inputs};
 pub use accuracy::{GIB, Goal};
+pub use course::{Course, Row, Step, Way, is_apart};
 pub use entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
 pub use found::{Found, Sight, check_finite, warnings_of};
 pub use half_space::{Boundary, HalfSpace};

@@ -18,7 +18,7 @@ use ndarray::Array2;
 use crate::accuracy::{Goal, planned};
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
-use crate::half_space::HalfSpace;
+use crate::half_space::{Boundary, HalfSpace};
 use crate::wall::Wall;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
@@ -81,13 +81,13 @@ impl<T: Real> Posed<T> {
     /// The problem of a surface with an adhesion law on a half-space, whose results are of the `original` of a mirrored
     /// surface, or of the whole.
     pub fn new(
-        surface: Surface,
+        surface: impl Into<Arc<Surface>>,
         law: Arc<dyn AdhesionLaw<T>>,
         half_space: HalfSpace,
         solver: Solver<Wall>,
         original: Option<Original>,
     ) -> Self {
-        Self { body: Body::Surface(Arc::new(surface)), law, half_space, solver, original }
+        Self { body: Body::Surface(surface.into()), law, half_space, solver, original }
     }
 
     /// The solver, and the problem on the grid of the surface, which is made with its first use in the place of the
@@ -106,6 +106,11 @@ impl<T: Real> Posed<T> {
             Body::Problem(problem) => Ok((&mut self.solver, problem)),
             _ => Err(spent()),
         }
+    }
+
+    /// The boundary of the half-space.
+    pub fn boundary(&self) -> Boundary {
+        self.half_space.boundary
     }
 
     /// The pressure of which a reduced pressure is a part, before the first solve.

@@ -4,8 +4,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use asperity::accuracy::Quantity;
+use asperity::path::PathSettings;
 use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver};
-use asperity_scene::{Account, Adhesion, Asked, Boundary, Found, Goal, HalfSpace, Inputs, Posed, Wall, check_finite};
+use asperity_scene::{
+    Account, Adhesion, Asked, Boundary, Course, Found, Goal, HalfSpace, Inputs, Posed, Wall, Way, check_finite,
+};
 use serde_json::{Value, json};
 
 /// The keys of a report, in their order.
@@ -142,6 +145,34 @@ fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
     let report = json!(found.account("solve", &inputs(), None, Vec::new()).unwrap());
     assert_eq!(report["status"], "stopped");
     assert!(report["stability"].is_null() && report["contact_stiffness"].is_null());
+}
+
+#[test]
+fn a_course_goes_on_from_its_place_with_the_same_rows() {
+    let gaps = [0.02, 0.01, 0.04].map(Control::MeanGap).to_vec();
+    let settings = PathSettings::default().steps(3);
+    for way in [Way::Sweep(gaps.clone()), Way::Search(vec![0.1, 0.2, 0.15]), Way::Cycle(gaps, settings)] {
+        let names = Course::<f64>::new(way.clone(), true).columns();
+        let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
+            let mut found = course.next(posed, &mut |_| ControlFlow::Continue(())).unwrap()?;
+            let account = found.account(course.command(), &inputs(), None, Vec::new()).unwrap();
+            let row = course.row(&mut found, account, Some(7)).unwrap();
+            assert!(names.iter().all(|name| json!(row).as_object().unwrap().contains_key(*name)));
+            let apart = row
+                .step
+                .as_ref()
+                .is_some_and(|step| step.direction == "withdrawal" && json!(row)["attractive_fraction"] == 0.0);
+            Some((row.cells(&names), apart))
+        };
+        let (mut whole, mut problem) = (Course::new(way.clone(), true), posed());
+        let (mut place, mut last, mut rows) = (whole.place().clone(), false, 0);
+        while let Some((row, apart)) = next(&mut whole, &mut problem) {
+            let mut course = Course::new(way.clone(), true).continuing(rows, place, last);
+            assert_eq!(next(&mut course, &mut posed()).unwrap().0, row);
+            (place, last, rows) = (course.place().clone(), apart, rows + 1);
+        }
+        assert!(rows >= 3);
+    }
 }
 
 #[test]

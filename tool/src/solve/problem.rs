@@ -1,11 +1,11 @@
 //! The problem of a solve, as its options pose it.
 
-use asperity::{AdhesionLaw, Control, Solver, Surface};
-use asperity_scene::{Asked, Branches, Inputs, Posed, Wall};
+use asperity::{Control, Solver};
+use asperity_scene::{Asked, Branches, Inputs, Wall};
 
 use super::Options;
 use crate::adhesion::Law;
-use crate::options::{Iteration, Scalar};
+use crate::options::Iteration;
 use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::report;
@@ -51,11 +51,6 @@ impl Options {
             goal: self.accuracy.goal(),
             ..Asked::under(control)
         }
-    }
-
-    /// The problem of a surface with a law.
-    pub fn posed<T: Scalar>(&self, surface: Surface, law: Box<dyn AdhesionLaw<T>>, part: &Part) -> Posed<T> {
-        Posed::new(surface, law.into(), self.surface.half_space(), self.solver(), part.wanted())
     }
 
     /// The inputs of the report.

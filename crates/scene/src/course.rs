@@ -1,0 +1,265 @@
+//! The course of a sweep or a cycle, and the rows of its table.
+
+use std::ffi::OsStr;
+use std::mem;
+use std::ops::ControlFlow;
+use std::path::Path as File;
+use std::time::Instant;
+
+use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
+use asperity::{ContactSearch, Control, Iteration, Real, Result, Sweep};
+use ndarray::Array2;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::account::Account;
+use crate::entries::Search;
+use crate::found::{Found, check_finite};
+use crate::half_space::Boundary;
+use crate::posed::Posed;
+
+/// The way through the loads of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Way {
+    /// An equilibrium under each load.
+    Sweep(Vec<Control>),
+    /// An equilibrium with each contact fraction, under a load that is found.
+    Search(Vec<f64>),
+    /// A path from load to load in small steps.
+    Cycle(Vec<Control>, PathSettings),
+}
+
+/// The course of a sweep or a cycle: its way, and the place on it from which the next state follows.
+#[derive(Clone, Debug)]
+pub struct Course<T> {
+    way: Way,
+    /// Whether the contact stiffness of each state is found
+    stiffness: bool,
+    start: Option<Array2<T>>,
+    /// The number of states so far
+    states: usize,
+    place: PathCheckpoint<T>,
+    /// Whether the present leg of a cycle ends at the place
+    leg_ends: bool,
+}
+
+/// The place of a state on a cycle, by the names of its columns; see [`PathStep`](asperity::path::PathStep).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// The leg: 0 is the start, 1 the way to the second load.
+    pub leg: usize,
+    /// The direction of the leg, or `"start"`.
+    pub direction: &'static str,
+    /// The work done by the load since the start, per area.
+    pub work: f64,
+    /// The energy dropped in jumps since the start, per area.
+    pub dissipated: f64,
+    /// The imbalance of energy.
+    pub imbalance: f64,
+    /// The event before the state.
+    pub event: Option<&'static str>,
+    /// The energy that its jump dissipates, per area.
+    pub energy_drop: Option<f64>,
+}
+
+/// The row of a state in a table: its account, and the figures that tables alone have.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// The account, complete.
+    #[serde(flatten)]
+    pub account: Account,
+    /// The number of separate contacts.
+    pub clusters: usize,
+    /// The nodes of the largest one.
+    pub largest_cluster: usize,
+    /// The name of the file of the heights, in the place of its path.
+    pub heights: Option<String>,
+    /// The seed of a random surface.
+    pub seed: Option<u64>,
+    /// The contact fraction that was wanted, if its load was searched for.
+    pub wanted_contact_fraction: Option<f64>,
+    /// Whether it was reached.
+    pub reached: Option<bool>,
+    /// The place on a cycle.
+    #[serde(flatten)]
+    pub step: Option<Step>,
+}
+
+const STATE: &str = "control control_value mean_pressure mean_contact_pressure mean_gap normal_force approach \
+                     edge_traction contact_fraction corrected_contact_fraction perimeter clusters largest_cluster \
+                     repulsive_fraction attractive_fraction elastic_energy adhesive_energy min_gap";
+const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
+const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
+const BALANCE: &str = "work dissipated imbalance event energy_drop";
+
+const WITHDRAWAL: &str = "withdrawal";
+
+impl<T: Real> Course<T> {
+    /// A course from its beginning, with the contact stiffness of each state or without.
+    pub fn new(way: Way, stiffness: bool) -> Self {
+        let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
+        Self { way, stiffness, start: None, states: 0, place, leg_ends: false }
+    }
+
+    /// The course from a gap in the place of the default start.
+    pub fn starting_from(self, start: Option<Array2<T>>) -> Self {
+        Self { start, ..self }
+    }
+
+    /// The course continued behind as many states from the [place](Self::place) of the last one, bit for bit; of a
+    /// cycle, whether its surfaces [are apart](is_apart) there.
+    pub fn continuing(self, states: usize, place: PathCheckpoint<T>, apart: bool) -> Self {
+        Self { states, place, leg_ends: apart, ..self }
+    }
+
+    /// The place from which the next state follows.
+    pub fn place(&self) -> &PathCheckpoint<T> {
+        &self.place
+    }
+
+    /// The name of the command.
+    pub fn command(&self) -> &'static str {
+        if let Way::Cycle(..) = self.way { "cycle" } else { "sweep" }
+    }
+
+    /// The names of the columns of its table.
+    pub fn columns(&self) -> Vec<&'static str> {
+        let all = match self.way {
+            Way::Sweep(_) => [STATE, OUTCOME, INPUTS, "", ""],
+            Way::Search(_) => [STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", ""],
+            Way::Cycle(..) => ["leg direction", STATE, BALANCE, OUTCOME, INPUTS],
+        };
+        let stiffness = if self.stiffness { "contact_stiffness normal_stiffness" } else { "" };
+        all.into_iter().chain([stiffness]).flat_map(str::split_whitespace).collect()
+    }
+
+    /// Refuses a cycle that the problem does not have.
+    ///
+    /// # Errors
+    /// Those of [`Posed::parts`] and [`Path::new`].
+    pub fn check(&self, posed: &mut Posed<T>) -> Result<()> {
+        let (solver, problem) = posed.parts()?;
+        let Way::Cycle(loads, settings) = &self.way else { return Ok(()) };
+        Path::new(solver, problem, loads.iter().copied(), *settings).map(drop)
+    }
+
+    /// The next state; none at the end, and where the solve on a cycle was stopped.
+    ///
+    /// # Errors
+    /// Those of the solvers of the library; after one the place is lost.
+    pub fn next(
+        &mut self,
+        posed: &mut Posed<T>,
+        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
+    ) -> Result<Option<Found<T>>> {
+        let (clock, boundary, done) = (Instant::now(), posed.boundary(), self.states);
+        let (solver, problem) = posed.parts()?;
+        let start = self.start.take();
+        let fields = &mut self.place.fields;
+        let (solution, search, step) = match &self.way {
+            Way::Sweep(loads) => {
+                let Some(&load) = loads.get(done) else { return Ok(None) };
+                let before = &loads[done.saturating_sub(fields.len())..done];
+                let history = before.iter().copied().zip(mem::take(fields)).collect();
+                let mut sweep = Sweep::new(solver, problem, [load]).continuing(history);
+                if let Some(start) = start {
+                    sweep = sweep.starting_from(start);
+                }
+                let Some(solution) = sweep.next_observed(observe) else { return Ok(None) };
+                *fields = sweep.into_history().into_iter().map(|(_, gap)| gap).collect();
+                (solution?, None, None)
+            }
+            Way::Search(fractions) => {
+                let Some(&fraction) = fractions.get(done) else { return Ok(None) };
+                let points = self.place.values.get("points").map_or(&[][..], Vec::as_slice);
+                let mut search = ContactSearch::new(solver, problem)?.continuing(points, fields.pop());
+                if let Some(start) = start {
+                    search = search.starting_from(start);
+                }
+                let found = search.at_observed(fraction, observe)?;
+                let (points, gap) = search.checkpoint();
+                *fields = gap.cloned().into_iter().collect();
+                self.place.values.insert("points".to_owned(), points);
+                let searched = Search::of(fraction, &found);
+                (found.solution, Some(searched), None)
+            }
+            Way::Cycle(loads, settings) => {
+                let mut path = Path::new(solver, problem, loads.iter().copied(), *settings)?;
+                if done > 0 {
+                    let values = mem::take(&mut self.place.values);
+                    path = path.continuing(PathCheckpoint { values, fields: mem::take(fields) })?;
+                } else if let Some(start) = start {
+                    path = path.starting_from(start);
+                }
+                if self.leg_ends {
+                    path.end_leg();
+                }
+                let Some(found) = path.next_observed(observe).transpose()? else { return Ok(None) };
+                self.place = path.checkpoint();
+                let step = Step {
+                    leg: found.leg,
+                    direction: direction(loads, found.leg, boundary),
+                    work: found.work,
+                    dissipated: found.dissipated,
+                    imbalance: found.imbalance,
+                    event: found.event.as_ref().map(Event::name),
+                    energy_drop: found.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop),
+                };
+                (found.solution, None, Some(step))
+            }
+        };
+        self.states += 1;
+        let wanted = self.stiffness && check_finite(&solution).is_ok();
+        let stiffness = if wanted { posed.stiffness(&solution)? } else { None };
+        Ok(Some(Found { search, step, stiffness, ..posed.found(solution, clock)? }))
+    }
+
+    /// The row of the state that was found last, with its account, which a look completes. A withdrawal in which it is
+    /// apart ends there.
+    ///
+    /// # Errors
+    /// Those of [`Sight::look`](crate::Sight::look).
+    pub fn row(&mut self, found: &mut Found<T>, mut account: Account, seed: Option<u64>) -> Result<Row> {
+        let statistics = found.sight.look_at(&mut account, &found.solution)?;
+        let (sizes, step) = (&statistics.cluster_sizes, found.step.clone());
+        let shares = [Some(account.contact_fraction), account.attractive_fraction];
+        self.leg_ends = is_apart(step.as_ref().map(|step| step.direction), shares);
+        let heights = account.inputs.heights.as_deref().and_then(|path| File::new(path).file_name());
+        Ok(Row {
+            clusters: sizes.len(),
+            largest_cluster: sizes.first().copied().unwrap_or(0),
+            heights: heights.map(OsStr::to_string_lossy).map(Into::into),
+            seed,
+            wanted_contact_fraction: account.search.map(|search| search.wanted),
+            reached: account.search.map(|search| search.reached),
+            step,
+            account,
+        })
+    }
+}
+
+impl Row {
+    /// The cells of the columns of these names. None of them depends on the clock.
+    pub fn cells(&self, names: &[&str]) -> Map<String, Value> {
+        let all = serde_json::to_value(self).unwrap_or_default();
+        names.iter().map(|&name| (name.to_owned(), all[name].clone())).collect()
+    }
+}
+
+/// Whether the surfaces are apart in a withdrawal, by the shares of the nodes in contact and of those that attract: its
+/// leg of a cycle ends there.
+pub fn is_apart(direction: Option<&str>, shares: [Option<f64>; 2]) -> bool {
+    direction == Some(WITHDRAWAL) && shares == [Some(0.0); 2]
+}
+
+/// The direction of a leg of a cycle; the start has none.
+fn direction(loads: &[Control], leg: usize, boundary: Boundary) -> &'static str {
+    let Some(&[from, to]) = leg.checked_sub(1).and_then(|before| loads.get(before..=leg)) else { return "start" };
+    // the loads under which bodies come together as they grow
+    let pressing = match to {
+        Control::MeanGap(_) => false,
+        Control::Spring { .. } => boundary == Boundary::Free,
+        _ => true,
+    };
+    if (to.value() > from.value()) == pressing { "approach" } else { WITHDRAWAL }
+}
