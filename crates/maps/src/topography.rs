@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use ndarray::{Array2, Axis};
 
-use asperity::surface::{SurfaceStatistics, fill, mirror, resample, rms_slope};
+use asperity::surface::{SurfaceStatistics, fill, mean_of_finite, mirror, resample, rms_slope};
 use asperity::{Error, Grid, Result, Surface};
 
 mod despike;
@@ -33,8 +33,7 @@ pub use trend::{Fit, Trend};
 /// out of their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.
 ///
 /// ```
-/// use asperity_maps::Trend;
-/// use asperity_maps::Topography;
+/// use asperity_maps::{Topography, Trend};
 /// use ndarray::Array2;
 ///
 /// // tilted, with a hole
@@ -79,11 +78,7 @@ impl Topography {
 
     /// The mean of the heights that are not missing; NaN if all are.
     pub fn mean(&self) -> f64 {
-        let mut known = self.heights.iter().copied().filter(|h| h.is_finite());
-        // about one of them, so that a large datum costs no digits
-        let Some(datum) = known.next() else { return f64::NAN };
-        let (sum, count) = known.fold((0.0, 1.0), |(sum, count), h| (sum + (h - datum), count + 1.0));
-        datum + sum / count
+        mean_of_finite(&self.heights)
     }
 
     /// The root mean square about their mean of the heights that are not missing; NaN if all are.
@@ -251,8 +246,7 @@ impl Topography {
     /// where the side lengths are unknown.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if heights are missing, [`Error::Value`] if
-    /// the side lengths are no lengths.
+    /// [`Error::NotFinite`] if heights are missing, [`Error::Value`] if the side lengths are no lengths.
     pub fn statistics(&self) -> Result<SurfaceStatistics> {
         let mut map = self.clone();
         let (nx, ny) = map.heights.dim();
