@@ -258,7 +258,6 @@ pub fn holes(map: &Topography) -> Option<String> {
 }
 
 /// Side lengths with their unit.
-pub fn sides((lx, ly): (f64, f64), unit: Option<&str>) -> String {
-    let side = |length| Units::of_map(unit).number(length, LENGTH);
-    format!("{} x {}", side(lx), side(ly))
+pub fn sides(sides: (f64, f64), unit: Option<&str>) -> String {
+    Units::of_map(unit).sides(sides)
 }

@@ -214,7 +214,7 @@ pub fn warnings_of<T: Real>(solution: &Solution<T>, original: Option<Original>) 
 /// Refuses a solution of a solve that has run away.
 ///
 /// # Errors
-/// The first field that is not finite, in words to which a remedy may be added.
+/// The first field that is not finite, and a remedy, for [`worded`](crate::worded).
 pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), String> {
     let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
     // at absent nodes the gap is infinite
@@ -223,8 +223,10 @@ pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), 
     for (name, field, absent) in fields {
         let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());
         if count != absent {
+            let other = if T::NAME == "f32" { "{precision=f64}" } else { "another {initial_gap}" };
             return Err(format!(
-                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes",
+                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes; use \
+                 {other}, or units in which the numbers are moderate",
                 report.iterations,
                 T::NAME,
                 grid.nodes()

@@ -71,6 +71,11 @@ impl Units {
         }
     }
 
+    /// The side lengths of a map for people.
+    pub fn sides(&self, (lx, ly): (f64, f64)) -> String {
+        format!("{} x {}", self.number(lx, LENGTH), self.number(ly, LENGTH))
+    }
+
     /// The unit of a column of a table; see [`dimension_of`].
     pub fn of_column(&self, name: &str, control: &str, on_line: bool) -> Option<String> {
         self.of(dimension_of(name, control, on_line)?)
