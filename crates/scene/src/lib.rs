@@ -3,6 +3,7 @@
 
 mod account;
 mod accuracy;
+mod compiled;
 mod course;
 mod entries;
 mod found;
