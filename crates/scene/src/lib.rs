@@ -19,6 +19,7 @@ mod settings;
 mod told;
 pub mod units;
 mod wall;
+mod warnings;
 mod words;
 
 pub use account::{Account, Adhesion, Inputs};
@@ -34,4 +35,5 @@ pub use sentences::shortfalls;
 pub use settings::{Branches, settings};
 pub use told::Told;
 pub use wall::Wall;
+pub use warnings::warnings_of_input;
 pub use words::{Skin, worded};
