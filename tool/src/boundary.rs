@@ -1,12 +1,12 @@
 //! The boundary of the half-space, and the loads that it has: their options.
 
 use asperity::Control;
-use asperity_scene::Boundary;
+use asperity_scene::{Boundary, Load};
 use clap::Args;
 
 use crate::allowed::{finite, share};
 use crate::loads::{Loads, list};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, in_options};
 use crate::quantity::{FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Quantity};
 
 /// The boundary of the half-space, and the nodes at which nothing faces it.
@@ -23,19 +23,7 @@ pub struct BoundaryOptions {
 
 /// Refuses a load that a boundary does not have.
 pub fn check_load(boundary: Boundary, control: Control) -> Outcome<()> {
-    match (boundary, control) {
-        (Boundary::Periodic, Control::Approach(_)) => {
-            Err("an approach needs --boundary free: in a periodic cell bodies \
-                                                       have none, give a mean gap, a pressure or a force"
-                .into())
-        }
-        (Boundary::Free, Control::MeanGap(_)) => {
-            Err("a mean gap needs --boundary periodic: a free half-space has none \
-                                                  to be held, give an approach, a force, a pressure or a spring"
-                .into())
-        }
-        _ => Ok(()),
-    }
+    in_options(Load::Held(control).check(boundary, false))
 }
 
 /// The load of a solve: one of several kinds.
@@ -91,27 +79,22 @@ pub const LOAD: [&str; 7] = [
 ];
 
 impl LoadOptions {
-    /// Whether the load is a reduced pressure.
-    pub fn is_reduced(&self) -> bool {
-        self.reduced_pressure.is_some()
-    }
-
-    /// The load that is given on a surface that a reduced pressure of 1 makes this `full` pressure; a pressure of no
-    /// meaning where it is to be found.
-    pub fn control(&self, full: f64) -> Control {
-        match *self {
-            Self { contact_fraction: Some(_), .. } => Control::MeanPressure(0.0),
-            Self { reduced_pressure: Some(reduced), .. } => Control::MeanPressure(full * reduced),
-            Self { mean_gap: Some(gap), .. } => Control::MeanGap(gap.value),
-            Self { mean_pressure: Some(pressure), .. } => Control::MeanPressure(pressure.value),
-            Self { normal_force: Some(force), .. } => Control::Force(force.value),
-            Self { approach: Some(approach), .. } => Control::Approach(approach.value),
-            Self { spring_stiffness, spring_position, .. } => {
-                let [stiffness, rest] =
-                    [spring_stiffness, spring_position].map(|given| given.map_or(0.0, |given| given.value));
-                Control::Spring { stiffness, rest }
-            }
-        }
+    /// The load that is given.
+    pub fn load(&self) -> Load {
+        let number = |given: Option<Quantity>| given.map(|given| given.value);
+        let spring = self.spring_stiffness.zip(self.spring_position);
+        let given = [
+            ("mean_gap", number(self.mean_gap)),
+            ("mean_pressure", number(self.mean_pressure)),
+            ("normal_force", number(self.normal_force)),
+            ("approach", number(self.approach)),
+            ("reduced_pressure", self.reduced_pressure),
+            ("contact_fraction", self.contact_fraction),
+        ];
+        let one = given.iter().find_map(|&(key, number)| Load::of(key, &[number?]));
+        let spring = || Load::of("spring", &spring.map_or([0.0; 2], |(stiffness, at)| [stiffness.value, at.value]));
+        // one is given
+        one.or_else(spring).unwrap_or(Load::Fraction(0.0))
     }
 }
 

@@ -101,7 +101,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
         let tolerance = options.solver().settings.tolerance_in::<f64>();
         let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
-        let asked = options.asked(Control::MeanPressure(PRESSURE));
+        let asked = options.asked(1.0);
         let mut found = options.problem().posed::<f64>(surface, law, &part).solve(
             &asked,
             None,

@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 
 use asperity::{Grid, Solution};
 use asperity_maps::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
-use asperity_scene::{Skin, worded};
 use ndarray::Array2;
 
 use crate::options::Scalar;
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, in_options};
 use crate::output::at_destination;
 use crate::processes::Processes;
 
@@ -37,7 +36,7 @@ pub fn write_fields<T: Scalar>(
 
 /// Refuses a solution of a solve that has run away.
 pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
-    Ok(asperity_scene::check_finite(solution).map_err(|text| worded(&text, Skin::Options))?)
+    in_options(asperity_scene::check_finite(solution))
 }
 
 /// The gap as files have it: NaN at absent nodes, where there is none.

@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use asperity::contact::Original;
 use asperity::{Control, Grid, Real, Result, Solution};
-use asperity_scene::Boundary;
+use asperity_scene::{Boundary, Load};
 use ndarray::Array2;
 
 use crate::heights::Origin;
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, in_options};
 
 /// The part of a map on its grid.
 #[derive(Clone, Copy)]
@@ -74,15 +74,9 @@ impl Part {
 
     /// Refuses a force, which would be on the images as well.
     pub fn check(&self, control: Control) -> Outcome<()> {
-        match (self.wanted(), control) {
-            (Some(_), Control::Force(_) | Control::Spring { .. }) => Err(format!(
-                "a {} would act on the mirror images of the map as well: give a pressure or a mean gap, or --whole for \
-                 the force on all of them",
-                control.name().replace('-', " ")
-            )
-            .into()),
-            _ => Ok(()),
-        }
+        // a part of a mirrored map is one of a periodic surface
+        let check = |_| in_options(Load::Held(control).check(Boundary::Periodic, true));
+        self.wanted().map_or(Ok(()), check)
     }
 
     /// The solution on the part.

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use asperity::contact::PressureDistribution;
 use asperity::{AdhesionLaw, Solution, Status};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
-use asperity_scene::{Account, Asked};
+use asperity_scene::{Account, Asked, Load};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{Array2, CowArray};
 use serde_json::json;
@@ -18,11 +18,11 @@ use serde_json::json;
 use crate::accuracy::AccuracyOptions;
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::allowed::bins;
-use crate::boundary::{LOAD, LoadOptions, check_load};
+use crate::boundary::{LOAD, LoadOptions};
 use crate::fields::{check_finite, gap_to_write, write_fields};
 use crate::numbers::plain;
 use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, in_options};
 use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
@@ -175,8 +175,8 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     let problem = options.problem();
     options.check_shared(processes)?;
     problem.adhesion.check()?;
-    options.check_branches()?;
-    check_load(problem.surface.beyond.boundary, options.load.control(1.0))?;
+    options.check_asked()?;
+    in_options(options.load.load().check(problem.surface.beyond.boundary, false))?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
         return Err(format!("--colour-limits {} {}: the lower one must come first", plain(low), plain(high)).into());
@@ -203,8 +203,9 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     let si = scene.is_si();
     let given = problem.read(si, processes)?;
     let units = processes.agree(options.units.units(given.origin.unit.as_deref(), si))?;
-    let full = options.surface.full_pressure(&given.surface, options.load.is_reduced())?;
-    let (asked, part) = (options.asked(options.load.control(full)), given.part);
+    let reduced = matches!(options.load.load(), Load::Reduced(_));
+    let full = options.surface.full_pressure(&given.surface, reduced)?;
+    let (asked, part) = (options.asked(full), given.part);
     part.check(asked.control)?;
     let job = Job { options, scene, processes, names, asked, units, part };
     match options.solver.precision {

@@ -40,9 +40,44 @@ impl Boundary {
             _ => return None,
         };
         let comes = self == Self::Free && from < 0.0 && to > from;
-        let peak = surface.heights().fold(f64::NEG_INFINITY, |peak, &height| peak.max(height));
-        let (_, peak) = surface.grid().extremes((0.0, peak));
-        comes.then(|| surface.heights().mapv(|height| peak - height - from))
+        comes.then(|| self.undeformed(surface, from))
+    }
+
+    /// The gap of undeformed bodies at an approach, a mean gap, or the position at rest of a spring.
+    ///
+    /// # Errors
+    /// The reason and the remedy, if a load does not say how far they are, or if they overlap.
+    pub fn apart(self, surface: &Surface, load: Control) -> std::result::Result<Array2<f64>, String> {
+        let at = match load {
+            Control::Approach(at) | Control::MeanGap(at) | Control::Spring { rest: at, .. } => at,
+            _ => {
+                let remedy = if self == Self::Free { "an approach" } else { "a mean gap" };
+                let name = load.name().replace('-', " ");
+                return Err(format!(
+                    "undeformed bodies are to be apart, but a {name} does not say how far: give {remedy} or a spring, or \
+                     a gap to start from"
+                ));
+            }
+        };
+        let gap = self.undeformed(surface, at);
+        let (least, _) = surface.grid().extremes((gap.iter().copied().fold(f64::INFINITY, f64::min), 0.0));
+        match least < 0.0 {
+            true => Err(format!(
+                "undeformed bodies overlap where the {} is {at}: give one at which they are apart",
+                load.name().replace('-', " ")
+            )),
+            false => Ok(gap),
+        }
+    }
+
+    fn undeformed(self, surface: &Surface, at: f64) -> Array2<f64> {
+        let heights = surface.heights();
+        if self == Self::Periodic {
+            let mean = surface.mean();
+            return heights.mapv(|height| at + mean - height);
+        }
+        let (_, peak) = surface.grid().extremes((0.0, heights.fold(f64::NEG_INFINITY, |a, &b| a.max(b))));
+        heights.mapv(|height| peak - height - at)
     }
 }
 

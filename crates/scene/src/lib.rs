@@ -3,12 +3,14 @@
 
 mod account;
 mod accuracy;
+mod asked;
 mod compiled;
 mod course;
 mod entries;
 mod found;
 mod half_space;
 mod law;
+mod load;
 pub mod numbers;
 mod posed;
 pub mod quantity;
@@ -24,12 +26,14 @@ mod words;
 
 pub use account::{Account, Adhesion, Inputs};
 pub use accuracy::Goal;
+pub use asked::Asked;
 pub use course::{Course, Row, Step, Way, is_apart};
 pub use entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
 pub use found::{Found, Sight, check_finite, warnings_of};
 pub use half_space::{Boundary, HalfSpace};
 pub use law::tabulated;
-pub use posed::{AnyProblem, Asked, Observe, Posed};
+pub use load::Load;
+pub use posed::{AnyProblem, Observe, Posed};
 pub use rows::rows;
 pub use sentences::shortfalls;
 pub use settings::{Branches, settings};

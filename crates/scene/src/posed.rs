@@ -10,16 +10,18 @@ use asperity::contact::Original;
 use asperity::nested::NestedSolution;
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, ContactSearch, Control, ElasticOperator, Error, Grid, Iteration, Nested, Problem, Real, Result,
-    Solution, Solver, Start, Status, Surface,
+    AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Iteration, Nested, Problem, Real,
+    Result, Solution, Solver, Start, Status, Surface,
 };
 use ndarray::Array2;
 
 use crate::accuracy::{Goal, planned};
+use crate::asked::Asked;
 use crate::compiled::compiled;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
 use crate::half_space::{Boundary, HalfSpace};
+use crate::load::Load;
 use crate::wall::Wall;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
@@ -47,35 +49,6 @@ pub struct Posed<T: Real> {
     half_space: HalfSpace,
     solver: Solver<Wall>,
     original: Option<Original>,
-}
-
-/// The load of a solve, and the findings that are asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Asked {
-    /// The load; of no meaning where a contact fraction is wanted.
-    pub control: Control,
-    /// The contact fraction for which a load is to be found, if one is.
-    pub fraction: Option<f64>,
-    /// Whether to solve on nested grids; if it is not said, where that is faster from the default start.
-    pub nested: Option<bool>,
-    /// Whether to solve on the other branch of equilibria, too.
-    pub other_branch: bool,
-    /// Whether to test the stability of the solution.
-    pub stability: bool,
-    /// Whether to go on from an unstable solution.
-    pub leave: bool,
-    /// Whether to find the contact stiffness of the solution.
-    pub stiffness: bool,
-    /// The accuracy, if one is asked for.
-    pub goal: Option<Goal>,
-}
-
-impl Asked {
-    /// The solution under a load, without anything beside it.
-    pub fn under(control: Control) -> Self {
-        let (fraction, nested, goal) = (None, None, None);
-        Self { control, fraction, nested, other_branch: false, stability: false, leave: false, stiffness: false, goal }
-    }
 }
 
 compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Wall>, &'a mut AnyProblem<T>)> = Posed::parts_of);
@@ -124,13 +97,33 @@ impl<T: Real> Posed<T> {
         self.half_space.boundary
     }
 
-    /// The pressure of which a reduced pressure is a part, before the first solve.
+    /// The pressure of which a reduced pressure is a part, if one is among `loads`, before the first solve.
     ///
     /// # Errors
-    /// Those of [`HalfSpace::full_pressure`].
-    pub fn full_pressure(&self) -> std::result::Result<f64, String> {
-        let Body::Surface(surface) = &self.body else { return Err(spent().to_string()) };
-        self.half_space.full_pressure(surface)
+    /// Those of [`Load::check`] and [`HalfSpace::full_pressure`], for [`worded`](crate::worded).
+    pub fn full_pressure(&self, loads: &[Load]) -> std::result::Result<f64, String> {
+        loads.iter().try_for_each(|load| load.check(self.boundary(), self.original.is_some()))?;
+        let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
+        if reduced { self.half_space.full_pressure(self.surface()?) } else { Ok(1.0) }
+    }
+
+    /// The gap from which solves under `loads` begin, before the first of them, if it is not the default; see
+    /// [`Boundary::start_afar`]. On the branch of unloading it is.
+    pub fn start_afar(&self, loads: &[Control]) -> Option<Array2<f64>> {
+        let comes = self.solver.settings.branch != Some(Branch::Unloading);
+        self.surface().ok().filter(|_| comes).and_then(|surface| self.boundary().start_afar(surface, loads))
+    }
+
+    /// The gap of undeformed bodies under a load that says how far they are, before the first solve.
+    ///
+    /// # Errors
+    /// Those of [`Boundary::apart`], for [`worded`](crate::worded).
+    pub fn apart(&self, load: Control) -> std::result::Result<Array2<f64>, String> {
+        self.boundary().apart(self.surface()?, load)
+    }
+
+    fn surface(&self) -> std::result::Result<&Surface, String> {
+        if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent().to_string()) }
     }
 
     /// The plan of a solve to an accuracy, and the seconds that it is likely to take.

@@ -9,11 +9,15 @@ pub enum Skin {
     Keywords,
 }
 
+/// The value of a switch.
+const ON: &str = "True";
+
 /// The keywords with other names than their options.
 const KEYWORDS: [(&str, &str); 1] = [("initial_gap", "start")];
 
 /// A text with the names of a skin in the place of the keys in braces: `{mean_gap}` is `--mean-gap` or `mean_gap`,
-/// with a value `{precision=f64}` is `--precision f64` or `precision='f64'`, and of a command `{cycle:mean_gaps}` is
+/// with a value `{precision=f64}` is `--precision f64` or `precision='f64'`, as a switch `{whole=True}` is `--whole` or
+/// `whole=True`, and of a command `{cycle:mean_gaps}` is
 /// `asperity cycle --mean-gaps` or `asperity.cycle(mean_gaps=...)`.
 pub fn worded(text: &str, skin: Skin) -> String {
     // between two braces, every other piece
@@ -28,9 +32,14 @@ fn named(key: &str, skin: Skin) -> String {
     if skin == Skin::Options {
         let words =
             [command.map(|command| format!("asperity {command}")), Some(format!("--{}", key.replace('_', "-")))];
-        return words.into_iter().flatten().chain(value.map(str::to_owned)).collect::<Vec<_>>().join(" ");
+        let value = value.filter(|&value| value != ON).map(str::to_owned);
+        return words.into_iter().flatten().chain(value).collect::<Vec<_>>().join(" ");
     }
     let keyword = KEYWORDS.iter().find(|(option, _)| *option == key).map_or(key, |(_, keyword)| keyword);
-    let keyword = value.map_or(keyword.to_owned(), |value| format!("{keyword}='{value}'"));
+    let keyword = match value {
+        None => keyword.to_owned(),
+        Some(ON) => format!("{keyword}={ON}"),
+        Some(value) => format!("{keyword}='{value}'"),
+    };
     command.map_or(keyword.clone(), |command| format!("asperity.{command}({keyword}=...)"))
 }

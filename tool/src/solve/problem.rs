@@ -1,56 +1,41 @@
 //! The problem of a solve, as its options pose it.
 
-use asperity::{Control, Solver};
+use asperity::Solver;
 use asperity_scene::{Asked, Branches, Inputs, Wall};
 
 use super::Options;
 use crate::adhesion::Law;
-use crate::options::Iteration;
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, in_options};
 use crate::part::Part;
 use crate::report;
 use crate::scene::Scene;
 use crate::units::Units;
 
 impl Options {
-    /// Whether both branches of equilibria are asked for.
-    fn wants_both(&self) -> bool {
-        self.solver.branch == Some(Branches::Both)
-    }
-
-    /// Refuses both branches where there is nothing to be compared.
-    pub fn check_branches(&self) -> Outcome<()> {
-        let reason = match self {
-            _ if !self.wants_both() => return Ok(()),
-            _ if self.adhesion.law == Law::None => "without adhesion there is but one equilibrium",
-            _ if self.load.contact_fraction.is_some() => {
-                "each branch has a load of its own for a contact fraction: give a load"
-            }
-            _ if self.accuracy.accuracy.is_some() => "each branch has an accuracy of its own: give one branch",
-            _ if self.leave => "an equilibrium that is left leads off its branch: give one branch",
-            _ if self.solver.method == Iteration::Rey2017 => "rey2017 has one start: take the default method",
-            _ => return Ok(()),
-        };
-        Err(format!("--branch both: {reason}").into())
-    }
-
     /// The solver that the options choose.
     pub fn solver(&self) -> Solver<Wall> {
         Solver { settings: self.solver.settings(), constraint: self.adhesion.wall }
     }
 
-    /// The solution that the options ask for, under a load.
-    pub fn asked(&self, control: Control) -> Asked {
+    /// The solution that the options ask for, under a load where a reduced pressure of 1 is the `full` pressure.
+    pub fn asked(&self, full: f64) -> Asked {
+        let load = self.load.load();
         Asked {
-            fraction: self.load.contact_fraction,
+            fraction: load.fraction(),
             nested: (self.nested || self.no_nested).then_some(self.nested),
-            other_branch: self.wants_both(),
+            other_branch: self.solver.branch == Some(Branches::Both),
             stability: self.stability || self.leave,
             leave: self.leave,
             stiffness: self.stiffness,
             goal: self.accuracy.goal(),
-            ..Asked::under(control)
+            ..Asked::under(load.control(full))
         }
+    }
+
+    /// Refuses what excludes each other.
+    pub fn check_asked(&self) -> Outcome<()> {
+        let (adhesive, started) = (self.adhesion.law != Law::None, self.solver.initial_gap.is_some());
+        in_options(self.asked(1.0).check(adhesive, self.solver.settings().method, started))
     }
 
     /// The inputs of the report.
