@@ -4,7 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use asperity::{AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
 use clap::{Args, Command, FromArgMatches};
