@@ -1,14 +1,8 @@
-"""The accuracy that is asked for: its plan, and what became of it."""
+"""The plan of an accuracy that is asked for."""
 
 from __future__ import annotations
 
-import logging
 from typing import NamedTuple
-
-from . import _asperity
-from ._control import Load
-
-_log = logging.getLogger("asperity")
 
 
 class Plan(NamedTuple):
@@ -33,30 +27,3 @@ class Plan(NamedTuple):
     shape: tuple[int, int]
     bytes: float
     seconds: float
-
-
-class Goal:
-    """An accuracy of a quantity, for a solve."""
-
-    def __init__(self, accuracy: float, of: str | None, memory: float | None) -> None:
-        self.accuracy, self.of = float(accuracy), of or "area"
-        #: as the compiled core takes it
-        self.given = (self.accuracy, self.of, None if memory is None else float(memory))
-
-    def plan(self, problem: _asperity.Problem, load: Load) -> Plan:
-        """The plan of a solve, which the logger ``asperity`` says before it begins."""
-        plan, text = problem.plan(load, self.given)
-        _log.info(text)
-        return Plan(*plan)
-
-
-def goal(accuracy: float | None, of: str | None, memory: float | None, **choices: bool) -> Goal | None:
-    """The accuracy that is asked for, if one is; refused beside choices that it makes itself."""
-    if accuracy is None:
-        if of is not None or memory is not None:
-            raise ValueError("accuracy_of and memory are of an accuracy: give accuracy, as 0.01 for 1 %")
-        return None
-    made = [name for name, is_made in choices.items() if is_made]
-    if made:
-        raise ValueError(f"an accuracy makes its own start and chooses the grids: leave out {' and '.join(made)}")
-    return Goal(accuracy, of, memory)

@@ -220,28 +220,20 @@ class Problem:
         unit: str | None,
         source: str | None,
     ) -> Problem: ...
-    @property
-    def initial_gap(self) -> str | None: ...
-    @initial_gap.setter
-    def initial_gap(self, word: str) -> None: ...
-    def full_pressure(self) -> float: ...
-    def plan(
-        self, load: tuple[str, list[float]], accuracy: tuple[float, str, float | None]
-    ) -> tuple[tuple[float, float, tuple[int, int], float, float], str]: ...
     def solve(
         self,
         load: tuple[str, list[float]],
-        start: _Field | None,
+        start: str | _Field | None,
         observe: Callable[[Iteration], object] | None,
         stability: bool,
         leave: bool,
         stiffness: bool,
-        accuracy: tuple[float, str, float | None] | None,
+        accuracy: tuple[float | None, str | None, float | None],
     ) -> dict[str, Any]: ...
     def begin(
         self,
         loads: list[tuple[str, list[float]]],
-        start: _Field | None,
+        start: str | _Field | None,
         stiffness: bool,
         path: tuple[int, float, float, bool] | None,
     ) -> list[str]: ...

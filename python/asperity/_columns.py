@@ -28,11 +28,10 @@ class Rows(Iterator[T]):
         stiffness: bool = False,
         path: tuple[int, float, float, bool] | None = None,
     ) -> None:
-        loads = scene.held(loads)
         self.rows: list[dict[str, Any]] = []
         self._scene, self._loads, self._observe, self._ended = scene, loads, observe, False
         #: the names of the columns, as in the tool's table
-        self.names = tuple(scene.problem.begin(loads, scene.start(start, loads), stiffness, path))
+        self.names = tuple(scene.problem.begin(loads, scene.start(start), stiffness, path))
 
     def _solve(self) -> Solution:
         """The next solution, whose row is kept."""

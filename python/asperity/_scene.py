@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _law
-from ._control import Load, number
+from ._control import number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
@@ -64,9 +64,7 @@ class Scene:
             self.topography.unit,
             self.topography.source,
         )
-        self.boundary = boundary
         self._adhesion = law
-        self._unloads = branch == "unloading"
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
             warn(
@@ -75,54 +73,13 @@ class Scene:
                 InputWarning,
             )
 
-    def held(self, loads: list[Load]) -> list[Load]:
-        """Loads with reduced pressures as pressures, over the rms slope of the surface."""
-        if loads[:1] and loads[0][0] != "reduced_pressure":
-            return loads
-        full = self.problem.full_pressure()
-        return [("mean_pressure", [ratio * full]) for _, (ratio,) in loads]
-
-    def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
-        """The gap from which to start under the first of some loads."""
-        if self.original is not None and loads[:1] and loads[0][0] in ("normal_force", "spring"):
-            raise ValueError(
-                f"{loads[0][0]} would act on the mirror images of the map as well: give a pressure or a mean gap, or "
-                "whole=True for the force on all of them"
-            )
-        if start is None:
-            return None if self._unloads else self._afar(loads)
-        if isinstance(start, str):
-            if start != "apart":
-                raise ValueError(f"start is {start!r}: it must be 'apart', an array of gaps, or a solution")
-            self.problem.initial_gap = "apart"
-            return self._apart(*loads[0])
-        self.problem.initial_gap = "array"
+    def start(self, start: Any) -> str | NDArray[np.float64] | None:
+        """The gap from which to start, as the compiled core takes it."""
+        if start is None or isinstance(start, str):
+            return start
         gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
         original = original_of(self.topography)
         return gap if original is None or gap.shape != original.shape else original.mirrored(gap)
-
-    def _afar(self, loads: list[Load]) -> NDArray[np.float64] | None:
-        """The start of bodies that come from afar: under loads that grow from an approach before touch.
-
-        Under a pull the default start of a solve with adhesion would find them sticking.
-        """
-        if len(loads) < 2 or self.boundary != "free" or loads[0][0] not in ("approach", "spring"):
-            return None
-        (name, first), (_, second) = loads[:2]
-        return self._apart(name, first) if first[-1] < min(0.0, second[-1]) else None
-
-    def _apart(self, name: str, numbers: list[float]) -> NDArray[np.float64]:
-        """The gap of undeformed bodies at the approach, the mean gap, or the position at rest of a load."""
-        heights, at, free = self.topography.heights, numbers[-1], self.boundary == "free"
-        if name not in ("approach", "mean_gap", "spring"):
-            remedy = "an approach or a spring" if free else "a mean gap or a spring"
-            raise ValueError(f"start is 'apart', but {name} does not say how far: give {remedy}, or a gap to start from")
-        gap: NDArray[np.float64] = np.nanmax(heights) - heights - at if free else at + np.nanmean(heights) - heights
-        if np.nanmin(gap) < 0:
-            raise ValueError(
-                f"start is 'apart', but undeformed bodies overlap where {name} is {at}: give one at which they are apart"
-            )
-        return gap
 
     def solution(self, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from . import _accuracy, _control
+from . import _control
+from ._accuracy import Plan
 from ._asperity import Iteration
 from ._scene import Scene
 from ._solution import Solution
@@ -189,25 +190,8 @@ def solve(
         reduced_pressure=reduced_pressure,
         contact_fraction=contact_fraction,
     )
-    if accuracy is not None and contact_fraction is not None:
-        raise ValueError("an accuracy is for a load that is given: leave out accuracy, or give a load for contact_fraction")
-    if nested and contact_fraction is not None:
-        raise ValueError("nested grids are for a load that is given: leave out nested, or give a load for contact_fraction")
-    if nested and (start is not None or stability or leave):
-        raise ValueError("nested grids make their own start, and do not test stability: leave out start, stability and leave")
     if branch is not None and start is not None:
         raise ValueError("start chooses the branch: leave out branch, or start")
-    if branch == "both":
-        _check_both(law, method, contact_fraction, accuracy, leave)
-    goal = _accuracy.goal(
-        accuracy,
-        accuracy_of,
-        memory,
-        start=start is not None,
-        nested=nested is not None,
-        stability=stability,
-        leave=leave,
-    )
     scene = Scene(
         heights,
         lengths,
@@ -226,26 +210,7 @@ def solve(
         whole=whole,
         nested=nested,
     )
-    (load,) = scene.held([load])
-    begin = scene.start(start, [load])
-    plan = goal.plan(scene.problem, load) if goal else None
-    given = goal.given if goal else None
-    found = scene.problem.solve(load, begin, observe, stability or leave, leave, stiffness, given)
-    return scene.solution({**found, "plan": plan})
-
-
-def _check_both(
-    law: Any, method: str, contact_fraction: float | None, accuracy: float | None, leave: bool
-) -> None:
-    """Refuses both branches of equilibria where there is nothing to be compared."""
-    reason = None
-    if law is None:
-        reason = "without adhesion there is but one equilibrium"
-    elif leave:
-        reason = "an equilibrium that is left leads off its branch: give one branch"
-    elif method == "rey2017":
-        reason = "rey2017 has one start"
-    elif contact_fraction is not None or accuracy is not None:
-        reason = "each branch has a load or an accuracy of its own: give a load alone"
-    if reason is not None:
-        raise ValueError(f"branch is both: {reason}")
+    goal = (accuracy, accuracy_of, memory)
+    found = scene.problem.solve(load, scene.start(start), observe, stability, leave, stiffness, goal)
+    plan = found["plan"]
+    return scene.solution({**found, "plan": None if plan is None else Plan(*plan)})

@@ -1,12 +1,13 @@
 //! The inputs of a problem by the names of their keywords. The law has a file of its own.
 
-use asperity::Control;
-use asperity_scene::Goal;
+use asperity_scene::{Goal, Load};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::Error;
+
+use crate::numbers::Field;
 
 /// The value of a keyword by its name, which is one of `names`.
 pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
@@ -15,35 +16,45 @@ pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) 
 }
 
 /// A load as Python passes it: the name of the keyword and its numbers.
-pub type Load = (String, Vec<f64>);
+pub type Given = (String, Vec<f64>);
 
-/// The control of a load.
-pub fn control((name, numbers): &Load) -> PyResult<Control> {
-    match (name.as_str(), numbers.as_slice()) {
-        ("mean_gap", &[gap]) => Ok(Control::MeanGap(gap)),
-        ("mean_pressure", &[pressure]) => Ok(Control::MeanPressure(pressure)),
-        ("normal_force", &[force]) => Ok(Control::Force(force)),
-        ("approach", &[approach]) => Ok(Control::Approach(approach)),
-        ("spring", &[stiffness, rest]) => Ok(Control::Spring { stiffness, rest }),
-        // of no meaning before it is found
-        ("contact_fraction", &[_]) => Ok(Control::MeanPressure(0.0)),
-        (name, numbers) => Err(PyValueError::new_err(format!("{name} is no load with {} numbers", numbers.len()))),
+/// The load of a keyword.
+pub fn load((name, numbers): &Given) -> PyResult<Load> {
+    let refused = || PyValueError::new_err(format!("{name} is no load with {} numbers", numbers.len()));
+    Load::of(name, numbers).ok_or_else(refused)
+}
+
+/// The gap from which to start as Python passes it: a word for it, or an array.
+#[derive(FromPyObject)]
+pub enum Begin<'py> {
+    Word(String),
+    Gap(Field<'py>),
+}
+
+impl Begin<'_> {
+    /// The word of reports.
+    pub fn word(&self) -> &'static str {
+        if let Self::Word(_) = self { "apart" } else { "array" }
     }
 }
 
-/// The contact fraction of a load, if its load is to be found.
-pub fn contact_fraction((name, numbers): &Load) -> Option<f64> {
-    if let ("contact_fraction", &[fraction]) = (name.as_str(), numbers.as_slice()) { Some(fraction) } else { None }
-}
-
 /// An accuracy as Python passes it: the relative error, the name of the quantity, and the memory in GiB.
-pub type Accuracy = (f64, String, Option<f64>);
+pub type Accuracy = (Option<f64>, Option<String>, Option<f64>);
 
-/// The accuracy that is asked for.
-pub fn goal((accuracy, of, memory): Accuracy) -> PyResult<Goal> {
-    let of = named("accuracy_of", &of, "one of area, gap, pressure, stiffness")?;
+/// The accuracy, if one is asked for.
+pub fn goal((accuracy, of, memory): Accuracy) -> PyResult<Option<Goal>> {
+    let Some(accuracy) = accuracy else {
+        return match (of, memory) {
+            (None, None) => Ok(None),
+            _ => {
+                Err(PyValueError::new_err("accuracy_of and memory are of an accuracy: give accuracy, as 0.01 for 1 %"))
+            }
+        };
+    };
+    let of = of.as_deref().unwrap_or("area");
+    let of = named("accuracy_of", of, "one of area, gap, pressure, stiffness")?;
     match memory.filter(|&memory| memory <= 0.0 || memory.is_nan()) {
-        None => Ok(Goal { accuracy, of, memory }),
+        None => Ok(Some(Goal { accuracy, of, memory })),
         Some(memory) => Err(PyValueError::new_err(format!("memory is {memory}: it must be positive, in GiB"))),
     }
 }

@@ -4,20 +4,17 @@ use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
-use asperity_scene::{Asked, Branches, Inputs, Wall, Way, settings};
+use asperity_scene::{Asked, Branches, Inputs, Load, Wall, Way, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_pyobject::from_pyobject;
 
-use crate::inputs::{Accuracy, Load, contact_fraction, control, goal, named};
+use crate::inputs::{Accuracy, Begin, Given, goal, load, named};
 use crate::numbers::Field;
 use crate::pools::Pool;
-use crate::refusal::refusal_of_heights;
+use crate::refusal::{reason, refusal_of_heights};
 use crate::state::{Run, Solves, state};
-
-/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan, and the plan in words.
-type Planned = ((f64, f64, (usize, usize), f64, f64), String);
 
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
@@ -36,10 +33,15 @@ impl Problem {
         Ok((pool, &self.inputs, self.solves.get_mut().unwrap_or_else(PoisonError::into_inner).as_mut()))
     }
 
-    /// The solution that a load asks for.
-    fn asked(&self, load: &Load) -> PyResult<Asked> {
-        let (nested, other_branch) = (self.nested, self.other_branch);
-        Ok(Asked { fraction: contact_fraction(load), nested, other_branch, ..Asked::under(control(load)?) })
+    /// The pressure of which a reduced pressure is a part, if one is among loads that the problem has.
+    fn full_pressure(&mut self, py: Python<'_>, loads: &[Load]) -> PyResult<f64> {
+        let (pool, _, solves) = self.parts()?;
+        py.detach(move || pool.get().install(move || solves.full_pressure(loads))).map_err(reason)
+    }
+
+    /// Notes the gap from which solves start for their reports.
+    fn begins(&mut self, start: Option<&Begin<'_>>) {
+        self.inputs.initial_gap = start.map(Begin::word).map(str::to_owned);
     }
 }
 
@@ -117,44 +119,37 @@ impl Problem {
         Ok(Self { solves: Mutex::new(solves), threads, nested, other_branch, inputs })
     }
 
-    /// The word of reports for the gap from which solves start.
-    #[setter]
-    fn set_initial_gap(&mut self, word: String) {
-        self.inputs.initial_gap = Some(word);
-    }
-
-    /// The pressure of which a reduced pressure is a part.
-    fn full_pressure(&mut self, py: Python<'_>) -> PyResult<f64> {
-        let (pool, _, solves) = self.parts()?;
-        py.detach(move || pool.get().install(move || solves.full_pressure())).map_err(PyValueError::new_err)
-    }
-
-    /// The plan of a solve to an accuracy.
-    #[pyo3(signature = (load, accuracy))]
-    fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Accuracy) -> PyResult<Planned> {
-        let (pool, _, solves) = self.parts()?;
-        let goal = goal(accuracy)?;
-        let (plan, seconds) = solves.plan(py, &pool, control(&load)?, goal)?;
-        let text = goal.announced(&plan, seconds);
-        Ok(((plan.nodes_per_wave, plan.tolerance, plan.shape, plan.bytes, seconds), text))
-    }
-
     /// The equilibrium at a load.
     #[pyo3(signature = (load, start, observe, stability, leave, stiffness, accuracy))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn solve<'py>(
         &mut self,
         py: Python<'py>,
-        load: Load,
-        start: Option<Field<'py>>,
+        load: Given,
+        start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
         stability: bool,
         leave: bool,
         stiffness: bool,
-        accuracy: Option<Accuracy>,
+        accuracy: Accuracy,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let goal = accuracy.map(goal).transpose()?;
-        let asked = Asked { stability, leave, stiffness, goal, ..self.asked(&load)? };
+        let (load, goal) = (self::load(&load)?, goal(accuracy)?);
+        let (fraction, stability, nested, other_branch) =
+            (load.fraction(), stability || leave, self.nested, self.other_branch);
+        let asked = Asked {
+            fraction,
+            nested,
+            other_branch,
+            stability,
+            leave,
+            stiffness,
+            goal,
+            ..Asked::under(load.control(1.0))
+        };
+        let adhesive = self.inputs.adhesion.law != "none";
+        asked.check(adhesive, self.inputs.method, start.is_some()).map_err(reason)?;
+        let asked = Asked { control: load.control(self.full_pressure(py, &[load])?), ..asked };
+        self.begins(start.as_ref());
         let (pool, inputs, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
     }
@@ -164,13 +159,16 @@ impl Problem {
     #[pyo3(signature = (loads, start, stiffness, path))]
     fn begin(
         &mut self,
-        loads: Vec<Load>,
-        start: Option<Field<'_>>,
+        py: Python<'_>,
+        loads: Vec<Given>,
+        start: Option<Begin<'_>>,
         stiffness: bool,
         path: Option<(usize, f64, f64, bool)>,
     ) -> PyResult<Vec<&'static str>> {
-        let controls = loads.iter().map(control).collect::<PyResult<_>>()?;
-        let fractions: Vec<_> = loads.iter().filter_map(contact_fraction).collect();
+        let loads = loads.iter().map(load).collect::<PyResult<Vec<_>>>()?;
+        let full = self.full_pressure(py, &loads)?;
+        let controls = loads.iter().map(|load| load.control(full)).collect();
+        let fractions: Vec<_> = loads.iter().copied().filter_map(Load::fraction).collect();
         let way = match path {
             Some((steps, smallest_step, imbalance, smooth)) => {
                 let settings = PathSettings::default().steps(steps).smallest_step(smallest_step);
@@ -179,7 +177,8 @@ impl Problem {
             None if fractions.is_empty() => Way::Sweep(controls),
             None => Way::Search(fractions),
         };
-        Ok(self.solves.get_mut().unwrap_or_else(PoisonError::into_inner).begin(way, stiffness, start))
+        self.begins(start.as_ref());
+        self.parts()?.2.begin(way, stiffness, start)
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.
@@ -194,11 +193,13 @@ impl Problem {
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
-        load: Load,
+        load: Given,
         gap: Field<'py>,
         relative_error: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let load = self::load(&load)?;
+        let control = load.control(self.full_pressure(py, &[load])?);
         let (pool, _, solves) = self.parts()?;
-        solves.stability(py, &pool, control(&load)?, (gap, relative_error))
+        solves.stability(py, &pool, control, (gap, relative_error))
     }
 }

@@ -1,6 +1,7 @@
 //! The refusal of input: errors of the library as exceptions of Python.
 
 use asperity::Error;
+use asperity_scene::{Skin, worded};
 use pyo3::PyErr;
 use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyValueError};
 
@@ -26,6 +27,11 @@ pub fn refusal_of_works(error: Error) -> PyErr {
         )),
         error => refusal(error),
     }
+}
+
+/// The exception of a reason with the names of keys in braces.
+pub fn reason(text: String) -> PyErr {
+    PyValueError::new_err(worded(&text, Skin::Keywords))
 }
 
 fn refused(error: Error, also: &str) -> PyErr {

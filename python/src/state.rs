@@ -1,21 +1,24 @@
 //! The state of a contact problem, with all that a sequence of solves carries on.
 
-use asperity::accuracy::Plan;
 use asperity::contact::Original;
 use asperity::{Control, Settings, Solver, Status, Surface};
 use asperity_scene::units::Units;
-use asperity_scene::{Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Posed, Told, Way, warnings_of_input};
+use asperity_scene::{
+    Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Load, Posed, Told, Way, warnings_of_input,
+};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_pyobject::to_pyobject;
 
 use crate::answer::{Scalar, answer};
+use crate::inputs::Begin;
 use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
-use crate::refusal::refusal;
+use crate::refusal::{reason, refusal};
 use crate::running::{Observe, run};
 
 /// A problem in one precision, with all that a sequence of solves carries on.
@@ -29,19 +32,15 @@ struct State<T: Scalar> {
     course: Option<Course<T>>,
 }
 
-/// The gap from which a solve starts, if one is given.
-pub type Begin<'py> = Option<Field<'py>>;
-
 /// The dictionary of what a solve found.
 type Answered<'py> = PyResult<Bound<'py, PyDict>>;
 
 /// What a problem does in either precision.
 pub trait Solves: Send {
-    fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py>;
-    fn begin(&mut self, way: Way, stiffness: bool, start: Begin<'_>) -> Vec<&'static str>;
+    fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Option<Begin<'py>>) -> Answered<'py>;
+    fn begin(&mut self, way: Way, stiffness: bool, start: Option<Begin<'_>>) -> PyResult<Vec<&'static str>>;
     fn next<'py>(&mut self, py: Python<'py>, run: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>>;
-    fn full_pressure(&self) -> Result<f64, String>;
-    fn plan(&mut self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)>;
+    fn full_pressure(&self, loads: &[Load]) -> Result<f64, String>;
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -58,6 +57,9 @@ pub struct Run<'a> {
     pub observer: Option<&'a Py<PyAny>>,
     pub inputs: &'a Inputs,
 }
+
+/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan.
+type Planned = (f64, f64, (usize, usize), f64, f64);
 
 /// A gap from numpy in the precision of a solve.
 fn field<T: Scalar>(gap: Field<'_>) -> Array2<T> {
@@ -77,21 +79,51 @@ impl<T: Scalar> State<T> {
         let account = found.account(command, inputs, self.strongest, warnings)?;
         Ok((found, account))
     }
+
+    /// The gap from which solves under loads start, if it is not the default.
+    fn start(&self, given: Option<Begin<'_>>, loads: &[Control]) -> PyResult<Option<Array2<T>>> {
+        let gap = match (given, loads) {
+            (Some(Begin::Gap(gap)), _) => return Ok(Some(field(gap))),
+            (Some(Begin::Word(word)), &[load, ..]) if word == "apart" => Some(self.posed.apart(load).map_err(reason)?),
+            (Some(Begin::Word(word)), _) => {
+                let remedy = "it must be 'apart', with a load that is given, an array of gaps, or a solution";
+                return Err(PyValueError::new_err(format!("start is '{word}': {remedy}")));
+            }
+            (None, loads) => self.posed.start_afar(loads),
+        };
+        Ok(gap.map(|gap| gap.mapv_into_any(T::lit)))
+    }
+
+    /// The plan of a solve to an accuracy, which the logger `asperity` says.
+    fn plan(&mut self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<Planned> {
+        let posed = &mut self.posed;
+        let (plan, seconds) = py.detach(|| pool.get().install(move || posed.plan(control, goal))).map_err(refusal)?;
+        let log = py.import("logging")?.call_method1("getLogger", ("asperity",))?;
+        log.call_method1("info", (goal.announced(&plan, seconds),))?;
+        Ok((plan.nodes_per_wave, plan.tolerance, plan.shape, plan.bytes, seconds))
+    }
 }
 
 impl<T: Scalar> Solves for State<T> {
-    fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py> {
-        let start = start.map(field::<T>);
+    fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, asked: Asked, start: Option<Begin<'py>>) -> Answered<'py> {
+        let start = self.start(start, &[asked.control])?;
+        let plan = asked.goal.map(|goal| self.plan(py, at.pool, asked.control, goal)).transpose()?;
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let found = self.posed.solve(&asked, start, &mut |_, state, _| observe(state))?;
             self.account("solve", at.inputs, found)
         })?;
-        answer(py, self.threads, found)
+        let found = answer(py, self.threads, found)?;
+        found.set_item("plan", plan)?;
+        Ok(found)
     }
 
-    fn begin(&mut self, way: Way, stiffness: bool, start: Begin<'_>) -> Vec<&'static str> {
-        let course = Course::new(way, stiffness).starting_from(start.map(field::<T>));
-        self.course.insert(course).columns()
+    fn begin(&mut self, way: Way, stiffness: bool, start: Option<Begin<'_>>) -> PyResult<Vec<&'static str>> {
+        let start = match &way {
+            Way::Sweep(loads) | Way::Cycle(loads, _) => self.start(start, loads)?,
+            Way::Search(_) => self.start(start, &[])?,
+        };
+        let course = Course::new(way, stiffness).starting_from(start);
+        Ok(self.course.insert(course).columns())
     }
 
     fn next<'py>(&mut self, py: Python<'py>, at: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>> {
@@ -116,13 +148,8 @@ impl<T: Scalar> Solves for State<T> {
         Ok(Some(found))
     }
 
-    fn full_pressure(&self) -> Result<f64, String> {
-        self.posed.full_pressure()
-    }
-
-    fn plan(&mut self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)> {
-        let posed = &mut self.posed;
-        py.detach(|| pool.get().install(move || posed.plan(control, goal))).map_err(refusal)
+    fn full_pressure(&self, loads: &[Load]) -> Result<f64, String> {
+        self.posed.full_pressure(loads)
     }
 
     fn stability<'py>(
