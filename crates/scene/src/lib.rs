@@ -32,7 +32,7 @@ pub use half_space::{Boundary, HalfSpace};
 pub use law::tabulated;
 pub use posed::{AnyProblem, Asked, Observe, Posed};
 pub use rows::rows;
-pub use sentences::shortfalls;
+pub use sentences::{check_part, shortfalls};
 pub use settings::{Branches, settings};
 pub use told::Told;
 pub use wall::Wall;
