@@ -64,7 +64,7 @@ impl Load {
                 let name = control.name().replace('-', " ");
                 return Err(format!(
                     "a {name} would act on the mirror images of the map as well: give a pressure or a mean gap, or \
-                     {{whole=True}} for the force on all of them"
+                     {{whole=}} for the force on all of them"
                 ));
             }
             _ => return Ok(()),

@@ -208,21 +208,22 @@ fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_s
             assert!(told[0].1.contains(&worded(remedy, skin)), "{told:?}");
         }
     }
-    let text = "raise {tolerance}, give {initial_gap}, use {precision=f64}, or {cycle:mean_gaps}";
-    let options = "raise --tolerance, give --initial-gap, use --precision f64, or asperity cycle --mean-gaps";
+    let text = "raise {tolerance}, give {initial_gap}, use {precision=f64} or {whole=}, or {cycle:mean_gaps}";
+    let options =
+        "raise --tolerance, give --initial-gap, use --precision f64 or --whole, or asperity cycle --mean-gaps";
     assert_eq!(worded(text, Skin::Options), options);
-    let keywords = "raise tolerance, give start, use precision='f64', or asperity.cycle(mean_gaps=...)";
+    let keywords = "raise tolerance, give start, use precision='f64' or whole=True, or asperity.cycle(mean_gaps=...)";
     assert_eq!(worded(text, Skin::Keywords), keywords);
 }
 
 #[test]
 fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_they_say_nothing() {
     let (_, account) = solved(&Asked::under(Control::MeanPressure(0.01)));
-    let summary = |solves: &[&Account], units| rows(solves, units, Skin::Options);
+    let summary = |solves: &[&Account], unit| rows(solves, &Units::of_map(unit), Skin::Options);
     let text = |rows: &[(String, Vec<String>)], name: &str| {
         rows.iter().find(|(row, _)| row == name).map(|(_, texts)| texts.join(", "))
     };
-    let (bare, metres) = (summary(&[&account], &Units::default()), summary(&[&account], &Units::of_map(Some("m"))));
+    let (bare, metres) = (summary(&[&account], None), summary(&[&account], Some("m")));
     assert_eq!(
         (text(&bare, "mean pressure"), text(&bare, "side lengths")),
         (Some("0.01".into()), Some("1 x 1".into()))
@@ -231,6 +232,6 @@ fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_the
     assert!(text(&metres, "mean gap").unwrap().ends_with(" mm") && text(&metres, "branch").is_some());
     assert_eq!((text(&bare, "wanted"), text(&bare, "stability"), text(&bare, "approach")), (None, None, None));
     let (_, searched) = solved(&Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) });
-    let both = summary(&[&account, &searched], &Units::default());
+    let both = summary(&[&account, &searched], None);
     assert!(text(&both, "wanted").unwrap().starts_with(", 20.0 %, after "), "{both:?}");
 }
