@@ -124,6 +124,8 @@ pub use grid::Grid;
 pub use nested::Nested;
 pub use problem::{Control, Problem};
 pub use real::Real;
+#[doc(hidden)]
+pub use real::Compiled;
 #[doc(inline)]
 pub use search::ContactSearch;
 pub use solver::{Branch, Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
