@@ -23,7 +23,7 @@ use crate::processes::Processes;
 use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
 use crate::scene::Scene;
 use crate::table::{self, Table, TableOptions};
-use crate::units::{UnitOptions, Units};
+use crate::units::{UnitOptions, Units, header};
 use crate::warnings::Strictness;
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
@@ -136,7 +136,7 @@ impl Options {
             .smooth(!self.sharp);
         let course = Course::new(Way::Cycle(loads.clone(), settings), false);
         let names = course.columns();
-        let header = units.header(&names, self.loads.control(0.0).name(), grid.is_line());
+        let header = header(&units, &names, self.loads.control(0.0).name(), grid.is_line());
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part, surface) = (self.problem(), &part, Arc::new(surface));

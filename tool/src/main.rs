@@ -41,7 +41,6 @@ mod interruption;
 mod journal;
 mod kept;
 mod loads;
-mod numbers;
 mod options;
 mod outcome;
 mod output;
@@ -50,7 +49,6 @@ mod pictures;
 mod printing;
 mod processes;
 mod progress;
-mod quantity;
 mod report;
 mod scene;
 mod summary;
@@ -65,6 +63,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
+use asperity_scene::{numbers, quantity};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 

@@ -21,7 +21,7 @@ use crate::processes::Processes;
 use crate::scene::Scene;
 use crate::summary::jump;
 use crate::table::{self, Table, TableOptions};
-use crate::units::UnitOptions;
+use crate::units::{UnitOptions, header};
 use crate::warnings::Strictness;
 
 /// Solve a contact problem under many loads, one after the other.
@@ -130,7 +130,7 @@ impl Options {
         let course = Course::new(way, self.stiffness);
         let names = course.columns();
         let header = match format {
-            Format::Csv => units.header(&names, control, grid.is_line()),
+            Format::Csv => header(&units, &names, control, grid.is_line()),
             Format::Jsonl => String::new(),
         };
         let &Self { ref out, force, printing, strictness, .. } = self;

@@ -8,10 +8,13 @@ mod entries;
 mod found;
 mod half_space;
 mod law;
+pub mod numbers;
 mod posed;
+pub mod quantity;
 mod record;
 mod settings;
 mod told;
+pub mod units;
 mod wall;
 
 pub use account::{Account, Adhesion, Inputs};

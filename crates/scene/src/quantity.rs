@@ -5,7 +5,9 @@ use std::fmt;
 /// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
+    /// The number.
     pub value: f64,
+    /// Whether it had a unit, and is in the SI.
     pub has_unit: bool,
     /// Whether it is a share or a ratio, which needs none.
     is_number: bool,
@@ -36,7 +38,9 @@ pub struct Dimension {
     what: &'static str,
     /// The unit of the SI.
     pub si: &'static str,
+    /// The power of force.
     pub force: i32,
+    /// The power of length.
     pub length: i32,
 }
 
@@ -44,25 +48,37 @@ const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32
     Dimension { what, si, force, length }
 }
 
+/// A length.
 pub const LENGTH: Dimension = dimension("length, as 20um", "m", 0, 1);
+/// A wave number.
 pub const PER_LENGTH: Dimension = dimension("wave number, as 2/um", "1/m", 0, -1);
+/// A pressure.
 pub const PRESSURE: Dimension = dimension("pressure, as 70GPa", "Pa", 1, -2);
+/// A density over the pressure.
 pub const PER_PRESSURE: Dimension = dimension("density over the pressure, as 2/GPa", "1/Pa", -1, 2);
+/// A pressure per length.
 pub const PRESSURE_PER_LENGTH: Dimension = dimension("pressure per length, as 1GPa/um", "Pa/m", 1, -3);
+/// A force.
 pub const FORCE: Dimension = dimension("force, as 5nN", "N", 1, 0);
+/// A force per length.
 pub const FORCE_PER_LENGTH: Dimension = dimension("force per length, as 40N/m", "N/m", 1, -1);
+/// An energy.
 pub const ENERGY: Dimension = dimension("energy, as 60zJ", "J", 1, 1);
+/// An energy per area.
 pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, as 50mJ/m2", "J/m²", 1, -1);
 
 impl Dimension {
+    /// The parser of quantities that are positive.
     pub fn positive(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
         self.parser(|value| value > 0.0 && value.is_finite(), "positive and finite")
     }
 
+    /// The parser of quantities that are positive or zero.
     pub fn non_negative(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
         self.parser(|value| value >= 0.0 && value.is_finite(), "zero or positive and finite")
     }
 
+    /// The parser of quantities that are finite.
     pub fn finite(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
         self.parser(f64::is_finite, "and finite")
     }
@@ -210,78 +226,4 @@ fn powers(factor: &str) -> (&str, i32) {
         }
     }
     (factor, 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_quantity_has_the_bits_of_the_number_in_si_units() {
-        for (dimension, text, value) in [
-            (LENGTH, "20um", 20e-6),
-            (LENGTH, "2.7 nm", 2.7e-9),
-            (LENGTH, "-0.3nm", -0.3e-9),
-            (LENGTH, "3.3Å", 3.3e-10),
-            (LENGTH, "1e3µm", 1e-3),
-            (LENGTH, "7\u{3bc}m", 7e-6),
-            (LENGTH, "5m", 5.0),
-            (LENGTH, "5mm", 5e-3),
-            (LENGTH, "1.25cm", 1.25e-2),
-            (PRESSURE, "70GPa", 70e9),
-            (PRESSURE, "2.5MPa", 2.5e6),
-            (PRESSURE, "1E5Pa", 1e5),
-            (PRESSURE, "3mPa", 3e-3),
-            (PRESSURE, "4 N/mm2", 4e6),
-            (FORCE, "5nN", 5e-9),
-            (FORCE, "2MPa µm^2", 2e-6),
-            (FORCE_PER_LENGTH, "40N/m", 40.0),
-            (ENERGY_PER_AREA, "50mJ/m2", 50e-3),
-            (ENERGY_PER_AREA, "50mJ/m²", 50e-3),
-            (ENERGY_PER_AREA, "72mN/m", 72e-3),
-            (ENERGY, "60zJ", 60e-21),
-            (ENERGY, "2eV", 2e-19 * 1.602176634),
-            (PRESSURE_PER_LENGTH, "1GPa/um", 1e15),
-            (LENGTH, "0.1", 0.1),
-        ] {
-            let has_unit = text != "0.1";
-            assert_eq!(dimension.parse(text), Some(Quantity { value, has_unit, is_number: false }), "{text}");
-        }
-        assert_eq!(["nm", "m", "Pa", "px", ""].map(power_of_length), [Some(-9), Some(0), None, None, None]);
-        assert_eq!((times_ten_to(-9, 2.7), times_ten_to(9, 4e-6)), (2.7e-9, 4000.0));
-    }
-
-    #[test]
-    fn units_of_other_dimensions_and_nonsense_are_refused() {
-        let pressure = PRESSURE.positive();
-        for text in ["70", "70GPa"] {
-            assert!(pressure(text).is_ok(), "{text}");
-        }
-        for text in [
-            "70um",
-            "70N",
-            "GPa",
-            "70gpa",
-            "70 G",
-            "-1GPa",
-            "0Pa",
-            "infPa",
-            "1e400Pa",
-            "1Pa/",
-            "1/Pa",
-            "1e99999999999Pa",
-        ] {
-            let error = pressure(text).unwrap_err();
-            assert!(error.contains("positive and finite") && error.contains("as 70GPa"), "{text}: {error}");
-        }
-        for (text, mistake) in
-            [("70gpa", "gpa is no unit"), ("70um", "um is a unit of something else"), ("-1GPa", "it must")]
-        {
-            let error = pressure(text).unwrap_err();
-            assert!(error.starts_with(mistake), "{text}: {error}");
-        }
-        assert!(LENGTH.non_negative()("0nm").is_ok() && LENGTH.finite()("-6nm").is_ok());
-        // zero says nothing of units
-        assert!(!LENGTH.finite()("0").unwrap().is_bare() && LENGTH.finite()("1").unwrap().is_bare());
-    }
 }

@@ -1,0 +1,97 @@
+//! Quantities have the bits of their numbers in the SI, and figures their units.
+
+use asperity_scene::quantity::{
+    ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH,
+    power_of_length, times_ten_to,
+};
+use asperity_scene::units::Units;
+
+#[test]
+fn a_quantity_has_the_bits_of_the_number_in_si_units() {
+    for (dimension, text, value) in [
+        (LENGTH, "20um", 20e-6),
+        (LENGTH, "2.7 nm", 2.7e-9),
+        (LENGTH, "-0.3nm", -0.3e-9),
+        (LENGTH, "3.3Å", 3.3e-10),
+        (LENGTH, "1e3µm", 1e-3),
+        (LENGTH, "7\u{3bc}m", 7e-6),
+        (LENGTH, "5m", 5.0),
+        (LENGTH, "5mm", 5e-3),
+        (LENGTH, "1.25cm", 1.25e-2),
+        (PRESSURE, "70GPa", 70e9),
+        (PRESSURE, "2.5MPa", 2.5e6),
+        (PRESSURE, "1E5Pa", 1e5),
+        (PRESSURE, "3mPa", 3e-3),
+        (PRESSURE, "4 N/mm2", 4e6),
+        (FORCE, "5nN", 5e-9),
+        (FORCE, "2MPa µm^2", 2e-6),
+        (FORCE_PER_LENGTH, "40N/m", 40.0),
+        (ENERGY_PER_AREA, "50mJ/m2", 50e-3),
+        (ENERGY_PER_AREA, "50mJ/m²", 50e-3),
+        (ENERGY_PER_AREA, "72mN/m", 72e-3),
+        (ENERGY, "60zJ", 60e-21),
+        (ENERGY, "2eV", 2e-19 * 1.602176634),
+        (PRESSURE_PER_LENGTH, "1GPa/um", 1e15),
+        (LENGTH, "0.1", 0.1),
+    ] {
+        let found = dimension.finite()(text).unwrap();
+        assert_eq!((found.value, found.has_unit), (value, text != "0.1"), "{text}");
+    }
+    assert_eq!(["nm", "m", "Pa", "px", ""].map(power_of_length), [Some(-9), Some(0), None, None, None]);
+    assert_eq!((times_ten_to(-9, 2.7), times_ten_to(9, 4e-6)), (2.7e-9, 4000.0));
+}
+
+#[test]
+fn units_of_other_dimensions_and_nonsense_are_refused() {
+    let pressure = PRESSURE.positive();
+    for text in ["70", "70GPa"] {
+        assert!(pressure(text).is_ok(), "{text}");
+    }
+    for text in
+        ["70um", "70N", "GPa", "70gpa", "70 G", "-1GPa", "0Pa", "infPa", "1e400Pa", "1Pa/", "1/Pa", "1e99999999999Pa"]
+    {
+        let error = pressure(text).unwrap_err();
+        assert!(error.contains("positive and finite") && error.contains("as 70GPa"), "{text}: {error}");
+    }
+    for (text, mistake) in
+        [("70gpa", "gpa is no unit"), ("70um", "um is a unit of something else"), ("-1GPa", "it must")]
+    {
+        let error = pressure(text).unwrap_err();
+        assert!(error.starts_with(mistake), "{text}: {error}");
+    }
+    assert!(LENGTH.non_negative()("0nm").is_ok() && LENGTH.finite()("-6nm").is_ok());
+    // zero says nothing of units
+    assert!(!LENGTH.finite()("0").unwrap().is_bare() && LENGTH.finite()("1").unwrap().is_bare());
+}
+
+fn units(length: &str, pressure: &str) -> Units {
+    Units { length: Some(length.to_owned()), pressure: Some(pressure.to_owned()), force: None }
+}
+
+#[test]
+fn units_of_a_dimension_follow_from_length_and_pressure() {
+    let dimensions = [LENGTH, PRESSURE, FORCE, ENERGY_PER_AREA, PRESSURE_PER_LENGTH, PER_LENGTH, PER_PRESSURE];
+    let names = |units: Units| dimensions.map(|dimension| units.of(dimension).unwrap_or_default());
+    assert_eq!(names(Units::si()), ["m", "Pa", "N", "J/m²", "Pa/m", "1/m", "1/Pa"]);
+    assert_eq!(names(units("um", "MPa")), ["um", "MPa", "MPa·um²", "MPa·um", "MPa/um", "1/um", "1/MPa"]);
+    assert_eq!(names(Units::of_map(Some("m"))), ["m", "", "", "", "", "1/m", ""]);
+    assert_eq!(names(Units::default()), [""; 7]);
+}
+
+#[test]
+fn numbers_and_headers_have_their_units() {
+    assert_eq!(Units::si().number(6.273889e-10, LENGTH), "627.4 pm");
+    assert_eq!(Units::si().number(-1e-25, LENGTH), "0 m");
+    assert_eq!(Units::si().number(9.999e14, PRESSURE_PER_LENGTH), "999.9 TPa/m");
+    assert_eq!(Units::si().number(9.9999e14, PRESSURE_PER_LENGTH), "1e15 Pa/m");
+    assert_eq!(Units::si().number(2.6170857e17, PRESSURE_PER_LENGTH), "2.617e17 Pa/m");
+    assert_eq!(Units::si().number(0.05, ENERGY_PER_AREA), "50 mJ/m²");
+    assert_eq!(units("um", "MPa").number(0.5, PRESSURE), "0.5 MPa");
+    assert_eq!(Units::default().number(0.5, PRESSURE), "0.5");
+    let names = ["control_value", "mean_gap", "elastic_energy", "perimeter", "status"];
+    assert_eq!(
+        Units::si().columns(&names, "normal-force", false),
+        ["control_value [N]", "mean_gap [m]", "elastic_energy [J/m2]", "perimeter [m]", "status"]
+    );
+    assert_eq!(Units::of_map(Some("m")).columns(&names, "spring", false), names);
+}
