@@ -123,9 +123,9 @@ pub use grid::Grid;
 #[doc(inline)]
 pub use nested::Nested;
 pub use problem::{Control, Problem};
-pub use real::Real;
 #[doc(hidden)]
 pub use real::Compiled;
+pub use real::Real;
 #[doc(inline)]
 pub use search::ContactSearch;
 pub use solver::{Branch, Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};

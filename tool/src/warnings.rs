@@ -85,7 +85,7 @@ impl Warnings {
         options: ProblemOptions<'_>,
         units: &Units,
     ) -> Outcome<Self> {
-        let law = adhesion.law::<T>()?;
+        let law = adhesion.law::<T>();
         let mut warnings = Self::empty(strictness, units);
         let mut found = options.surface.beyond.boundary.warnings(surface);
         let codes = codes_in_file(surface, origin);

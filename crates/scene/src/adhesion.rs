@@ -6,14 +6,14 @@ use ndarray::ArrayView2;
 use serde::Serialize;
 
 use crate::formula::Formula;
-use crate::laws::{LAWS, Law, PARAMETERS, Parameter, Values, WORK};
+use crate::laws::{Law, PARAMETERS, Parameter, Values, WORK};
 use crate::numbers::plain;
 use crate::wall::Wall;
 
 /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Adhesion {
-    /// The name of the law, one of [`LAWS`] or the class of one's own.
+    /// The name of the law, one of [`LAWS`](crate::LAWS) or the class of one's own.
     pub law: String,
     /// The work of adhesion, if it is a parameter.
     pub work_of_adhesion: Option<f64>,
@@ -66,7 +66,7 @@ impl Adhesion {
         let Some(law) = self.law() else { return Ok(()) };
         let (name, mapped) = (law.name, self.work_of_adhesion_map.is_some());
         let chosen = format!("{} {name}", named("law"));
-        if name == LAWS[0].name {
+        if law.needs.is_empty() {
             let mut keys = PARAMETERS.iter().map(|parameter| parameter.key).chain(["cut_off", "work_of_adhesion_map"]);
             if let Some((key, value)) = keys.find_map(|key| Some((key, self.given(key)?))) {
                 let law = named("law");
@@ -133,7 +133,10 @@ impl Adhesion {
             has_wall: self.wall != Wall::None,
         };
         let law = self.law().map_or(Ok(Formula::None), |law| (law.make)(&values))?;
-        self.cut_off.map_or(Ok(law.clone()), |distance| law.cut_off(distance))
+        match self.cut_off {
+            Some(distance) => law.cut_off(distance),
+            None => Ok(law),
+        }
     }
 
     /// The law with works of adhesion at the nodes of a grid, of which this process gives its rows.

@@ -3,11 +3,13 @@
 
 mod account;
 mod accuracy;
+mod adhesion;
 mod course;
 mod entries;
+mod formula;
 mod found;
 mod half_space;
-mod law;
+mod laws;
 pub mod numbers;
 mod posed;
 pub mod quantity;
@@ -17,13 +19,15 @@ mod told;
 pub mod units;
 mod wall;
 
-pub use account::{Account, Adhesion, Inputs};
+pub use account::{Account, Inputs};
 pub use accuracy::{GIB, Goal};
+pub use adhesion::Adhesion;
 pub use course::{Course, Row, Step, Way, is_apart};
 pub use entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
+pub use formula::{Formula, OwnLaw, tabulated};
 pub use found::{Found, Sight, check_finite, warnings_of};
 pub use half_space::{Boundary, HalfSpace};
-pub use law::tabulated;
+pub use laws::{LAWS, Law, PARAMETERS, Parameter};
 pub use posed::{AnyProblem, Asked, Observe, Posed};
 pub use settings::{Branches, settings};
 pub use told::Told;

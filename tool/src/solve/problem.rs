@@ -4,7 +4,6 @@ use asperity::{Control, Solver};
 use asperity_scene::{Asked, Branches, Inputs, Wall};
 
 use super::Options;
-use crate::adhesion::Law;
 use crate::options::Iteration;
 use crate::outcome::Outcome;
 use crate::part::Part;
@@ -22,7 +21,7 @@ impl Options {
     pub fn check_branches(&self) -> Outcome<()> {
         let reason = match self {
             _ if !self.wants_both() => return Ok(()),
-            _ if self.adhesion.law == Law::None => "without adhesion there is but one equilibrium",
+            _ if !self.adhesion.adheres() => "without adhesion there is but one equilibrium",
             _ if self.load.contact_fraction.is_some() => {
                 "each branch has a load of its own for a contact fraction: give a load"
             }
