@@ -201,7 +201,6 @@ class Problem:
         modulus: float,
         law: Any,
         wall: str,
-        adhesion: dict[str, Any],
         precision: str,
         tolerance: float | None,
         max_iterations: int | None,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity, _law
+from . import _asperity
 from ._accuracy import shortfall
 from ._control import Load, number
 from ._solution import Solution
@@ -52,7 +52,6 @@ class Scene:
             modulus,
             law,
             wall,
-            _law.entries(law, wall),
             precision,
             tolerance,
             max_iterations,

@@ -5,13 +5,13 @@ use std::sync::{Mutex, PoisonError};
 use asperity::accuracy::Plan;
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
-use asperity_scene::{Asked, Branches, Inputs, Wall, Way, settings};
+use asperity_scene::{Adhesion, Asked, Branches, Inputs, Way, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_pyobject::from_pyobject;
 
 use crate::inputs::{Accuracy, Load, contact_fraction, control, goal, named};
+use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal_of_heights;
@@ -48,7 +48,7 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, modulus, law, wall, adhesion, precision, tolerance, max_iterations,
+        heights, lengths, absent_missing, boundary, modulus, law, wall, precision, tolerance, max_iterations,
         method, branch, nested, threads, original, part, unit, source
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
@@ -61,7 +61,6 @@ impl Problem {
         modulus: f64,
         law: &Bound<'_, PyAny>,
         wall: &str,
-        adhesion: Bound<'_, PyAny>,
         precision: &str,
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
@@ -81,11 +80,12 @@ impl Problem {
         let pool = Pool::of(threads)?;
         let heights = heights.to_array()?;
         let boundary = named("boundary", boundary, "periodic or free")?;
-        named::<Wall>("wall", wall, "hard or none")?;
+        let wall = named("wall", wall, "hard or none")?;
         let original = original.map(|original| original.0);
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
+        let law = Law::of(law)?;
         let mut inputs = Inputs {
             heights: source,
             initial_gap: None,
@@ -98,7 +98,7 @@ impl Problem {
             given: None,
             boundary,
             modulus,
-            adhesion: from_pyobject(adhesion)?,
+            adhesion: Adhesion { wall, ..law.adhesion },
             method,
             precision: "f64",
             tolerance: settings.tolerance_in::<f64>(),
@@ -106,7 +106,7 @@ impl Problem {
             threads: pool.threads(),
             version: env!("CARGO_PKG_VERSION"),
         };
-        let problem = (surface, law);
+        let problem = (surface, law.formula);
         let solves = match precision {
             "f64" => state::<f64>(py, &pool, problem, (&inputs, settings, original), threads)?,
             "f32" => {

@@ -1,10 +1,12 @@
 //! The state of a contact problem, with all that a sequence of solves carries on.
 
+use std::sync::Arc;
+
 use asperity::accuracy::Plan;
 use asperity::contact::Original;
-use asperity::{Control, Settings, Solver, Status, Surface};
+use asperity::{AdhesionLaw, Control, Settings, Solver, Status, Surface};
 use asperity_maps::warning::Warning;
-use asperity_scene::{Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Posed, Way};
+use asperity_scene::{Account, Asked, Course, Formula, Found, Goal, HalfSpace, Inputs, Posed, Way};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
@@ -12,7 +14,6 @@ use pyo3::types::PyDict;
 use serde_pyobject::to_pyobject;
 
 use crate::answer::{Scalar, answer, told};
-use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
@@ -145,18 +146,18 @@ impl<T: Scalar> Solves for State<T> {
 pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
-    (surface, given): (Surface, &Bound<'_, PyAny>),
+    (surface, formula): (Surface, Formula),
     (inputs, settings, original): (&Inputs, Settings, Option<Original>),
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
-    let (law, strongest) = (law::<T>(given)?, strongest(given));
+    let (strongest, law) = (formula.strongest(), Arc::new(formula) as Arc<dyn AdhesionLaw<T>>);
     let &Inputs { boundary, modulus, ref adhesion, ref length_unit, .. } = inputs;
     let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint: adhesion.wall });
     let make = || {
         let mut warnings = boundary.warnings(&surface);
         warnings.extend(Warning::of_modulus(modulus, surface.grid(), length_unit.as_deref()));
         warnings.extend(Warning::of_law(&law, &surface, modulus));
-        let posed = Posed::new(surface, law.into(), half_space, solver, original);
+        let posed = Posed::new(surface, law, half_space, solver, original);
         State { posed, threads, strongest, warnings, course: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))
