@@ -1,14 +1,14 @@
 //! The adhesion between the surfaces, as options, keywords and reports describe it.
 
 use asperity::adhesion::Hints;
-use asperity::{AdhesionLaw, Grid, MaugisDugdale, Result, Tabulated};
+use asperity::{AdhesionLaw, Grid, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::Serialize;
 
 use crate::formula::Formula;
 use crate::laws::{Law, PARAMETERS, Parameter, Values, WORK};
 use crate::numbers::plain;
-use crate::wall::Wall;
+use crate::wall::{Constraint, Wall};
 
 /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -31,6 +31,8 @@ pub struct Adhesion {
     pub work_of_adhesion_map: Option<String>,
     /// The wall.
     pub wall: Wall,
+    /// The stiffness of the springs of a wall that has some, a pressure per length.
+    pub wall_stiffness: Option<f64>,
 }
 
 impl Adhesion {
@@ -116,7 +118,24 @@ impl Adhesion {
                 self.law
             ));
         }
-        Ok(())
+        let stiffness = named("wall_stiffness");
+        match (self.wall.has_springs(), self.wall_stiffness) {
+            (true, None) => Err(format!("{wall} {} lacks {stiffness}: give it, a pressure per length", self.wall)),
+            (false, Some(given)) => Err(format!(
+                "{stiffness} is {}, but {wall} {} has no springs: leave it out, or choose {wall} penalty or {wall} uzawa",
+                plain(given),
+                self.wall
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// The wall as a solve takes it.
+    ///
+    /// # Errors
+    /// Those of [`Constraint::new`].
+    pub fn constraint<T: Real>(&self) -> Result<Constraint<T>> {
+        Constraint::new(self.wall, self.wall_stiffness)
     }
 
     /// The law, whose works of adhesion do not vary, with the law of its table, if it has one.
@@ -146,7 +165,7 @@ impl Adhesion {
     pub fn formula_on(&self, grid: &Grid, works: ArrayView2<'_, f64>, table: Option<&Tabulated>) -> Result<Formula> {
         // of a law of one unit they are multiples of one
         let unit = Formula::MaugisDugdale(MaugisDugdale::new(1.0, 1.0)?).varied_on(grid, works)?;
-        let Hints::<f64> { work_of_adhesion, .. } = unit.hints();
+        let Hints { work_of_adhesion, .. } = AdhesionLaw::<f64>::hints(&unit);
         Self { work_of_adhesion: Some(work_of_adhesion), ..self.clone() }.formula(table)?.varied_on(grid, works)
     }
 }

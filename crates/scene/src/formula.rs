@@ -1,16 +1,17 @@
 //! Adhesion laws as one type, in both precisions.
 
 use std::any::Any;
-use std::marker::PhantomData;
 use std::path::Path;
 use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Discretisation, Hints, Values, Varying};
 use asperity::{
-    AdhesionLaw, Compiled, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Real,
-    Result, Tabulated,
+    AdhesionLaw, Error, Exponential, Grid, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Real, Result,
+    Tabulated,
 };
 use ndarray::{ArrayRef2, ArrayView2};
+
+use crate::compiled::compiled;
 
 /// An adhesion law of the library, perhaps cut off or varied, or a law of one's own.
 #[derive(Clone, PartialEq)]
@@ -55,19 +56,7 @@ impl PartialEq for dyn OwnLaw {
     }
 }
 
-/// A law of one's own in the precision of a solve.
-struct Own<'a>(PhantomData<&'a ()>);
-
-impl<'a> Compiled for Own<'a> {
-    type Input<T: Real> = &'a dyn OwnLaw;
-    type Output<T: Real> = &'a dyn AdhesionLaw<T>;
-    fn single(law: &'a dyn OwnLaw) -> &'a dyn AdhesionLaw<f32> {
-        law
-    }
-    fn double(law: &'a dyn OwnLaw) -> &'a dyn AdhesionLaw<f64> {
-        law
-    }
-}
+compiled!(Shared: &'a Formula => Arc<dyn AdhesionLaw<T>> = |law: &Formula| Arc::new(law.clone()));
 
 impl Formula {
     /// The law, zero from a gap on.
@@ -103,42 +92,55 @@ impl Formula {
         }
     }
 
-    fn law<T: Real>(&self) -> &dyn AdhesionLaw<T> {
-        match self {
-            Self::None => &NoAdhesion,
-            Self::Exponential(law) => law,
-            Self::MaugisDugdale(law) => law,
-            Self::LennardJones(law) => law,
-            Self::Morse(law) => law,
-            Self::PowerLaw(law) => law,
-            Self::Tabulated(law) => law,
-            Self::CutOff(law) => law,
-            Self::Varying(law) => law,
-            Self::Own(law) => T::call::<Own<'_>>(law.as_ref()),
-        }
+    /// The law in the precision of a solve; works of adhesion that vary are shared with it.
+    pub fn law<T: Real>(&self) -> Arc<dyn AdhesionLaw<T>> {
+        T::call::<Shared<'_>>(self)
     }
 }
 
-impl<T: Real> AdhesionLaw<T> for Formula {
-    fn energy(&self, gap: T) -> T {
-        self.law().energy(gap)
-    }
-    fn traction(&self, gap: T) -> T {
-        self.law().traction(gap)
-    }
-    fn slope(&self, gap: T) -> T {
-        self.law().slope(gap)
-    }
-    fn hints(&self) -> Hints<T> {
-        self.law().hints()
-    }
-    fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) {
-        self.law().evaluate(first, gaps, values);
-    }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        self.law().adapted(to)
-    }
+/// The formula as a law, compiled with this crate for each of the two precisions.
+macro_rules! law_in {
+    ($($real:ty),*) => {$(
+        impl<'a> From<&'a Formula> for &'a dyn AdhesionLaw<$real> {
+            fn from(formula: &'a Formula) -> Self {
+                match formula {
+                    Formula::None => &NoAdhesion,
+                    Formula::Exponential(law) => law,
+                    Formula::MaugisDugdale(law) => law,
+                    Formula::LennardJones(law) => law,
+                    Formula::Morse(law) => law,
+                    Formula::PowerLaw(law) => law,
+                    Formula::Tabulated(law) => law,
+                    Formula::CutOff(law) => law,
+                    Formula::Varying(law) => law,
+                    Formula::Own(law) => law.as_ref(),
+                }
+            }
+        }
+
+        impl AdhesionLaw<$real> for Formula {
+            fn energy(&self, gap: $real) -> $real {
+                <&dyn AdhesionLaw<$real>>::from(self).energy(gap)
+            }
+            fn traction(&self, gap: $real) -> $real {
+                <&dyn AdhesionLaw<$real>>::from(self).traction(gap)
+            }
+            fn slope(&self, gap: $real) -> $real {
+                <&dyn AdhesionLaw<$real>>::from(self).slope(gap)
+            }
+            fn hints(&self) -> Hints<$real> {
+                <&dyn AdhesionLaw<$real>>::from(self).hints()
+            }
+            fn evaluate(&self, first: usize, gaps: &[$real], values: Values<'_, $real>) {
+                <&dyn AdhesionLaw<$real>>::from(self).evaluate(first, gaps, values);
+            }
+            fn adapted(&self, to: Discretisation<$real>) -> Option<Box<dyn AdhesionLaw<$real> + '_>> {
+                <&dyn AdhesionLaw<$real>>::from(self).adapted(to)
+            }
+        }
+    )*};
 }
+law_in!(f32, f64);
 
 /// The law of a table of gaps and tractions, which was read from a file.
 ///

@@ -4,6 +4,7 @@
 mod account;
 mod accuracy;
 mod adhesion;
+mod compiled;
 mod course;
 mod entries;
 mod formula;
@@ -31,4 +32,4 @@ pub use laws::{LAWS, Law, PARAMETERS, Parameter};
 pub use posed::{AnyProblem, Asked, Observe, Posed};
 pub use settings::{Branches, settings};
 pub use told::Told;
-pub use wall::Wall;
+pub use wall::{Constraint, Wall};
