@@ -201,6 +201,7 @@ class Problem:
         modulus: float,
         law: Any,
         wall: str,
+        wall_stiffness: float | None,
         precision: str,
         tolerance: float | None,
         max_iterations: int | None,

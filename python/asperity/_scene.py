@@ -13,6 +13,7 @@ from ._accuracy import shortfall
 from ._control import Load, number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
+from ._wall import Wall, parts
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
@@ -29,7 +30,7 @@ class Scene:
         boundary: str,
         absent_missing: bool,
         law: Any,
-        wall: str,
+        wall: Wall,
         tolerance: float | None,
         max_iterations: int | None,
         method: str,
@@ -51,7 +52,7 @@ class Scene:
             boundary,
             modulus,
             law,
-            wall,
+            *parts(wall),
             precision,
             tolerance,
             max_iterations,

@@ -83,7 +83,7 @@ impl Law {
     /// Energies (0), tractions (1) or slopes (2) at gaps of any shape; where the work of adhesion varies, at one for each
     /// of its nodes or one for all.
     fn at<'py>(&self, py: Python<'py>, gap: &Numbers<'py>, order: usize) -> PyResult<Bound<'py, PyAny>> {
-        let law: &dyn AdhesionLaw<f64> = &self.formula;
+        let law = self.formula.law::<f64>();
         let Some((nx, ny)) = law.hints().shape else {
             return mapped(py, gap, |gap| [law.energy(gap), law.traction(gap), law.slope(gap)][order]);
         };

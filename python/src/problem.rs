@@ -20,6 +20,11 @@ use crate::state::{Run, Solves, state};
 /// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan.
 type Planned = (f64, f64, (usize, usize), f64, f64);
 
+/// The words of Python for a key.
+fn word(key: &str) -> String {
+    if key == "wall_stiffness" { "a stiffness, as of asperity.Penalty(stiffness)" } else { key }.to_owned()
+}
+
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
@@ -48,7 +53,7 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, modulus, law, wall, precision, tolerance, max_iterations,
+        heights, lengths, absent_missing, boundary, modulus, law, wall, wall_stiffness, precision, tolerance, max_iterations,
         method, branch, nested, threads, original, part, unit, source
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
@@ -61,6 +66,7 @@ impl Problem {
         modulus: f64,
         law: &Bound<'_, PyAny>,
         wall: &str,
+        wall_stiffness: Option<f64>,
         precision: &str,
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
@@ -80,12 +86,14 @@ impl Problem {
         let pool = Pool::of(threads)?;
         let heights = heights.to_array()?;
         let boundary = named("boundary", boundary, "periodic or free")?;
-        let wall = named("wall", wall, "hard or none")?;
+        let wall = named("wall", wall, "hard, none, or asperity.Penalty(stiffness) or asperity.Uzawa(stiffness)")?;
         let original = original.map(|original| original.0);
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
-        let law = Law::of(law)?;
+        let Law { formula, adhesion } = Law::of(law)?;
+        let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
+        adhesion.check_wall(word).map_err(PyValueError::new_err)?;
         let mut inputs = Inputs {
             heights: source,
             initial_gap: None,
@@ -98,7 +106,7 @@ impl Problem {
             given: None,
             boundary,
             modulus,
-            adhesion: Adhesion { wall, ..law.adhesion },
+            adhesion,
             method,
             precision: "f64",
             tolerance: settings.tolerance_in::<f64>(),
@@ -106,7 +114,7 @@ impl Problem {
             threads: pool.threads(),
             version: env!("CARGO_PKG_VERSION"),
         };
-        let problem = (surface, law.formula);
+        let problem = (surface, formula);
         let solves = match precision {
             "f64" => state::<f64>(py, &pool, problem, (&inputs, settings, original), threads)?,
             "f32" => {

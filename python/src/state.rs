@@ -1,10 +1,8 @@
 //! The state of a contact problem, with all that a sequence of solves carries on.
 
-use std::sync::Arc;
-
 use asperity::accuracy::Plan;
 use asperity::contact::Original;
-use asperity::{AdhesionLaw, Control, Settings, Solver, Status, Surface};
+use asperity::{Control, Settings, Solver, Status, Surface};
 use asperity_maps::warning::Warning;
 use asperity_scene::{Account, Asked, Course, Formula, Found, Goal, HalfSpace, Inputs, Posed, Way};
 use numpy::IntoPyArray;
@@ -150,9 +148,10 @@ pub fn state<T: Scalar>(
     (inputs, settings, original): (&Inputs, Settings, Option<Original>),
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
-    let (strongest, law) = (formula.strongest(), Arc::new(formula) as Arc<dyn AdhesionLaw<T>>);
+    let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let &Inputs { boundary, modulus, ref adhesion, ref length_unit, .. } = inputs;
-    let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint: adhesion.wall });
+    let constraint = adhesion.constraint::<T>().map_err(refusal)?;
+    let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint });
     let make = || {
         let mut warnings = boundary.warnings(&surface);
         warnings.extend(Warning::of_modulus(modulus, surface.grid(), length_unit.as_deref()));

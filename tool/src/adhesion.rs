@@ -1,6 +1,7 @@
 //! The adhesion between the surfaces: its law with the parameters, where it varies, and the wall.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use asperity::{AdhesionLaw, Error, Grid, Real, Tabulated};
 use asperity_maps::io::read_field;
@@ -13,7 +14,7 @@ use crate::allowed::positive;
 use crate::heights;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
-use crate::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, Quantity};
+use crate::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, PRESSURE_PER_LENGTH, Quantity};
 
 /// The name of no law.
 const NONE: &str = "none";
@@ -49,9 +50,13 @@ pub struct AdhesionOptions {
     /// Work of adhesion at each node, in a file as for the heights and of their shape, in the place of one for all
     #[arg(long, value_name = "FILE", help_heading = "Adhesion")]
     pub work_of_adhesion_map: Option<PathBuf>,
-    /// What keeps the surfaces apart: a rigid wall, or the repulsion of lennard-jones or morse alone
+    /// What keeps the surfaces apart: a rigid wall, the repulsion of lennard-jones or morse alone, or springs
     #[arg(long, value_enum, default_value_t = Wall::Hard, help_heading = "Adhesion")]
     pub wall: Wall,
+    /// Stiffness of the springs of a penalty or uzawa wall, a pressure per length
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = PRESSURE_PER_LENGTH.positive())]
+    #[arg(help_heading = "Adhesion")]
+    pub wall_stiffness: Option<Quantity>,
 }
 
 /// The law that the options choose, with what their files hold.
@@ -93,6 +98,7 @@ impl AdhesionOptions {
             cut_off: number(self.cut_off),
             work_of_adhesion_map: path(self.work_of_adhesion_map.as_deref()),
             wall: self.wall,
+            wall_stiffness: number(self.wall_stiffness),
         }
     }
 
@@ -142,8 +148,8 @@ impl AdhesionOptions {
 
 impl Adhesion<'_> {
     /// The law.
-    pub fn law<T: Real>(&self) -> Box<dyn AdhesionLaw<T>> {
-        Box::new(self.formula.clone())
+    pub fn law<T: Real>(&self) -> Arc<dyn AdhesionLaw<T>> {
+        self.formula.law()
     }
 
     /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.

@@ -47,5 +47,10 @@ pub fn identity(
         "initial_gap": start.map_or("none".to_owned(), field),
         "version": env!("CARGO_PKG_VERSION"),
     });
-    identity.as_object().cloned().unwrap_or_default()
+    let mut identity = identity.as_object().cloned().unwrap_or_default();
+    if let Some(stiffness) = adhesion.wall_stiffness {
+        // a table of a wall without springs has none
+        identity.insert("wall_stiffness".to_owned(), stiffness.to_string().into());
+    }
+    identity
 }

@@ -64,13 +64,13 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     };
     Format::of(path)?;
     options.adhesion.check()?;
-    let (law, _) = options.adhesion.uniform()?;
+    let law = options.adhesion.uniform()?.0.law::<f64>();
     check_apart(path, options.adhesion.law_table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;
     list(chosen);
     let Hints { range, rest, .. } = law.hints();
     // from where the repulsion is as large as some attractions
-    let singular = rest.is_some() && !law.energy(0.0_f64).is_finite();
+    let singular = rest.is_some() && !law.energy(0.0).is_finite();
     let from = match rest {
         Some(rest) if singular => 0.9 * rest,
         Some(rest) => rest - 0.3 * range,

@@ -253,7 +253,7 @@ impl Job<'_> {
             self.leave_out_what_takes_whole_fields()?;
         }
         let start = start.map(T::field);
-        let solver = self.options.solver();
+        let solver = self.options.problem().solver::<T>()?;
         let tolerance = match self.asked.goal {
             Some(goal) => goal.by(solver, false).tolerance()?,
             None => solver.settings.tolerance_in::<T>(),
@@ -270,7 +270,7 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
-        let mut posed = self.options.problem().posed::<T>(surface, adhesion.law(), &self.part);
+        let mut posed = self.options.problem().posed::<T>(surface, adhesion.law(), &self.part)?;
         if let Some(goal) = self.asked.goal {
             let (plan, time) = posed.plan(self.asked.control, goal)?;
             printing.say(&accuracy::announced(goal, &plan, time));
