@@ -159,7 +159,7 @@ impl Law {
 
     /// The parameters with their symbols, by the names that `named` gives to their keys.
     pub fn parameters(&self, named: impl Fn(&str) -> String) -> String {
-        let needed = PARAMETERS.iter().filter(|parameter| self.needs.contains(&parameter.key));
+        let needed = self.needs.iter().filter_map(|key| PARAMETERS.iter().find(|parameter| parameter.key == *key));
         let needed: Vec<_> = needed.map(|Parameter { key, symbol, .. }| format!("{} {symbol}", named(key))).collect();
         if needed.is_empty() { "none".to_owned() } else { needed.join(", ") + self.remark }
     }
