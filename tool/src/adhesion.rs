@@ -59,6 +59,9 @@ pub struct AdhesionOptions {
     pub wall_stiffness: Option<Quantity>,
 }
 
+/// The law of a table, and its numbers.
+type Table = (Tabulated, Array2<f64>);
+
 /// The law that the options choose, with what their files hold.
 #[derive(Clone)]
 pub struct Adhesion<'a> {
@@ -113,7 +116,7 @@ impl AdhesionOptions {
     }
 
     /// The law, whose works of adhesion do not vary; reads its table.
-    pub fn uniform(&self) -> Outcome<(Formula, Option<(Tabulated, Array2<f64>)>)> {
+    pub fn uniform(&self) -> Outcome<(Formula, Option<Table>)> {
         let read = |path: &PathBuf| -> Outcome<_> {
             let table = read_field(path)?;
             Ok((tabulated(path, &table)?, table))
