@@ -35,6 +35,7 @@ from ._solution import ContactStatistics, PressureDistribution, Solution
 from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Topography, from_topography, read
+from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
@@ -57,6 +58,7 @@ __all__ = [
     "LennardJones",
     "MaugisDugdale",
     "Morse",
+    "Penalty",
     "Plan",
     "PowerLaw",
     "PressureDistribution",
@@ -66,6 +68,7 @@ __all__ = [
     "Sweep",
     "Tabulated",
     "Topography",
+    "Uzawa",
     "VanDerWaals",
     "Varying",
     "__version__",

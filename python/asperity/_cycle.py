@@ -10,6 +10,7 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
+from ._wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -110,7 +111,7 @@ def cycle(
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
-    wall: str = "hard",
+    wall: Wall = "hard",
     steps: int = 50,
     smallest_step: float = 1e-4,
     imbalance: float = 1e-4,

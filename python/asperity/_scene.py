@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity, _law
+from . import _asperity
 from ._control import number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
+from ._wall import Wall, parts
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
@@ -28,7 +29,7 @@ class Scene:
         boundary: str,
         absent_missing: bool,
         law: Any,
-        wall: str,
+        wall: Wall,
         tolerance: float | None,
         max_iterations: int | None,
         method: str,
@@ -50,8 +51,7 @@ class Scene:
             boundary,
             modulus,
             law,
-            wall,
-            _law.entries(law, wall),
+            *parts(wall),
             precision,
             tolerance,
             max_iterations,

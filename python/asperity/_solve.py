@@ -10,6 +10,7 @@ from ._accuracy import Plan
 from ._asperity import Iteration
 from ._scene import Scene
 from ._solution import Solution
+from ._wall import Wall
 
 
 def solve(
@@ -28,7 +29,7 @@ def solve(
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
-    wall: str = "hard",
+    wall: Wall = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
     method: str = "default",
@@ -94,9 +95,9 @@ def solve(
         `VanDerWaals` and `Tabulated` are laws, `CutOff` ends one, and with `Varying` its work of adhesion differs from
         node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
         `check_law`.
-    wall : {"hard", "none"}
-        What keeps the surfaces apart: a rigid wall at zero gap, or a law that repels alone, as `LennardJones` and
-        `Morse` do.
+    wall : {"hard", "none"}, Penalty or Uzawa
+        What keeps the surfaces apart: a rigid wall at zero gap, a law that repels alone, as `LennardJones` and `Morse`
+        do, or springs of a stiffness.
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional

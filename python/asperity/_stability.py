@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from . import _control
 from ._scene import Scene
 from ._solution import Solution
+from ._wall import Penalty
 
 
 class Stability(NamedTuple):
@@ -78,6 +79,10 @@ def stability(
     ('stable', 'unstable')
     """
     report = solution.report
+    if report["wall"] == "uzawa":
+        raise ValueError(
+            "the solution was found with asperity.Uzawa, whose multipliers it does not have: give stability=True to its solve"
+        )
     given = {
         "mean_pressure": mean_pressure,
         "mean_gap": mean_gap,
@@ -93,7 +98,8 @@ def stability(
         None,
         absent_missing=report["absent_nodes"] > 0,
         law=solution.law,
-        **{name: report[name] for name in ("modulus", "boundary", "wall", "precision", "method", "threads")},
+        wall=report["wall"] if report["wall"] != "penalty" else Penalty(report["wall_stiffness"]),
+        **{name: report[name] for name in ("modulus", "boundary", "precision", "method", "threads")},
         tolerance=report["tolerance"],
         max_iterations=report["max_iterations"],
         branch=None,

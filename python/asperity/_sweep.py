@@ -10,6 +10,7 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
+from ._wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +66,7 @@ def sweep(
     boundary: str = "periodic",
     absent_missing: bool = False,
     law: Any = None,
-    wall: str = "hard",
+    wall: Wall = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
     method: str = "default",

@@ -4,17 +4,22 @@ use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
-use asperity_scene::{Asked, Branches, Inputs, Load, Wall, Way, settings};
+use asperity_scene::{Adhesion, Asked, Branches, Inputs, Load, Way, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_pyobject::from_pyobject;
 
 use crate::inputs::{Accuracy, Begin, Given, goal, load, named};
+use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal_of_heights};
 use crate::state::{Run, Solves, state};
+
+/// The words of Python for a key.
+fn word(key: &str) -> String {
+    if key == "wall_stiffness" { "a stiffness, as of asperity.Penalty(stiffness)" } else { key }.to_owned()
+}
 
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
@@ -49,7 +54,7 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, modulus, law, wall, adhesion, precision, tolerance, max_iterations,
+        heights, lengths, absent_missing, boundary, modulus, law, wall, wall_stiffness, precision, tolerance, max_iterations,
         method, branch, nested, threads, original, part, unit, source
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
@@ -62,7 +67,7 @@ impl Problem {
         modulus: f64,
         law: &Bound<'_, PyAny>,
         wall: &str,
-        adhesion: Bound<'_, PyAny>,
+        wall_stiffness: Option<f64>,
         precision: &str,
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
@@ -82,11 +87,14 @@ impl Problem {
         let pool = Pool::of(threads)?;
         let heights = heights.to_array()?;
         let boundary = named("boundary", boundary, "periodic or free")?;
-        named::<Wall>("wall", wall, "hard or none")?;
+        let wall = named("wall", wall, "hard, none, or asperity.Penalty(stiffness) or asperity.Uzawa(stiffness)")?;
         let original = original.map(|original| original.0);
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
+        let Law { formula, adhesion } = Law::of(law)?;
+        let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
+        adhesion.check_wall(word).map_err(PyValueError::new_err)?;
         let mut inputs = Inputs {
             heights: source,
             initial_gap: None,
@@ -99,7 +107,7 @@ impl Problem {
             given: None,
             boundary,
             modulus,
-            adhesion: from_pyobject(adhesion)?,
+            adhesion,
             method,
             precision: "f64",
             tolerance: settings.tolerance_in::<f64>(),
@@ -107,7 +115,7 @@ impl Problem {
             threads: pool.threads(),
             version: env!("CARGO_PKG_VERSION"),
         };
-        let problem = (surface, law);
+        let problem = (surface, formula);
         let solves = match precision {
             "f64" => state::<f64>(py, &pool, problem, (&inputs, settings, original), threads)?,
             "f32" => {

@@ -4,7 +4,7 @@ use asperity::contact::Original;
 use asperity::{Control, Settings, Solver, Status, Surface};
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Load, Posed, Told, Way, warnings_of_input,
+    Account, Asked, Course, Formula, Found, Goal, HalfSpace, Inputs, Load, Posed, Told, Way, warnings_of_input,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
@@ -15,7 +15,6 @@ use serde_pyobject::to_pyobject;
 
 use crate::answer::{Scalar, answer};
 use crate::inputs::Begin;
-use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal};
@@ -172,17 +171,18 @@ impl<T: Scalar> Solves for State<T> {
 pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
-    (surface, given): (Surface, &Bound<'_, PyAny>),
+    (surface, formula): (Surface, Formula),
     (inputs, settings, original): (&Inputs, Settings, Option<Original>),
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
-    let (law, strongest) = (law::<T>(given)?, strongest(given));
+    let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let &Inputs { boundary, modulus, ref adhesion, ref length_unit, .. } = inputs;
     let units = Units::of_map(length_unit.as_deref());
-    let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint: adhesion.wall });
+    let constraint = adhesion.constraint::<T>().map_err(refusal)?;
+    let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint });
     let make = || {
         let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);
-        let posed = Posed::new(surface, law.into(), half_space, solver, original);
+        let posed = Posed::new(surface, law, half_space, solver, original);
         State { posed, threads, strongest, units, warnings, course: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))

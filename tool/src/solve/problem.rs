@@ -1,10 +1,8 @@
 //! The problem of a solve, as its options pose it.
 
-use asperity::Solver;
-use asperity_scene::{Asked, Branches, Inputs, Wall};
+use asperity_scene::{Asked, Branches, Inputs};
 
 use super::Options;
-use crate::adhesion::Law;
 use crate::outcome::{Outcome, in_options};
 use crate::part::Part;
 use crate::report;
@@ -12,11 +10,6 @@ use crate::scene::Scene;
 use crate::units::Units;
 
 impl Options {
-    /// The solver that the options choose.
-    pub fn solver(&self) -> Solver<Wall> {
-        Solver { settings: self.solver.settings(), constraint: self.adhesion.wall }
-    }
-
     /// The solution that the options ask for, under a load where a reduced pressure of 1 is the `full` pressure.
     pub fn asked(&self, full: f64) -> Asked {
         let load = self.load.load();
@@ -34,7 +27,7 @@ impl Options {
 
     /// Refuses what excludes each other.
     pub fn check_asked(&self) -> Outcome<()> {
-        let (adhesive, started) = (self.adhesion.law != Law::None, self.solver.initial_gap.is_some());
+        let (adhesive, started) = (self.adhesion.adheres(), self.solver.initial_gap.is_some());
         in_options(self.asked(1.0).check(adhesive, self.solver.settings().method, started))
     }
 
