@@ -152,7 +152,7 @@ impl AdhesionOptions {
 impl Adhesion<'_> {
     /// The law.
     pub fn law<T: Real>(&self) -> Arc<dyn AdhesionLaw<T>> {
-        self.formula.law()
+        self.formula.clone().law()
     }
 
     /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.

@@ -1,6 +1,8 @@
 //! The adhesion laws by their names: what each is, what it needs, and how it is made of that.
 
-use asperity::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, Result, Tabulated};
+use std::sync::Arc;
+
+use asperity::{Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
 
 use crate::formula::Formula;
 
@@ -22,7 +24,9 @@ pub struct Law {
     pub never_ends: bool,
     /// Whether it repels surfaces that come too close, so that they need no wall.
     pub repels: bool,
-    pub(crate) make: fn(&Values<'_>) -> Result<Formula>,
+    /// The law of its work of adhesion, range, exponent and Hamaker's constant, beside a wall or without one, or that
+    /// of its table.
+    pub(crate) make: fn([f64; 4], bool, Option<&Tabulated>) -> Result<Formula>,
 }
 
 /// A parameter of adhesion laws.
@@ -33,17 +37,6 @@ pub struct Parameter {
     pub symbol: &'static str,
     /// The quantity, with its article.
     pub what: &'static str,
-}
-
-/// The values of the parameters, of those that a law needs.
-pub(crate) struct Values<'a> {
-    pub work: f64,
-    pub range: f64,
-    pub exponent: f64,
-    pub hamaker: f64,
-    pub table: Option<&'a Tabulated>,
-    /// Whether a wall has the part of a repulsion.
-    pub has_wall: bool,
 }
 
 /// The key of the parameter that a map may take the place of.
@@ -68,7 +61,7 @@ const NONE: Law = Law {
     source: "",
     never_ends: false,
     repels: false,
-    make: |_| Ok(Formula::None),
+    make: |_, _, _| Ok(Arc::new(NoAdhesion)),
 };
 
 /// The adhesion laws.
@@ -80,7 +73,7 @@ pub static LAWS: [Law; 8] = [
         formula: "traction W/RHO for gaps below RHO, 0 beyond",
         needs: &[WORK, "range"],
         source: "Maugis, J. Colloid Interface Sci. 150 (1992)",
-        make: |of| MaugisDugdale::new(of.work, of.range).map(Formula::MaugisDugdale),
+        make: |[w, range, ..], _, _| Ok(Arc::new(MaugisDugdale::new(w, range)?)),
         ..NONE
     },
     Law {
@@ -90,7 +83,7 @@ pub static LAWS: [Law; 8] = [
         needs: &[WORK, "range"],
         source: "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
         never_ends: true,
-        make: |of| Exponential::new(of.work, of.range).map(Formula::Exponential),
+        make: |[w, range, ..], _, _| Ok(Arc::new(Exponential::new(w, range)?)),
         ..NONE
     },
     Law {
@@ -102,9 +95,9 @@ pub static LAWS: [Law; 8] = [
         source: "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",
         never_ends: true,
         repels: true,
-        make: |of| {
-            let law = LennardJones::new(of.work, of.range)?;
-            Ok(Formula::LennardJones(if of.has_wall { law.cut() } else { law }))
+        make: |[w, range, ..], walled, _| {
+            let law = LennardJones::new(w, range)?;
+            Ok(Arc::new(if walled { law.cut() } else { law }))
         },
     },
     Law {
@@ -115,7 +108,7 @@ pub static LAWS: [Law; 8] = [
         source: "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
         never_ends: true,
         repels: true,
-        make: |of| Morse::new(of.work, of.range).map(Formula::Morse),
+        make: |[w, range, ..], _, _| Ok(Arc::new(Morse::new(w, range)?)),
         ..NONE
     },
     Law {
@@ -125,7 +118,7 @@ pub static LAWS: [Law; 8] = [
         needs: &[WORK, "range", "exponent"],
         source: "as of forces between bodies that fall with a power of their distance",
         never_ends: true,
-        make: |of| PowerLaw::new(of.work, of.range, of.exponent).map(Formula::PowerLaw),
+        make: |[w, range, n, _], _, _| Ok(Arc::new(PowerLaw::new(w, range, n)?)),
         ..NONE
     },
     Law {
@@ -136,7 +129,7 @@ pub static LAWS: [Law; 8] = [
         remark: ", the distance in contact; cut off where retardation begins",
         source: "Israelachvili, Intermolecular and Surface Forces (2011), section 13",
         never_ends: true,
-        make: |of| PowerLaw::van_der_waals(of.hamaker, of.range).map(Formula::PowerLaw),
+        make: |[_, range, _, a], _, _| Ok(Arc::new(PowerLaw::van_der_waals(a, range)?)),
         ..NONE
     },
     Law {
@@ -146,7 +139,10 @@ pub static LAWS: [Law; 8] = [
         needs: &["law_table"],
         remark: ", lines of a gap and a traction",
         source: "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984)",
-        make: |of| Ok(of.table.cloned().map_or(Formula::None, Formula::Tabulated)),
+        make: |_, _, table| match table {
+            Some(table) => Ok(Arc::new(table.clone())),
+            None => Ok(Arc::new(NoAdhesion)),
+        },
         ..NONE
     },
 ];
