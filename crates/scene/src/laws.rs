@@ -10,8 +10,6 @@ use crate::formula::Formula;
 pub struct Law {
     /// The name in options and reports.
     pub name: &'static str,
-    /// The law in a line.
-    pub summary: &'static str,
     /// The formula over the gap g, attraction positive.
     pub formula: &'static str,
     /// The keys of the parameters that it needs, of [`PARAMETERS`].
@@ -54,7 +52,6 @@ pub static PARAMETERS: [Parameter; 5] = [
 /// No law, of which the others differ in what they name.
 const NONE: Law = Law {
     name: "none",
-    summary: "no adhesion",
     formula: "no adhesion",
     needs: &[],
     remark: "",
@@ -69,7 +66,6 @@ pub static LAWS: [Law; 8] = [
     NONE,
     Law {
         name: "maugis-dugdale",
-        summary: "constant traction W/RHO up to a gap of RHO",
         formula: "traction W/RHO for gaps below RHO, 0 beyond",
         needs: &[WORK, "range"],
         source: "Maugis, J. Colloid Interface Sci. 150 (1992)",
@@ -78,7 +74,6 @@ pub static LAWS: [Law; 8] = [
     },
     Law {
         name: "exponential",
-        summary: "traction W/RHO exp(-gap/RHO)",
         formula: "traction W/RHO exp(-g/RHO)",
         needs: &[WORK, "range"],
         source: "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
@@ -88,7 +83,6 @@ pub static LAWS: [Law; 8] = [
     },
     Law {
         name: "lennard-jones",
-        summary: "powers 9 and 3 between half-spaces; with a wall at RHO, from which the gap then counts",
         formula: "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; beside a wall, x = RHO/(RHO + g)",
         needs: &[WORK, "range"],
         remark: ", the equilibrium separation",
@@ -102,7 +96,6 @@ pub static LAWS: [Law; 8] = [
     },
     Law {
         name: "morse",
-        summary: "two exponentials, which repel at negative gaps",
         formula: "traction 2W/RHO (exp(-g/RHO) - exp(-2g/RHO))",
         needs: &[WORK, "range"],
         source: "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
@@ -113,7 +106,6 @@ pub static LAWS: [Law; 8] = [
     },
     Law {
         name: "power",
-        summary: "energy -W (1 + gap/(N RHO))^-N",
         formula: "traction W/RHO (1 + g/(N RHO))^-(N + 1)",
         needs: &[WORK, "range", "exponent"],
         source: "as of forces between bodies that fall with a power of their distance",
@@ -123,7 +115,6 @@ pub static LAWS: [Law; 8] = [
     },
     Law {
         name: "van-der-waals",
-        summary: "between half-spaces at RHO in contact, unretarded",
         formula: "traction A/(6 pi (RHO + g)^3)",
         needs: &["hamaker", "range"],
         remark: ", the distance in contact; cut off where retardation begins",
@@ -134,7 +125,6 @@ pub static LAWS: [Law; 8] = [
     },
     Law {
         name: "table",
-        summary: "a monotone cubic through the points of a file",
         formula: "the monotone cubic through the points of a table of gaps and tractions",
         needs: &["law_table"],
         remark: ", lines of a gap and a traction",
