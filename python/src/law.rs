@@ -27,7 +27,7 @@ pub struct Law {
 
 impl PartialEq for Law {
     fn eq(&self, other: &Self) -> bool {
-        self.formula == other.formula
+        *self.formula == *other.formula
     }
 }
 
@@ -69,7 +69,7 @@ impl Law {
             return Ok(law.get().clone());
         }
         let functions = Functions::of(object)?;
-        let formula = Formula::Own(Arc::new(Table::of(&functions)?));
+        let formula: Formula = Arc::new(Table::of(&functions)?);
         let (work_of_adhesion, range) = (functions.number("work_of_adhesion")?, functions.number("range")?);
         let name = object.get_type().name()?.to_string();
         Ok(Self { formula, adhesion: Adhesion { work_of_adhesion, range, ..Adhesion::of(name) } })
@@ -83,7 +83,7 @@ impl Law {
     /// Energies (0), tractions (1) or slopes (2) at gaps of any shape; where the work of adhesion varies, at one for each
     /// of its nodes or one for all.
     fn at<'py>(&self, py: Python<'py>, gap: &Numbers<'py>, order: usize) -> PyResult<Bound<'py, PyAny>> {
-        let law = self.formula.law::<f64>();
+        let law = self.formula.clone().law::<f64>();
         let Some((nx, ny)) = law.hints().shape else {
             return mapped(py, gap, |gap| [law.energy(gap), law.traction(gap), law.slope(gap)][order]);
         };
@@ -178,7 +178,7 @@ impl Tabulated {
     fn of_law(self, law: asperity::Tabulated) -> PyClassInitializer<Self> {
         let law_table = self.source.clone().or_else(|| Some("array".to_owned()));
         let adhesion = Adhesion { law_table, ..Adhesion::of("table") };
-        PyClassInitializer::from(Law { formula: Formula::Tabulated(law), adhesion }).add_subclass(self)
+        PyClassInitializer::from(Law { formula: Arc::new(law), adhesion }).add_subclass(self)
     }
 }
 
@@ -217,7 +217,7 @@ impl CutOff {
     #[new]
     fn new(law: &Bound<'_, PyAny>, distance: f64) -> PyResult<PyClassInitializer<Self>> {
         let Law { formula, adhesion } = Law::some(law)?;
-        if matches!(formula, Formula::CutOff(_)) {
+        if formula.is_cut_off() {
             return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
         }
         let formula = formula.cut_off(distance).map_err(refusal)?;
@@ -271,7 +271,7 @@ impl Varying {
         let (works, is_line): (Field<'_>, bool) =
             maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
         let works = works.to_array()?;
-        let formula = formula.varied(works.view()).map_err(refusal_of_works)?;
+        let formula = formula.varied(works.view(), None).map_err(refusal_of_works)?;
         let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };
         let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
         let work_of_adhesion_map = Some("array".to_owned());

@@ -22,7 +22,7 @@ const NONE: &str = "none";
 /// The adhesion between the surfaces.
 #[derive(Args)]
 pub struct AdhesionOptions {
-    /// Adhesion law; asperity laws tells what each is and what it needs
+    /// Adhesion law, over the gap g; asperity laws tells what each needs and where it is from
     #[arg(long, value_name = "LAW", default_value = NONE, value_parser = laws(), help_heading = "Adhesion")]
     pub law: String,
     /// Work of adhesion, an energy per area
@@ -78,7 +78,7 @@ pub struct Adhesion<'a> {
 
 /// The names of the laws, with their help.
 fn laws() -> PossibleValuesParser {
-    LAWS.iter().map(|law| PossibleValue::new(law.name).help(law.summary)).into()
+    LAWS.iter().map(|law| PossibleValue::new(law.name).help(law.formula)).into()
 }
 
 /// The option of a key.
@@ -152,7 +152,7 @@ impl AdhesionOptions {
 impl Adhesion<'_> {
     /// The law.
     pub fn law<T: Real>(&self) -> Arc<dyn AdhesionLaw<T>> {
-        self.formula.law()
+        self.formula.clone().law()
     }
 
     /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.

@@ -1,12 +1,13 @@
 //! The adhesion between the surfaces, as options, keywords and reports describe it.
 
-use asperity::adhesion::Hints;
-use asperity::{AdhesionLaw, Grid, MaugisDugdale, Real, Result, Tabulated};
+use std::sync::Arc;
+
+use asperity::{Grid, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::Serialize;
 
 use crate::formula::Formula;
-use crate::laws::{Law, PARAMETERS, Parameter, Values, WORK};
+use crate::laws::{LAWS, Law, PARAMETERS, Parameter, WORK};
 use crate::numbers::plain;
 use crate::wall::{Constraint, Wall};
 
@@ -141,17 +142,13 @@ impl Adhesion {
     /// The law, whose works of adhesion do not vary, with the law of its table, if it has one.
     ///
     /// # Errors
-    /// Those of the law, and those of [`Formula::cut_off`].
+    /// Those of the law, and those of [`CutOff::new`](asperity::adhesion::CutOff::new).
     pub fn formula(&self, table: Option<&Tabulated>) -> Result<Formula> {
-        let values = Values {
-            work: self.work_of_adhesion.unwrap_or(1.0),
-            range: self.range.unwrap_or(1.0),
-            exponent: self.exponent.unwrap_or_default(),
-            hamaker: self.hamaker.unwrap_or(1.0),
-            table,
-            has_wall: self.wall != Wall::None,
-        };
-        let law = self.law().map_or(Ok(Formula::None), |law| (law.make)(&values))?;
+        let law = self.law().unwrap_or(&LAWS[0]);
+        let [work, range, hamaker] =
+            [self.work_of_adhesion, self.range, self.hamaker].map(|value| value.unwrap_or(1.0));
+        let values = [work, range, self.exponent.unwrap_or_default(), hamaker];
+        let law = (law.make)(values, self.wall != Wall::None, table)?;
         match self.cut_off {
             Some(distance) => law.cut_off(distance),
             None => Ok(law),
@@ -161,11 +158,11 @@ impl Adhesion {
     /// The law with works of adhesion at the nodes of a grid, of which this process gives its rows.
     ///
     /// # Errors
-    /// Those of [`Adhesion::formula`] and [`Formula::varied_on`].
+    /// Those of [`Adhesion::formula`] and [`Varying::on`](asperity::adhesion::Varying::on).
     pub fn formula_on(&self, grid: &Grid, works: ArrayView2<'_, f64>, table: Option<&Tabulated>) -> Result<Formula> {
         // of a law of one unit they are multiples of one
-        let unit = Formula::MaugisDugdale(MaugisDugdale::new(1.0, 1.0)?).varied_on(grid, works)?;
-        let Hints { work_of_adhesion, .. } = AdhesionLaw::<f64>::hints(&unit);
-        Self { work_of_adhesion: Some(work_of_adhesion), ..self.clone() }.formula(table)?.varied_on(grid, works)
+        let unit: Formula = Arc::new(MaugisDugdale::new(1.0, 1.0)?);
+        let most = unit.varied(works, Some(grid))?.law::<f64>().hints().work_of_adhesion;
+        Self { work_of_adhesion: Some(most), ..self.clone() }.formula(table)?.varied(works, Some(grid))
     }
 }

@@ -1,6 +1,8 @@
 //! The adhesion laws by their names: what each is, what it needs, and how it is made of that.
 
-use asperity::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, Result, Tabulated};
+use std::sync::Arc;
+
+use asperity::{Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
 
 use crate::formula::Formula;
 
@@ -8,8 +10,6 @@ use crate::formula::Formula;
 pub struct Law {
     /// The name in options and reports.
     pub name: &'static str,
-    /// The law in a line.
-    pub summary: &'static str,
     /// The formula over the gap g, attraction positive.
     pub formula: &'static str,
     /// The keys of the parameters that it needs, of [`PARAMETERS`].
@@ -22,7 +22,9 @@ pub struct Law {
     pub never_ends: bool,
     /// Whether it repels surfaces that come too close, so that they need no wall.
     pub repels: bool,
-    pub(crate) make: fn(&Values<'_>) -> Result<Formula>,
+    /// The law of its work of adhesion, range, exponent and Hamaker's constant, beside a wall or without one, or that
+    /// of its table.
+    pub(crate) make: fn([f64; 4], bool, Option<&Tabulated>) -> Result<Formula>,
 }
 
 /// A parameter of adhesion laws.
@@ -33,17 +35,6 @@ pub struct Parameter {
     pub symbol: &'static str,
     /// The quantity, with its article.
     pub what: &'static str,
-}
-
-/// The values of the parameters, of those that a law needs.
-pub(crate) struct Values<'a> {
-    pub work: f64,
-    pub range: f64,
-    pub exponent: f64,
-    pub hamaker: f64,
-    pub table: Option<&'a Tabulated>,
-    /// Whether a wall has the part of a repulsion.
-    pub has_wall: bool,
 }
 
 /// The key of the parameter that a map may take the place of.
@@ -61,14 +52,13 @@ pub static PARAMETERS: [Parameter; 5] = [
 /// No law, of which the others differ in what they name.
 const NONE: Law = Law {
     name: "none",
-    summary: "no adhesion",
     formula: "no adhesion",
     needs: &[],
     remark: "",
     source: "",
     never_ends: false,
     repels: false,
-    make: |_| Ok(Formula::None),
+    make: |_, _, _| Ok(Arc::new(NoAdhesion)),
 };
 
 /// The adhesion laws.
@@ -76,77 +66,73 @@ pub static LAWS: [Law; 8] = [
     NONE,
     Law {
         name: "maugis-dugdale",
-        summary: "constant traction W/RHO up to a gap of RHO",
         formula: "traction W/RHO for gaps below RHO, 0 beyond",
         needs: &[WORK, "range"],
         source: "Maugis, J. Colloid Interface Sci. 150 (1992)",
-        make: |of| MaugisDugdale::new(of.work, of.range).map(Formula::MaugisDugdale),
+        make: |[w, range, ..], _, _| Ok(Arc::new(MaugisDugdale::new(w, range)?)),
         ..NONE
     },
     Law {
         name: "exponential",
-        summary: "traction W/RHO exp(-gap/RHO)",
         formula: "traction W/RHO exp(-g/RHO)",
         needs: &[WORK, "range"],
         source: "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
         never_ends: true,
-        make: |of| Exponential::new(of.work, of.range).map(Formula::Exponential),
+        make: |[w, range, ..], _, _| Ok(Arc::new(Exponential::new(w, range)?)),
         ..NONE
     },
     Law {
         name: "lennard-jones",
-        summary: "powers 9 and 3 between half-spaces; with a wall at RHO, from which the gap then counts",
         formula: "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; beside a wall, x = RHO/(RHO + g)",
         needs: &[WORK, "range"],
         remark: ", the equilibrium separation",
         source: "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",
         never_ends: true,
         repels: true,
-        make: |of| {
-            let law = LennardJones::new(of.work, of.range)?;
-            Ok(Formula::LennardJones(if of.has_wall { law.cut() } else { law }))
+        make: |[w, range, ..], walled, _| {
+            let law = LennardJones::new(w, range)?;
+            Ok(Arc::new(if walled { law.cut() } else { law }))
         },
     },
     Law {
         name: "morse",
-        summary: "two exponentials, which repel at negative gaps",
         formula: "traction 2W/RHO (exp(-g/RHO) - exp(-2g/RHO))",
         needs: &[WORK, "range"],
         source: "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
         never_ends: true,
         repels: true,
-        make: |of| Morse::new(of.work, of.range).map(Formula::Morse),
+        make: |[w, range, ..], _, _| Ok(Arc::new(Morse::new(w, range)?)),
         ..NONE
     },
     Law {
         name: "power",
-        summary: "energy -W (1 + gap/(N RHO))^-N",
         formula: "traction W/RHO (1 + g/(N RHO))^-(N + 1)",
         needs: &[WORK, "range", "exponent"],
         source: "as of forces between bodies that fall with a power of their distance",
         never_ends: true,
-        make: |of| PowerLaw::new(of.work, of.range, of.exponent).map(Formula::PowerLaw),
+        make: |[w, range, n, _], _, _| Ok(Arc::new(PowerLaw::new(w, range, n)?)),
         ..NONE
     },
     Law {
         name: "van-der-waals",
-        summary: "between half-spaces at RHO in contact, unretarded",
         formula: "traction A/(6 pi (RHO + g)^3)",
         needs: &["hamaker", "range"],
         remark: ", the distance in contact; cut off where retardation begins",
         source: "Israelachvili, Intermolecular and Surface Forces (2011), section 13",
         never_ends: true,
-        make: |of| PowerLaw::van_der_waals(of.hamaker, of.range).map(Formula::PowerLaw),
+        make: |[_, range, _, a], _, _| Ok(Arc::new(PowerLaw::van_der_waals(a, range)?)),
         ..NONE
     },
     Law {
         name: "table",
-        summary: "a monotone cubic through the points of a file",
         formula: "the monotone cubic through the points of a table of gaps and tractions",
         needs: &["law_table"],
         remark: ", lines of a gap and a traction",
         source: "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984)",
-        make: |of| Ok(of.table.cloned().map_or(Formula::None, Formula::Tabulated)),
+        make: |_, _, table| match table {
+            Some(table) => Ok(Arc::new(table.clone())),
+            None => Ok(Arc::new(NoAdhesion)),
+        },
         ..NONE
     },
 ];

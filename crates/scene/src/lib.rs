@@ -33,7 +33,7 @@ pub use adhesion::Adhesion;
 pub use asked::Asked;
 pub use course::{Course, Row, Step, Way, is_apart};
 pub use entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
-pub use formula::{Formula, OwnLaw, tabulated};
+pub use formula::{AnyLaw, Formula, tabulated};
 pub use found::{Found, Sight, check_finite, warnings_of};
 pub use half_space::{Boundary, HalfSpace};
 pub use laws::{LAWS, Law, PARAMETERS, Parameter};

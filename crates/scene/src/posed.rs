@@ -220,7 +220,7 @@ impl<T: Real> Posed<T> {
     fn on_nested_grids(&self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
         let Body::Surface(surface) = &self.body else { return Ok(None) };
         let (control, settings) = (asked.control, self.solver.settings);
-        let may = !started && !asked.stability && matches!(self.solver.constraint, Constraint::Hard(_));
+        let may = !started && !asked.stability && matches!(self.solver.constraint, Constraint::Hard);
         let pays = || may && Nested::new(settings).pays(surface, &self.law, control);
         if asked.fraction.is_some() || !asked.nested.unwrap_or_else(pays) {
             return Ok(None);

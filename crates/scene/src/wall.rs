@@ -40,9 +40,9 @@ impl fmt::Display for Wall {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Constraint<T> {
     /// A rigid wall.
-    Hard(Projection),
+    Hard,
     /// No wall.
-    None(NoWall),
+    None,
     /// Springs.
     Penalty(Penalty),
     /// Springs with multipliers.
@@ -57,43 +57,34 @@ impl<T: Real> Constraint<T> {
     pub fn new(wall: Wall, stiffness: Option<f64>) -> Result<Self> {
         let stiffness = stiffness.unwrap_or_default();
         Ok(match wall {
-            Wall::Hard => Self::Hard(Projection),
-            Wall::None => Self::None(NoWall),
+            Wall::Hard => Self::Hard,
+            Wall::None => Self::None,
             Wall::Penalty => Self::Penalty(Penalty::new(stiffness)?),
             Wall::Uzawa => Self::Uzawa(Uzawa::new(stiffness)?),
         })
-    }
-
-    fn constraint(&self) -> &dyn ContactConstraint<T> {
-        match self {
-            Self::Hard(wall) => wall,
-            Self::None(wall) => wall,
-            Self::Penalty(wall) => wall,
-            Self::Uzawa(wall) => wall,
-        }
-    }
-
-    fn constraint_mut(&mut self) -> &mut dyn ContactConstraint<T> {
-        match self {
-            Self::Hard(wall) => wall,
-            Self::None(wall) => wall,
-            Self::Penalty(wall) => wall,
-            Self::Uzawa(wall) => wall,
-        }
     }
 }
 
 impl<T: Real> ContactConstraint<T> for Constraint<T> {
     fn wall(&self) -> asperity::constraint::Wall<'_, T> {
-        self.constraint().wall()
+        match self {
+            Self::Hard => Projection.wall(),
+            Self::None => NoWall.wall(),
+            Self::Penalty(wall) => wall.wall(),
+            Self::Uzawa(wall) => wall.wall(),
+        }
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
-        self.constraint_mut().start(grid, stiffest, tolerance)
+        match self {
+            Self::Hard | Self::None => Ok(()),
+            Self::Penalty(wall) => ContactConstraint::<T>::start(wall, grid, stiffest, tolerance),
+            Self::Uzawa(wall) => wall.start(grid, stiffest, tolerance),
+        }
     }
     fn takes_slabs(&self) -> bool {
-        self.constraint().takes_slabs()
+        true
     }
     fn update(&mut self, gap: ArrayView2<'_, T>) -> Update {
-        self.constraint_mut().update(gap)
+        if let Self::Uzawa(wall) = self { wall.update(gap) } else { Update::Done }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use asperity::accuracy::Quantity;
 use asperity::path::PathSettings;
-use asperity::{Control, Exponential, Grid, Method, Projection, SelfAffine, Settings, Solver, Status};
+use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, Asked, Boundary, Constraint, Course, Found, Goal, HalfSpace, Inputs, Posed, Skin, Way,
@@ -70,13 +70,7 @@ fn posed() -> Posed<f64> {
     let surface = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap();
     let law = Arc::new(Exponential::new(2e-5, 8e-3).unwrap());
     let half_space = HalfSpace { boundary: Boundary::Periodic, modulus: 1.0 };
-    Posed::new(
-        surface,
-        law,
-        half_space,
-        Solver { settings: Settings::default(), constraint: Constraint::Hard(Projection) },
-        None,
-    )
+    Posed::new(surface, law, half_space, Solver { settings: Settings::default(), constraint: Constraint::Hard }, None)
 }
 
 fn solved(asked: &Asked) -> (Found<f64>, Account) {
