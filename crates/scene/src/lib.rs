@@ -9,7 +9,6 @@ mod entries;
 mod found;
 mod half_space;
 mod law;
-pub mod numbers;
 mod posed;
 pub mod quantity;
 mod record;
@@ -22,6 +21,8 @@ pub mod units;
 mod wall;
 mod warnings;
 mod words;
+
+pub use asperity_maps::numbers;
 
 pub use account::{Account, Adhesion, Inputs};
 pub use accuracy::Goal;
