@@ -13,7 +13,6 @@ mod found;
 mod half_space;
 mod laws;
 mod load;
-pub mod numbers;
 mod posed;
 pub mod quantity;
 mod record;
@@ -26,6 +25,8 @@ pub mod units;
 mod wall;
 mod warnings;
 mod words;
+
+pub use asperity_maps::numbers;
 
 pub use account::{Account, Inputs};
 pub use accuracy::Goal;
