@@ -6,13 +6,13 @@ use std::path::Path;
 use asperity::{Error, Grid, Surface};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_rows, read_topography};
+pub use asperity_scene::sides;
 use ndarray::Array2;
 
 use crate::outcome::Outcome;
 use crate::printing::complain;
 use crate::processes::Processes;
 use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
-use crate::units::Units;
 
 /// The relative difference that `--lengths` may have from the side lengths of the file, whose header rounds.
 const ROUNDING: f64 = 1e-2;
@@ -244,21 +244,4 @@ pub fn check_complete(path: &Path, map: &Topography) -> Outcome<()> {
         .into());
     }
     Ok(())
-}
-
-/// The numbers of missing and of infinite heights, if there are any.
-pub fn holes(map: &Topography) -> Option<String> {
-    let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
-    match (map.missing() - infinite, infinite) {
-        (0, 0) => None,
-        (missing, 0) => Some(format!("{missing} missing")),
-        (0, infinite) => Some(format!("{infinite} infinite")),
-        (missing, infinite) => Some(format!("{missing} missing, {infinite} infinite")),
-    }
-}
-
-/// Side lengths with their unit.
-pub fn sides((lx, ly): (f64, f64), unit: Option<&str>) -> String {
-    let side = |length| Units::of_map(unit).number(length, LENGTH);
-    format!("{} x {}", side(lx), side(ly))
 }

@@ -3,6 +3,9 @@
 
 mod account;
 mod accuracy;
+#[cfg(feature = "options")]
+pub mod allowed;
+mod body;
 mod course;
 mod entries;
 mod found;
@@ -10,6 +13,7 @@ mod half_space;
 mod law;
 pub mod numbers;
 mod posed;
+mod preparation;
 pub mod quantity;
 mod record;
 mod settings;
@@ -19,12 +23,14 @@ mod wall;
 
 pub use account::{Account, Adhesion, Inputs};
 pub use accuracy::{GIB, Goal};
+pub use body::{Body, BodyForm, Roughness};
 pub use course::{Course, Row, Step, Way, is_apart};
 pub use entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
 pub use found::{Found, Sight, check_finite, warnings_of};
 pub use half_space::{Boundary, HalfSpace};
 pub use law::tabulated;
 pub use posed::{AnyProblem, Asked, Observe, Posed};
+pub use preparation::{Log, Preparation, holes, sides};
 pub use settings::{Branches, settings};
 pub use told::Told;
 pub use wall::Wall;

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Deserializer};
+
 /// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
@@ -22,6 +24,13 @@ impl Quantity {
     /// A number without a dimension.
     pub fn number(value: f64) -> Self {
         Self { value, has_unit: false, is_number: true }
+    }
+}
+
+/// A number, in whatever units its user thinks in.
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Ok(Self { value: f64::deserialize(from)?, has_unit: false, is_number: false })
     }
 }
 

@@ -1,5 +1,7 @@
 //! The form of a body: a sphere or a cylinder, fitted to a height map and removed.
 
+use std::str::FromStr;
+
 use super::{Topography, Trend};
 use asperity::{Error, Result};
 
@@ -11,6 +13,24 @@ pub enum Form {
     Sphere,
     /// A circular cylinder, its axis in any direction and at any tilt.
     Cylinder,
+}
+
+impl Form {
+    /// The names of the forms.
+    pub const NAMES: [&str; 2] = ["sphere", "cylinder"];
+}
+
+impl FromStr for Form {
+    type Err = String;
+
+    /// A form by its name.
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        match text {
+            "sphere" => Ok(Self::Sphere),
+            "cylinder" => Ok(Self::Cylinder),
+            _ => Err(format!("it must be {}", Self::NAMES.join(" or "))),
+        }
+    }
 }
 
 /// The least-squares fit of a [`Form`].
