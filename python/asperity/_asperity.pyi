@@ -34,10 +34,10 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
+    "made",
     "prepare",
     "pressure_distribution",
     "read",
-    "self_affine",
     "spectrum",
     "statistics",
 ]
@@ -245,17 +245,8 @@ class Problem:
     ) -> dict[str, Any]: ...
 
 def read(path: str, channel: str | None) -> _Map: ...
-def self_affine(
-    shape: tuple[int, int],
-    lengths: tuple[float, float],
-    rms_height: float | None,
-    rms_slope: float | None,
-    hurst: float,
-    k_l: float,
-    k_r: float | None,
-    k_s: float,
-    random_phase: bool,
-    seed: int,
+def made(
+    shape: tuple[int, int], lengths: tuple[float, float], body: dict[str, Any], roughness: dict[str, Any] | None
 ) -> _Field: ...
 def statistics(heights: _Field, lengths: tuple[float, float] | None) -> list[float]: ...
 def spectrum(
@@ -264,24 +255,8 @@ def spectrum(
 def clusters(map: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(
-    heights: _Field,
-    lengths: tuple[float, float] | None,
-    unit: str | None,
-    original: tuple[int, int] | None,
-    missing: list[float],
-    scale: float | None,
-    crop: tuple[int, int, int, int] | None,
-    flip: bool,
-    align_rows: tuple[str, int] | None,
-    scan_axis: str,
-    despike: float | None,
-    remove_form: str | None,
-    detrend: tuple[str, int] | None,
-    fill: bool,
-    window: float | None,
-    mirror: bool,
-    resample: tuple[int, int] | None,
-) -> tuple[_Map, list[dict[str, str]]]: ...
+    given: tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None], steps: dict[str, Any]
+) -> tuple[_Map, list[str], list[dict[str, str]]]: ...
 
 @final
 class Contact:

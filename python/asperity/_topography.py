@@ -41,6 +41,8 @@ class Topography:
         Nodes of the original, from the first on, if the others are its mirror images.
     seed : int, optional
         Seed of the random surface that the map was made from.
+    log : tuple of str
+        Steps that `prepare` took to make the map, each with its effect in numbers.
 
     Examples
     --------
@@ -56,6 +58,7 @@ class Topography:
     source: str | None = None
     original: tuple[int, int] | None = None
     seed: int | None = None
+    log: tuple[str, ...] = ()
     _is_line: bool = field(default=False, compare=False)
 
     @property
@@ -219,48 +222,53 @@ def prepare(
     Returns
     -------
     Topography
+        With a line in its ``log`` for each step, as the tool prints them. Probable mistakes, as a code for missing points
+        that was left among the heights, come as an `InputWarning`.
 
     Examples
     --------
     >>> import numpy as np, asperity
     >>> measured = 1e-9 * np.random.default_rng(0).normal(size=(32, 24)) + 1e-8 * np.arange(32)[:, None]
     >>> measured[3, 5] = np.nan
-    >>> asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
+    >>> made = asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
+    >>> made
     Topography(64 x 48 heights, mirror images of 32 x 24, 2e-06 x 1.5e-06 m)
+    >>> [line.split(":")[0] for line in made.log]
+    ['read', 'lengths', 'unit', 'detrend', 'fill', 'mirror']
     """
-    given = taken(heights, lengths, axes)
-    codes = [] if missing is None else [float(code) for code in np.ravel(missing)]
-    (made, sides, unit, original, _), warnings = _asperity.prepare(
-        given.heights,
-        given.lengths,
-        unit or given.unit,
-        given.original,
-        codes,
-        scale,
-        crop,
-        flip,
-        _by_order(align_rows),
-        scan_axis,
-        despike,
-        remove_form,
-        _by_order(detrend),
-        fill,
-        window,
-        mirror,
-        resample,
-    )
+    given = taken(heights, None, axes)
+    keys = {
+        "missing": None if missing is None else np.ravel(missing),
+        "scale": scale,
+        "unit": unit,
+        "crop": crop,
+        "flip": flip,
+        "align_rows": align_rows if align_rows is None or isinstance(align_rows, str) else f"polynomial:{align_rows}",
+        "scan_axis": scan_axis,
+        "despike": despike,
+        "remove_form": remove_form,
+        "detrend": detrend if detrend is None else str(detrend),
+        "fill": fill,
+        "window": window,
+        "mirror": mirror,
+        "resample": resample,
+    }
+    steps = plain(keys)
+    if lengths is not None:
+        steps["lengths"] = (_lengths(lengths, given.heights.shape), given.unit)
+    known = (given.heights, given.lengths, given.unit, given.original)
+    (made, both, name, original, _), log, warnings = _asperity.prepare(known, steps)
     for warning in warnings:
         warn_of_input(warning)
     periodic = True if mirror or window else given.periodic
     is_line = given._is_line and made.shape[1] == 1
-    return Topography(made, sides, unit, periodic, given.source, original, given.seed, _is_line=is_line)
+    lines = (*given.log, *log)
+    return Topography(made, both, name, periodic, given.source, original, given.seed, lines, _is_line=is_line)
 
 
-def _by_order(method: str | int | None) -> tuple[str, int] | None:
-    """A method by its name, or a polynomial by its order."""
-    if method is None:
-        return None
-    return (method, 0) if isinstance(method, str) else ("polynomial", int(method))
+def plain(keys: dict[str, Any]) -> dict[str, Any]:
+    """Keys with their values as the compiled core reads them: numbers, texts and lists, without those of numpy."""
+    return {key: np.asarray(value).tolist() for key, value in keys.items() if value is not None}
 
 
 def taken(

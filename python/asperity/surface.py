@@ -1,4 +1,6 @@
-"""Rough surfaces: random ones, and the statistics of any.
+"""Surfaces: rough ones, bodies of simple forms, and the statistics of any.
+
+The heights of a body and of roughness on one grid add up: ``asperity.Topography(tip.heights + rough.heights, tip.lengths)``.
 
 >>> from asperity import surface
 >>> rough = surface.self_affine(128, 1.0, rms_slope=0.1, hurst=0.8, k_l=4, k_s=32, seed=7)
@@ -14,9 +16,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
-from ._topography import Topography, _lengths, sides, taken
+from ._topography import Topography, _lengths, plain, sides, taken
+from ._types import Axes, Heights, Lengths, Shape, Tilt
 
-__all__ = ["PowerSpectralDensity", "SurfaceStatistics", "self_affine", "spectrum", "statistics"]
+__all__ = [
+    "PowerSpectralDensity",
+    "SurfaceStatistics",
+    "cone",
+    "flat_punch",
+    "paraboloid",
+    "self_affine",
+    "spectrum",
+    "sphere",
+    "statistics",
+    "wave",
+]
 
 
 class SurfaceStatistics(NamedTuple):
@@ -73,8 +87,8 @@ class PowerSpectralDensity(NamedTuple):
 
 
 def self_affine(
-    shape: int | tuple[int, int],
-    lengths: float | tuple[float, float],
+    shape: Shape,
+    lengths: Lengths,
     *,
     rms_height: float | None = None,
     rms_slope: float | None = None,
@@ -84,6 +98,7 @@ def self_affine(
     k_s: float = 64.0,
     random_phase: bool = False,
     seed: int = 0,
+    tilt: Tilt = None,
 ) -> Topography:
     """Draws a periodic, isotropic, self-affine rough surface.
 
@@ -106,15 +121,100 @@ def self_affine(
         Whether only the phases of the waves are random, and their amplitudes those of the spectrum.
     seed : int
         Seed of the random numbers, from 0: each makes another surface.
+    tilt : float or (float, float), optional
+        Slope of a plane that is added, along x and along y.
 
     Returns
     -------
     Topography
     """
+    roughness = {
+        "rms_height": rms_height,
+        "rms_slope": rms_slope,
+        "hurst": hurst,
+        "k_l": k_l,
+        "k_r": k_r,
+        "k_s": k_s,
+        "random_phase": random_phase,
+        "seed": seed,
+    }
+    return _made(shape, lengths, roughness, tilt=tilt, periodic=None if tilt else True, seed=seed)
+
+
+def sphere(
+    shape: Shape, lengths: Lengths, *, radius: float, tilt: Tilt = None
+) -> Topography:
+    """Makes a sphere, √(R² − r²) − R with its apex on the node in the middle.
+
+    Parameters
+    ----------
+    shape : int or (int, int)
+        Numbers of nodes (Nx, Ny); one alone for a square.
+    lengths : float or (float, float)
+        Side lengths; one alone for square cells.
+    radius : float
+        Radius R, a length. Beyond it points are missing: `asperity.solve` takes them by ``absent_missing``.
+    tilt : float or (float, float), optional
+        Slope of a plane that is added, along x and along y.
+
+    Returns
+    -------
+    Topography
+
+    Examples
+    --------
+    >>> import asperity
+    >>> tip = asperity.surface.sphere(64, 1.0, radius=2.0)
+    >>> pressed = asperity.solve(tip, modulus=1.0, normal_force=0.01, boundary="free")
+    >>> f"{pressed.approach / asperity.exact.Hertz(2.0, 1.0).at_load(0.01).approach:.2f}"
+    '1.00'
+    """
+    return _made(shape, lengths, form="sphere", radius=radius, tilt=tilt)
+
+
+def paraboloid(shape: Shape, lengths: Lengths, *, radius: float, tilt: Tilt = None) -> Topography:
+    """Makes a paraboloid, −r²/2R with the radius of curvature R; see `sphere`."""
+    return _made(shape, lengths, form="paraboloid", radius=radius, tilt=tilt)
+
+
+def cone(shape: Shape, lengths: Lengths, *, angle: float, tilt: Tilt = None) -> Topography:
+    """Makes a cone, −r tan(angle), with the angle in degrees between its side and the half-space; see `sphere`."""
+    return _made(shape, lengths, form="cone", angle=angle, tilt=tilt)
+
+
+def flat_punch(shape: Shape, lengths: Lengths, *, radius: float, tilt: Tilt = None) -> Topography:
+    """Makes a flat punch: 0 up to its radius, missing points beyond; see `sphere`."""
+    return _made(shape, lengths, form="flat-punch", radius=radius, tilt=tilt)
+
+
+def wave(
+    shape: Shape,
+    lengths: Lengths,
+    *,
+    amplitude: float,
+    periods: int | tuple[int, int] = (1, 0),
+    tilt: Tilt = None,
+) -> Topography:
+    """Makes a wave, A cos(2πmₓx/Lx) cos(2πmᵧy/Ly) with its amplitude A and the periods (mₓ, mᵧ); see `sphere`."""
+    periodic = None if tilt else True
+    return _made(shape, lengths, form="wave", amplitude=amplitude, periods=np.ravel(periods), tilt=tilt, periodic=periodic)
+
+
+def _made(
+    shape: Shape,
+    lengths: Lengths,
+    roughness: dict[str, Any] | None = None,
+    *,
+    tilt: Tilt,
+    periodic: bool | None = None,
+    seed: int | None = None,
+    **body: Any,
+) -> Topography:
     nodes = (shape, shape) if isinstance(shape, int) else shape
     both = _lengths(lengths, nodes)
-    heights = _asperity.self_affine(nodes, both, rms_height, rms_slope, hurst, k_l, k_r, k_s, random_phase, seed)
-    return Topography(heights, both, periodic=True, seed=seed)
+    body["tilt"] = None if tilt is None else np.ravel(tilt)
+    heights = _asperity.made(nodes, both, plain(body), None if roughness is None else plain(roughness))
+    return Topography(heights, both, periodic=periodic, seed=seed)
 
 
 def statistics(

@@ -2,16 +2,27 @@
 
 use asperity::Control;
 use asperity_scene::Goal;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde::Deserialize;
-use serde::de::IntoDeserializer;
 use serde::de::value::Error;
+use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde_pyobject::from_pyobject;
 
 /// The value of a keyword by its name, which is one of `names`.
 pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
     let found: Result<V, Error> = V::deserialize(name.into_deserializer());
     found.map_err(|_| PyValueError::new_err(format!("{keyword} is {name}: it must be {names}")))
+}
+
+/// What a dictionary of keys and values describes.
+pub fn keys<V: DeserializeOwned>(given: Bound<'_, PyAny>) -> PyResult<V> {
+    let py = given.py();
+    from_pyobject(given).map_err(|error| match error.0 {
+        // an error of a value, in words
+        refused if refused.is_instance_of::<PyRuntimeError>(py) => PyValueError::new_err(refused.value(py).to_string()),
+        error => error,
+    })
 }
 
 /// A load as Python passes it: the name of the keyword and its numbers.

@@ -44,7 +44,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{prepare, read, self_affine, spectrum, statistics};
+    use crate::surface::{made, prepare, read, spectrum, statistics};
 
     use pyo3::prelude::*;
 

@@ -172,7 +172,10 @@ impl Preparation {
         if let Some(form) = self.remove_form {
             let (fit, before) = (map.fit_form(form)?, rms(&map));
             map = map.remove_form(form)?;
-            log.tell("remove-form", format!("{} removed: {} from {before}", described_form(&fit, &map), rms(&map)));
+            log.tell(
+                "remove-form",
+                format!("{} removed: rms height {} from {before}", described_form(&fit, &map), rms(&map)),
+            );
         }
         if let Some(trend) = self.detrend {
             let before = map.clone();
