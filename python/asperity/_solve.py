@@ -9,13 +9,14 @@ from . import _accuracy, _control
 from ._asperity import Iteration
 from ._scene import Scene
 from ._solution import Solution
+from ._types import AccuracyOf, AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Start, Wall
 
 
 def solve(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
+    axes: AxisOrder | None = None,
     modulus: float,
     mean_pressure: float | None = None,
     mean_gap: float | None = None,
@@ -24,23 +25,23 @@ def solve(
     spring: tuple[float, float] | None = None,
     reduced_pressure: float | None = None,
     contact_fraction: float | None = None,
-    boundary: str = "periodic",
+    boundary: Boundary = "periodic",
     absent_missing: bool = False,
-    law: Any = None,
-    wall: str = "hard",
+    law: OwnLaw | None = None,
+    wall: Wall = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
-    method: str = "default",
-    branch: str | None = None,
-    precision: str = "f64",
-    start: Any = None,
+    method: Method = "default",
+    branch: Branches | None = None,
+    precision: Precision = "f64",
+    start: Start = None,
     nested: bool | None = None,
     observe: Callable[[Iteration], object] | None = None,
     stability: bool = False,
     leave: bool = False,
     stiffness: bool = False,
     accuracy: float | None = None,
-    accuracy_of: str | None = None,
+    accuracy_of: AccuracyOf | None = None,
     memory: float | None = None,
     threads: int | None = None,
     whole: bool = False,
@@ -235,7 +236,7 @@ def solve(
 
 
 def _check_both(
-    law: Any, method: str, contact_fraction: float | None, accuracy: float | None, leave: bool
+    law: OwnLaw | None, method: Method, contact_fraction: float | None, accuracy: float | None, leave: bool
 ) -> None:
     """Refuses both branches of equilibria where there is nothing to be compared."""
     reason = None

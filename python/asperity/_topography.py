@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _plot
+from ._types import AxisOrder, HeightMap, Heights, Lengths, RemovedForm, RowAlignment, ScanAxis, Trend
 from ._warnings import warn_of_input
 
 if TYPE_CHECKING:
@@ -130,7 +131,7 @@ def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topo
     return Topography(heights, lengths, unit, source=os.fspath(path), original=original, seed=seed)
 
 
-def from_topography(topography: Any) -> Topography:
+def from_topography(topography: HeightMap) -> Topography:
     """Takes a map of SurfaceTopography, or anything else with its three properties.
 
     Parameters
@@ -156,20 +157,20 @@ def from_topography(topography: Any) -> Topography:
 
 
 def prepare(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
+    axes: AxisOrder | None = None,
     unit: str | None = None,
     missing: float | list[float] | None = None,
     scale: float | None = None,
     crop: tuple[int, int, int, int] | None = None,
     flip: bool = False,
-    align_rows: str | int | None = None,
-    scan_axis: str = "x",
+    align_rows: RowAlignment | int | None = None,
+    scan_axis: ScanAxis = "x",
     despike: float | None = None,
-    remove_form: str | None = None,
-    detrend: str | int | None = None,
+    remove_form: RemovedForm | None = None,
+    detrend: Trend | int | None = None,
     fill: bool = False,
     window: float | None = None,
     mirror: bool = False,
@@ -272,7 +273,7 @@ def plain(keys: dict[str, Any]) -> dict[str, Any]:
 
 
 def taken(
-    heights: Any, lengths: float | tuple[float, float] | None = None, axes: str | None = None
+    heights: Heights, lengths: Lengths | None = None, axes: AxisOrder | None = None
 ) -> Topography:
     """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
     if axes is not None and (isinstance(heights, Topography | str | os.PathLike) or _is_topography(heights)):
@@ -319,7 +320,7 @@ def field_of(values: Any, name: str) -> NDArray[np.float64]:
     return array_of(values, name)[0]
 
 
-def array_of(values: Any, name: str = "heights", axes: str | None = None) -> tuple[NDArray[np.float64], bool]:
+def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) -> tuple[NDArray[np.float64], bool]:
     """Values as a matrix of float64 with x along its first axis, and whether they are one line.
 
     Masked points become NaN.
@@ -342,7 +343,7 @@ def array_of(values: Any, name: str = "heights", axes: str | None = None) -> tup
     return (array.T if order == "yx" else array), False
 
 
-def _order(values: Any, axes: str | None) -> str:
+def _order(values: Any, axes: AxisOrder | None) -> str:
     """The order of the axes of an array: that of the names of its dimensions, or the one that is given."""
     if axes not in (None, "xy", "yx"):
         raise ValueError(f"axes is {axes!r}: it must be 'xy', x along the first axis, or 'yx', as of an image")
@@ -363,7 +364,7 @@ def _is_topography(values: Any) -> bool:
     return callable(getattr(values, "heights", None)) and hasattr(values, "physical_sizes")
 
 
-def _lengths(lengths: float | tuple[float, float], shape: tuple[int, ...]) -> tuple[float, float]:
+def _lengths(lengths: Lengths, shape: tuple[int, ...]) -> tuple[float, float]:
     """Side lengths; one alone means square cells."""
     try:
         pair = tuple(float(length) for length in np.ravel(lengths))
@@ -377,7 +378,7 @@ def _lengths(lengths: float | tuple[float, float], shape: tuple[int, ...]) -> tu
     return (pair[0], pair[1])
 
 
-def _from_data_array(data: Any, axes: str | None) -> Topography:
+def _from_data_array(data: Any, axes: AxisOrder | None) -> Topography:
     """The heights of an xarray.DataArray, with the side lengths of its coordinates."""
     heights, is_line = array_of(data, axes=axes)
     units = {data.attrs.get("units")}

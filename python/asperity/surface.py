@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from . import _asperity
 from ._topography import Topography, _lengths, plain, sides, taken
-from ._types import Axes, Heights, Lengths, Shape, Tilt
+from ._types import AxisOrder, Heights, Lengths, Shape, Tilt
 
 __all__ = [
     "PowerSpectralDensity",
@@ -218,7 +218,7 @@ def _made(
 
 
 def statistics(
-    heights: Any, lengths: float | tuple[float, float] | None = None, *, axes: str | None = None
+    heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None
 ) -> SurfaceStatistics:
     """Heights, slopes and curvatures in numbers.
 
@@ -240,10 +240,10 @@ def statistics(
 
 
 def spectrum(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
+    axes: AxisOrder | None = None,
 ) -> PowerSpectralDensity:
     """The power spectral density, averaged over directions.
 
