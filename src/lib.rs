@@ -123,6 +123,8 @@ pub use grid::Grid;
 #[doc(inline)]
 pub use nested::Nested;
 pub use problem::{Control, Problem};
+#[doc(hidden)]
+pub use real::Compiled;
 pub use real::Real;
 #[doc(inline)]
 pub use search::ContactSearch;

@@ -178,7 +178,13 @@ class Iteration:
 
 @final
 class Look:
-    def found(self) -> tuple[tuple[int, float, float, float, NDArray[np.int64], float, float, float], dict[str, Any]]: ...
+    def found(
+        self,
+    ) -> tuple[
+        tuple[int, float, float, float, NDArray[np.int64], float, float, float],
+        dict[str, Any],
+        list[tuple[str, str]],
+    ]: ...
 
 @final
 class Original:
@@ -221,7 +227,7 @@ class Problem:
     def full_pressure(self) -> float: ...
     def plan(
         self, load: tuple[str, list[float]], accuracy: tuple[float, str, float | None]
-    ) -> tuple[float, float, tuple[int, int], float, float]: ...
+    ) -> tuple[tuple[float, float, tuple[int, int], float, float], str]: ...
     def solve(
         self,
         load: tuple[str, list[float]],

@@ -2,7 +2,6 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use asperity::accuracy::Plan;
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
 use asperity_scene::{Asked, Branches, Inputs, Wall, Way, settings};
@@ -17,8 +16,8 @@ use crate::pools::Pool;
 use crate::refusal::refusal_of_heights;
 use crate::state::{Run, Solves, state};
 
-/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan.
-type Planned = (f64, f64, (usize, usize), f64, f64);
+/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan, and the plan in words.
+type Planned = ((f64, f64, (usize, usize), f64, f64), String);
 
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
@@ -134,9 +133,10 @@ impl Problem {
     #[pyo3(signature = (load, accuracy))]
     fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Accuracy) -> PyResult<Planned> {
         let (pool, _, solves) = self.parts()?;
-        let (Plan { nodes_per_wave, tolerance, shape, bytes, .. }, seconds) =
-            solves.plan(py, &pool, control(&load)?, goal(accuracy)?)?;
-        Ok((nodes_per_wave, tolerance, shape, bytes, seconds))
+        let goal = goal(accuracy)?;
+        let (plan, seconds) = solves.plan(py, &pool, control(&load)?, goal)?;
+        let text = goal.announced(&plan, seconds);
+        Ok(((plan.nodes_per_wave, plan.tolerance, plan.shape, plan.bytes, seconds), text))
     }
 
     /// The equilibrium at a load.

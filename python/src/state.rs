@@ -3,15 +3,15 @@
 use asperity::accuracy::Plan;
 use asperity::contact::Original;
 use asperity::{Control, Settings, Solver, Status, Surface};
-use asperity_maps::warning::Warning;
-use asperity_scene::{Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Posed, Way};
+use asperity_scene::units::Units;
+use asperity_scene::{Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Posed, Told, Way, warnings_of_input};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_pyobject::to_pyobject;
 
-use crate::answer::{Scalar, answer, told};
+use crate::answer::{Scalar, answer};
 use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -23,8 +23,9 @@ struct State<T: Scalar> {
     posed: Posed<T>,
     threads: Option<usize>,
     strongest: Option<(usize, usize)>,
+    units: Units,
     /// of the input
-    warnings: Vec<Warning>,
+    warnings: Vec<Told>,
     course: Option<Course<T>>,
 }
 
@@ -72,8 +73,7 @@ impl<T: Scalar> State<T> {
         found: Found<T>,
     ) -> asperity::Result<(Found<T>, Account)> {
         let mut warnings = self.warnings.clone();
-        warnings.extend(found.warnings()?);
-        let warnings = warnings.iter().map(|found| told(found, inputs.length_unit.as_deref())).collect();
+        warnings.extend(found.warnings()?.iter().map(|warning| self.units.told(warning)));
         let account = found.account(command, inputs, self.strongest, warnings)?;
         Ok((found, account))
     }
@@ -151,13 +151,12 @@ pub fn state<T: Scalar>(
 ) -> PyResult<Box<dyn Solves>> {
     let (law, strongest) = (law::<T>(given)?, strongest(given));
     let &Inputs { boundary, modulus, ref adhesion, ref length_unit, .. } = inputs;
+    let units = Units::of_map(length_unit.as_deref());
     let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint: adhesion.wall });
     let make = || {
-        let mut warnings = boundary.warnings(&surface);
-        warnings.extend(Warning::of_modulus(modulus, surface.grid(), length_unit.as_deref()));
-        warnings.extend(Warning::of_law(&law, &surface, modulus));
+        let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);
         let posed = Posed::new(surface, law.into(), half_space, solver, original);
-        State { posed, threads, strongest, warnings, course: None }
+        State { posed, threads, strongest, units, warnings, course: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))
 }

@@ -141,7 +141,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     draw().map_err(|error| at_destination(error, out))?;
     folder.commit()?;
 
-    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], true, &units, &part));
+    printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], &units));
     printing.say(&format!("\nmaps in {}: {}\n", name(out), names.join(", ")));
     let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));

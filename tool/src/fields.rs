@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::{Grid, Solution};
 use asperity_maps::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
+use asperity_scene::{Skin, worded};
 use ndarray::Array2;
 
 use crate::options::Scalar;
@@ -36,9 +37,7 @@ pub fn write_fields<T: Scalar>(
 
 /// Refuses a solution of a solve that has run away.
 pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {
-    let other = if T::NAME == "f32" { "--precision f64" } else { "another start by --initial-gap" };
-    let refused = |found| format!("{found}; use {other}, or units in which the numbers are moderate").into();
-    asperity_scene::check_finite(solution).map_err(refused)
+    Ok(asperity_scene::check_finite(solution).map_err(|text| worded(&text, Skin::Options))?)
 }
 
 /// The gap as files have it: NaN at absent nodes, where there is none.

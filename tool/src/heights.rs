@@ -6,13 +6,13 @@ use std::path::Path;
 use asperity::{Error, Grid, Surface};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_rows, read_topography};
-pub use asperity_scene::sides;
 use ndarray::Array2;
 
 use crate::outcome::Outcome;
 use crate::printing::complain;
 use crate::processes::Processes;
 use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
+use crate::units::Units;
 
 /// The relative difference that `--lengths` may have from the side lengths of the file, whose header rounds.
 const ROUNDING: f64 = 1e-2;
@@ -244,4 +244,9 @@ pub fn check_complete(path: &Path, map: &Topography) -> Outcome<()> {
         .into());
     }
     Ok(())
+}
+
+/// Side lengths with their unit.
+pub fn sides(sides: (f64, f64), unit: Option<&str>) -> String {
+    Units::of_map(unit).sides(sides)
 }

@@ -15,7 +15,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{Array2, CowArray};
 use serde_json::json;
 
-use crate::accuracy::{self, AccuracyOptions};
+use crate::accuracy::AccuracyOptions;
 use crate::adhesion::{Adhesion, AdhesionOptions, Law};
 use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions, check_load};
@@ -273,7 +273,7 @@ impl Job<'_> {
         let mut posed = self.options.problem().posed::<T>(surface, adhesion.law()?, &self.part);
         if let Some(goal) = self.asked.goal {
             let (plan, time) = posed.plan(self.asked.control, goal)?;
-            printing.say(&accuracy::announced(goal, &plan, time));
+            printing.say(&goal.announced(&plan, time));
         }
         let mut found = posed.solve(&self.asked, start, &mut |grid, state, tolerance| {
             progress.update_on(grid, state, tolerance);
@@ -319,8 +319,7 @@ impl Job<'_> {
         })?;
 
         if printing.for_people() {
-            let adhesive = self.options.adhesion.law != Law::None;
-            say(&table(&[], &[&account], adhesive, &self.units, &self.part));
+            say(&table(&[], &[&account], &self.units));
             say(&format!("results in {}: {}", name(out), self.names.join(", ")));
         }
         printing.report(|| json!(account));

@@ -19,7 +19,6 @@ use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain, name};
 use crate::processes::Processes;
 use crate::scene::Scene;
-use crate::summary::jump;
 use crate::table::{self, Table, TableOptions};
 use crate::units::{UnitOptions, header};
 use crate::warnings::Strictness;
@@ -159,7 +158,7 @@ impl Options {
             self.printing.say(&format!("{rows:>width$}/{count}  {}", table::brief(account, units)));
             let converged = account.status == Status::Converged;
             if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
-                complain("warning", &format!("row {rows}: {}", jump(&searched)));
+                complain("warning", &format!("row {rows}: {}", searched.jump()));
             }
         }
         let text = table.text()?;

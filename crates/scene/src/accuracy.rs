@@ -12,7 +12,7 @@ use crate::half_space::HalfSpace;
 use crate::wall::Wall;
 
 /// The bytes of a GiB.
-pub const GIB: f64 = 1_073_741_824.0;
+pub(crate) const GIB: f64 = 1_073_741_824.0;
 
 /// The accuracy that is asked for, from which tolerance and grid follow.
 #[derive(Clone, Copy, Debug, PartialEq)]

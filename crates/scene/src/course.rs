@@ -13,6 +13,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::account::Account;
+use crate::compiled::compiled;
 use crate::entries::Search;
 use crate::found::{Found, check_finite};
 use crate::half_space::Boundary;
@@ -94,6 +95,11 @@ const BALANCE: &str = "work dissipated imbalance event energy_drop";
 
 const WITHDRAWAL: &str = "withdrawal";
 
+type See<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
+
+compiled!(Checked: (&'a Course<T>, &'a mut Posed<T>) => Result<()> = Course::checked);
+compiled!(Next: (&'a mut Course<T>, &'a mut Posed<T>, See<'a>) => Result<Option<Found<T>>> = Course::following);
+
 impl<T: Real> Course<T> {
     /// A course from its beginning, with the contact stiffness of each state or without.
     pub fn new(way: Way, stiffness: bool) -> Self {
@@ -138,8 +144,12 @@ impl<T: Real> Course<T> {
     /// # Errors
     /// Those of [`Posed::parts`] and [`Path::new`].
     pub fn check(&self, posed: &mut Posed<T>) -> Result<()> {
+        T::call::<Checked<'_>>((self, posed))
+    }
+
+    fn checked((this, posed): (&Self, &mut Posed<T>)) -> Result<()> {
         let (solver, problem) = posed.parts()?;
-        let Way::Cycle(loads, settings) = &self.way else { return Ok(()) };
+        let Way::Cycle(loads, settings) = &this.way else { return Ok(()) };
         Path::new(solver, problem, loads.iter().copied(), *settings).map(drop)
     }
 
@@ -152,11 +162,15 @@ impl<T: Real> Course<T> {
         posed: &mut Posed<T>,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Result<Option<Found<T>>> {
-        let (clock, boundary, done) = (Instant::now(), posed.boundary(), self.states);
+        T::call::<Next<'_>>((self, posed, observe))
+    }
+
+    fn following((this, posed, observe): (&mut Self, &mut Posed<T>, See<'_>)) -> Result<Option<Found<T>>> {
+        let (clock, boundary, done) = (Instant::now(), posed.boundary(), this.states);
         let (solver, problem) = posed.parts()?;
-        let start = self.start.take();
-        let fields = &mut self.place.fields;
-        let (solution, search, step) = match &self.way {
+        let start = this.start.take();
+        let fields = &mut this.place.fields;
+        let (solution, search, step) = match &this.way {
             Way::Sweep(loads) => {
                 let Some(&load) = loads.get(done) else { return Ok(None) };
                 let before = &loads[done.saturating_sub(fields.len())..done];
@@ -171,7 +185,7 @@ impl<T: Real> Course<T> {
             }
             Way::Search(fractions) => {
                 let Some(&fraction) = fractions.get(done) else { return Ok(None) };
-                let points = self.place.values.get("points").map_or(&[][..], Vec::as_slice);
+                let points = this.place.values.get("points").map_or(&[][..], Vec::as_slice);
                 let mut search = ContactSearch::new(solver, problem)?.continuing(points, fields.pop());
                 if let Some(start) = start {
                     search = search.starting_from(start);
@@ -179,23 +193,23 @@ impl<T: Real> Course<T> {
                 let found = search.at_observed(fraction, observe)?;
                 let (points, gap) = search.checkpoint();
                 *fields = gap.cloned().into_iter().collect();
-                self.place.values.insert("points".to_owned(), points);
+                this.place.values.insert("points".to_owned(), points);
                 let searched = Search::of(fraction, &found);
                 (found.solution, Some(searched), None)
             }
             Way::Cycle(loads, settings) => {
                 let mut path = Path::new(solver, problem, loads.iter().copied(), *settings)?;
                 if done > 0 {
-                    let values = mem::take(&mut self.place.values);
+                    let values = mem::take(&mut this.place.values);
                     path = path.continuing(PathCheckpoint { values, fields: mem::take(fields) })?;
                 } else if let Some(start) = start {
                     path = path.starting_from(start);
                 }
-                if self.leg_ends {
+                if this.leg_ends {
                     path.end_leg();
                 }
                 let Some(found) = path.next_observed(observe).transpose()? else { return Ok(None) };
-                self.place = path.checkpoint();
+                this.place = path.checkpoint();
                 let step = Step {
                     leg: found.leg,
                     direction: direction(loads, found.leg, boundary),
@@ -208,8 +222,8 @@ impl<T: Real> Course<T> {
                 (found.solution, None, Some(step))
             }
         };
-        self.states += 1;
-        let wanted = self.stiffness && check_finite(&solution).is_ok();
+        this.states += 1;
+        let wanted = this.stiffness && check_finite(&solution).is_ok();
         let stiffness = if wanted { posed.stiffness(&solution)? } else { None };
         Ok(Some(Found { search, step, stiffness, ..posed.found(solution, clock)? }))
     }

@@ -11,6 +11,7 @@ use asperity_maps::warning::Warning;
 use ndarray::{Array2, ArrayView2};
 
 use crate::account::{Account, Inputs};
+use crate::compiled::compiled;
 use crate::course::Step;
 use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness};
 use crate::told::Told;
@@ -137,6 +138,8 @@ impl<T: Real> Found<T> {
     }
 }
 
+compiled!(Sees: (&'a Sight<T>, [ArrayView2<'a, T>; 3]) => Result<Seen> = Sight::see);
+
 impl<T: Real> Sight<T> {
     /// Looks at the fields of the solution, as [`Sight::look`].
     ///
@@ -155,7 +158,7 @@ impl<T: Real> Sight<T> {
     pub fn look(&mut self, account: &mut Account, fields: [ArrayView2<'_, T>; 3]) -> Result<ContactStatistics> {
         let seen = match self.seen.take() {
             Some(seen) => seen,
-            None => self.see(fields)?,
+            None => T::call::<Sees<'_>>((self, fields))?,
         };
         let (found, (min_pressure, max_pressure)) = self.seen.insert(seen).clone();
         if let Some((surface, levels)) = self.open.take() {
@@ -172,18 +175,18 @@ impl<T: Real> Sight<T> {
         Ok(found)
     }
 
-    fn see(&self, [gap, pressure, contact_pressure]: [ArrayView2<'_, T>; 3]) -> Result<Seen> {
-        let (law, modulus) = (&self.law, self.report.modulus);
-        let found = match &self.original {
+    fn see((this, [gap, pressure, contact_pressure]): (&Self, [ArrayView2<'_, T>; 3])) -> Result<Seen> {
+        let (law, modulus) = (&this.law, this.report.modulus);
+        let found = match &this.original {
             Some(original) => original.statistics_of_fields(gap, contact_pressure, modulus, law)?,
             None => {
-                let body = (self.report.boundary, modulus);
-                ContactStatistics::of_fields(gap, contact_pressure, &self.grid, body, law)?
+                let body = (this.report.boundary, modulus);
+                ContactStatistics::of_fields(gap, contact_pressure, &this.grid, body, law)?
             }
         };
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let extremes = pressure.iter().fold(none, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-        Ok((found, self.grid.extremes(extremes)))
+        Ok((found, this.grid.extremes(extremes)))
     }
 
     /// Estimates the errors of nested grids of a surface.
@@ -214,7 +217,7 @@ pub fn warnings_of<T: Real>(solution: &Solution<T>, original: Option<Original>) 
 /// Refuses a solution of a solve that has run away.
 ///
 /// # Errors
-/// The first field that is not finite, in words to which a remedy may be added.
+/// The first field that is not finite, and a remedy, for [`worded`](crate::worded).
 pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), String> {
     let Solution { gap, pressure, contact_pressure, grid, report, .. } = solution;
     // at absent nodes the gap is infinite
@@ -223,8 +226,10 @@ pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), 
     for (name, field, absent) in fields {
         let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());
         if count != absent {
+            let other = if T::NAME == "f32" { "{precision=f64}" } else { "another {initial_gap}" };
             return Err(format!(
-                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes",
+                "the solve ran away: after {} iterations in {} the {name} is not finite at {count} of {} nodes; use \
+                 {other}, or units in which the numbers are moderate",
                 report.iterations,
                 T::NAME,
                 grid.nodes()

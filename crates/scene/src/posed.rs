@@ -16,6 +16,7 @@ use asperity::{
 use ndarray::Array2;
 
 use crate::accuracy::{Goal, planned};
+use crate::compiled::compiled;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
 use crate::half_space::{Boundary, HalfSpace};
@@ -77,6 +78,12 @@ impl Asked {
     }
 }
 
+compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Wall>, &'a mut AnyProblem<T>)> = Posed::parts_of);
+compiled!(Planned: (&'a Posed<T>, Control, Goal) => Result<(Plan, f64)> = Posed::planned);
+compiled!(Solved: (&'a mut Posed<T>, &'a Asked, Option<Array2<T>>, Observe<'a>) => Result<Found<T>> = Posed::solved);
+compiled!(Stiff: (&'a mut Posed<T>, &'a Solution<T>) => Result<Option<ContactStiffness>> = Posed::stiff);
+compiled!(Stable: (&'a mut Posed<T>, Control, &'a Array2<T>, f64) => Result<(Steadiness, Array2<T>)> = Posed::stable);
+
 impl<T: Real> Posed<T> {
     /// The problem of a surface with an adhesion law on a half-space, whose results are of the `original` of a mirrored
     /// surface, or of the whole.
@@ -96,6 +103,10 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`HalfSpace::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
     pub fn parts(&mut self) -> Result<(&mut Solver<Wall>, &mut AnyProblem<T>)> {
+        T::call::<Parts<'_>>(self)
+    }
+
+    fn parts_of(&mut self) -> Result<(&mut Solver<Wall>, &mut AnyProblem<T>)> {
         if let Body::Surface(surface) = &self.body {
             let operator = self.half_space.operator(*surface.grid())?;
             if let Body::Surface(surface) = mem::replace(&mut self.body, Body::Spent) {
@@ -127,8 +138,12 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`HalfSpace::operator`] and [`Accuracy::plan`](asperity::accuracy::Accuracy::plan).
     pub fn plan(&self, control: Control, goal: Goal) -> Result<(Plan, f64)> {
-        let Body::Surface(surface) = &self.body else { return Err(spent()) };
-        planned(&goal.by(self.solver.clone(), false), surface, self.half_space, &self.law, control)
+        T::call::<Planned<'_>>((self, control, goal))
+    }
+
+    fn planned((this, control, goal): (&Self, Control, Goal)) -> Result<(Plan, f64)> {
+        let Body::Surface(surface) = &this.body else { return Err(spent()) };
+        planned(&goal.by(this.solver.clone(), false), surface, this.half_space, &this.law, control)
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
@@ -136,15 +151,19 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of the solvers of the library.
     pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
+        T::call::<Solved<'_>>((self, asked, start, observe))
+    }
+
+    fn solved((this, asked, start, observe): (&mut Self, &Asked, Option<Array2<T>>, Observe<'_>)) -> Result<Found<T>> {
         if let Some(goal) = asked.goal {
-            return self.to_accuracy(goal, asked, observe);
+            return this.to_accuracy(goal, asked, observe);
         }
-        let found = match self.on_nested_grids(asked, start.is_some(), &mut *observe)? {
+        let found = match this.on_nested_grids(asked, start.is_some(), &mut *observe)? {
             Some(found) => found,
-            None => self.on_one_grid(asked, start, &mut *observe)?,
+            None => this.on_one_grid(asked, start, &mut *observe)?,
         };
         let other_branch = match asked.other_branch {
-            true => self.other_branch(&found.solution, observe)?,
+            true => this.other_branch(&found.solution, observe)?,
             false => None,
         };
         Ok(Found { other_branch, ..found })
@@ -163,10 +182,14 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`ContactStiffness::of_constrained`].
     pub fn stiffness(&mut self, solution: &Solution<T>) -> Result<Option<ContactStiffness>> {
+        T::call::<Stiff<'_>>((self, solution))
+    }
+
+    fn stiff((this, solution): (&mut Self, &Solution<T>)) -> Result<Option<ContactStiffness>> {
         if solution.report.status == Status::Stopped {
             return Ok(None);
         }
-        let (solver, problem) = self.parts()?;
+        let (solver, problem) = this.parts()?;
         let (wall, tolerance) = (&solver.constraint, ContactStiffness::TOLERANCE);
         ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
     }
@@ -176,7 +199,11 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`StabilityTest::of_gap`].
     pub fn stability(&mut self, control: Control, gap: &Array2<T>, error: f64) -> Result<(Steadiness, Array2<T>)> {
-        let (solver, problem) = self.parts()?;
+        T::call::<Stable<'_>>((self, control, gap, error))
+    }
+
+    fn stable((this, control, gap, error): (&mut Self, Control, &Array2<T>, f64)) -> Result<(Steadiness, Array2<T>)> {
+        let (solver, problem) = this.parts()?;
         let found = StabilityTest::default().of_gap(problem, &solver.constraint, control, gap, error)?;
         Ok((Steadiness::of(&found), found.mode))
     }

@@ -295,7 +295,7 @@ fn described(map: &Topography) -> String {
 }
 
 /// The numbers of missing and of infinite heights, if there are any.
-pub fn holes(map: &Topography) -> Option<String> {
+fn holes(map: &Topography) -> Option<String> {
     let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
     match (map.missing() - infinite, infinite) {
         (0, 0) => None,
@@ -305,10 +305,8 @@ pub fn holes(map: &Topography) -> Option<String> {
     }
 }
 
-/// Side lengths with their unit.
-pub fn sides((lx, ly): (f64, f64), unit: Option<&str>) -> String {
-    let side = |length| Units::of_map(unit).number(length, LENGTH);
-    format!("{} x {}", side(lx), side(ly))
+fn sides(lengths: (f64, f64), unit: Option<&str>) -> String {
+    Units::of_map(unit).sides(lengths)
 }
 
 fn rms(map: &Topography) -> String {

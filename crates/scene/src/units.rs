@@ -34,7 +34,8 @@ impl Units {
 
     /// A warning in these units.
     pub fn told(&self, warning: &Warning) -> Told {
-        Told::new(warning, |value| self.number(value, LENGTH), |value| self.number(value, PRESSURE))
+        let message = warning.message_with(|value| self.number(value, LENGTH), |value| self.number(value, PRESSURE));
+        Told { code: warning.code.name().to_owned(), message, severity: warning.severity() }
     }
 
     /// The unit of a dimension: its own of the SI, or a product of those that are known.
@@ -69,6 +70,11 @@ impl Units {
             Some(unit) => format!("{} {unit}", plain(value)),
             None => plain(value),
         }
+    }
+
+    /// The side lengths of a map for people.
+    pub fn sides(&self, (lx, ly): (f64, f64)) -> String {
+        format!("{} x {}", self.number(lx, LENGTH), self.number(ly, LENGTH))
     }
 
     /// The unit of a column of a table; see [`dimension_of`].

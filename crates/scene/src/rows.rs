@@ -1,0 +1,108 @@
+//! The summary of solves for people, row by row.
+
+use asperity::{Branch, Status};
+
+use crate::account::Account;
+use crate::numbers::{percent, plain};
+use crate::quantity::{ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
+use crate::sentences::estimate;
+use crate::units::Units;
+use crate::words::{Skin, worded};
+
+/// The rows of a summary of solves after a look: the name of each, and its text for each of the solves, in units as far
+/// as they are known, and in the words of a skin. A row of which no solve has anything is left out.
+pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<String>)> {
+    let mut rows = Vec::new();
+    let mut row = |name: &str, of: &dyn Fn(&Account) -> Option<String>| {
+        let texts: Vec<_> = solves.iter().map(|solve| of(solve)).collect();
+        if texts.iter().any(Option::is_some) {
+            rows.push((name.to_owned(), texts.into_iter().map(Option::unwrap_or_default).collect()));
+        }
+    };
+    let adhesive = solves.iter().any(|solve| solve.inputs.adhesion.law != "none");
+    let share = |share: f64| Some(format!("{} %", percent(share)));
+    let length = |value: f64| Some(units.number(value, LENGTH));
+    let pressure = |value: f64| Some(units.number(value, PRESSURE));
+    let energy = |value: f64| Some(units.number(value, ENERGY_PER_AREA));
+    let nodes = |(nx, ny): (usize, usize)| format!("{nx} x {ny}");
+    let of_branch = |branch: Option<Branch>| branch.map(|branch| branch.to_string());
+
+    row("part of the mirrored map", &|s| {
+        let solved = s.inputs.solved_shape.map_or(String::new(), |solved| format!(" of {}", nodes(solved)));
+        s.inputs.part.as_ref().map(|part| format!("{part}, {}{solved} nodes", nodes(s.inputs.shape)))
+    });
+    row("side lengths", &|s| match (s.inputs.shape, s.inputs.lengths) {
+        ((_, 1), (lx, _)) => length(lx),
+        (_, sides) => Some(units.sides(sides)),
+    });
+    row("contact", &|s| share(s.contact_fraction));
+    row("corrected for its edge", &|s| share(s.corrected_contact_fraction?));
+    row("nodes in contact", &|s| {
+        let (nx, ny) = s.inputs.shape;
+        Some(format!("{} of {}", s.contact_nodes, nx * ny - s.absent_nodes))
+    });
+    if let [solve] = solves {
+        for patch in solve.patches.iter().flatten() {
+            let [area, contact, attractive] =
+                [patch.area_fraction, patch.contact_fraction, patch.attractive_fraction].map(percent);
+            row(&format!("  where w = {}", units.number(patch.work_of_adhesion, ENERGY_PER_AREA)), &|_| {
+                Some(format!("{area} % of the nodes, {contact} % in contact, {attractive} % attracted"))
+            });
+        }
+    }
+    row("wanted", &|s| {
+        let of = |search: &crate::Search| format!("{} %, after {} solves", percent(search.wanted), search.solves);
+        s.search.as_ref().map(of)
+    });
+    row("mean gap", &|s| length(s.mean_gap));
+    row("mean pressure", &|s| pressure(s.mean_pressure));
+    row("normal force", &|s| Some(units.number(s.normal_force, FORCE)));
+    row("approach", &|s| length(s.approach?));
+    row("traction at the edge", &|s| share(s.edge_traction?));
+    row("net pressure", &|s| pressure(s.net_pressure));
+    row("mean contact pressure", &|s| pressure(s.mean_contact_pressure));
+    row("least pressure", &|s| pressure(s.min_pressure?));
+    row("greatest pressure", &|s| pressure(s.max_pressure?));
+    row("elastic energy per area", &|s| energy(s.elastic_energy));
+    if adhesive {
+        row("adhesive energy per area", &|s| energy(s.adhesive_energy));
+        row("mu_rho", &|s| Some(plain(s.mu_rho)));
+    }
+    row("contact stiffness", &|s| Some(units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)));
+    if adhesive {
+        row("branch", &|s| of_branch(s.branch));
+    }
+    if let [Account { other_branch: Some(other), .. }] = solves {
+        let name = format!("on that of {}", of_branch(other.branch).unwrap_or_default());
+        row(&name, &|_| {
+            Some(match other.same {
+                true => "the same equilibrium".to_owned(),
+                false if other.status != Status::Converged => format!("not found: {}", other.status),
+                false => format!(
+                    "{} % contact, mean gap {}, {} % away in the energy norm",
+                    percent(other.contact_fraction),
+                    units.number(other.mean_gap, LENGTH),
+                    percent(other.distance)
+                ),
+            })
+        });
+    }
+    row("certified error", &|s| Some(format!("{:.1e}", s.relative_error)));
+    row("stability", &|s| {
+        s.stability.map(|s| format!("{}{}", s.verdict, if s.smoothed { ", the law smoothed" } else { "" }))
+    });
+    row("smallest eigenvalue", &|s| Some(plain(s.stability?.eigenvalue)));
+    row("its lower bound", &|s| Some(plain(s.stability?.lower_bound)));
+    row("energy drop in leaving", &|s| {
+        let left = s.departures.as_ref().filter(|left| !left.is_empty())?;
+        energy(left.iter().map(|left| left.energy_drop).sum())
+    });
+    row("error bound", &|s| Some(s.stability?.error_bound.map_or("none".to_owned(), |bound| format!("{bound:.1e}"))));
+    row("iterations", &|s| Some(s.iterations.to_string()));
+    row("operator applications", &|s| Some(s.operator_applications.to_string()));
+    row("with coarser grids", &|s| Some(format!("{:.1}", s.equivalent_applications?)));
+    row("error of the grid", &|s| s.levels.as_ref().map(|_| worded(&estimate(s), skin)));
+    row("time", &|s| Some(format!("{:.3} s", s.seconds)));
+    row("status", &|s| Some(s.status.to_string()));
+    rows
+}
