@@ -10,6 +10,7 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
+from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Start, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -96,10 +97,10 @@ class Cycle(Rows[Step]):
 
 
 def cycle(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
+    axes: AxisOrder | None = None,
     modulus: float,
     mean_gaps: Iterable[float] | None = None,
     mean_pressures: Iterable[float] | None = None,
@@ -107,20 +108,20 @@ def cycle(
     approaches: Iterable[float] | None = None,
     springs: Iterable[tuple[float, float]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
-    boundary: str = "periodic",
+    boundary: Boundary = "periodic",
     absent_missing: bool = False,
-    law: Any = None,
-    wall: str = "hard",
+    law: OwnLaw | None = None,
+    wall: Wall = "hard",
     steps: int = 50,
     smallest_step: float = 1e-4,
     imbalance: float = 1e-4,
     smooth: bool = True,
     tolerance: float | None = None,
     max_iterations: int | None = None,
-    method: str = "default",
-    branch: str | None = None,
-    precision: str = "f64",
-    start: Any = None,
+    method: Method = "default",
+    branch: Branch | None = None,
+    precision: Precision = "f64",
+    start: Start = None,
     observe: Callable[[Iteration], object] | None = None,
     threads: int | None = None,
     whole: bool = False,

@@ -10,6 +10,7 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
+from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Start, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,10 +51,10 @@ class Sweep(Rows[Solution]):
 
 
 def sweep(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
+    axes: AxisOrder | None = None,
     modulus: float,
     mean_pressures: Iterable[float] | None = None,
     mean_gaps: Iterable[float] | None = None,
@@ -62,16 +63,16 @@ def sweep(
     springs: Iterable[tuple[float, float]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
     contact_fractions: Iterable[float] | None = None,
-    boundary: str = "periodic",
+    boundary: Boundary = "periodic",
     absent_missing: bool = False,
-    law: Any = None,
-    wall: str = "hard",
+    law: OwnLaw | None = None,
+    wall: Wall = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
-    method: str = "default",
-    branch: str | None = None,
-    precision: str = "f64",
-    start: Any = None,
+    method: Method = "default",
+    branch: Branch | None = None,
+    precision: Precision = "f64",
+    start: Start = None,
     observe: Callable[[Iteration], object] | None = None,
     stiffness: bool = False,
     threads: int | None = None,
