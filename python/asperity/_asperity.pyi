@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
+from ._types import Report
+
 __all__ = [
     "AdhesiveWavyLine",
     "Contact",
@@ -182,7 +184,7 @@ class Look:
         self,
     ) -> tuple[
         tuple[int, float, float, float, NDArray[np.int64], float, float, float],
-        dict[str, Any],
+        Report,
         list[tuple[str, str]],
     ]: ...
 

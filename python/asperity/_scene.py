@@ -12,6 +12,7 @@ from . import _asperity, _law
 from ._control import Load, number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
+from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Start, Wall
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
@@ -20,20 +21,20 @@ class Scene:
 
     def __init__(
         self,
-        heights: Any,
-        lengths: float | tuple[float, float] | None,
+        heights: Heights,
+        lengths: Lengths | None,
         *,
-        axes: str | None = None,
+        axes: AxisOrder | None = None,
         modulus: float,
-        boundary: str,
+        boundary: Boundary,
         absent_missing: bool,
-        law: Any,
-        wall: str,
+        law: OwnLaw | None,
+        wall: Wall,
         tolerance: float | None,
         max_iterations: int | None,
-        method: str,
-        branch: str | None,
-        precision: str,
+        method: Method,
+        branch: Branches | None,
+        precision: Precision,
         threads: int | None,
         nested: bool | None = False,
         whole: bool = False,
@@ -82,7 +83,7 @@ class Scene:
         full = self.problem.full_pressure()
         return [("mean_pressure", [ratio * full]) for _, (ratio,) in loads]
 
-    def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
+    def start(self, start: Start, loads: list[Load]) -> NDArray[np.float64] | None:
         """The gap from which to start under the first of some loads."""
         if self.original is not None and loads[:1] and loads[0][0] in ("normal_force", "spring"):
             raise ValueError(

@@ -78,7 +78,7 @@ def stability(
     ('stable', 'unstable')
     """
     report = solution.report
-    given = {
+    given: dict[str, Any] = {
         "mean_pressure": mean_pressure,
         "mean_gap": mean_gap,
         "normal_force": normal_force,
@@ -93,7 +93,12 @@ def stability(
         None,
         absent_missing=report["absent_nodes"] > 0,
         law=solution.law,
-        **{name: report[name] for name in ("modulus", "boundary", "wall", "precision", "method", "threads")},
+        modulus=report["modulus"],
+        boundary=report["boundary"],
+        wall=report["wall"],
+        precision=report["precision"],
+        method=report["method"],
+        threads=report["threads"],
         tolerance=report["tolerance"],
         max_iterations=report["max_iterations"],
         branch=None,

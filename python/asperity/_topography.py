@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -360,7 +360,7 @@ def _is_data_array(values: Any) -> bool:
     return hasattr(values, "dims") and hasattr(values, "coords")
 
 
-def _is_topography(values: Any) -> bool:
+def _is_topography(values: Any) -> TypeGuard[HeightMap]:
     return callable(getattr(values, "heights", None)) and hasattr(values, "physical_sizes")
 
 

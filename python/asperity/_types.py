@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypedDict, runtime_checkable
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypedDict
 
 from numpy.typing import ArrayLike, NDArray
 
@@ -24,6 +24,8 @@ RowAlignment: TypeAlias = Literal["median", "median-difference"]
 Trend: TypeAlias = Literal["mean", "plane", "quadric"]
 RemovedForm: TypeAlias = Literal["sphere", "cylinder"]
 
+Status: TypeAlias = Literal["converged", "iteration-limit", "stalled", "detached", "stopped"]
+
 Shape: TypeAlias = int | tuple[int, int]
 Lengths: TypeAlias = float | tuple[float, float]
 Tilt: TypeAlias = float | tuple[float, float] | None
@@ -31,7 +33,6 @@ Heights: TypeAlias = "ArrayLike | Topography | HeightMap | str | os.PathLike[str
 Start: TypeAlias = "ArrayLike | Solution | Literal['apart'] | None"
 
 
-@runtime_checkable
 class HeightMap(Protocol):
     """A map of another package, as one of SurfaceTopography."""
 
@@ -60,7 +61,7 @@ class OtherBranch(TypedDict):
     """The equilibrium on the other branch."""
 
     branch: Branch | None
-    status: str
+    status: Status
     relative_error: float
     load_error: float
     operator_applications: int
@@ -77,7 +78,7 @@ class GridLevel(TypedDict):
     """One of the nested grids."""
 
     shape: list[int]
-    status: str
+    status: Status
     iterations: int
     operator_applications: int
     relative_error: float
@@ -94,7 +95,7 @@ class GridError(TypedDict):
     """The estimated error of a quantity by the grid: relative, its order, and whether it is a rough estimate."""
 
     relative: float
-    order: float
+    order: float | None
     rough: bool
 
 
@@ -169,12 +170,12 @@ class Report(TypedDict):
     """
 
     command: str
-    status: Literal["converged", "iteration-limit", "stalled", "detached", "stopped"]
+    status: Status
     branch: Branch | None
     other_branch: OtherBranch | None
     relative_error: float
     load_error: float
-    criterion: str
+    criterion: Literal["energy-norm", "complementarity"]
     iterations: int
     operator_applications: int
     levels: list[GridLevel] | None
