@@ -35,6 +35,7 @@ from ._solution import ContactStatistics, PressureDistribution, Solution
 from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Topography, from_topography, read
+from ._types import OwnLaw, Report
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
@@ -57,9 +58,11 @@ __all__ = [
     "LennardJones",
     "MaugisDugdale",
     "Morse",
+    "OwnLaw",
     "Plan",
     "PowerLaw",
     "PressureDistribution",
+    "Report",
     "Solution",
     "Stability",
     "Step",

@@ -36,9 +36,12 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
+    "has_dimension",
+    "in_metres",
     "made",
     "prepare",
     "pressure_distribution",
+    "quantity",
     "read",
     "spectrum",
     "statistics",
@@ -221,6 +224,7 @@ class Problem:
         part: str | None,
         unit: str | None,
         source: str | None,
+        given: dict[str, Any] | None,
     ) -> Problem: ...
     @property
     def initial_gap(self) -> str | None: ...
@@ -252,6 +256,11 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
+def has_dimension(key: str) -> bool: ...
+def quantity(key: str, text: str) -> float: ...
+def in_metres(
+    heights: _Field, lengths: tuple[float, float] | None, unit: str
+) -> tuple[_Field, tuple[float, float] | None]: ...
 def read(path: str, channel: str | None) -> _Map: ...
 def made(
     shape: tuple[int, int], lengths: tuple[float, float], body: dict[str, Any], roughness: dict[str, Any] | None
@@ -263,7 +272,10 @@ def spectrum(
 def clusters(map: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(
-    given: tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None], steps: dict[str, Any]
+    given: tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None],
+    new_lengths: tuple[float, float] | None,
+    in_metres: bool,
+    steps: dict[str, Any],
 ) -> tuple[_Map, list[str], list[dict[str, str]]]: ...
 
 @final

@@ -12,7 +12,8 @@ from . import _asperity, _law
 from ._control import Load, number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
-from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Start, Wall
+from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
+from ._units import given
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
@@ -25,7 +26,7 @@ class Scene:
         lengths: Lengths | None,
         *,
         axes: AxisOrder | None = None,
-        modulus: float,
+        modulus: Quantity,
         boundary: Boundary,
         absent_missing: bool,
         law: OwnLaw | None,
@@ -64,6 +65,7 @@ class Scene:
             None if original is None else "whole" if self.original is None else "original",
             self.topography.unit,
             self.topography.source,
+            given.get(),
         )
         self.boundary = boundary
         self._adhesion = law

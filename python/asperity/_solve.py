@@ -9,7 +9,20 @@ from . import _accuracy, _control
 from ._asperity import Iteration
 from ._scene import Scene
 from ._solution import Solution
-from ._types import AccuracyOf, AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Start, Wall
+from ._types import (
+    AccuracyOf,
+    AxisOrder,
+    Boundary,
+    Branches,
+    Heights,
+    Lengths,
+    Method,
+    OwnLaw,
+    Precision,
+    Quantity,
+    Start,
+    Wall,
+)
 
 
 def solve(
@@ -17,12 +30,12 @@ def solve(
     lengths: Lengths | None = None,
     *,
     axes: AxisOrder | None = None,
-    modulus: float,
-    mean_pressure: float | None = None,
-    mean_gap: float | None = None,
-    normal_force: float | None = None,
-    approach: float | None = None,
-    spring: tuple[float, float] | None = None,
+    modulus: Quantity,
+    mean_pressure: Quantity | None = None,
+    mean_gap: Quantity | None = None,
+    normal_force: Quantity | None = None,
+    approach: Quantity | None = None,
+    spring: tuple[Quantity, Quantity] | None = None,
     reduced_pressure: float | None = None,
     contact_fraction: float | None = None,
     boundary: Boundary = "periodic",
@@ -49,7 +62,8 @@ def solve(
     """Presses a rough surface against an elastic half-space.
 
     Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach``, ``spring``, ``reduced_pressure`` or
-    ``contact_fraction``. All quantities are in any consistent units.
+    ``contact_fraction``. Quantities are numbers in any consistent units, or all are texts with units, as
+    ``modulus="70GPa"`` and ``mean_gap="2nm"``: then the map is brought to metres, and all results are in the SI.
 
     Parameters
     ----------

@@ -10,7 +10,7 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
-from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Start, Wall
+from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,12 +55,12 @@ def sweep(
     lengths: Lengths | None = None,
     *,
     axes: AxisOrder | None = None,
-    modulus: float,
-    mean_pressures: Iterable[float] | None = None,
-    mean_gaps: Iterable[float] | None = None,
-    normal_forces: Iterable[float] | None = None,
-    approaches: Iterable[float] | None = None,
-    springs: Iterable[tuple[float, float]] | None = None,
+    modulus: Quantity,
+    mean_pressures: Iterable[Quantity] | None = None,
+    mean_gaps: Iterable[Quantity] | None = None,
+    normal_forces: Iterable[Quantity] | None = None,
+    approaches: Iterable[Quantity] | None = None,
+    springs: Iterable[tuple[Quantity, Quantity]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
     contact_fractions: Iterable[float] | None = None,
     boundary: Boundary = "periodic",

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _asperity, _plot
 from ._types import AxisOrder, HeightMap, Heights, Lengths, RemovedForm, RowAlignment, ScanAxis, Trend
+from ._units import given as units
 from ._warnings import warn_of_input
 
 if TYPE_CHECKING:
@@ -237,7 +238,7 @@ def prepare(
     >>> [line.split(":")[0] for line in made.log]
     ['read', 'lengths', 'unit', 'detrend', 'fill', 'mirror']
     """
-    given = taken(heights, None, axes)
+    given = _found(heights, axes)
     keys = {
         "missing": None if missing is None else np.ravel(missing),
         "scale": scale,
@@ -254,11 +255,9 @@ def prepare(
         "mirror": mirror,
         "resample": resample,
     }
-    steps = plain(keys)
-    if lengths is not None:
-        steps["lengths"] = (_lengths(lengths, given.heights.shape), given.unit)
+    both = None if lengths is None else _lengths(lengths, given.heights.shape)
     known = (given.heights, given.lengths, given.unit, given.original)
-    (made, both, name, original, _), log, warnings = _asperity.prepare(known, steps)
+    (made, both, name, original, _), log, warnings = _asperity.prepare(known, both, units.get() is not None, plain(keys))
     for warning in warnings:
         warn_of_input(warning)
     periodic = True if mirror or window else given.periodic
@@ -275,23 +274,35 @@ def plain(keys: dict[str, Any]) -> dict[str, Any]:
 def taken(
     heights: Heights, lengths: Lengths | None = None, axes: AxisOrder | None = None
 ) -> Topography:
+    """The map of whatever holds heights, with the side lengths that are given for it; in metres beside units."""
+    found = _found(heights, axes)
+    if units.get() is not None:
+        found = _in_metres(found)
+    return found if lengths is None else replace(found, lengths=_lengths(lengths, found.heights.shape))
+
+
+def _in_metres(topography: Topography) -> Topography:
+    """The map in metres, in which one without a unit is already."""
+    if topography.unit in (None, "m"):
+        return replace(topography, unit="m")
+    heights, lengths = _asperity.in_metres(topography.heights, topography.lengths, topography.unit)
+    return replace(topography, heights=heights, lengths=lengths, unit="m")
+
+
+def _found(heights: Heights, axes: AxisOrder | None) -> Topography:
     """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
     if axes is not None and (isinstance(heights, Topography | str | os.PathLike) or _is_topography(heights)):
         raise ValueError(f"axes is {axes!r}, but a file or a map knows its axes: leave it out, or give an array")
     if isinstance(heights, Topography):
-        found = heights
-    elif isinstance(heights, str | os.PathLike):
-        found = read(heights)
-    elif _is_topography(heights):
-        found = from_topography(heights)
-    elif _is_data_array(heights):
-        found = _from_data_array(heights, axes)
-    else:
-        array, is_line = array_of(heights, axes=axes)
-        found = Topography(array, _is_line=is_line)
-    if lengths is None:
-        return found
-    return replace(found, lengths=_lengths(lengths, found.heights.shape))
+        return heights
+    if isinstance(heights, str | os.PathLike):
+        return read(heights)
+    if _is_topography(heights):
+        return from_topography(heights)
+    if _is_data_array(heights):
+        return _from_data_array(heights, axes)
+    array, is_line = array_of(heights, axes=axes)
+    return Topography(array, _is_line=is_line)
 
 
 def sides(topography: Topography) -> tuple[float, float]:

@@ -27,7 +27,9 @@ RemovedForm: TypeAlias = Literal["sphere", "cylinder"]
 Status: TypeAlias = Literal["converged", "iteration-limit", "stalled", "detached", "stopped"]
 
 Shape: TypeAlias = int | tuple[int, int]
-Lengths: TypeAlias = float | tuple[float, float]
+#: A number, or a text with a unit, as "70GPa".
+Quantity: TypeAlias = float | str
+Lengths: TypeAlias = Quantity | tuple[Quantity, Quantity]
 Tilt: TypeAlias = float | tuple[float, float] | None
 Heights: TypeAlias = "ArrayLike | Topography | HeightMap | str | os.PathLike[str]"
 Start: TypeAlias = "ArrayLike | Solution | Literal['apart'] | None"

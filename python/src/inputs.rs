@@ -2,6 +2,7 @@
 
 use asperity::Control;
 use asperity_scene::Goal;
+use asperity_scene::units::dimension_of_key;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -23,6 +24,23 @@ pub fn keys<V: DeserializeOwned>(given: Bound<'_, PyAny>) -> PyResult<V> {
         refused if refused.is_instance_of::<PyRuntimeError>(py) => PyValueError::new_err(refused.value(py).to_string()),
         error => error,
     })
+}
+
+/// Whether the numbers of a keyword have a dimension.
+#[pyfunction]
+pub fn has_dimension(key: &str) -> bool {
+    dimension_of_key(key).is_some()
+}
+
+/// The number in the SI of a text with a unit.
+#[pyfunction]
+pub fn quantity(key: &str, text: &str) -> PyResult<f64> {
+    let refused = |expected| PyValueError::new_err(format!("{key} is {text}: {expected}"));
+    let dimension =
+        dimension_of_key(key).ok_or_else(|| refused("it must be a number, which has no unit".to_owned()))?;
+    let found = dimension.finite()(text).map_err(refused)?;
+    let number = || refused(format!("give a number, or a text with a unit of {}", dimension.what));
+    if found.has_unit { Ok(found.value) } else { Err(number()) }
 }
 
 /// A load as Python passes it: the name of the keyword and its numbers.

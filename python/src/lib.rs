@@ -31,6 +31,8 @@ mod _asperity {
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
+    use crate::inputs::{has_dimension, quantity};
+    #[pymodule_export]
     use crate::law::{
         CutOff, Exponential, Law, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, VanDerWaals, Varying,
         check_law,
@@ -44,7 +46,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{made, prepare, read, spectrum, statistics};
+    use crate::surface::{in_metres, made, prepare, read, spectrum, statistics};
 
     use pyo3::prelude::*;
 

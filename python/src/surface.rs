@@ -6,7 +6,8 @@ use asperity::surface::Psd;
 use asperity::{Grid, Surface};
 use asperity_maps::Topography;
 use asperity_maps::io::check_memory;
-use asperity_scene::{Body, Log, Preparation, Roughness};
+use asperity_scene::quantity::LENGTH;
+use asperity_scene::{Body, Log, Preparation, Roughness, Skin, in_unit, worded};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -107,6 +108,21 @@ pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -
     Ok((wave_numbers.into_pyarray(py), densities.into_pyarray(py), waves.into_pyarray(py), cell))
 }
 
+/// The heights and side lengths in metres of a map in a unit of length.
+#[pyfunction]
+pub fn in_metres<'py>(
+    py: Python<'py>,
+    heights: Field<'py>,
+    lengths: Option<(f64, f64)>,
+    unit: String,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, Option<(f64, f64)>)> {
+    let mut map = Topography::new(heights.to_array()?);
+    (map.lengths, map.unit) = (lengths, Some(unit));
+    let map = in_unit(map, LENGTH.si);
+    let map = map.map_err(|text| PyValueError::new_err(format!("heights: {}", worded(&text, Skin::Keywords))))?;
+    Ok((map.heights.into_pyarray(py), map.lengths))
+}
+
 /// A map as Python has it: heights, side lengths, unit, and the nodes of the original of a mirrored one.
 type Given<'py> = (Field<'py>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>);
 
@@ -115,11 +131,21 @@ type Prepared<'py> = (Map<'py>, Vec<String>, Bound<'py, PyAny>);
 
 /// Takes the steps from a measured map to a periodic surface, by their keys.
 #[pyfunction]
-pub fn prepare<'py>(py: Python<'py>, given: Given<'py>, steps: Bound<'py, PyAny>) -> PyResult<Prepared<'py>> {
-    let steps: Preparation = keys(steps)?;
+pub fn prepare<'py>(
+    py: Python<'py>,
+    given: Given<'py>,
+    new_lengths: Option<(f64, f64)>,
+    in_metres: bool,
+    steps: Bound<'py, PyAny>,
+) -> PyResult<Prepared<'py>> {
+    let mut steps: Preparation = keys(steps)?;
     let (heights, lengths, unit, original) = given;
     let mut measured = Topography::new(heights.to_array()?);
     (measured.lengths, measured.unit, measured.original) = (lengths, unit, original);
+    if let Some(lengths) = new_lengths {
+        let found = steps.set_lengths(lengths, in_metres, measured.unit.as_deref());
+        found.map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
+    }
     let mut log = Log::default();
     let prepared = apart(py, || steps.run(measured, &mut log))?;
     let lines = log.lines.iter().map(|(step, what)| format!("{step}: {what}")).collect();

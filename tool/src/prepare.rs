@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity_maps::Topography;
 use asperity_maps::io::{read_channel, read_topography, write_topography};
-use asperity_scene::{Log, Preparation};
+use asperity_scene::{Log, Preparation, Skin, worded};
 use clap::Args;
 use serde_json::json;
 
@@ -13,7 +13,7 @@ use crate::heights::{check_room, given, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, complain, name, say};
-use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
+use crate::quantity::{LENGTH, Quantity};
 use crate::scene::Scene;
 
 /// Make a measured map into a surface that can be solved.
@@ -113,19 +113,9 @@ fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
     };
     check_room(map.heights.dim())?;
     let mut steps = options.steps.clone();
-    if let Some(mut lengths) = given(&map, options.lengths.as_deref()) {
-        let mut unit = map.unit.clone();
-        if si {
-            let of_map = steps.unit.as_deref().or(map.unit.as_deref()).unwrap_or(LENGTH.si);
-            let power = power_of_length(of_map).ok_or_else(|| {
-                format!(
-                    "--lengths have a unit, but the map is in {of_map}, which is none of length: give --unit, as nm"
-                )
-            })?;
-            lengths = (times_ten_to(-power, lengths.0), times_ten_to(-power, lengths.1));
-            unit = Some(of_map.to_owned());
-        }
-        steps.lengths = Some((lengths, unit));
+    if let Some(lengths) = given(&map, options.lengths.as_deref()) {
+        let found = steps.set_lengths(lengths, si, map.unit.as_deref());
+        found.map_err(|text| worded(&text, Skin::Options))?;
     } else {
         warn_of_unread(&options.input, &map, "stay unknown");
     }

@@ -35,7 +35,7 @@ pub use found::{Found, Sight, check_finite, warnings_of};
 pub use half_space::{Boundary, HalfSpace};
 pub use law::tabulated;
 pub use posed::{AnyProblem, Asked, Observe, Posed};
-pub use preparation::{Log, Preparation};
+pub use preparation::{Log, Preparation, in_unit};
 pub use rows::rows;
 pub use sentences::shortfalls;
 pub use settings::{Branches, settings};

@@ -13,7 +13,7 @@ use serde::{Deserialize, Deserializer, de};
 #[cfg(feature = "options")]
 use crate::allowed::{by_name, finite, nodes, positive, unit};
 use crate::numbers::plain;
-use crate::quantity::{LENGTH, PER_LENGTH};
+use crate::quantity::{LENGTH, PER_LENGTH, power_of_length, times_ten_to};
 use crate::told::Told;
 use crate::units::Units;
 
@@ -107,6 +107,28 @@ impl Log {
 }
 
 impl Preparation {
+    /// Gives the map side lengths; those in metres are brought to the unit that the map will have.
+    ///
+    /// # Errors
+    /// A text if that is no unit of length, for [`worded`](crate::worded).
+    pub fn set_lengths(
+        &mut self,
+        (lx, ly): (f64, f64),
+        in_metres: bool,
+        of_map: Option<&str>,
+    ) -> std::result::Result<(), String> {
+        if !in_metres {
+            self.lengths = Some(((lx, ly), of_map.map(str::to_owned)));
+            return Ok(());
+        }
+        let unit = self.unit.as_deref().or(of_map).unwrap_or(LENGTH.si);
+        let power = power_of_length(unit).ok_or_else(|| {
+            format!("{{lengths}} have a unit, but the map is in {unit}, which is none of length: give {{unit}}, as nm")
+        })?;
+        self.lengths = Some(((times_ten_to(-power, lx), times_ten_to(-power, ly)), Some(unit.to_owned())));
+        Ok(())
+    }
+
     /// The prepared map, with a line in the log for each step; the log has those before an error, too.
     ///
     /// # Errors
@@ -215,6 +237,29 @@ impl Preparation {
         log.warn(Warning::of_topography(&map).into_iter().filter(|found| !is_code(found) && !has_codes), &map);
         Ok(map)
     }
+}
+
+/// A map in a unit of length. One without a unit is in it already.
+///
+/// # Errors
+/// A text if the map is in another unit, or its side lengths are no lengths in this one, for [`worded`](crate::worded).
+pub fn in_unit(mut map: Topography, unit: &str) -> std::result::Result<Topography, String> {
+    let of_map = map.unit.replace(unit.to_owned()).unwrap_or_else(|| unit.to_owned());
+    if of_map != unit {
+        let (Some(from), Some(to)) = (power_of_length(&of_map), power_of_length(unit)) else {
+            return Err(format!(
+                "is in {of_map}, but numbers with units are in {unit}: give the unit of its lengths by {{prepare:unit}}, \
+                 or numbers without units"
+            ));
+        };
+        let converted = |length| times_ten_to(from - to, length);
+        map.heights.mapv_inplace(converted);
+        map.lengths = map.lengths.map(|(lx, ly)| (converted(lx), converted(ly)));
+        if let Some((lx, ly)) = map.lengths.filter(|&(lx, ly)| !(lx.min(ly) > 0.0 && lx.max(ly).is_finite())) {
+            return Err(format!("has side lengths of {lx} and {ly} {unit}, expected positive numbers: save it again"));
+        }
+    }
+    Ok(map)
 }
 
 /// A step by its name, which the error of another one has in front.

@@ -44,7 +44,7 @@ impl fmt::Display for Quantity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
     /// In words, with an example as options take it.
-    what: &'static str,
+    pub what: &'static str,
     /// The unit of the SI.
     pub si: &'static str,
     /// The power of force.
