@@ -1,6 +1,6 @@
 """The compiled core: what the modules of this package call, by position."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any, ClassVar, final
 
@@ -261,6 +261,7 @@ def quantity(key: str, text: str) -> float: ...
 def in_metres(
     heights: _Field, lengths: tuple[float, float] | None, unit: str
 ) -> tuple[_Field, tuple[float, float] | None]: ...
+def meant(word: str, known: Sequence[str]) -> str | None: ...
 def read(path: str, channel: str | None) -> _Map: ...
 def made(
     shape: tuple[int, int], lengths: tuple[float, float], body: dict[str, Any], roughness: dict[str, Any] | None

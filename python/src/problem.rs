@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Asked, Branches, Inputs, Wall, Way, settings};
+use asperity_scene::{Asked, Branches, Inputs, Skin, Wall, Way, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -158,6 +158,8 @@ impl Problem {
         let goal = accuracy.map(goal).transpose()?;
         let asked = Asked { stability, leave, stiffness, goal, ..self.asked(&load)? };
         let (pool, inputs, solves) = self.parts()?;
+        let sensible = asked.check_branches(&inputs.adhesion.law, inputs.method, Skin::Keywords);
+        sensible.map_err(PyValueError::new_err)?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
     }
 

@@ -50,7 +50,6 @@ mod progress;
 mod report;
 mod scene;
 mod summary;
-mod synonyms;
 mod table;
 mod threads;
 mod units;
@@ -61,7 +60,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use asperity_scene::{allowed, numbers, quantity};
+use asperity_scene::{allowed, numbers, quantity, synonyms};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 

@@ -20,6 +20,7 @@ mod record;
 mod rows;
 mod sentences;
 mod settings;
+pub mod synonyms;
 mod told;
 pub mod units;
 mod wall;
