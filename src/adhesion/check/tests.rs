@@ -50,7 +50,7 @@ fn the_checker_names_the_function_that_is_wrong() {
 #[test]
 fn concave_are_the_laws_whose_traction_falls_everywhere() {
     let concave = |law: &dyn AdhesionLaw<f64>| law.hints().concave;
-    let table = |tractions| Tabulated::new(&[0.0, 1.0, 3.0], &tractions).unwrap();
+    let table = |tractions: [f64; 3]| Tabulated::new(&[0.0, 1.0, 3.0], &tractions).unwrap();
     let dugdale = MaugisDugdale::new(2.0, 0.5).unwrap();
     assert!(concave(&Exponential::new(2.0, 0.5).unwrap()) && concave(&PowerLaw::new(2.0, 0.5, 3.0).unwrap()));
     assert!(concave(&dugdale) && concave(&dugdale.adapted(Discretisation::Smooth(0.1)).unwrap()));
