@@ -176,7 +176,7 @@ def wave(
     tilt: Tilt = None,
 ) -> Topography:
     """Makes a wave, A cos(2πmₓx/Lx) cos(2πmᵧy/Ly) with its amplitude A and the periods (mₓ, mᵧ); see `sphere`."""
-    body = {"form": "wave", "amplitude": amplitude, "periods": np.ravel(periods)}
+    body: dict[str, Any] = {"form": "wave", "amplitude": amplitude, "periods": np.ravel(periods)}
     return _made(shape, lengths, tilt=tilt, periodic=None if tilt else True, **body)
 
 
