@@ -31,6 +31,7 @@ from ._asperity import (
     check_law,
 )
 from ._cycle import Cycle, Step
+from ._progress import progress
 from ._solution import ContactStatistics, PressureDistribution, Solution
 from ._stability import Stability
 from ._sweep import Sweep
@@ -78,6 +79,7 @@ __all__ = [
     "exact",
     "from_topography",
     "prepare",
+    "progress",
     "read",
     "solve",
     "stability",

@@ -131,8 +131,8 @@ def solve(
         Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
         the grid then. None leaves it to the library, which does so where it is faster.
     observe : callable, optional
-        Called with an `Iteration` in every iteration. ``raise StopIteration`` in it ends the solve; any other
-        exception arrives as it was raised, with what was reached as its attribute ``solution``.
+        Called with an `Iteration` in every iteration, as ``asperity.progress()`` is. ``raise StopIteration`` in it ends
+        the solve; any other exception arrives as it was raised, with what was reached as its attribute ``solution``.
     stability : bool
         Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
     leave : bool

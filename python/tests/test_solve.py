@@ -10,6 +10,7 @@ import signal
 import threading
 import time
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -340,3 +341,26 @@ def test_the_distribution_of_the_pressure_knows_lines_and_absent_nodes():
     for solution in (line, punch):
         density, edges = solution.pressure_distribution()
         assert np.sum(density * np.diff(edges)) == pytest.approx(solution.contact_fraction, rel=1e-12)
+
+
+def test_progress_shows_iterations_and_error(rough, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=asperity.progress())
+    shown = capsys.readouterr().err
+    assert shown.startswith("\r1 iterations, error ") and shown.endswith("\n")
+    assert f"\r{solution.iterations} iterations, error {solution.relative_error:.1e}" in shown
+    drawn = []
+
+    class Bar(SimpleNamespace):
+        def set_postfix_str(self, text, refresh):
+            drawn.append(text)
+
+        def update(self):
+            drawn.append(1)
+
+        def close(self):
+            drawn.append("closed")
+
+    monkeypatch.setitem(sys.modules, "tqdm.auto", SimpleNamespace(tqdm=Bar))
+    asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=asperity.progress())
+    assert drawn[1::2] == [1] * solution.iterations and drawn[-1] == "closed"
