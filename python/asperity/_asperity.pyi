@@ -39,6 +39,7 @@ __all__ = [
     "has_dimension",
     "in_metres",
     "made",
+    "meant",
     "prepare",
     "pressure_distribution",
     "quantity",

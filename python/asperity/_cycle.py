@@ -93,7 +93,8 @@ class Cycle(Rows[Step]):
         -------
         matplotlib Axes
         """
-        return _plot.cycle(self.columns, ax, length_unit or self._scene.topography.unit, pressure_unit, force_unit)
+        length_unit, pressure_unit = length_unit or self._scene.topography.unit, pressure_unit or self._scene.pressure_unit
+        return _plot.cycle(self.columns, ax, length_unit, pressure_unit, force_unit)
 
 
 def cycle(

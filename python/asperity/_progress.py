@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 import time
 import weakref
@@ -13,7 +14,7 @@ from ._asperity import Iteration
 _PAUSE = 0.1
 
 
-class progress:  # noqa: N801
+class progress:
     """An observer that shows the iteration and the error of a solve while it runs.
 
     Pass it as ``observe`` of `solve`, `sweep` or `cycle`. It draws with tqdm if that is installed, in a notebook as its
@@ -29,17 +30,18 @@ class progress:  # noqa: N801
 
     def __init__(self) -> None:
         try:
-            from tqdm.auto import tqdm
+            self._bar: Any = importlib.import_module("tqdm.auto").tqdm(unit=" iterations", mininterval=_PAUSE)
         except ImportError:
-            self._bar: Any = _Line()
-        else:
-            self._bar = tqdm(unit=" iterations", mininterval=_PAUSE)
+            self._bar = _Line()
+        self._last = 0
         # with the observer the solve has ended
         weakref.finalize(self, self._bar.close)
 
     def __call__(self, state: Iteration) -> None:
         self._bar.set_postfix_str(f"error {state.relative_error:.1e}", refresh=False)
-        self._bar.update()
+        # the count begins again on the next grid, and under the next load
+        self._bar.update(state.iteration - (self._last if state.iteration >= self._last else 0))
+        self._last = state.iteration
 
 
 class _Line:
@@ -51,8 +53,8 @@ class _Line:
     def set_postfix_str(self, text: str, refresh: bool) -> None:
         self._text = text
 
-    def update(self) -> None:
-        self._iterations += 1
+    def update(self, iterations: int) -> None:
+        self._iterations += iterations
         if time.monotonic() - self._written >= _PAUSE:
             self._write("")
 

@@ -67,7 +67,7 @@ class Scene:
             self.topography.source,
             given.get(),
         )
-        self.boundary = boundary
+        self.boundary, self.pressure_unit = boundary, None if given.get() is None else "Pa"
         self._adhesion = law
         self._unloads = branch == "unloading"
         self._warned: set[str] = set()

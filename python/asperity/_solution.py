@@ -337,6 +337,7 @@ class Solution:
         adhesive = self.report["law"] != "none"
         pressure = np.asarray(self.pressure if adhesive else self.contact_pressure, dtype=float)
         length_unit = length_unit or self.report["length_unit"]
+        pressure_unit = pressure_unit or self.report["pressure_unit"]
         if self.gap.ndim == 1:
             return _plot.profiles(
                 (self.heights, self.displacement), pressure, self.lengths[0], length_unit, pressure_unit

@@ -47,7 +47,7 @@ class Sweep(Rows[Solution]):
         -------
         matplotlib Axes
         """
-        return _plot.sweep(self.columns, ax, pressure_unit)
+        return _plot.sweep(self.columns, ax, pressure_unit or self._scene.pressure_unit)
 
 
 def sweep(

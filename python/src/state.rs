@@ -150,8 +150,8 @@ pub fn state<T: Scalar>(
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
     let (law, strongest) = (law::<T>(given)?, strongest(given));
-    let &Inputs { boundary, modulus, ref adhesion, ref length_unit, .. } = inputs;
-    let units = Units::of_map(length_unit.as_deref());
+    let &Inputs { boundary, modulus, ref adhesion, .. } = inputs;
+    let units = inputs.units();
     let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint: adhesion.wall });
     let make = || {
         let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);

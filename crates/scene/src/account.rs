@@ -10,6 +10,7 @@ use crate::found::Found;
 use crate::half_space::Boundary;
 use crate::record::record;
 use crate::told::Told;
+use crate::units::Units;
 use crate::wall::Wall;
 
 record! {
@@ -175,6 +176,13 @@ pub struct Inputs {
     pub threads: usize,
     /// The version of the program.
     pub version: &'static str,
+}
+
+impl Inputs {
+    /// The units of the numbers, as far as they are known.
+    pub fn units(&self) -> Units {
+        Units { length: self.length_unit.clone(), pressure: self.pressure_unit.clone(), force: None }
+    }
 }
 
 /// The adhesion and the wall, by their names in every report.
