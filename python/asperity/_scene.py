@@ -87,11 +87,6 @@ class Scene:
 
     def start(self, start: Start, loads: list[Load]) -> NDArray[np.float64] | None:
         """The gap from which to start under the first of some loads."""
-        if self.original is not None and loads[:1] and loads[0][0] in ("normal_force", "spring"):
-            raise ValueError(
-                f"{loads[0][0]} would act on the mirror images of the map as well: give a pressure or a mean gap, or "
-                "whole=True for the force on all of them"
-            )
         if start is None:
             return None if self._unloads else self._afar(loads)
         if isinstance(start, str):

@@ -3,9 +3,9 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
-use asperity::{Grid, Surface};
+use asperity::{Control, Grid, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Asked, Branches, Inputs, Skin, Wall, Way, settings};
+use asperity_scene::{Asked, Branches, Inputs, Skin, Wall, Way, check_part, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -40,7 +40,15 @@ impl Problem {
     /// The solution that a load asks for.
     fn asked(&self, load: &Load) -> PyResult<Asked> {
         let (nested, other_branch) = (self.nested, self.other_branch);
-        Ok(Asked { fraction: contact_fraction(load), nested, other_branch, ..Asked::under(control(load)?) })
+        Ok(Asked { fraction: contact_fraction(load), nested, other_branch, ..Asked::under(self.control(load)?) })
+    }
+
+    /// The control of a load, unless it would act on mirror images as well.
+    fn control(&self, load: &Load) -> PyResult<Control> {
+        let control = control(load)?;
+        let is_original = self.inputs.part.as_deref() == Some("original");
+        check_part(is_original, control, Skin::Keywords).map_err(PyValueError::new_err)?;
+        Ok(control)
     }
 }
 
@@ -173,7 +181,7 @@ impl Problem {
         stiffness: bool,
         path: Option<(usize, f64, f64, bool)>,
     ) -> PyResult<Vec<&'static str>> {
-        let controls = loads.iter().map(control).collect::<PyResult<_>>()?;
+        let controls = loads.iter().map(|load| self.control(load)).collect::<PyResult<_>>()?;
         let fractions: Vec<_> = loads.iter().filter_map(contact_fraction).collect();
         let way = match path {
             Some((steps, smallest_step, imbalance, smooth)) => {

@@ -38,7 +38,7 @@ pub use law::tabulated;
 pub use posed::{AnyProblem, Asked, Observe, Posed};
 pub use preparation::{Log, Preparation, in_unit};
 pub use rows::rows;
-pub use sentences::shortfalls;
+pub use sentences::{check_part, shortfalls};
 pub use settings::{Branches, settings};
 pub use told::Told;
 pub use wall::Wall;

@@ -2,7 +2,7 @@
 
 use asperity::accuracy::{GridError, Plan, Quantity};
 use asperity::stability::Verdict;
-use asperity::{Method, Status};
+use asperity::{Control, Method, Status};
 
 use crate::account::Account;
 use crate::accuracy::{GIB, Goal};
@@ -83,9 +83,22 @@ fn inaccurate(account: &Account, reached: &Reached) -> String {
 fn unstable(account: &Account) -> Option<String> {
     account.stability.as_ref().filter(|found| found.verdict == Verdict::Unstable)?;
     Some(match &account.departures {
-        None => "the equilibrium is unstable, it would not last: {leave} goes on from it".to_owned(),
+        None => "the equilibrium is unstable, it would not last: {leave=} goes on from it".to_owned(),
         Some(left) => format!("still unstable after {} departures: try another {{initial_gap}}", left.len()),
     })
+}
+
+/// Refuses a force on the original of a mirrored map, which would be on its images as well.
+///
+/// # Errors
+/// The reason, in the words of a skin.
+pub fn check_part(is_original: bool, control: Control, skin: Skin) -> Result<(), String> {
+    if !is_original || !matches!(control, Control::Force(_) | Control::Spring { .. }) {
+        return Ok(());
+    }
+    let text = "would act on the mirror images of the map as well: give a pressure or a mean gap, or {whole=} for the \
+                force on all of them";
+    Err(format!("a {} {}", control.name().replace('-', " "), worded(text, skin)))
 }
 
 impl Asked {

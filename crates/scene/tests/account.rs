@@ -208,10 +208,11 @@ fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_s
             assert!(told[0].1.contains(&worded(remedy, skin)), "{told:?}");
         }
     }
-    let text = "raise {tolerance}, give {initial_gap}, use {precision=f64}, or {cycle:mean_gaps}";
-    let options = "raise --tolerance, give --initial-gap, use --precision f64, or asperity cycle --mean-gaps";
+    let text = "raise {tolerance}, give {initial_gap}, use {precision=f64} or {whole=}, or {cycle:mean_gaps}";
+    let options =
+        "raise --tolerance, give --initial-gap, use --precision f64 or --whole, or asperity cycle --mean-gaps";
     assert_eq!(worded(text, Skin::Options), options);
-    let keywords = "raise tolerance, give start, use precision='f64', or asperity.cycle(mean_gaps=...)";
+    let keywords = "raise tolerance, give start, use precision='f64' or whole=True, or asperity.cycle(mean_gaps=...)";
     assert_eq!(worded(text, Skin::Keywords), keywords);
 }
 
