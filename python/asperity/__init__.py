@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _solve, _stability, _sweep, _topography, contact, exact, surface
+from . import _cycle, _prepare, _solve, _stability, _sweep, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -41,7 +41,7 @@ from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
 cycle = _checked(_cycle.cycle)
-prepare = _checked(_topography.prepare)
+prepare = _checked(_prepare.prepare)
 solve = _checked(_solve.solve)
 stability = _checked(_stability.stability)
 sweep = _checked(_sweep.sweep)

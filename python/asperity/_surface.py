@@ -198,9 +198,7 @@ def _made(
     return Topography(heights, both, unit, periodic, seed=seed)
 
 
-def statistics(
-    heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None
-) -> SurfaceStatistics:
+def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> SurfaceStatistics:
     """Heights, slopes and curvatures in numbers.
 
     Parameters
@@ -220,22 +218,13 @@ def statistics(
     return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths))
 
 
-def spectrum(
-    heights: Heights,
-    lengths: Lengths | None = None,
-    *,
-    axes: AxisOrder | None = None,
-) -> PowerSpectralDensity:
+def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> PowerSpectralDensity:
     """The power spectral density, averaged over directions.
 
     Parameters
     ----------
-    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
-        Heights of a periodic surface, shape (Nx, Ny).
-    lengths : float or (float, float), optional
-        Side lengths; needed unless the heights bring them.
-    axes : {"xy", "yx"}, optional
-        Axes of an array, as of `asperity.solve`: "xy" by default, the first is x.
+    heights, lengths, axes
+        Those of `statistics`; the side lengths are needed, unless the heights bring them.
 
     Returns
     -------

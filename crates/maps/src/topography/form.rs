@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::{Topography, Trend};
+use super::{Topography, Trend, named};
 use asperity::{Error, Result};
 
 /// The form of a body under its roughness, which [`Topography::remove_form`] takes away.
@@ -25,11 +25,7 @@ impl FromStr for Form {
 
     /// A form by its name.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        match text {
-            "sphere" => Ok(Self::Sphere),
-            "cylinder" => Ok(Self::Cylinder),
-            _ => Err(format!("it must be {}", Self::NAMES.join(" or "))),
-        }
+        named(text, Self::NAMES, [Self::Sphere, Self::Cylinder])
     }
 }
 

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use ndarray::{Array1, ArrayView1, Axis};
 
 use super::trend::order;
-use super::{Topography, Trend, median};
+use super::{Topography, Trend, median, named};
 use asperity::Result;
 
 /// The direction in which an instrument scans its lines.
@@ -41,11 +41,7 @@ impl FromStr for ScanAxis {
 
     /// A direction by its name.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        match text {
-            "x" => Ok(Self::X),
-            "y" => Ok(Self::Y),
-            _ => Err(format!("it must be {}", Self::NAMES.join(" or "))),
-        }
+        named(text, Self::NAMES, [Self::X, Self::Y])
     }
 }
 
