@@ -36,7 +36,7 @@ def test_quantities_with_units_are_in_the_si(rough):
         assert np.allclose(solution.gap, plain.gap, rtol=1e-9, atol=1e-16)
         assert solution.report["length_unit"] == "m" and np.isclose(solution.lengths[0], 1e-6, rtol=1e-14)
     assert "1 µm x 1 µm" in repr(solution) and re.search(r"pressure +10 MPa", repr(solution))
-    solution = asperity.solve(metres.heights, "1um", modulus="1GPa", spring=("1N/m", "2nm"), start="apart")
+    solution = asperity.solve(metres.heights, "1um", modulus="1GPa", spring=("1N/m", "2nm"))
     assert (solution.report["spring_stiffness"], solution.report["control_value"]) == (1.0, 2e-9)
     assert solution.report["given"]["spring_position"] == "2nm"
     swept = asperity.sweep(metres, modulus="1GPa", mean_pressures=["5MPa", "10MPa"])
