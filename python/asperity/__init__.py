@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _solve, _stability, _sweep, _topography, contact, exact, surface
+from . import _cycle, _prepare, _solve, _stability, _sweep, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -31,16 +31,18 @@ from ._asperity import (
     check_law,
 )
 from ._cycle import Cycle, Step
+from ._progress import progress
 from ._solution import ContactStatistics, PressureDistribution, Solution
 from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Topography, from_topography, read
+from ._types import OwnLaw, Report
 from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
 cycle = _checked(_cycle.cycle)
-prepare = _checked(_topography.prepare)
+prepare = _checked(_prepare.prepare)
 solve = _checked(_solve.solve)
 stability = _checked(_stability.stability)
 sweep = _checked(_sweep.sweep)
@@ -58,10 +60,12 @@ __all__ = [
     "LennardJones",
     "MaugisDugdale",
     "Morse",
+    "OwnLaw",
     "Penalty",
     "Plan",
     "PowerLaw",
     "PressureDistribution",
+    "Report",
     "Solution",
     "Stability",
     "Step",
@@ -78,6 +82,7 @@ __all__ = [
     "exact",
     "from_topography",
     "prepare",
+    "progress",
     "read",
     "solve",
     "stability",

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
+from ._types import Report
+
 __all__ = [
     "AdhesiveWavyLine",
     "Contact",
@@ -34,11 +36,14 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
+    "has_dimension",
+    "in_metres",
+    "made",
     "meant",
     "prepare",
     "pressure_distribution",
+    "quantity",
     "read",
-    "self_affine",
     "spectrum",
     "statistics",
 ]
@@ -183,7 +188,7 @@ class Look:
         self,
     ) -> tuple[
         tuple[int, float, float, float, NDArray[np.int64], float, float, float],
-        dict[str, Any],
+        Report,
         list[tuple[str, str]],
     ]: ...
 
@@ -220,6 +225,7 @@ class Problem:
         part: str | None,
         unit: str | None,
         source: str | None,
+        given: dict[str, Any] | None,
     ) -> Problem: ...
     def solve(
         self,
@@ -243,19 +249,15 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
+def has_dimension(key: str) -> bool: ...
+def quantity(key: str, text: str) -> float: ...
+def in_metres(
+    heights: _Field, lengths: tuple[float, float] | None, unit: str
+) -> tuple[_Field, tuple[float, float] | None]: ...
 def meant(word: str, known: Sequence[str]) -> str | None: ...
 def read(path: str, channel: str | None) -> _Map: ...
-def self_affine(
-    shape: tuple[int, int],
-    lengths: tuple[float, float],
-    rms_height: float | None,
-    rms_slope: float | None,
-    hurst: float,
-    k_l: float,
-    k_r: float | None,
-    k_s: float,
-    random_phase: bool,
-    seed: int,
+def made(
+    shape: tuple[int, int], lengths: tuple[float, float], body: dict[str, Any], roughness: dict[str, Any] | None
 ) -> _Field: ...
 def statistics(heights: _Field, lengths: tuple[float, float] | None) -> list[float]: ...
 def spectrum(
@@ -264,24 +266,11 @@ def spectrum(
 def clusters(map: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(
-    heights: _Field,
-    lengths: tuple[float, float] | None,
-    unit: str | None,
-    original: tuple[int, int] | None,
-    missing: list[float],
-    scale: float | None,
-    crop: tuple[int, int, int, int] | None,
-    flip: bool,
-    align_rows: tuple[str, int] | None,
-    scan_axis: str,
-    despike: float | None,
-    remove_form: str | None,
-    detrend: tuple[str, int] | None,
-    fill: bool,
-    window: float | None,
-    mirror: bool,
-    resample: tuple[int, int] | None,
-) -> tuple[_Map, list[dict[str, str]]]: ...
+    given: tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None],
+    new_lengths: tuple[float, float] | None,
+    in_metres: bool,
+    steps: dict[str, Any],
+) -> tuple[_Map, list[str], list[dict[str, str]]]: ...
 
 @final
 class Contact:

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from ._types import Branch, Branches
+
 #: A load as the compiled core takes it: the name of its keyword, and its numbers.
 Load = tuple[str, list[float]]
 
@@ -67,7 +69,7 @@ def _load(name: str, value: Any) -> Load:
     return (name, [number("stiffness of the spring", stiffness), number("rest of the spring", rest)])
 
 
-def only(branch: str | None) -> str | None:
+def only(branch: Branches | None) -> Branch | None:
     """The branch of equilibria on which loads begin, one after the other."""
     if branch == "both":
         raise ValueError("branch is both: that compares two solves under one load: use solve, or give one branch")

@@ -10,7 +10,7 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
-from ._wall import Wall
+from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -93,24 +93,25 @@ class Cycle(Rows[Step]):
         -------
         matplotlib Axes
         """
-        return _plot.cycle(self.columns, ax, length_unit or self._scene.topography.unit, pressure_unit, force_unit)
+        length_unit, pressure_unit = length_unit or self._scene.topography.unit, pressure_unit or self._scene.pressure_unit
+        return _plot.cycle(self.columns, ax, length_unit, pressure_unit, force_unit)
 
 
 def cycle(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
-    modulus: float,
-    mean_gaps: Iterable[float] | None = None,
-    mean_pressures: Iterable[float] | None = None,
-    normal_forces: Iterable[float] | None = None,
-    approaches: Iterable[float] | None = None,
-    springs: Iterable[tuple[float, float]] | None = None,
+    axes: AxisOrder | None = None,
+    modulus: Quantity,
+    mean_gaps: Iterable[Quantity] | None = None,
+    mean_pressures: Iterable[Quantity] | None = None,
+    normal_forces: Iterable[Quantity] | None = None,
+    approaches: Iterable[Quantity] | None = None,
+    springs: Iterable[tuple[Quantity, Quantity]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
-    boundary: str = "periodic",
+    boundary: Boundary = "periodic",
     absent_missing: bool = False,
-    law: Any = None,
+    law: OwnLaw | None = None,
     wall: Wall = "hard",
     steps: int = 50,
     smallest_step: float = 1e-4,
@@ -118,10 +119,10 @@ def cycle(
     smooth: bool = True,
     tolerance: float | None = None,
     max_iterations: int | None = None,
-    method: str = "default",
-    branch: str | None = None,
-    precision: str = "f64",
-    start: Any = None,
+    method: Method = "default",
+    branch: Branch | None = None,
+    precision: Precision = "f64",
+    start: Start = None,
     observe: Callable[[Iteration], object] | None = None,
     threads: int | None = None,
     whole: bool = False,

@@ -12,7 +12,9 @@ from . import _asperity
 from ._control import number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
-from ._wall import Wall, parts
+from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
+from ._units import given
+from ._wall import parts
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
@@ -21,20 +23,20 @@ class Scene:
 
     def __init__(
         self,
-        heights: Any,
-        lengths: float | tuple[float, float] | None,
+        heights: Heights,
+        lengths: Lengths | None,
         *,
-        axes: str | None = None,
-        modulus: float,
-        boundary: str,
+        axes: AxisOrder | None = None,
+        modulus: Quantity,
+        boundary: Boundary,
         absent_missing: bool,
-        law: Any,
+        law: OwnLaw | None,
         wall: Wall,
         tolerance: float | None,
         max_iterations: int | None,
-        method: str,
-        branch: str | None,
-        precision: str,
+        method: Method,
+        branch: Branches | None,
+        precision: Precision,
         threads: int | None,
         nested: bool | None = False,
         whole: bool = False,
@@ -63,7 +65,9 @@ class Scene:
             None if original is None else "whole" if self.original is None else "original",
             self.topography.unit,
             self.topography.source,
+            given.get(),
         )
+        self.pressure_unit = None if given.get() is None else "Pa"
         self._adhesion = law
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
@@ -73,7 +77,7 @@ class Scene:
                 InputWarning,
             )
 
-    def start(self, start: Any) -> str | NDArray[np.float64] | None:
+    def start(self, start: Start) -> str | NDArray[np.float64] | None:
         """The gap from which to start, as the compiled core takes it."""
         if start is None or isinstance(start, str):
             return start

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _asperity, _picture, _plot
 from ._accuracy import Plan
+from ._types import Boundary, Report, Status
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,7 +111,7 @@ class Solution:
     mode: NDArray[np.floating[Any]] | None
     plan: Plan | None
 
-    def __init__(self, topography: Topography, law: Any, told: dict[str, Any], found: dict[str, Any]) -> None:
+    def __init__(self, topography: Topography, law: Any, told: Report, found: dict[str, Any]) -> None:
         self.topography = topography
         self.law = law
         self.plan = found.get("plan")
@@ -127,7 +128,7 @@ class Solution:
         return field.reshape(self.topography.shape)[self._part]
 
     @cached_property
-    def _looked(self) -> tuple[ContactStatistics, dict[str, Any], list[tuple[str, str]]]:
+    def _looked(self) -> tuple[ContactStatistics, Report, list[tuple[str, str]]]:
         counted, report, rows = self._look.found()
         return ContactStatistics(*counted), report, rows
 
@@ -176,7 +177,7 @@ class Solution:
         return PressureDistribution(*_asperity.pressure_distribution(gap, pressure, bins))
 
     @cached_property
-    def report(self) -> dict[str, Any]:
+    def report(self) -> Report:
         """Account of the solve, with the keys of the tool's ``report.json``.
 
         ``"heights"`` is the file that they came from, if they came from one.
@@ -200,9 +201,9 @@ class Solution:
         return self.gap + self.heights
 
     @property
-    def status(self) -> str:
+    def status(self) -> Status:
         """``"converged"``, ``"iteration-limit"``, ``"stalled"``, ``"stopped"`` or ``"detached"``."""
-        return str(self._told["status"])
+        return self._told["status"]
 
     @property
     def converged(self) -> bool:
@@ -212,27 +213,27 @@ class Solution:
     @property
     def relative_error(self) -> float:
         """Certified relative error in the energy norm."""
-        return float(self._told["relative_error"])
+        return self._told["relative_error"]
 
     @property
     def mean_gap(self) -> float:
         """Mean gap."""
-        return float(self._told["mean_gap"])
+        return self._told["mean_gap"]
 
     @property
     def mean_pressure(self) -> float:
         """Mean external pressure p̄, the normal force over the nominal area."""
-        return float(self._told["mean_pressure"])
+        return self._told["mean_pressure"]
 
     @property
-    def boundary(self) -> str:
+    def boundary(self) -> Boundary:
         """``"periodic"`` or ``"free"``."""
-        return str(self._told["boundary"])
+        return self._told["boundary"]
 
     @property
     def normal_force(self) -> float:
         """Normal force F = p̄·Lx·Ly, compression positive."""
-        return float(self._told["normal_force"])
+        return self._told["normal_force"]
 
     @property
     def approach(self) -> float | None:
@@ -240,13 +241,12 @@ class Solution:
 
         It is how far the bodies have moved towards each other since they would first touch undeformed.
         """
-        found: float | None = self._told["approach"]
-        return found
+        return self._told["approach"]
 
     @property
     def absent_nodes(self) -> int:
         """Number of absent nodes, at which nothing faces the half-space."""
-        return int(self._told["absent_nodes"])
+        return self._told["absent_nodes"]
 
     @property
     def edge_traction(self) -> float | None:
@@ -254,28 +254,27 @@ class Solution:
 
         Unless the body ends there, more than a thousandth says that the heights should go further.
         """
-        found: float | None = self._told["edge_traction"]
-        return found
+        return self._told["edge_traction"]
 
     @property
     def mean_contact_pressure(self) -> float:
         """Mean contact pressure."""
-        return float(self._told["mean_contact_pressure"])
+        return self._told["mean_contact_pressure"]
 
     @property
     def contact_fraction(self) -> float:
         """Share of the nodes in contact, of those that are not absent."""
-        return float(self._told["contact_fraction"])
+        return self._told["contact_fraction"]
 
     @property
     def elastic_energy(self) -> float:
         """Elastic energy per area."""
-        return float(self._told["elastic_energy"])
+        return self._told["elastic_energy"]
 
     @property
     def adhesive_energy(self) -> float:
         """Adhesive energy per area."""
-        return float(self._told["adhesive_energy"])
+        return self._told["adhesive_energy"]
 
     @property
     def contact_stiffness(self) -> float | None:
@@ -284,24 +283,22 @@ class Solution:
         How much the mean pressure grows as the bodies approach each other, or the mean gap falls: a flat punch with the
         outline of the contact. Infinite where all nodes are in contact; with adhesion it may be negative.
         """
-        found: float | None = self._told["contact_stiffness"]
-        return found
+        return self._told["contact_stiffness"]
 
     @property
     def normal_stiffness(self) -> float | None:
         """Normal stiffness dF/dδ, a force per length; None where it was not asked for."""
-        found: float | None = self._told["normal_stiffness"]
-        return found
+        return self._told["normal_stiffness"]
 
     @property
     def iterations(self) -> int:
         """Number of steps."""
-        return int(self._told["iterations"])
+        return self._told["iterations"]
 
     @property
     def operator_applications(self) -> int:
         """Number of operator applications, each a forward and an inverse transform."""
-        return int(self._told["operator_applications"])
+        return self._told["operator_applications"]
 
     def __repr__(self) -> str:
         rows = self._looked[2]
@@ -340,6 +337,7 @@ class Solution:
         adhesive = self.report["law"] != "none"
         pressure = np.asarray(self.pressure if adhesive else self.contact_pressure, dtype=float)
         length_unit = length_unit or self.report["length_unit"]
+        pressure_unit = pressure_unit or self.report["pressure_unit"]
         if self.gap.ndim == 1:
             return _plot.profiles(
                 (self.heights, self.displacement), pressure, self.lengths[0], length_unit, pressure_unit

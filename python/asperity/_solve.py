@@ -10,39 +10,52 @@ from ._accuracy import Plan
 from ._asperity import Iteration
 from ._scene import Scene
 from ._solution import Solution
-from ._wall import Wall
+from ._types import (
+    AccuracyOf,
+    AxisOrder,
+    Boundary,
+    Branches,
+    Heights,
+    Lengths,
+    Method,
+    OwnLaw,
+    Precision,
+    Quantity,
+    Start,
+    Wall,
+)
 
 
 def solve(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
-    modulus: float,
-    mean_pressure: float | None = None,
-    mean_gap: float | None = None,
-    normal_force: float | None = None,
-    approach: float | None = None,
-    spring: tuple[float, float] | None = None,
+    axes: AxisOrder | None = None,
+    modulus: Quantity,
+    mean_pressure: Quantity | None = None,
+    mean_gap: Quantity | None = None,
+    normal_force: Quantity | None = None,
+    approach: Quantity | None = None,
+    spring: tuple[Quantity, Quantity] | None = None,
     reduced_pressure: float | None = None,
     contact_fraction: float | None = None,
-    boundary: str = "periodic",
+    boundary: Boundary = "periodic",
     absent_missing: bool = False,
-    law: Any = None,
+    law: OwnLaw | None = None,
     wall: Wall = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
-    method: str = "default",
-    branch: str | None = None,
-    precision: str = "f64",
-    start: Any = None,
+    method: Method = "default",
+    branch: Branches | None = None,
+    precision: Precision = "f64",
+    start: Start = None,
     nested: bool | None = None,
     observe: Callable[[Iteration], object] | None = None,
     stability: bool = False,
     leave: bool = False,
     stiffness: bool = False,
     accuracy: float | None = None,
-    accuracy_of: str | None = None,
+    accuracy_of: AccuracyOf | None = None,
     memory: float | None = None,
     threads: int | None = None,
     whole: bool = False,
@@ -50,7 +63,8 @@ def solve(
     """Presses a rough surface against an elastic half-space.
 
     Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach``, ``spring``, ``reduced_pressure`` or
-    ``contact_fraction``. All quantities are in any consistent units.
+    ``contact_fraction``. Quantities are numbers in any consistent units, or all are texts with units, as
+    ``modulus="70GPa"`` and ``mean_gap="2nm"``: then the map is brought to metres, and all results are in the SI.
 
     Parameters
     ----------
@@ -118,8 +132,8 @@ def solve(
         Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
         the grid then. None leaves it to the library, which does so where it is faster.
     observe : callable, optional
-        Called with an `Iteration` in every iteration. ``raise StopIteration`` in it ends the solve; any other
-        exception arrives as it was raised, with what was reached as its attribute ``solution``.
+        Called with an `Iteration` in every iteration, as ``asperity.progress()`` is. ``raise StopIteration`` in it ends
+        the solve; any other exception arrives as it was raised, with what was reached as its attribute ``solution``.
     stability : bool
         Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
     leave : bool

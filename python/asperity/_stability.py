@@ -83,7 +83,7 @@ def stability(
         raise ValueError(
             "the solution was found with asperity.Uzawa, whose multipliers it does not have: give stability=True to its solve"
         )
-    given = {
+    given: dict[str, Any] = {
         "mean_pressure": mean_pressure,
         "mean_gap": mean_gap,
         "normal_force": normal_force,
@@ -98,8 +98,12 @@ def stability(
         None,
         absent_missing=report["absent_nodes"] > 0,
         law=solution.law,
+        modulus=report["modulus"],
+        boundary=report["boundary"],
         wall=report["wall"] if report["wall"] != "penalty" else Penalty(report["wall_stiffness"]),
-        **{name: report[name] for name in ("modulus", "boundary", "precision", "method", "threads")},
+        precision=report["precision"],
+        method=report["method"],
+        threads=report["threads"],
         tolerance=report["tolerance"],
         max_iterations=report["max_iterations"],
         branch=None,

@@ -10,7 +10,7 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
-from ._wall import Wall
+from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -47,32 +47,32 @@ class Sweep(Rows[Solution]):
         -------
         matplotlib Axes
         """
-        return _plot.sweep(self.columns, ax, pressure_unit)
+        return _plot.sweep(self.columns, ax, pressure_unit or self._scene.pressure_unit)
 
 
 def sweep(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
+    heights: Heights,
+    lengths: Lengths | None = None,
     *,
-    axes: str | None = None,
-    modulus: float,
-    mean_pressures: Iterable[float] | None = None,
-    mean_gaps: Iterable[float] | None = None,
-    normal_forces: Iterable[float] | None = None,
-    approaches: Iterable[float] | None = None,
-    springs: Iterable[tuple[float, float]] | None = None,
+    axes: AxisOrder | None = None,
+    modulus: Quantity,
+    mean_pressures: Iterable[Quantity] | None = None,
+    mean_gaps: Iterable[Quantity] | None = None,
+    normal_forces: Iterable[Quantity] | None = None,
+    approaches: Iterable[Quantity] | None = None,
+    springs: Iterable[tuple[Quantity, Quantity]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
     contact_fractions: Iterable[float] | None = None,
-    boundary: str = "periodic",
+    boundary: Boundary = "periodic",
     absent_missing: bool = False,
-    law: Any = None,
+    law: OwnLaw | None = None,
     wall: Wall = "hard",
     tolerance: float | None = None,
     max_iterations: int | None = None,
-    method: str = "default",
-    branch: str | None = None,
-    precision: str = "f64",
-    start: Any = None,
+    method: Method = "default",
+    branch: Branch | None = None,
+    precision: Precision = "f64",
+    start: Start = None,
     observe: Callable[[Iteration], object] | None = None,
     stiffness: bool = False,
     threads: int | None = None,

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _plot
-from ._warnings import warn_of_input
+from ._types import AxisOrder, HeightMap, Heights, Lengths
+from ._units import given as units
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,6 +42,8 @@ class Topography:
         Nodes of the original, from the first on, if the others are its mirror images.
     seed : int, optional
         Seed of the random surface that the map was made from.
+    log : tuple of str
+        Steps that `prepare` took to make the map, each with its effect in numbers.
 
     Examples
     --------
@@ -56,6 +59,7 @@ class Topography:
     source: str | None = None
     original: tuple[int, int] | None = None
     seed: int | None = None
+    log: tuple[str, ...] = ()
     _is_line: bool = field(default=False, compare=False)
 
     @property
@@ -127,7 +131,7 @@ def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topo
     return Topography(heights, lengths, unit, source=os.fspath(path), original=original, seed=seed)
 
 
-def from_topography(topography: Any) -> Topography:
+def from_topography(topography: HeightMap) -> Topography:
     """Takes a map of SurfaceTopography, or anything else with its three properties.
 
     Parameters
@@ -152,137 +156,43 @@ def from_topography(topography: Any) -> Topography:
     return Topography(heights, lengths, getattr(topography, "unit", None), periodic, _is_line=is_line)
 
 
-def prepare(
-    heights: Any,
-    lengths: float | tuple[float, float] | None = None,
-    *,
-    axes: str | None = None,
-    unit: str | None = None,
-    missing: float | list[float] | None = None,
-    scale: float | None = None,
-    crop: tuple[int, int, int, int] | None = None,
-    flip: bool = False,
-    align_rows: str | int | None = None,
-    scan_axis: str = "x",
-    despike: float | None = None,
-    remove_form: str | None = None,
-    detrend: str | int | None = None,
-    fill: bool = False,
-    window: float | None = None,
-    mirror: bool = False,
-    resample: tuple[int, int] | None = None,
-) -> Topography:
-    """Makes a periodic surface of a measured map, in the order of the parameters; nothing is done unasked.
-
-    Parameters
-    ----------
-    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
-        Heights; NaN, infinite and masked points are missing.
-    lengths : float or (float, float), optional
-        Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
-    axes : {"xy", "yx"}, optional
-        Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. Dimensions of a DataArray
-        that are named x and y say it themselves. The result has x along the first axis.
-    unit : str, optional
-        Unit of the heights after ``scale``, and of the side lengths.
-    missing : float or list of float, optional
-        Values that stand for missing points, as -9999, in the unit of the heights before ``scale``.
-    scale : float, optional
-        Factor of the heights, as 1e-9 for heights in nm and side lengths in m.
-    crop : (int, int, int, int), optional
-        First node along x and y, and numbers of nodes.
-    flip : bool
-        Peaks become valleys.
-    align_rows : {"median", "median-difference"} or int, optional
-        Brings the scan lines of an AFM to one height: by the median of each line, by that of the differences from line
-        to line, for large features, or by a polynomial of this order, subtracted from each line.
-    scan_axis : {"x", "y"}
-        Direction of the scan lines. Where lines along the other one have by far the larger offsets, an `InputWarning`
-        says so. The rows of an image are along x if ``axes`` is "yx", and along y if it is not.
-    despike : float, optional
-        Threshold, in robust standard deviations of all nodes: a node that is farther than this from the median of the
-        5 x 5 nodes around it is a spike, and gets that median. 10 leaves the features of most surfaces.
-    remove_form : {"sphere", "cylinder"}, optional
-        Form that is fitted and removed.
-    detrend : {"mean", "plane", "quadric"} or int, optional
-        Trend that is fitted and removed; a number is the order of a polynomial.
-    fill : bool
-        Missing points get values, smoothly from those around them.
-    window : float, optional
-        Share of the sides that is tapered at each edge, at most 0.5.
-    mirror : bool
-        Continues the map by its mirror images: twice as many nodes along both axes. The map remembers its ``original``,
-        and a solution has results of that part alone, unless it is asked for the ``whole``.
-    resample : (int, int), optional
-        Numbers of nodes of the grid on which it is interpolated.
-
-    Returns
-    -------
-    Topography
-
-    Examples
-    --------
-    >>> import numpy as np, asperity
-    >>> measured = 1e-9 * np.random.default_rng(0).normal(size=(32, 24)) + 1e-8 * np.arange(32)[:, None]
-    >>> measured[3, 5] = np.nan
-    >>> asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
-    Topography(64 x 48 heights, mirror images of 32 x 24, 2e-06 x 1.5e-06 m)
-    """
-    given = taken(heights, lengths, axes)
-    codes = [] if missing is None else [float(code) for code in np.ravel(missing)]
-    (made, sides, unit, original, _), warnings = _asperity.prepare(
-        given.heights,
-        given.lengths,
-        unit or given.unit,
-        given.original,
-        codes,
-        scale,
-        crop,
-        flip,
-        _by_order(align_rows),
-        scan_axis,
-        despike,
-        remove_form,
-        _by_order(detrend),
-        fill,
-        window,
-        mirror,
-        resample,
-    )
-    for warning in warnings:
-        warn_of_input(warning)
-    periodic = True if mirror or window else given.periodic
-    is_line = given._is_line and made.shape[1] == 1
-    return Topography(made, sides, unit, periodic, given.source, original, given.seed, _is_line=is_line)
-
-
-def _by_order(method: str | int | None) -> tuple[str, int] | None:
-    """A method by its name, or a polynomial by its order."""
-    if method is None:
-        return None
-    return (method, 0) if isinstance(method, str) else ("polynomial", int(method))
+def plain(keys: dict[str, Any]) -> dict[str, Any]:
+    """Keys with their values as the compiled core reads them: numbers, texts and lists, without those of numpy."""
+    return {key: np.asarray(value).tolist() for key, value in keys.items() if value is not None}
 
 
 def taken(
-    heights: Any, lengths: float | tuple[float, float] | None = None, axes: str | None = None
+    heights: Heights, lengths: Lengths | None = None, axes: AxisOrder | None = None
 ) -> Topography:
+    """The map of whatever holds heights, with the side lengths that are given for it; in metres beside units."""
+    topography = found(heights, axes)
+    if units.get() is not None:
+        topography = _in_metres(topography)
+    return topography if lengths is None else replace(topography, lengths=_lengths(lengths, topography.heights.shape))
+
+
+def _in_metres(topography: Topography) -> Topography:
+    """The map in metres, in which one without a unit is already."""
+    if topography.unit in (None, "m"):
+        return replace(topography, unit="m")
+    heights, lengths = _asperity.in_metres(topography.heights, topography.lengths, topography.unit)
+    return replace(topography, heights=heights, lengths=lengths, unit="m")
+
+
+def found(heights: Heights, axes: AxisOrder | None) -> Topography:
     """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
     if axes is not None and (isinstance(heights, Topography | str | os.PathLike) or _is_topography(heights)):
         raise ValueError(f"axes is {axes!r}, but a file or a map knows its axes: leave it out, or give an array")
     if isinstance(heights, Topography):
-        found = heights
-    elif isinstance(heights, str | os.PathLike):
-        found = read(heights)
-    elif _is_topography(heights):
-        found = from_topography(heights)
-    elif _is_data_array(heights):
-        found = _from_data_array(heights, axes)
-    else:
-        array, is_line = array_of(heights, axes=axes)
-        found = Topography(array, _is_line=is_line)
-    if lengths is None:
-        return found
-    return replace(found, lengths=_lengths(lengths, found.heights.shape))
+        return heights
+    if isinstance(heights, str | os.PathLike):
+        return read(heights)
+    if _is_topography(heights):
+        return from_topography(heights)
+    if _is_data_array(heights):
+        return _from_data_array(heights, axes)
+    array, is_line = array_of(heights, axes=axes)
+    return Topography(array, _is_line=is_line)
 
 
 def sides(topography: Topography) -> tuple[float, float]:
@@ -311,7 +221,7 @@ def field_of(values: Any, name: str) -> NDArray[np.float64]:
     return array_of(values, name)[0]
 
 
-def array_of(values: Any, name: str = "heights", axes: str | None = None) -> tuple[NDArray[np.float64], bool]:
+def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) -> tuple[NDArray[np.float64], bool]:
     """Values as a matrix of float64 with x along its first axis, and whether they are one line.
 
     Masked points become NaN.
@@ -334,7 +244,7 @@ def array_of(values: Any, name: str = "heights", axes: str | None = None) -> tup
     return (array.T if order == "yx" else array), False
 
 
-def _order(values: Any, axes: str | None) -> str:
+def _order(values: Any, axes: AxisOrder | None) -> str:
     """The order of the axes of an array: that of the names of its dimensions, or the one that is given."""
     if axes not in (None, "xy", "yx"):
         raise ValueError(f"axes is {axes!r}: it must be 'xy', x along the first axis, or 'yx', as of an image")
@@ -351,11 +261,11 @@ def _is_data_array(values: Any) -> bool:
     return hasattr(values, "dims") and hasattr(values, "coords")
 
 
-def _is_topography(values: Any) -> bool:
+def _is_topography(values: Any) -> TypeGuard[HeightMap]:
     return callable(getattr(values, "heights", None)) and hasattr(values, "physical_sizes")
 
 
-def _lengths(lengths: float | tuple[float, float], shape: tuple[int, ...]) -> tuple[float, float]:
+def _lengths(lengths: Lengths, shape: tuple[int, ...]) -> tuple[float, float]:
     """Side lengths; one alone means square cells."""
     try:
         pair = tuple(float(length) for length in np.ravel(lengths))
@@ -369,7 +279,7 @@ def _lengths(lengths: float | tuple[float, float], shape: tuple[int, ...]) -> tu
     return (pair[0], pair[1])
 
 
-def _from_data_array(data: Any, axes: str | None) -> Topography:
+def _from_data_array(data: Any, axes: AxisOrder | None) -> Topography:
     """The heights of an xarray.DataArray, with the side lengths of its coordinates."""
     heights, is_line = array_of(data, axes=axes)
     units = {data.attrs.get("units")}

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING
 
 from ._control import number
+
+if TYPE_CHECKING:
+    from ._types import Wall
 
 
 @dataclass(frozen=True)
@@ -57,10 +60,6 @@ class Uzawa(_Springs):
     >>> solution.converged, solution.report["min_gap"] > -1e-7
     (True, True)
     """
-
-
-#: A wall as functions take it.
-Wall: TypeAlias = str | Penalty | Uzawa
 
 
 def parts(wall: Wall) -> tuple[str, float | None]:

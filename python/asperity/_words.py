@@ -5,9 +5,10 @@ from __future__ import annotations
 import functools
 import inspect
 from collections.abc import Callable, Iterable, Sequence
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 from . import _asperity, _control
+from ._units import Quantities, given
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -31,15 +32,25 @@ def _meant(word: str, known: Sequence[str]) -> str:
     return f"did you mean {right}?" if right else f"it has {', '.join(known)}"
 
 
-def checked(function: Callable[P, R]) -> Callable[P, R]:
-    """A function of the package, as users see it: one that tells what a keyword may mean that it does not have."""
+def checked(function: Callable[P, R], module: str = "asperity") -> Callable[P, R]:
+    """A function of the package, as users see it.
+
+    It reads quantities with units, and tells what a keyword may mean that it does not have.
+    """
     known = tuple(inspect.signature(function).parameters)
 
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
         check(function.__name__, kwargs, known)
-        return function(*args, **kwargs)
+        quantities = Quantities()
+        values: Any = [quantities.read(key, value) for key, value in zip(known, args)] + [*args[len(known) :]]
+        keywords: Any = {key: quantities.read(key, value) for key, value in kwargs.items()}
+        token = given.set(quantities.texts())
+        try:
+            return function(*values, **keywords)
+        finally:
+            given.reset(token)
 
     # by this name it is found in other processes
-    call.__module__ = "asperity"
+    call.__module__ = module
     return call

@@ -1,11 +1,13 @@
 //! The inputs of a problem by the names of their keywords. The law has a file of its own.
 
+use asperity_scene::units::dimension_of_key;
 use asperity_scene::{Goal, Load};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde::Deserialize;
-use serde::de::IntoDeserializer;
 use serde::de::value::Error;
+use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde_pyobject::from_pyobject;
 
 use crate::numbers::Field;
 
@@ -13,6 +15,33 @@ use crate::numbers::Field;
 pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
     let found: Result<V, Error> = V::deserialize(name.into_deserializer());
     found.map_err(|_| PyValueError::new_err(format!("{keyword} is {name}: it must be {names}")))
+}
+
+/// What a dictionary of keys and values describes.
+pub fn keys<V: DeserializeOwned>(given: Bound<'_, PyAny>) -> PyResult<V> {
+    let py = given.py();
+    from_pyobject(given).map_err(|error| match error.0 {
+        // an error of a value, in words
+        refused if refused.is_instance_of::<PyRuntimeError>(py) => PyValueError::new_err(refused.value(py).to_string()),
+        error => error,
+    })
+}
+
+/// Whether the numbers of a keyword have a dimension.
+#[pyfunction]
+pub fn has_dimension(key: &str) -> bool {
+    dimension_of_key(key).is_some()
+}
+
+/// The number in the SI of a text with a unit.
+#[pyfunction]
+pub fn quantity(key: &str, text: &str) -> PyResult<f64> {
+    let refused = |expected| PyValueError::new_err(format!("{key} is {text}: {expected}"));
+    let dimension =
+        dimension_of_key(key).ok_or_else(|| refused("it must be a number, which has no unit".to_owned()))?;
+    let found = dimension.finite()(text).map_err(refused)?;
+    let number = || refused(format!("give a number, or a text with a unit of {}", dimension.what));
+    if found.has_unit { Ok(found.value) } else { Err(number()) }
 }
 
 /// A load as Python passes it: the name of the keyword and its numbers.

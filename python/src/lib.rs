@@ -34,6 +34,8 @@ mod _asperity {
     #[pymodule_export]
     use crate::formulas::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
     #[pymodule_export]
+    use crate::inputs::{has_dimension, quantity};
+    #[pymodule_export]
     use crate::law::{CutOff, Law, Tabulated, Varying, check_law};
     #[pymodule_export]
     use crate::look::Look;
@@ -46,7 +48,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{prepare, read, self_affine, spectrum, statistics};
+    use crate::surface::{in_metres, made, prepare, read, spectrum, statistics};
 
     use pyo3::prelude::*;
 

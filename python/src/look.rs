@@ -3,7 +3,6 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::contact::ContactStatistics;
-use asperity_scene::units::Units;
 use asperity_scene::{Account, Sight, Skin, rows};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -61,8 +60,9 @@ impl<T: Scalar> Looks for Seen<T> {
             Ok((found, account.clone()))
         };
         let (found, account) = py.detach(look).map_err(refusal)?;
-        let units = Units::of_map(account.inputs.length_unit.as_deref());
-        let rows = rows(&[&account], &units, Skin::Keywords).into_iter().map(|(name, texts)| (name, texts.concat()));
+        let rows = rows(&[&account], &account.inputs.units(), Skin::Keywords)
+            .into_iter()
+            .map(|(name, texts)| (name, texts.concat()));
         Ok((statistics_of(py, found), to_pyobject(py, &account)?, rows.collect()))
     }
 }

@@ -4,12 +4,13 @@ use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
+use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{Adhesion, Asked, Branches, Inputs, Load, Way, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::inputs::{Accuracy, Begin, Given, goal, load, named};
+use crate::inputs::{Accuracy, Begin, Given, goal, keys, load, named};
 use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -55,7 +56,7 @@ impl Problem {
     #[new]
     #[pyo3(signature = (
         heights, lengths, absent_missing, boundary, modulus, law, wall, wall_stiffness, precision, tolerance, max_iterations,
-        method, branch, nested, threads, original, part, unit, source
+        method, branch, nested, threads, original, part, unit, source, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -79,6 +80,7 @@ impl Problem {
         part: Option<String>,
         unit: Option<String>,
         source: Option<String>,
+        given: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let method = named("method", method, "default or rey2017")?;
         let branches = branch.map(|name| named("branch", name, "loading, unloading or both")).transpose()?;
@@ -103,8 +105,8 @@ impl Problem {
             shape: surface.grid().shape(),
             lengths,
             length_unit: unit,
-            pressure_unit: None,
-            given: None,
+            pressure_unit: given.as_ref().map(|_| PRESSURE.si.to_owned()),
+            given: given.map(keys).transpose()?,
             boundary,
             modulus,
             adhesion,

@@ -176,8 +176,8 @@ pub fn state<T: Scalar>(
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
-    let &Inputs { boundary, modulus, ref adhesion, ref length_unit, .. } = inputs;
-    let units = Units::of_map(length_unit.as_deref());
+    let &Inputs { boundary, modulus, ref adhesion, .. } = inputs;
+    let units = inputs.units();
     let constraint = adhesion.constraint::<T>().map_err(refusal)?;
     let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint });
     let make = || {

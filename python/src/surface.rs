@@ -3,18 +3,18 @@
 use std::path::PathBuf;
 
 use asperity::surface::Psd;
-use asperity::{Amplitude, Grid, SelfAffine, Surface};
+use asperity::{Grid, Surface};
 use asperity_maps::Topography;
 use asperity_maps::io::check_memory;
-use asperity_maps::warning::Warning;
-use asperity_maps::{Form, RowAlignment, ScanAxis, Trend};
-use asperity_scene::units::Units;
+use asperity_scene::quantity::LENGTH;
+use asperity_scene::{Body, Log, Preparation, Roughness, Skin, in_unit, worded};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_pyobject::to_pyobject;
 
-use crate::numbers::{Field, afford};
+use crate::inputs::keys;
+use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
 
@@ -48,38 +48,30 @@ pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<
     Ok(map(py, apart(py, read)?))
 }
 
-/// Draws a self-affine surface.
+/// The heights of a body of a simple form with self-affine roughness or without it, both by their keys; NaN beyond the
+/// body.
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
-pub fn self_affine<'py>(
+#[pyo3(signature = (shape, lengths, body, roughness))]
+pub fn made<'py>(
     py: Python<'py>,
     shape: (usize, usize),
     lengths: (f64, f64),
-    rms_height: Option<f64>,
-    rms_slope: Option<f64>,
-    hurst: f64,
-    k_l: f64,
-    k_r: Option<f64>,
-    k_s: f64,
-    random_phase: bool,
-    seed: u64,
+    body: Bound<'py, PyAny>,
+    roughness: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let amplitude = match (rms_height, rms_slope) {
-        (Some(height), None) => Amplitude::RmsHeight(height),
-        (None, Some(slope)) => Amplitude::RmsSlope(slope),
-        _ => return Err(PyValueError::new_err("give rms_height or rms_slope, one of the two")),
-    };
-    let k_r = k_r.unwrap_or(k_l);
-    let rough = SelfAffine::default()
-        .hurst(hurst)
-        .k_l(k_l)
-        .k_r(k_r)
-        .k_s(k_s)
-        .amplitude(amplitude)
-        .random_phase(random_phase)
-        .seed(seed);
-    check_memory("a random surface", shape, 32).map_err(refusal)?;
-    let drawn = apart(py, || rough.surface(Grid::new(shape, lengths)?).map(Topography::from))?;
+    let body: Body = keys(body)?;
+    let roughness = roughness.map(keys::<Roughness>).transpose()?;
+    let rough = roughness.map(|roughness| {
+        let one = || PyValueError::new_err("give rms_height or rms_slope, one of the two");
+        roughness.self_affine().ok_or_else(one)
+    });
+    let rough = rough.transpose()?;
+    check_memory("a surface", shape, if rough.is_some() { 32 } else { 16 }).map_err(refusal)?;
+    let drawn = apart(py, || {
+        let grid = Grid::new(shape, lengths)?;
+        let roughness = rough.map(|rough| rough.surface(grid)).transpose()?;
+        body.surface(grid, roughness).map(Topography::from)
+    })?;
     Ok(drawn.heights.into_pyarray(py))
 }
 
@@ -116,101 +108,46 @@ pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -
     Ok((wave_numbers.into_pyarray(py), densities.into_pyarray(py), waves.into_pyarray(py), cell))
 }
 
-/// Takes the steps from a measured map to a periodic surface, in the order of the tool.
+/// The heights and side lengths in metres of a map in a unit of length.
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
+pub fn in_metres<'py>(
+    py: Python<'py>,
+    heights: Field<'py>,
+    lengths: Option<(f64, f64)>,
+    unit: String,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, Option<(f64, f64)>)> {
+    let mut map = Topography::new(heights.to_array()?);
+    (map.lengths, map.unit) = (lengths, Some(unit));
+    let map = in_unit(map, LENGTH.si);
+    let map = map.map_err(|text| PyValueError::new_err(format!("heights: {}", worded(&text, Skin::Keywords))))?;
+    Ok((map.heights.into_pyarray(py), map.lengths))
+}
+
+/// A map as Python has it: heights, side lengths, unit, and the nodes of the original of a mirrored one.
+type Given<'py> = (Field<'py>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>);
+
+/// A prepared map, the lines of its log, and the warnings.
+type Prepared<'py> = (Map<'py>, Vec<String>, Bound<'py, PyAny>);
+
+/// Takes the steps from a measured map to a periodic surface, by their keys.
+#[pyfunction]
 pub fn prepare<'py>(
     py: Python<'py>,
-    heights: Field<'_>,
-    lengths: Option<(f64, f64)>,
-    unit: Option<String>,
-    original: Option<(usize, usize)>,
-    missing: Vec<f64>,
-    scale: Option<f64>,
-    crop: Option<(usize, usize, usize, usize)>,
-    flip: bool,
-    align_rows: Option<(&str, usize)>,
-    scan_axis: &str,
-    despike: Option<f64>,
-    remove_form: Option<&str>,
-    detrend: Option<(&str, usize)>,
-    fill: bool,
-    window: Option<f64>,
-    mirror: bool,
-    resample: Option<(usize, usize)>,
-) -> PyResult<(Map<'py>, Bound<'py, PyAny>)> {
-    let unknown = |name, value, expected| PyValueError::new_err(format!("{name} is {value}: it must be {expected}"));
-    let trend = match detrend {
-        None => None,
-        Some(("mean", _)) => Some(Trend::Mean),
-        Some(("plane", _)) => Some(Trend::Plane),
-        Some(("quadric", _)) => Some(Trend::Quadric),
-        Some(("polynomial", order)) => Some(Trend::Polynomial(order)),
-        Some((other, _)) => return Err(unknown("detrend", other, "mean, plane, quadric or an order")),
-    };
-    let alignment = match align_rows {
-        None => None,
-        Some(("median", _)) => Some(RowAlignment::Median),
-        Some(("median-difference", _)) => Some(RowAlignment::MedianDifference),
-        Some(("polynomial", order)) => Some(RowAlignment::Polynomial(order)),
-        Some((other, _)) => return Err(unknown("align_rows", other, "median, median-difference or an order")),
-    };
-    let along = match scan_axis {
-        "x" => ScanAxis::X,
-        "y" => ScanAxis::Y,
-        other => return Err(unknown("scan_axis", other, "x or y")),
-    };
-    let form = match remove_form {
-        None => None,
-        Some("sphere") => Some(Form::Sphere),
-        Some("cylinder") => Some(Form::Cylinder),
-        Some(other) => return Err(unknown("remove_form", other, "sphere or cylinder")),
-    };
+    given: Given<'py>,
+    new_lengths: Option<(f64, f64)>,
+    in_metres: bool,
+    steps: Bound<'py, PyAny>,
+) -> PyResult<Prepared<'py>> {
+    let mut steps: Preparation = keys(steps)?;
+    let (heights, lengths, unit, original) = given;
     let mut measured = Topography::new(heights.to_array()?);
     (measured.lengths, measured.unit, measured.original) = (lengths, unit, original);
-    let (prepared, warnings) = apart(py, move || {
-        let mut warnings = Vec::new();
-        let mut map = missing.into_iter().fold(measured, Topography::declare_missing);
-        if let Some(factor) = scale {
-            map.heights.mapv_inplace(|height| factor * height);
-        }
-        if let Some((x, y, nx, ny)) = crop {
-            map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
-        }
-        if flip {
-            map = map.flip();
-        }
-        if let Some(alignment) = alignment {
-            warnings.extend(Warning::of_lines(&map, along));
-            map = map.align_rows(alignment, along)?;
-        }
-        if let Some(threshold) = despike {
-            map = map.despike(threshold)?;
-        }
-        if let Some(form) = form {
-            map = map.remove_form(form)?;
-        }
-        if let Some(trend) = trend {
-            map = map.detrend(trend)?;
-        }
-        if fill {
-            map = map.fill()?;
-        }
-        if let Some(fraction) = window {
-            map = map.window(fraction)?;
-        }
-        if mirror {
-            let (nx, ny) = map.heights.dim();
-            afford("a mirrored map", (2 * nx, 2 * ny))?;
-            map = map.mirror();
-        }
-        if let Some(shape) = resample {
-            map = map.resample(shape)?;
-        }
-        Ok((map, warnings))
-    })?;
-    let units = Units::of_map(prepared.unit.as_deref());
-    let warnings: Vec<_> = warnings.iter().map(|found| units.told(found)).collect();
-    let warnings = to_pyobject(py, &warnings)?;
-    Ok((map(py, prepared), warnings))
+    if let Some(lengths) = new_lengths {
+        let found = steps.set_lengths(lengths, in_metres, measured.unit.as_deref());
+        found.map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
+    }
+    let mut log = Log::default();
+    let prepared = apart(py, || steps.run(measured, &mut log))?;
+    let lines = log.lines.iter().map(|(step, what)| format!("{step}: {what}")).collect();
+    Ok((map(py, prepared), lines, to_pyobject(py, &log.warnings)?))
 }

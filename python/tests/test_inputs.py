@@ -206,10 +206,10 @@ def test_prepare_takes_the_steps_of_the_tool():
     rng = np.random.default_rng(1)
     tilted = rng.normal(size=(40, 30)) + 5 * np.arange(40)[:, None]
     made = asperity.prepare(
-        tilted, (40.0, 30.0), scale=1e-9, crop=(4, 2, 32, 24), flip=True, detrend="plane", window=0.2
+        tilted, (40.0, 30.0), scale=1e-3, crop=(4, 2, 32, 24), flip=True, detrend="plane", window=0.2
     )
     assert made.shape == (32, 24) and made.lengths == (32.0, 24.0) and made.missing == 0
-    assert np.abs(made.heights).max() < 1e-8
+    assert np.abs(made.heights).max() < 1e-2
     assert asperity.prepare(made, resample=(64, 48)).shape == (64, 48)
     with pytest.raises(ValueError, match="detrend is cubic"):
         asperity.prepare(tilted, detrend="cubic")
@@ -221,18 +221,12 @@ def test_prepare_takes_the_steps_of_the_tool():
     assert made.missing == 1 and np.nanmax(np.abs(made.heights)) < 20
     assert np.nanstd(asperity.prepare(coded, missing=[-9999, 1e4], align_rows=1).heights) < 2
     x, y = np.meshgrid(np.arange(40) - 20, np.arange(30) - 15, indexing="ij")
-    ball = asperity.prepare(np.sqrt(90.0**2 - x**2 - y**2), (40.0, 30.0), remove_form="sphere")
+    with pytest.warns(asperity.InputWarning, match="smooth: the rms slope is"):
+        ball = asperity.prepare(np.sqrt(90.0**2 - x**2 - y**2), (40.0, 30.0), remove_form="sphere")
     assert np.abs(ball.heights).max() < 1e-9
     for wrong in [{"align_rows": "mode"}, {"scan_axis": "z"}, {"remove_form": "cone"}, {"detrend": 13}]:
         with pytest.raises(ValueError):
             asperity.prepare(tilted, (40.0, 30.0), **wrong)
-
-
-def test_a_number_with_a_unit_is_refused_by_its_name(rough):
-    for wrong in ({"modulus": "70GPa"}, {"mean_gap": "1nm"}, {"mean_gap": None, "spring": ("2N/m", 0.0)}):
-        options = {"modulus": 1.0, "mean_gap": 0.01, **wrong}
-        with pytest.raises(TypeError, match=r"(modulus|mean_gap|stiffness of the spring) is '.*': it must be a number"):
-            asperity.solve(rough, **options)
 
 
 def packed(values, kind="<f8", skip=4):

@@ -10,6 +10,7 @@ import signal
 import threading
 import time
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -303,12 +304,14 @@ def test_what_is_refused_says_why(rough):
         ({"precision": "f16"}, "precision is f16: it must be f64 or f32"),
         ({"method": "newton"}, "method is newton"),
         ({"threads": 0}, "threads is 0"),
+        ({"modulus": "stiff"}, "modulus is stiff: it must be a number"),
+        ({"lengths": "1 m"}, "modulus is 1.0, without a unit, but lengths 1 m has one"),
         ({"start": np.zeros((3, 3))}, "has shape 3 x 3: it must be 64 x 64"),
     ]:
         with warnings.catch_warnings(), pytest.raises(ValueError, match=message):
             warnings.simplefilter("ignore")
             asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
-    for arguments in ({"modulus": "stiff"}, {"lengths": "1 m"}, {"law": "exponential"}, {"mean_gap": [1.0]}):
+    for arguments in ({"tolerance": "tight"}, {"law": "exponential"}, {"mean_gap": [1.0]}):
         with pytest.raises(TypeError):
             asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
 
@@ -340,3 +343,26 @@ def test_the_distribution_of_the_pressure_knows_lines_and_absent_nodes():
     for solution in (line, punch):
         density, edges = solution.pressure_distribution()
         assert np.sum(density * np.diff(edges)) == pytest.approx(solution.contact_fraction, rel=1e-12)
+
+
+def test_progress_shows_iterations_and_error(rough, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=asperity.progress())
+    shown = capsys.readouterr().err
+    assert " iterations, error " in shown and shown.endswith("\n")
+    assert f"\r{solution.iterations} iterations, error {solution.relative_error:.1e}" in shown
+    drawn = []
+
+    class Bar(SimpleNamespace):
+        def set_postfix_str(self, text, refresh):
+            drawn.append(text)
+
+        def update(self, iterations):
+            drawn.append(iterations)
+
+        def close(self):
+            drawn.append("closed")
+
+    monkeypatch.setitem(sys.modules, "tqdm.auto", SimpleNamespace(tqdm=Bar))
+    asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=asperity.progress())
+    assert sum(drawn[1::2]) == solution.iterations and drawn[-1] == "closed"

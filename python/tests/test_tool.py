@@ -2,6 +2,7 @@
 
 import csv
 import json
+import pickle
 import subprocess
 
 import numpy as np
@@ -307,3 +308,79 @@ def test_a_self_affine_surface_is_that_of_the_tool(tmp_path, tool):
     asked(tool, tmp_path, "surface", "--size", 64, "--rms-slope", 0.1, "--k-s", 16, "--seed", 5, "--out", "rough.npy")
     drawn = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=16, seed=5)
     assert np.load(tmp_path / "rough.npy").tobytes() == drawn.heights.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("form", "given"),
+    [
+        ("sphere", {"radius": 0.7}),
+        ("paraboloid", {"radius": 0.7}),
+        ("cone", {"angle": 30.0}),
+        ("wave", {"amplitude": 0.1, "periods": (2, 1)}),
+        ("flat-punch", {"radius": 0.3}),
+        ("self-affine", {"rms_slope": 0.1, "k_s": 8}),
+    ],
+)
+@pytest.mark.parametrize("tilt", [None, (0.1, -0.05)])
+def test_surfaces_that_are_made_are_those_of_the_tool(tmp_path, tool, form, given, tilt):
+    options = {**given, **({"tilt": tilt} if tilt else {})}
+    texts = [part for key, value in options.items() for part in (f"--{key.replace('_', '-')}", *np.ravel(value))]
+    sides = ["--shape", 48, 36, "--lengths", 2, 1.5]
+    asked(tool, tmp_path, "surface", "--form", form, *sides, "--out", "made.npy", *texts)
+    made = getattr(asperity.surface, form.replace("-", "_"))((48, 36), (2.0, 1.5), **options)
+    assert np.load(tmp_path / "made.npy").tobytes() == made.heights.tobytes()
+    assert made.lengths == (2.0, 1.5) and (made.missing > 0) == (form in ("sphere", "flat-punch"))
+
+
+def test_a_preparation_has_the_heights_and_the_log_of_the_tool(tmp_path, tool, rough):
+    scan = rough.heights + 0.01 * np.sin(1.7 * np.arange(rough.shape[1])) + 0.1 * np.arange(rough.shape[0])[:, None]
+    scan[3, 4], scan[20, 10], scan[30, 31] = -9999.0, np.nan, 9.0
+    np.save(tmp_path / "scan.npy", scan)
+    # fmt: off
+    asked(tool, tmp_path, "prepare", "scan.npy", "--lengths", 3, 2, "--missing=-9999", "--scale", 0.5, "--unit", "nm",
+          "--crop", 2, 0, 60, 50, "--flip", "--align-rows", "polynomial:1", "--scan-axis", "y", "--despike", 8, "--detrend",
+          "quadric", "--fill", "--mirror", "--resample", 90, 100, "--out", "made.npz")
+    told = subprocess.run([tool, "run", "made.npz.scene.toml", "--out", "again.npz", "--json"], cwd=tmp_path,
+                          check=True, capture_output=True)
+    # fmt: on
+    made = asperity.prepare(
+        tmp_path / "scan.npy",
+        (3.0, 2.0),
+        missing=-9999,
+        scale=0.5,
+        unit="nm",
+        crop=(2, 0, 60, 50),
+        flip=True,
+        align_rows=1,
+        scan_axis="y",
+        despike=8,
+        detrend="quadric",
+        fill=True,
+        mirror=True,
+        resample=(90, 100),
+    )
+    written = asperity.read(tmp_path / "made.npz")
+    assert written.heights.tobytes() == made.heights.tobytes()
+    assert (written.lengths, written.unit, written.original) == (made.lengths, made.unit, made.original)
+    assert [f"{step['step']}: {step['what']}" for step in json.loads(told.stdout)["steps"]] == list(made.log)
+    assert len(made.log) == 13 and pickle.loads(pickle.dumps(made)).log == made.log
+    assert asperity.prepare(made, flip=True).log[:13] == made.log
+
+
+def test_quantities_with_units_are_those_of_the_tool(tmp_path, tool, rough):
+    np.savez(tmp_path / "heights.npz", heights=1e3 * rough.heights, lengths=[1e3, 1e3], unit="nm")
+    # fmt: off
+    asked(tool, tmp_path, "solve", "--heights", "heights.npz", "--modulus", "70GPa", "--mean-pressure", "700MPa",
+          "--no-pictures", "--out", "out")
+    asked(tool, tmp_path, "sweep", "--heights", "heights.npz", "--modulus", "70GPa", "--mean-gaps", "20nm,15nm", "--out",
+          "sweep.csv")
+    # fmt: on
+    solution = asperity.solve(tmp_path / "heights.npz", modulus="70GPa", mean_pressure="700MPa")
+    same(tmp_path / "out", solution)
+    assert solution.report["given"] == {"modulus": "70GPa", "mean_pressure": "700MPa"}
+    assert (solution.report["length_unit"], solution.report["pressure_unit"], solution.lengths[0]) == ("m", "Pa", 1e-6)
+    sweep = asperity.sweep(tmp_path / "heights.npz", modulus="70GPa", mean_gaps=["20nm", "15nm"])
+    rows = [{name.split(" [")[0]: cell for name, cell in row.items()} for row in table(tmp_path / "sweep.csv")]
+    columns = sweep.columns
+    for name in ("mean_gap", "mean_pressure", "modulus"):
+        assert [float(row[name]) for row in rows] == columns[name].tolist(), name

@@ -2,12 +2,12 @@
 
 use std::io::{self, Write};
 
+use asperity_maps::{RowAlignment, Trend};
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args, Command, ValueHint};
 use clap_complete::{Shell, generate};
 
 use crate::outcome::Outcome;
-use crate::prepare::{ALIGNMENTS, TRENDS};
 use crate::printing::printed;
 use crate::scene::is_path;
 
@@ -43,8 +43,8 @@ pub fn run(options: &Options, tool: Command) -> Outcome<bool> {
 fn with_values(option: Arg) -> Arg {
     let is_folder = option.get_value_names().is_some_and(|names| names == ["DIR"]);
     match option.get_long() {
-        Some("align-rows") => option.value_parser(PossibleValuesParser::new(ALIGNMENTS)),
-        Some("detrend") => option.value_parser(PossibleValuesParser::new(TRENDS)),
+        Some("align-rows") => option.value_parser(PossibleValuesParser::new(RowAlignment::NAMES)),
+        Some("detrend") => option.value_parser(PossibleValuesParser::new(Trend::NAMES)),
         Some(_) if is_folder => option.value_hint(ValueHint::DirPath),
         Some(_) if option.get_action().takes_values() && !is_path(&option) => option.value_hint(ValueHint::Other),
         _ => option,

@@ -6,12 +6,13 @@ use std::path::Path;
 use asperity::{Error, Grid, Surface};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_rows, read_topography};
+use asperity_scene::{Skin, in_unit, worded};
 use ndarray::Array2;
 
 use crate::outcome::Outcome;
 use crate::printing::complain;
 use crate::processes::Processes;
-use crate::quantity::{LENGTH, Quantity, power_of_length, times_ten_to};
+use crate::quantity::{LENGTH, Quantity};
 use crate::units::Units;
 
 /// The relative difference that `--lengths` may have from the side lengths of the file, whose header rounds.
@@ -180,27 +181,9 @@ pub fn both_sides((nx, ny): (usize, usize), lengths: &[Quantity]) -> (f64, f64) 
     }
 }
 
-/// A map in a unit of length. One without a unit is in it already.
-pub fn converted(path: &Path, mut map: Topography, unit: &str) -> Outcome<Topography> {
-    let of_map = map.unit.replace(unit.to_owned()).unwrap_or_else(|| unit.to_owned());
-    if of_map != unit {
-        let (Some(from), Some(to)) = (power_of_length(&of_map), power_of_length(unit)) else {
-            return Err(format!(
-                "{}: is in {of_map}, but numbers with units are in {unit}: give the unit of its lengths by asperity \
-                 prepare --unit, or numbers without units",
-                path.display()
-            )
-            .into());
-        };
-        let converted = |length| times_ten_to(from - to, length);
-        map.heights.mapv_inplace(converted);
-        map.lengths = map.lengths.map(|(lx, ly)| (converted(lx), converted(ly)));
-        if let Some((lx, ly)) = map.lengths.filter(|&(lx, ly)| !(lx.min(ly) > 0.0 && lx.max(ly).is_finite())) {
-            let what = format!("has side lengths of {lx} and {ly} {unit}, expected positive numbers: save it again");
-            return Err(Error::file(path, what).into());
-        }
-    }
-    Ok(map)
+/// The map of a file in a unit of length. One without a unit is in it already.
+pub fn converted(path: &Path, map: Topography, unit: &str) -> Outcome<Topography> {
+    Ok(in_unit(map, unit).map_err(|text| format!("{}: {}", path.display(), worded(&text, Skin::Options)))?)
 }
 
 /// The surface of a map, on the unit square if its side lengths are unknown. Its missing points become absent nodes, or
@@ -244,17 +227,6 @@ pub fn check_complete(path: &Path, map: &Topography) -> Outcome<()> {
         .into());
     }
     Ok(())
-}
-
-/// The numbers of missing and of infinite heights, if there are any.
-pub fn holes(map: &Topography) -> Option<String> {
-    let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
-    match (map.missing() - infinite, infinite) {
-        (0, 0) => None,
-        (missing, 0) => Some(format!("{missing} missing")),
-        (0, infinite) => Some(format!("{infinite} infinite")),
-        (missing, infinite) => Some(format!("{missing} missing, {infinite} infinite")),
-    }
 }
 
 /// Side lengths with their unit.

@@ -26,13 +26,11 @@ mod sweep;
 // the parts of which commands are made
 mod accuracy;
 mod adhesion;
-mod allowed;
 mod boundary;
 mod citation;
 mod csv;
 mod entries;
 mod fields;
-mod form;
 mod hash;
 mod heights;
 mod hints;
@@ -62,7 +60,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use asperity_scene::{numbers, quantity, synonyms};
+use asperity_scene::{allowed, numbers, quantity, synonyms};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 

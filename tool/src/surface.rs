@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use asperity::{Amplitude, Grid, SelfAffine};
+use asperity::Grid;
 use asperity_maps::Topography;
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{write_npy, write_topography};
+use asperity_scene::{Body, BodyForm, Roughness};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
-use crate::allowed::{nodes, positive, threads};
-use crate::form::{Form, FormOptions};
+use crate::allowed::{nodes, threads};
 use crate::heights::both_sides;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
@@ -31,7 +31,6 @@ use crate::threads::use_threads;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
-#[command(group(ArgGroup::new("roughness").args(["rms_height", "rms_slope"])))]
 pub struct Options {
     /// Nodes along each side of a square
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = nodes, help_heading = "Grid")]
@@ -46,33 +45,10 @@ pub struct Options {
     lengths: Option<Vec<Quantity>>,
 
     #[command(flatten)]
-    body: FormOptions,
+    body: Body,
 
-    /// Root mean square of the heights of the roughness, a length
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = LENGTH.positive())]
-    #[arg(help_heading = "Roughness")]
-    rms_height: Option<Quantity>,
-    /// Root mean square of the slope of the roughness
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Roughness")]
-    rms_slope: Option<f64>,
-    /// Hurst exponent, from 0 to 1
-    #[arg(long, value_name = "H", default_value = "0.8", allow_hyphen_values = true, help_heading = "Roughness")]
-    hurst: f64,
-    /// Wave number of the longest waves, in units of 2 pi/LX
-    #[arg(long, value_name = "KL", default_value = "4", allow_hyphen_values = true, help_heading = "Roughness")]
-    k_l: f64,
-    /// Wave number up to which the spectrum is constant [default: KL, for none]
-    #[arg(long, value_name = "KR", allow_hyphen_values = true, help_heading = "Roughness")]
-    k_r: Option<f64>,
-    /// Wave number of the shortest waves, below half the number of nodes
-    #[arg(long, value_name = "KS", default_value = "64", allow_hyphen_values = true, help_heading = "Roughness")]
-    k_s: f64,
-    /// Let only phases be random, and not the moduli of the waves
-    #[arg(long, help_heading = "Roughness")]
-    random_phase: bool,
-    /// Seed of the random numbers, from 0: each makes another surface
-    #[arg(long, value_name = "N", default_value = "0", allow_hyphen_values = true, help_heading = "Roughness")]
-    seed: u64,
+    #[command(flatten)]
+    roughness: Roughness,
 
     /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -106,26 +82,17 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
-    let &Options { hurst, k_l, k_s, random_phase, seed, .. } = options;
     let shape = match (options.size, options.shape.as_deref()) {
         (None, Some([nx, ny])) => (*nx, *ny),
         (size, _) => (size.unwrap_or_default(), size.unwrap_or_default()),
     };
-    options.body.check()?;
-    let height = options.rms_height.map(|height| Amplitude::RmsHeight(height.value));
-    let slope = options.rms_slope.map(Amplitude::RmsSlope);
-    let k_r = options.k_r.unwrap_or(k_l);
-    let rough = height.or(slope).map(|amplitude| {
-        SelfAffine::default()
-            .hurst(hurst)
-            .k_l(k_l)
-            .k_r(k_r)
-            .k_s(k_s)
-            .amplitude(amplitude)
-            .random_phase(random_phase)
-            .seed(seed)
-    });
-    if rough.is_none() && options.body.form == Form::SelfAffine {
+    let form = options.body.form;
+    if let Some((name, lacks)) = options.body.misfits().first() {
+        let (what, remedy) = if *lacks { ("lacks", "give it") } else { ("has no", "leave it out") };
+        return Err(format!("--form {form} {what} --{name}: {remedy}").into());
+    }
+    let rough = options.roughness.self_affine();
+    if rough.is_none() && form == BodyForm::SelfAffine {
         return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope".into());
     }
     let unit = scene.is_si().then_some(LENGTH.si);
@@ -183,7 +150,7 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
             }),
         };
         let made = json!({
-            "form": options.body.form.to_string(),
+            "form": form.to_string(),
             "absent_nodes": absent,
             "hurst": rough.map(|rough| rough.hurst),
             "k_l": rough.map(|rough| rough.k_l),

@@ -1,9 +1,9 @@
 //! The units of the numbers that a command gives.
 
-use asperity_maps::io::LONGEST_UNIT;
 pub use asperity_scene::units::{Units, dimension_of};
 use clap::Args;
 
+use crate::allowed::unit;
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::quantity::{Dimension, FORCE, LENGTH, PRESSURE};
@@ -20,13 +20,6 @@ pub struct UnitOptions {
     /// Unit of forces, for tables and pictures; N gets prefixes [default: that of pressure times length squared]
     #[arg(long, value_name = "UNIT", value_parser = unit, help_heading = "Output")]
     force_unit: Option<String>,
-}
-
-/// A unit as it is typed, which will be printed, and may come into a file.
-pub fn unit(text: &str) -> Result<String, String> {
-    let fits = text.chars().count() <= LONGEST_UNIT && !text.contains(char::is_control);
-    let text = Some(text.to_owned()).filter(|_| fits);
-    text.ok_or_else(|| format!("it must be a text of at most {LONGEST_UNIT} characters, without control characters"))
 }
 
 impl UnitOptions {

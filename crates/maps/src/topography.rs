@@ -317,6 +317,12 @@ impl From<Surface> for Topography {
     }
 }
 
+/// The value of a name.
+fn named<V, const N: usize>(text: &str, names: [&str; N], values: [V; N]) -> std::result::Result<V, String> {
+    let found = names.iter().zip(values).find(|(name, _)| **name == text);
+    found.map(|(_, value)| value).ok_or_else(|| format!("it must be {}", names.join(" or ")))
+}
+
 /// The median of the values that are finite: of an even number, the mean of the two in the middle; none if there are
 /// no such values.
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {

@@ -11,6 +11,7 @@ use crate::found::Found;
 use crate::half_space::Boundary;
 use crate::record::record;
 use crate::told::Told;
+use crate::units::Units;
 
 record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
@@ -175,4 +176,11 @@ pub struct Inputs {
     pub threads: usize,
     /// The version of the program.
     pub version: &'static str,
+}
+
+impl Inputs {
+    /// The units of the numbers, as far as they are known.
+    pub fn units(&self) -> Units {
+        Units { length: self.length_unit.clone(), pressure: self.pressure_unit.clone(), force: None }
+    }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Deserializer};
+
 /// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
@@ -25,6 +27,13 @@ impl Quantity {
     }
 }
 
+/// A number, in whatever units its user thinks in.
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Ok(Self { value: f64::deserialize(from)?, has_unit: false, is_number: false })
+    }
+}
+
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.value.fmt(f)
@@ -35,7 +44,7 @@ impl fmt::Display for Quantity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
     /// In words, with an example as options take it.
-    what: &'static str,
+    pub what: &'static str,
     /// The unit of the SI.
     pub si: &'static str,
     /// The power of force.

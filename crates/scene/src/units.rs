@@ -100,6 +100,14 @@ impl Units {
     }
 }
 
+/// The dimension of the numbers of a key of a scene; none for shares, numbers and words.
+pub fn dimension_of_key(key: &str) -> Option<Dimension> {
+    match key {
+        "radius" | "amplitude" | "rms_height" | "spring_position" | "distance" => Some(LENGTH),
+        _ => dimension_of(key, "", false),
+    }
+}
+
 /// The dimension of a column of a table, or of a figure of a report, under loads of this kind; none for shares, numbers
 /// and words. The perimeter of contact on a line is the number of its ends.
 pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimension> {

@@ -1,6 +1,8 @@
 //! The form of a body: a sphere or a cylinder, fitted to a height map and removed.
 
-use super::{Topography, Trend};
+use std::str::FromStr;
+
+use super::{Topography, Trend, named};
 use asperity::{Error, Result};
 
 /// The form of a body under its roughness, which [`Topography::remove_form`] takes away.
@@ -11,6 +13,20 @@ pub enum Form {
     Sphere,
     /// A circular cylinder, its axis in any direction and at any tilt.
     Cylinder,
+}
+
+impl Form {
+    /// The names of the forms.
+    pub const NAMES: [&str; 2] = ["sphere", "cylinder"];
+}
+
+impl FromStr for Form {
+    type Err = String;
+
+    /// A form by its name.
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        named(text, Self::NAMES, [Self::Sphere, Self::Cylinder])
+    }
 }
 
 /// The least-squares fit of a [`Form`].

@@ -1,8 +1,11 @@
 //! Scan lines of a height map, brought to one height.
 
+use std::str::FromStr;
+
 use ndarray::{Array1, ArrayView1, Axis};
 
-use super::{Topography, Trend, median};
+use super::trend::order;
+use super::{Topography, Trend, median, named};
 use asperity::Result;
 
 /// The direction in which an instrument scans its lines.
@@ -26,6 +29,44 @@ pub enum RowAlignment {
     MedianDifference,
     /// The least-squares polynomial of this order is taken from each line; 0 is its mean, 1 a tilt too, 2 a bow too.
     Polynomial(usize),
+}
+
+impl ScanAxis {
+    /// The names of the directions.
+    pub const NAMES: [&str; 2] = ["x", "y"];
+}
+
+impl FromStr for ScanAxis {
+    type Err = String;
+
+    /// A direction by its name.
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        named(text, Self::NAMES, [Self::X, Self::Y])
+    }
+}
+
+impl RowAlignment {
+    /// The names of the ways; an order may follow that of a polynomial, as in `polynomial:2`.
+    pub const NAMES: [&str; 3] = ["median", "median-difference", "polynomial"];
+}
+
+impl FromStr for RowAlignment {
+    type Err = String;
+
+    /// An alignment by its name, of a polynomial with its order, which is 1 if it is left out.
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let text = text.trim();
+        let refused = || {
+            let most = Trend::MOST;
+            format!("it must be median, median-difference, or polynomial:ORDER with an order from 0 to {most}")
+        };
+        match (text, text.split_once(':').unwrap_or((text, "1"))) {
+            ("median", _) => Ok(Self::Median),
+            ("median-difference", _) => Ok(Self::MedianDifference),
+            (_, ("polynomial", of)) => order(of).map(Self::Polynomial).ok_or_else(refused),
+            _ => Err(refused()),
+        }
+    }
 }
 
 impl Topography {

@@ -1,5 +1,7 @@
 //! Trends of a height map: least-squares polynomials, fitted and removed.
 
+use std::str::FromStr;
+
 use ndarray::Array2;
 
 use super::Topography;
@@ -40,6 +42,8 @@ pub struct Fit {
 impl Trend {
     /// The highest order of a polynomial.
     pub const MOST: usize = 12;
+    /// The names of trends; a polynomial goes by its order.
+    pub const NAMES: [&str; 3] = ["mean", "plane", "quadric"];
 
     fn order(self) -> Result<usize> {
         match self {
@@ -53,6 +57,26 @@ impl Trend {
             }
         }
     }
+}
+
+impl FromStr for Trend {
+    type Err = String;
+
+    /// A trend by its name, or a polynomial by its order.
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        match (text.trim(), order(text)) {
+            ("mean", _) => Ok(Self::Mean),
+            ("plane", _) => Ok(Self::Plane),
+            ("quadric", _) => Ok(Self::Quadric),
+            (_, Some(order)) => Ok(Self::Polynomial(order)),
+            _ => Err(format!("it must be {}, or an order from 0 to {}", Self::NAMES.join(", "), Self::MOST)),
+        }
+    }
+}
+
+/// The order of a polynomial.
+pub(super) fn order(text: &str) -> Option<usize> {
+    text.trim().parse().ok().filter(|order| *order <= Trend::MOST)
 }
 
 impl Topography {

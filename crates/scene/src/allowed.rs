@@ -1,5 +1,25 @@
 //! The values that options allow, for their parsers.
 
+use std::str::FromStr;
+
+use asperity_maps::io::LONGEST_UNIT;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+/// A value by one of its names.
+pub fn by_name<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err = String> + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names.iter().copied()).try_map(|name| name.parse::<T>())
+}
+
+/// A unit, which will be printed, and may come into a file.
+pub fn unit(text: &str) -> Result<String, String> {
+    let fits = text.chars().count() <= LONGEST_UNIT && !text.contains(char::is_control);
+    let text = Some(text.to_owned()).filter(|_| fits);
+    text.ok_or_else(|| format!("it must be a text of at most {LONGEST_UNIT} characters, without control characters"))
+}
+
 fn number(text: &str, allowed: fn(f64) -> bool, requirement: &str) -> Result<f64, String> {
     match text.trim().parse() {
         Ok(value) if allowed(value) => Ok(value),
@@ -7,10 +27,12 @@ fn number(text: &str, allowed: fn(f64) -> bool, requirement: &str) -> Result<f64
     }
 }
 
+/// A number that is positive.
 pub fn positive(text: &str) -> Result<f64, String> {
     number(text, |v| v > 0.0 && v.is_finite(), "a number, positive and finite")
 }
 
+/// A number that is finite.
 pub fn finite(text: &str) -> Result<f64, String> {
     number(text, f64::is_finite, "a number, and finite")
 }
@@ -47,4 +69,9 @@ pub fn bins(text: &str) -> Result<usize, String> {
 /// A resolution in pixels per inch.
 pub fn resolution(text: &str) -> Result<f64, String> {
     number(text, |v| (36.0..=1200.0).contains(&v), "a number of pixels per inch, from 36 to 1200")
+}
+
+/// An angle between 0 and 90 degrees.
+pub fn acute(text: &str) -> Result<f64, String> {
+    number(text, |v| v > 0.0 && v < 90.0, "a number of degrees, positive and below 90")
 }

@@ -1,0 +1,120 @@
+"""The preparation of a measured map."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import _asperity
+from ._topography import Topography, _lengths, found, plain
+from ._types import AxisOrder, Heights, Lengths, RemovedForm, RowAlignment, ScanAxis, Trend
+from ._units import given as units
+from ._warnings import warn_of_input
+
+
+def prepare(
+    heights: Heights,
+    lengths: Lengths | None = None,
+    *,
+    axes: AxisOrder | None = None,
+    unit: str | None = None,
+    missing: float | list[float] | None = None,
+    scale: float | None = None,
+    crop: tuple[int, int, int, int] | None = None,
+    flip: bool = False,
+    align_rows: RowAlignment | int | None = None,
+    scan_axis: ScanAxis = "x",
+    despike: float | None = None,
+    remove_form: RemovedForm | None = None,
+    detrend: Trend | int | None = None,
+    fill: bool = False,
+    window: float | None = None,
+    mirror: bool = False,
+    resample: tuple[int, int] | None = None,
+) -> Topography:
+    """Makes a periodic surface of a measured map, in the order of the parameters; nothing is done unasked.
+
+    Parameters
+    ----------
+    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
+        Heights; NaN, infinite and masked points are missing.
+    lengths : float or (float, float), optional
+        Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
+    axes : {"xy", "yx"}, optional
+        Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. Dimensions of a DataArray
+        that are named x and y say it themselves. The result has x along the first axis.
+    unit : str, optional
+        Unit of the heights after ``scale``, and of the side lengths.
+    missing : float or list of float, optional
+        Values that stand for missing points, as -9999, in the unit of the heights before ``scale``.
+    scale : float, optional
+        Factor of the heights, as 1e-9 for heights in nm and side lengths in m.
+    crop : (int, int, int, int), optional
+        First node along x and y, and numbers of nodes.
+    flip : bool
+        Peaks become valleys.
+    align_rows : {"median", "median-difference"} or int, optional
+        Brings the scan lines of an AFM to one height: by the median of each line, by that of the differences from line
+        to line, for large features, or by a polynomial of this order, subtracted from each line.
+    scan_axis : {"x", "y"}
+        Direction of the scan lines. Where lines along the other one have by far the larger offsets, an `InputWarning`
+        says so. The rows of an image are along x if ``axes`` is "yx", and along y if it is not.
+    despike : float, optional
+        Threshold, in robust standard deviations of all nodes: a node that is farther than this from the median of the
+        5 x 5 nodes around it is a spike, and gets that median. 10 leaves the features of most surfaces.
+    remove_form : {"sphere", "cylinder"}, optional
+        Form that is fitted and removed.
+    detrend : {"mean", "plane", "quadric"} or int, optional
+        Trend that is fitted and removed; a number is the order of a polynomial.
+    fill : bool
+        Missing points get values, smoothly from those around them.
+    window : float, optional
+        Share of the sides that is tapered at each edge, at most 0.5.
+    mirror : bool
+        Continues the map by its mirror images: twice as many nodes along both axes. The map remembers its ``original``,
+        and a solution has results of that part alone, unless it is asked for the ``whole``.
+    resample : (int, int), optional
+        Numbers of nodes of the grid on which it is interpolated.
+
+    Returns
+    -------
+    Topography
+        With a line in its ``log`` for each step, as the tool prints them. Probable mistakes, as a code for missing points
+        that was left among the heights, come as an `InputWarning`.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity
+    >>> measured = 1e-9 * np.random.default_rng(0).normal(size=(32, 24)) + 1e-8 * np.arange(32)[:, None]
+    >>> measured[3, 5] = np.nan
+    >>> made = asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
+    >>> made
+    Topography(64 x 48 heights, mirror images of 32 x 24, 2e-06 x 1.5e-06 m)
+    >>> [line.split(":")[0] for line in made.log]
+    ['read', 'lengths', 'unit', 'detrend', 'fill', 'mirror']
+    """
+    given = found(heights, axes)
+    keys = {
+        "missing": None if missing is None else np.ravel(missing),
+        "scale": scale,
+        "unit": unit,
+        "crop": crop,
+        "flip": flip,
+        "align_rows": align_rows if align_rows is None or isinstance(align_rows, str) else f"polynomial:{align_rows}",
+        "scan_axis": scan_axis,
+        "despike": despike,
+        "remove_form": remove_form,
+        "detrend": detrend if detrend is None else str(detrend),
+        "fill": fill,
+        "window": window,
+        "mirror": mirror,
+        "resample": resample,
+    }
+    both = None if lengths is None else _lengths(lengths, given.heights.shape)
+    known = (given.heights, given.lengths, given.unit, given.original)
+    (made, both, name, original, _), log, warnings = _asperity.prepare(known, both, units.get() is not None, plain(keys))
+    for warning in warnings:
+        warn_of_input(warning)
+    periodic = True if mirror or window else given.periodic
+    is_line = given._is_line and made.shape[1] == 1
+    lines = (*given.log, *log)
+    return Topography(made, both, name, periodic, given.source, original, given.seed, lines, _is_line=is_line)

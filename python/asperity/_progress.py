@@ -1,0 +1,68 @@
+"""The progress of a solve, on a terminal or in a notebook."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import time
+import weakref
+from typing import Any
+
+from ._asperity import Iteration
+
+#: The seconds between two texts.
+_PAUSE = 0.1
+
+
+class progress:
+    """An observer that shows the iteration and the error of a solve while it runs.
+
+    Pass it as ``observe`` of `solve`, `sweep` or `cycle`. It draws with tqdm if that is installed, in a notebook as its
+    widget, and writes a line of text to the standard error otherwise.
+
+    Examples
+    --------
+    >>> import asperity
+    >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    >>> asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=asperity.progress()).status
+    'converged'
+    """
+
+    def __init__(self) -> None:
+        try:
+            self._bar: Any = importlib.import_module("tqdm.auto").tqdm(unit=" iterations", mininterval=_PAUSE)
+        except ImportError:
+            self._bar = _Line()
+        self._last = 0
+        # with the observer the solve has ended
+        weakref.finalize(self, self._bar.close)
+
+    def __call__(self, state: Iteration) -> None:
+        self._bar.set_postfix_str(f"error {state.relative_error:.1e}", refresh=False)
+        # the count begins again on the next grid, and under the next load
+        self._bar.update(state.iteration - (self._last if state.iteration >= self._last else 0))
+        self._last = state.iteration
+
+
+class _Line:
+    """A line of text in the place of a bar of tqdm."""
+
+    def __init__(self) -> None:
+        self._iterations, self._text, self._written = 0, "", 0.0
+
+    def set_postfix_str(self, text: str, refresh: bool) -> None:
+        self._text = text
+
+    def update(self, iterations: int) -> None:
+        self._iterations += iterations
+        if time.monotonic() - self._written >= _PAUSE:
+            self._write("")
+
+    def close(self) -> None:
+        if self._iterations:
+            self._write("\n")
+
+    def _write(self, end: str) -> None:
+        # what is longer before it is written over
+        print(f"\r{self._iterations} iterations, {self._text}  ", end=end, file=sys.stderr, flush=True)
+        self._written = time.monotonic()

@@ -1,0 +1,246 @@
+"""The types of keywords and of the report of a solve."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypedDict
+
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from ._solution import Solution
+    from ._topography import Topography
+    from ._wall import Penalty, Uzawa
+
+Boundary: TypeAlias = Literal["periodic", "free"]
+Wall: TypeAlias = "Literal['hard', 'none'] | Penalty | Uzawa"
+Method: TypeAlias = Literal["default", "rey2017"]
+Precision: TypeAlias = Literal["f64", "f32"]
+Branch: TypeAlias = Literal["loading", "unloading"]
+Branches: TypeAlias = Literal["loading", "unloading", "both"]
+AccuracyOf: TypeAlias = Literal["area", "gap", "pressure", "stiffness"]
+AxisOrder: TypeAlias = Literal["xy", "yx"]
+ScanAxis: TypeAlias = Literal["x", "y"]
+RowAlignment: TypeAlias = Literal["median", "median-difference"]
+Trend: TypeAlias = Literal["mean", "plane", "quadric"]
+RemovedForm: TypeAlias = Literal["sphere", "cylinder"]
+
+Status: TypeAlias = Literal["converged", "iteration-limit", "stalled", "detached", "stopped"]
+
+Shape: TypeAlias = int | tuple[int, int]
+#: A number, or a text with a unit, as "70GPa".
+Quantity: TypeAlias = float | str
+Lengths: TypeAlias = Quantity | tuple[Quantity, Quantity]
+Tilt: TypeAlias = float | tuple[float, float] | None
+Heights: TypeAlias = "ArrayLike | Topography | HeightMap | str | os.PathLike[str]"
+Start: TypeAlias = "ArrayLike | Solution | Literal['apart'] | None"
+
+
+class HeightMap(Protocol):
+    """A map of another package, as one of SurfaceTopography."""
+
+    @property
+    def physical_sizes(self) -> Any:
+        """Side lengths, None if they are unknown."""
+
+    def heights(self) -> Any:
+        """Heights, x along the first axis; masked ones are missing."""
+
+
+class OwnLaw(Protocol):
+    """An adhesion law of one's own: functions of an array of gaps g ≥ 0, as those of every `Law`."""
+
+    def energy(self, gap: NDArray[Any], /) -> ArrayLike:
+        """Energy per area γ(g), zero far away and negative near."""
+
+    def traction(self, gap: NDArray[Any], /) -> ArrayLike:
+        """Traction γ′(g), positive if it attracts."""
+
+    def slope(self, gap: NDArray[Any], /) -> ArrayLike:
+        """Slope γ″(g) of the traction."""
+
+
+class OtherBranch(TypedDict):
+    """The equilibrium on the other branch."""
+
+    branch: Branch | None
+    status: Status
+    relative_error: float
+    load_error: float
+    operator_applications: int
+    contact_fraction: float
+    mean_gap: float
+    mean_pressure: float
+    elastic_energy: float
+    adhesive_energy: float
+    distance: float
+    same: bool
+
+
+class GridLevel(TypedDict):
+    """One of the nested grids."""
+
+    shape: list[int]
+    status: Status
+    iterations: int
+    operator_applications: int
+    relative_error: float
+    mean_gap: float
+    mean_pressure: float
+    mean_contact_pressure: float
+    elastic_energy: float
+    contact_fraction: float
+    corrected_contact_fraction: float
+    contact_stiffness: float | None
+
+
+class GridError(TypedDict):
+    """The estimated error of a quantity by the grid: relative, its order, and whether it is a rough estimate."""
+
+    relative: float
+    order: float | None
+    rough: bool
+
+
+class GridErrors(TypedDict):
+    """The estimated errors by the grid; None where one cannot be told, or is given."""
+
+    area: GridError | None
+    gap: GridError | None
+    pressure: GridError | None
+    stiffness: GridError | None
+
+
+class Reached(TypedDict):
+    """The end of a solve to an accuracy."""
+
+    wanted: float
+    of: AccuracyOf
+    reached: bool
+
+
+class Search(TypedDict):
+    """The search for the load of a contact fraction."""
+
+    wanted: float
+    reached: bool
+    below: float | None
+    above: float | None
+    solves: int
+    operator_applications: int
+
+
+class Patch(TypedDict):
+    """The contact on the nodes of one work of adhesion."""
+
+    work_of_adhesion: float
+    area_fraction: float
+    contact_fraction: float
+    attractive_fraction: float
+
+
+class Steadiness(TypedDict):
+    """The stability of an equilibrium."""
+
+    verdict: Literal["stable", "unstable", "undecided"]
+    eigenvalue: float
+    residual: float
+    lower_bound: float
+    error_bound: float | None
+    smoothed: bool
+    operator_applications: int
+
+
+class Departure(TypedDict):
+    """An unstable equilibrium that was left."""
+
+    eigenvalue: float
+    energy_drop: float
+    distance: float
+
+
+class Told(TypedDict):
+    """A warning."""
+
+    code: str
+    message: str
+
+
+class Report(TypedDict):
+    """The report of a solve, with the keys of the tool's report.json: its outcome, then its inputs.
+
+    Numbers are in the units of the input, energies per area; None where a key does not apply.
+    """
+
+    command: str
+    status: Status
+    branch: Branch | None
+    other_branch: OtherBranch | None
+    relative_error: float
+    load_error: float
+    criterion: Literal["energy-norm", "complementarity"]
+    iterations: int
+    operator_applications: int
+    levels: list[GridLevel] | None
+    equivalent_applications: float | None
+    grid_error: GridErrors | None
+    accuracy: Reached | None
+    search: Search | None
+    mean_gap: float
+    mean_pressure: float
+    normal_force: float
+    approach: float | None
+    spring_stiffness: float | None
+    net_pressure: float
+    mean_contact_pressure: float
+    contact_fraction: float
+    contact_nodes: int
+    absent_nodes: int
+    edge_traction: float | None
+    corrected_contact_fraction: float
+    perimeter: float
+    repulsive_fraction: float
+    attractive_fraction: float
+    patches: list[Patch] | None
+    min_gap: float
+    min_pressure: float
+    max_pressure: float
+    elastic_energy: float
+    adhesive_energy: float
+    stability: Steadiness | None
+    contact_stiffness: float | None
+    normal_stiffness: float | None
+    departures: list[Departure] | None
+    mu_rho: float
+    mu_rho_node: list[int] | None
+    under_resolved: bool
+    warnings: list[Told]
+    seconds: float
+    control: Literal["mean-pressure", "mean-gap", "normal-force", "approach", "spring"]
+    control_value: float
+    heights: str | None
+    initial_gap: str | None
+    part: Literal["original", "whole"] | None
+    solved_shape: list[int] | None
+    shape: list[int]
+    lengths: list[float]
+    length_unit: str | None
+    pressure_unit: str | None
+    given: dict[str, str | list[str]] | None
+    boundary: Boundary
+    modulus: float
+    law: str
+    work_of_adhesion: float | None
+    range: float | None
+    exponent: float | None
+    hamaker: float | None
+    law_table: str | None
+    cut_off: float | None
+    work_of_adhesion_map: str | None
+    wall: Wall
+    method: Method
+    precision: Precision
+    tolerance: float
+    max_iterations: int
+    threads: int
+    version: str
