@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import _asperity
 
 _NAMES: dict[type, str] = {
@@ -19,11 +22,8 @@ _NAMES: dict[type, str] = {
 
 def entries(law: Any, wall: str) -> dict[str, Any]:
     """The law with its parameters, where it varies, and the wall; an object of one's own goes by its class."""
-    cut_off, varies = None, False
-    while isinstance(law, (_asperity.CutOff, _asperity.Varying)):
-        cut_off, varies = getattr(law, "distance", cut_off), varies or isinstance(law, _asperity.Varying)
-        law = law.law
-    own = not isinstance(law, _asperity.Law)
+    law, cut_off, works = _unwrapped(law)
+    varies, own = works is not None, not isinstance(law, _asperity.Law)
     table = isinstance(law, _asperity.Tabulated)
     return {
         "law": "none" if law is None else _NAMES.get(type(law), type(law).__name__),
@@ -36,6 +36,26 @@ def entries(law: Any, wall: str) -> dict[str, Any]:
         "work_of_adhesion_map": "array" if varies else None,
         "wall": wall,
     }
+
+
+def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:
+    """Gaps and tractions and the works of adhesion of a law, as far as it has them, and whether it has no name."""
+    law, _, works = _unwrapped(law)
+    table = np.column_stack([law.gaps, law.tractions]) if isinstance(law, _asperity.Tabulated) else None
+    own = law is not None and not isinstance(law, _asperity.Law)
+    return table, None if works is None else np.atleast_2d(works), own
+
+
+def _unwrapped(law: Any) -> tuple[Any, float | None, Any]:
+    """The law of which a law that ends or varies is made, the gap at which it ends, and its works of adhesion."""
+    cut_off, works = None, None
+    while isinstance(law, (_asperity.CutOff, _asperity.Varying)):
+        if isinstance(law, _asperity.Varying):
+            works = law.work_of_adhesion
+        else:
+            cut_off = law.distance
+        law = law.law
+    return law, cut_off, works
 
 
 def _number(law: Any, name: str) -> float | None:

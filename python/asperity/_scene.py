@@ -66,7 +66,7 @@ class Scene:
             self.topography.source,
         )
         self.boundary = boundary
-        self._adhesion = law
+        self.adhesion = law
         self._unloads = branch == "unloading"
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
@@ -131,7 +131,7 @@ class Scene:
         if "heights" in found:
             # those of an accuracy
             topography = refined(topography, found["heights"])
-        solution = Solution(topography, self._adhesion, told, found)
+        solution = Solution(topography, self.adhesion, told, found)
         raised = found["raised"]
         if raised is not None:
             # an exception with slots has no room for it

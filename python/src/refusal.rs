@@ -1,6 +1,9 @@
 //! The refusal of input: errors of the library as exceptions of Python.
 
-use asperity::Error;
+use std::error::Error as _;
+use std::io;
+
+use asperity::{Error, ErrorKind};
 use pyo3::PyErr;
 use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyValueError};
 
@@ -25,6 +28,19 @@ pub fn refusal_of_works(error: Error) -> PyErr {
             first.0, first.1
         )),
         error => refusal(error),
+    }
+}
+
+/// The exception of an error of a table in a file: `OSError` for what the system refuses.
+pub fn refusal_of_table(error: Box<dyn std::error::Error + Send + Sync>) -> PyErr {
+    let message = error.to_string().replace("choose another --", "choose another ").replace("--force", "force=True");
+    match error.downcast::<Error>() {
+        Ok(error) if error.kind() != ErrorKind::File => refusal(*error),
+        Ok(error) => match error.source().and_then(|cause| cause.downcast_ref::<io::Error>()) {
+            Some(cause) => io::Error::new(cause.kind(), message).into(),
+            None => PyValueError::new_err(message),
+        },
+        Err(_) => PyValueError::new_err(message),
     }
 }
 

@@ -1,21 +1,28 @@
 //! The state of a contact problem, with all that a sequence of solves carries on.
 
+use std::path::{Path, PathBuf};
+
 use asperity::accuracy::Plan;
 use asperity::contact::Original;
 use asperity::{Control, Settings, Solver, Status, Surface};
 use asperity_maps::warning::Warning;
-use asperity_scene::{Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Posed, Way};
+use asperity_scene::output::{check_apart, check_free, with_suffix};
+use asperity_scene::processes::Processes;
+use asperity_scene::{
+    Account, Asked, Course, Fields, Format, Found, Goal, HalfSpace, Inputs, Opening, Posed, Table, Way, check_finite,
+};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
+use serde_json::Value;
 use serde_pyobject::to_pyobject;
 
 use crate::answer::{Scalar, answer, told};
 use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
-use crate::refusal::refusal;
+use crate::refusal::{refusal, refusal_of_table};
 use crate::running::{Observe, run};
 
 /// A problem in one precision, with all that a sequence of solves carries on.
@@ -26,10 +33,20 @@ struct State<T: Scalar> {
     /// of the input
     warnings: Vec<Warning>,
     course: Option<Course<T>>,
+    /// of the surface
+    seed: Option<u64>,
+    table: Option<(Table, Processes)>,
 }
 
 /// The gap from which a solve starts, if one is given.
 pub type Begin<'py> = Option<Field<'py>>;
+
+/// The file of a table as Python passes it: its path, the folder for fields, whether to start over, the gaps and
+/// tractions and the works of adhesion of the law, and whether the law has no name of its own.
+pub type File<'py> = (PathBuf, Option<PathBuf>, bool, Option<Field<'py>>, Option<Field<'py>>, bool);
+
+/// The names of the columns of a table, and the cells of its rows.
+type Columns<'py> = PyResult<(Vec<&'static str>, Bound<'py, PyAny>)>;
 
 /// The dictionary of what a solve found.
 type Answered<'py> = PyResult<Bound<'py, PyDict>>;
@@ -37,7 +54,14 @@ type Answered<'py> = PyResult<Bound<'py, PyDict>>;
 /// What a problem does in either precision.
 pub trait Solves: Send {
     fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Begin<'py>) -> Answered<'py>;
-    fn begin(&mut self, way: Way, stiffness: bool, start: Begin<'_>) -> Vec<&'static str>;
+    fn begin<'py>(
+        &mut self,
+        py: Python<'py>,
+        run: Run<'_>,
+        course: (Way, bool, Option<u64>),
+        start: Begin<'py>,
+        file: Option<File<'py>>,
+    ) -> Columns<'py>;
     fn next<'py>(&mut self, py: Python<'py>, run: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn full_pressure(&self) -> Result<f64, String>;
     fn plan(&mut self, py: Python<'_>, pool: &Pool, control: Control, goal: Goal) -> PyResult<(Plan, f64)>;
@@ -89,28 +113,92 @@ impl<T: Scalar> Solves for State<T> {
         answer(py, self.threads, found)
     }
 
-    fn begin(&mut self, way: Way, stiffness: bool, start: Begin<'_>) -> Vec<&'static str> {
-        let course = Course::new(way, stiffness).starting_from(start.map(field::<T>));
-        self.course.insert(course).columns()
+    fn begin<'py>(
+        &mut self,
+        py: Python<'py>,
+        at: Run<'_>,
+        (way, stiffness, seed): (Way, bool, Option<u64>),
+        start: Begin<'py>,
+        file: Option<File<'py>>,
+    ) -> Columns<'py> {
+        let course = Course::new(way, stiffness);
+        let names = course.columns();
+        self.seed = seed;
+        let Some((out, fields, force, law_table, works, is_own)) = file else {
+            self.course = Some(course.starting_from(start.map(field::<T>)));
+            return Ok((names, PyList::empty(py).into_any()));
+        };
+        let [start, law_table, works] =
+            [start, law_table, works].map(|given| given.map(|given| given.as_array().to_owned()));
+        let open = || {
+            let surface = self.posed.surface()?.clone();
+            let given = Fields {
+                surface: &surface,
+                law_table: law_table.as_deref(),
+                works: works.as_deref(),
+                start: start.as_deref().filter(|_| at.inputs.initial_gap.is_some()),
+            };
+            let (solver, problem) = self.posed.parts()?;
+            let (branch, nodes) = (solver.settings.branch, *problem.operator().grid());
+            let mut identity = at.inputs.identity(branch, "none", given);
+            if is_own {
+                identity.insert("law_values".to_owned(), self.posed.fingerprint().to_string().into());
+            }
+            course.check(&mut self.posed)?;
+            let format = Format::of(&out).ok_or("out ends in neither .csv nor .jsonl: rename it")?;
+            check_apart(&out, at.inputs.heights.as_deref().map(Path::new))?;
+            let beside = [".scene.toml", ".warnings.txt"].map(|suffix| with_suffix(&out, suffix)).to_vec();
+            for file in &beside {
+                check_free(file, force || out.exists(), "--out")?;
+            }
+            let header = names.iter().map(|&name| name.to_owned()).collect();
+            let (fields, processes) = (fields.as_deref(), Processes::start()?);
+            let opening = Opening { out: &out, format, header, fields, force, waits: false, beside, nodes };
+            let (mut table, saved) = Table::open(&opening, Some(identity), &course)?;
+            let course = table.resume(course, saved, start, &processes)?;
+            let rows = table.read(&processes)?;
+            Ok((course, table, processes, rows))
+        };
+        let (course, table, processes, rows) = py.detach(|| at.pool.get().install(open)).map_err(refusal_of_table)?;
+        (self.course, self.table) = (Some(course), Some((table, processes)));
+        // null alone would become an empty tuple
+        let cells =
+            |row: &Value| names.iter().map(|&name| Some(row[name].clone()).filter(|cell| !cell.is_null())).collect();
+        let rows: Vec<Vec<Option<Value>>> = rows.iter().map(cells).collect();
+        Ok((names, to_pyobject(py, &rows)?))
     }
 
     fn next<'py>(&mut self, py: Python<'py>, at: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(mut course) = self.course.clone() else { return Ok(None) };
+        if let Some((table, _)) = &mut self.table {
+            py.detach(|| table.claim()).map_err(refusal_of_table)?;
+        }
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let Some(found) = course.next(&mut self.posed, observe)? else { return Ok(None) };
             let (mut found, account) = self.account(course.command(), at.inputs, found)?;
-            let row = course.row(&mut found, account, None)?;
+            let row = course.row(&mut found, account, self.seed)?;
             Ok(Some((found, row)))
         })?;
+        // a state that was not reached is looked for again from where the ones before lead
+        let reached = found.as_ref().ok().and_then(Option::as_ref).filter(|(found, _)| {
+            let went_on = raised.is_none() && found.solution.report.status != Status::Stopped;
+            went_on && check_finite(&found.solution).is_ok()
+        });
+        if let Some((table, processes)) = &mut self.table {
+            let append = |(found, row): &(_, _)| table.append(&course, found, row, processes);
+            let appended = py.detach(|| reached.map(append).transpose());
+            if !matches!(appended, Ok(Some(()))) {
+                // for another call that goes on with it
+                table.release();
+            }
+            appended.map_err(refusal_of_table)?;
+        }
+        if reached.is_some() {
+            self.course = Some(course);
+        }
         let Some(found) = found.transpose() else { return raised.map_or(Ok(None), Err) };
         let mut entries = None;
-        let found = found.map(|(found, row)| {
-            // a state that was not reached is looked for again from where the ones before lead
-            if raised.is_none() && found.solution.report.status != Status::Stopped {
-                self.course = Some(course);
-            }
-            (found, entries.insert(row).account.clone())
-        });
+        let found = found.map(|(found, row)| (found, entries.insert(row).account.clone()));
         let found = answer(py, self.threads, (found, raised))?;
         found.set_item("row", entries.map(|row| to_pyobject(py, &row)).transpose()?)?;
         Ok(Some(found))
@@ -157,7 +245,7 @@ pub fn state<T: Scalar>(
         warnings.extend(Warning::of_modulus(modulus, surface.grid(), length_unit.as_deref()));
         warnings.extend(Warning::of_law(&law, &surface, modulus));
         let posed = Posed::new(surface, law.into(), half_space, solver, original);
-        State { posed, threads, strongest, warnings, course: None }
+        State { posed, threads, strongest, warnings, course: None, seed: None, table: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))
 }

@@ -222,10 +222,4 @@ impl LoadsOptions {
     pub fn spring_stiffness(&self) -> Option<f64> {
         self.spring_stiffness.map(|stiffness| stiffness.value)
     }
-
-    /// The kind of the loads, with all that they have in common, for comparing two runs.
-    pub fn kind(&self) -> String {
-        let name = self.control(0.0).name();
-        self.spring_stiffness().map_or(name.to_owned(), |stiffness| format!("{name} of stiffness {stiffness}"))
-    }
 }

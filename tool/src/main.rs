@@ -29,25 +29,17 @@ mod adhesion;
 mod allowed;
 mod boundary;
 mod citation;
-mod csv;
 mod entries;
 mod fields;
 mod form;
-mod hash;
 mod heights;
 mod hints;
-mod identity;
 mod interruption;
-mod journal;
-mod kept;
 mod loads;
 mod options;
-mod outcome;
-mod output;
 mod part;
 mod pictures;
 mod printing;
-mod processes;
 mod progress;
 mod report;
 mod scene;
@@ -63,7 +55,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use asperity_scene::{numbers, quantity};
+use asperity_scene::{csv, journal, numbers, outcome, output, processes, quantity};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -125,6 +117,9 @@ const NOT_CONVERGED: u8 = 2;
 fn main() -> ExitCode {
     match Processes::start() {
         Ok(processes) => {
+            if !processes.is_first() {
+                printing::silence();
+            }
             interruption::listen();
             run_on(&processes)
         }

@@ -20,6 +20,8 @@ use crate::compiled::compiled;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
 use crate::half_space::{Boundary, HalfSpace};
+use crate::hash::Hash;
+use crate::identity::fingerprint;
 use crate::wall::Wall;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
@@ -119,6 +121,19 @@ impl<T: Real> Posed<T> {
         }
     }
 
+    /// The surface, before the first solve.
+    ///
+    /// # Errors
+    /// [`Error::Control`] after it.
+    pub fn surface(&self) -> Result<&Arc<Surface>> {
+        if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
+    }
+
+    /// The fingerprint of the law, by its values at some hundred gaps.
+    pub fn fingerprint(&self) -> Hash {
+        fingerprint(&*self.law)
+    }
+
     /// The boundary of the half-space.
     pub fn boundary(&self) -> Boundary {
         self.half_space.boundary
@@ -129,8 +144,7 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`HalfSpace::full_pressure`].
     pub fn full_pressure(&self) -> std::result::Result<f64, String> {
-        let Body::Surface(surface) = &self.body else { return Err(spent().to_string()) };
-        self.half_space.full_pressure(surface)
+        self.half_space.full_pressure(self.surface().map_err(|error| error.to_string())?)
     }
 
     /// The plan of a solve to an accuracy, and the seconds that it is likely to take.
@@ -142,8 +156,7 @@ impl<T: Real> Posed<T> {
     }
 
     fn planned((this, control, goal): (&Self, Control, Goal)) -> Result<(Plan, f64)> {
-        let Body::Surface(surface) = &this.body else { return Err(spent()) };
-        planned(&goal.by(this.solver.clone(), false), surface, this.half_space, &this.law, control)
+        planned(&goal.by(this.solver.clone(), false), this.surface()?, this.half_space, &this.law, control)
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
@@ -209,8 +222,7 @@ impl<T: Real> Posed<T> {
     }
 
     fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
-        let Body::Surface(surface) = &self.body else { return Err(spent()) };
-        let clock = Instant::now();
+        let (clock, surface) = (Instant::now(), self.surface()?);
         let mut wanted = goal.by(self.solver.clone(), asked.stiffness);
         let tolerance = wanted.tolerance()?;
         let half_space = |grid| self.half_space.operator(grid);

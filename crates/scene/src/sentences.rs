@@ -40,8 +40,7 @@ fn unconverged(account: &Account) -> String {
              gap as {{initial_gap}}, or follow the branch by {path}"
         ),
         Status::IterationLimit => {
-            "the fields are not accurate: raise {max_iterations}, or give a gap nearby as {initial_gap}"
-                .to_owned()
+            "the fields are not accurate: raise {max_iterations}, or give a gap nearby as {initial_gap}".to_owned()
         }
         Status::Stopped => "the fields are not accurate: it was stopped before its end".to_owned(),
         _ if load_error > tolerance && relative_error <= tolerance => {

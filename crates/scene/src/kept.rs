@@ -3,25 +3,24 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::{Grid, Solution};
+use asperity::Solution;
 use asperity_maps::io::OutputFolder;
 
 use crate::fields::{gap_to_write, write_fields};
-use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::check_free;
 use crate::processes::Processes;
+use crate::scalar::Scalar;
 
 const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 
 /// The folder of the fields, if they are kept.
-#[derive(Clone, Copy)]
-pub struct Kept<'a>(pub Option<&'a Path>);
+pub struct Kept(pub Option<PathBuf>);
 
-impl Kept<'_> {
+impl Kept {
     /// Refuses to replace fields, unless they may be, or belong to the rows of a table that is there.
-    pub fn check(self, force: bool, table: &Path) -> Outcome<()> {
-        let Some(folder) = self.0 else { return Ok(()) };
+    pub fn check(&self, force: bool, table: &Path) -> Outcome<()> {
+        let Some(folder) = &self.0 else { return Ok(()) };
         // only a trial
         drop(OutputFolder::create(folder, &[], true)?);
         // the fields first: a run that starts at the same time makes its table before them
@@ -30,31 +29,25 @@ impl Kept<'_> {
     }
 
     /// Removes the fields of all rows, of a run that starts over.
-    pub fn clear(self) {
-        self.0.map(present).into_iter().flatten().for_each(remove);
+    pub fn clear(&self) {
+        self.0.as_deref().map(present).into_iter().flatten().for_each(remove);
     }
 
     /// Writes the fields of a row, the first of which is 1; each process its rows.
-    pub fn write<T: Scalar>(
-        self,
-        row: usize,
-        grid: Grid,
-        solution: &Solution<T>,
-        processes: &Processes,
-    ) -> Outcome<()> {
-        let Some(out) = self.0 else { return Ok(()) };
+    pub fn write<T: Scalar>(&self, row: usize, solution: &Solution<T>, processes: &Processes) -> Outcome<()> {
+        let Some(out) = &self.0 else { return Ok(()) };
         let create = || Ok(OutputFolder::create(out, &[], true)?);
         let folder = processes.agree(processes.is_first().then(create).transpose())?;
         let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
         let named: Vec<_> = FIELDS.iter().zip(fields).map(|(name, field)| (file(name, row), field)).collect();
-        write_fields(processes, folder.as_ref(), out, grid, &named)?;
+        write_fields(processes, folder.as_ref(), out, solution.grid, &named)?;
         processes.first(|| folder.map_or(Ok(()), |folder| Ok(folder.commit()?)))
     }
 
     /// Removes the fields of a row.
-    pub fn forget(self, row: usize) {
-        self.0.into_iter().flat_map(|folder| FIELDS.map(|name| folder.join(file(name, row)))).for_each(remove);
+    pub fn forget(&self, row: usize) {
+        self.0.iter().flat_map(|folder| FIELDS.map(|name| folder.join(file(name, row)))).for_each(remove);
     }
 }
 

@@ -1,6 +1,0 @@
-//! The outcome of whatever a command does.
-
-use std::error::Error;
-
-/// A value, or an error of one line that names the cause and the remedy.
-pub type Outcome<T> = Result<T, Box<dyn Error>>;
