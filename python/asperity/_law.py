@@ -39,11 +39,14 @@ def entries(law: Any, wall: str) -> dict[str, Any]:
 
 
 def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:
-    """Gaps and tractions and the works of adhesion of a law, as far as it has them, and whether it has no name."""
+    """Gaps and tractions and the works of adhesion of a law, as far as it has them, and whether its values say the rest."""
     law, _, works = _unwrapped(law)
     table = np.column_stack([law.gaps, law.tractions]) if isinstance(law, _asperity.Tabulated) else None
     own = law is not None and not isinstance(law, _asperity.Law)
-    return table, None if works is None else np.atleast_2d(works), own
+    if works is None:
+        return table, None, own
+    # the law that varies may be one of another work of adhesion than the largest
+    return table, np.atleast_2d(works), own or getattr(law, "work_of_adhesion", None) != np.max(works)
 
 
 def _unwrapped(law: Any) -> tuple[Any, float | None, Any]:

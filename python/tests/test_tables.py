@@ -58,7 +58,7 @@ SWEEPS = {
     "table": (["--law", "table", "--law-table", "law.txt"], {"law": "law.txt"}),
     "varying": (
         ["--law", "exponential", "--work-of-adhesion-map", "works.npy", "--range", 8e-3],
-        {"law": asperity.Varying(asperity.Exponential(1.0, 8e-3), WORKS)},
+        {"law": asperity.Varying(asperity.Exponential(WORKS.max(), 8e-3), WORKS)},
     ),
     "start": (["--initial-gap", "gap.npy"], {"start": "gap.npy"}),
 }
@@ -142,7 +142,10 @@ def test_a_sweep_goes_on_after_an_exception_in_the_same_object_and_after_a_kill(
     found = sweep(folder, folder / "again.csv", observe=observe)
     with pytest.raises(KeyboardInterrupt):
         found.run()
+    other = interrupted(lambda **given: sweep(folder, folder / "again.csv", **given), 1)
     assert [row["status"] for row in found.run().rows] == ["converged"] * 3
+    with pytest.raises(ValueError, match="has rows of another run by now: make the same call again"):
+        other.run()
     assert filecmp.cmp(folder / "whole.csv", folder / "again.csv", shallow=False)
     code = (
         "import os, asperity\n"
@@ -203,6 +206,12 @@ def test_other_inputs_are_refused_by_name(folder, rough):
     law.traction = lambda gap: 2 * 2e-5 / 8e-3 * (1 - gap / 8e-3).clip(0) * (1 + 1e-9)
     with pytest.raises(ValueError, match="law values is"):
         begun(law=law)
+    whole = {"out": folder / "varying.csv", "law": asperity.Varying(asperity.Exponential(WORKS.max(), 8e-3), WORKS)}
+    begun(**whole).run()
+    with pytest.raises(ValueError, match="law values is null, and not"):
+        begun(**{**whole, "law": asperity.Varying(asperity.Exponential(1.0, 8e-3), WORKS)})
+    with pytest.raises(ValueError, match="another file of its work of adhesion map"):
+        begun(**{**whole, "law": asperity.Varying(asperity.Exponential(WORKS.max(), 8e-3), WORKS[::-1])})
     assert out.read_bytes() == text
     other = begun(modulus=2.0, force=True).columns
     assert other["modulus"] == [2.0] and out.read_bytes() != text
@@ -243,7 +252,8 @@ def test_what_an_observer_stops_is_no_row(folder):
             raise StopIteration
 
     found = sweep(folder, folder / "stopped.csv", observe=observe)
-    assert [solution.status for solution in found] == ["converged", "stopped"]
+    with pytest.warns(asperity.ConvergenceWarning, match="stopped"):
+        assert [solution.status for solution in found] == ["converged", "stopped"]
     left = sweep(folder, folder / "stopped.csv")
     assert len(left.rows) == 1 and len(list(left)) == 2
     assert filecmp.cmp(folder / "whole.csv", folder / "stopped.csv", shallow=False)

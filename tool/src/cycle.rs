@@ -14,13 +14,12 @@ use crate::boundary::{LOADS, LoadsOptions};
 use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
-use crate::printing::{self, Printing, say};
+use crate::printing::{self, say};
 use crate::processes::Processes;
 use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
 use crate::scene::Scene;
-use crate::table::{Fill, Table, TableOptions};
+use crate::table::{Fill, Manner, Table, TableOptions};
 use crate::units::UnitOptions;
-use crate::warnings::Strictness;
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -78,13 +77,8 @@ pub struct Options {
     resolution: Resolution,
     #[command(flatten)]
     units: UnitOptions,
-    /// Start over, and replace files that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
     #[command(flatten)]
-    strictness: Strictness,
-    #[command(flatten)]
-    printing: Printing,
+    manner: Manner,
 }
 
 const EXAMPLES: &str = "\
@@ -114,10 +108,8 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
         format: Format::Csv,
         fields: options.fields.as_deref(),
         stiffness: false,
-        force: options.force,
         units,
-        strictness: options.strictness,
-        printing: options.printing,
+        manner: &options.manner,
         scene,
         processes,
     };
@@ -136,7 +128,7 @@ impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         while let Some(row) = table.extend()? {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
-            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table.brief(&row.account)));
+            self.manner.printing.say(&format!("{:>4}  {}{event}", table.rows(), table.brief(&row.account)));
         }
         self.conclude(table)?;
         Ok(table.converged("or use a larger --tolerance"))
@@ -148,7 +140,7 @@ impl Options {
         if Format::of(&self.out) != Some(Format::Csv) {
             return Err(Error::file(&self.out, "does not end in .csv: rename it").into());
         }
-        check_plot(self.plot.as_deref(), &self.out, self.force)
+        check_plot(self.plot.as_deref(), &self.out, self.manner.force)
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
@@ -164,7 +156,7 @@ impl Options {
         let free = self.surface.beyond.boundary == Boundary::Free;
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         let y_dimension = if free { FORCE } else { PRESSURE };
-        self.printing.report(|| {
+        self.manner.printing.report(|| {
             let last = rows.last().cloned().unwrap_or_default();
             let event = |&k: &usize| {
                 let kept = ["mean_gap", "mean_pressure", "normal_force", "approach"];
@@ -187,7 +179,7 @@ impl Options {
             });
             table.report(found)
         });
-        if self.printing.for_people() {
+        if self.manner.printing.for_people() {
             let energy = |value| units.number(value, ENERGY_PER_AREA);
             say(&format!("{} rows in {}", table.rows(), printing::name(&self.out)));
             if tension > 0.0 {

@@ -12,12 +12,11 @@ use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
 use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
-use crate::printing::{Printing, complain, name};
+use crate::printing::{complain, name};
 use crate::processes::Processes;
 use crate::scene::Scene;
-use crate::table::{Fill, Table, TableOptions};
+use crate::table::{Fill, Manner, Table, TableOptions};
 use crate::units::UnitOptions;
-use crate::warnings::Strictness;
 
 /// Solve a contact problem under many loads, one after the other.
 ///
@@ -63,13 +62,8 @@ pub struct Options {
     /// grows with the approach, and normal_stiffness, how much the force does
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
-    /// Start over, and replace files that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
     #[command(flatten)]
-    strictness: Strictness,
-    #[command(flatten)]
-    printing: Printing,
+    manner: Manner,
 }
 
 const EXAMPLES: &str = "\
@@ -87,7 +81,7 @@ const EXAMPLES: &str = "\
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     let format = options.format()?;
-    processes.first(|| options.plot.check(&options.out, options.force))?;
+    processes.first(|| options.plot.check(&options.out, options.manner.force))?;
     let Options { surface, loads, adhesion, solver, units, out, .. } = options;
     let table = TableOptions {
         problem: ProblemOptions { surface, adhesion, solver },
@@ -97,10 +91,8 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
         format,
         fields: options.fields.as_deref(),
         stiffness: options.stiffness,
-        force: options.force,
         units,
-        strictness: options.strictness,
-        printing: options.printing,
+        manner: &options.manner,
         scene,
         processes,
     };
@@ -109,13 +101,11 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
 
 impl Fill for Options {
     fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way> {
-        let values =
-            self.fractions.values().map_or_else(|| loads.iter().map(|load| load.value()).collect(), <[_]>::to_vec);
-        if let Some(&value) = values.iter().find(|&&load| !T::lit(load).is_finite()) {
+        if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");
             return Err(Error::Value { name, value, requirement }.into());
         }
-        Ok(if self.fractions.values().is_some() { Way::Search(values) } else { Way::Sweep(loads) })
+        Ok(self.fractions.values().map_or(Way::Sweep(loads), |fractions| Way::Search(fractions.to_vec())))
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
@@ -123,7 +113,7 @@ impl Fill for Options {
         let width = count.to_string().len();
         while let Some(row) = table.extend()? {
             let (rows, account) = (table.rows(), &row.account);
-            self.printing.say(&format!("{rows:>width$}/{count}  {}", table.brief(account)));
+            self.manner.printing.say(&format!("{rows:>width$}/{count}  {}", table.brief(account)));
             let converged = account.status == Status::Converged;
             if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
                 complain("warning", &format!("row {rows}: {}", searched.jump()));
@@ -131,8 +121,8 @@ impl Fill for Options {
         }
         let rows = table.read()?;
         table.first(|| self.plot.draw(&rows, &table.units))?;
-        self.printing.say(&format!("{count} rows in {}", name(&self.out)));
-        self.printing.report(|| table.report(json!({ "last": rows.last() })));
+        self.manner.printing.say(&format!("{count} rows in {}", name(&self.out)));
+        self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match self.fractions.values() {
             Some(_) => "or leave out the contact fractions past which the contact jumps",
             None => "use a larger --tolerance or finer steps, or less tension where they are detached",

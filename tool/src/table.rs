@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use asperity::Control;
 use asperity_scene::{Account, Course, Fields, Format, Inputs, Opening, Posed, Row, Way};
+use clap::Args;
 use serde_json::{Map, Value, json};
 
 use crate::boundary::{LoadsOptions, check_load};
@@ -28,6 +29,18 @@ use crate::warnings::{self, Strictness, Warnings};
 /// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
 pub const UNCONVERGED: &str = "unconverged";
 
+/// What a run that fills a table replaces, refuses and prints.
+#[derive(Args)]
+pub struct Manner {
+    /// Start over, and replace files that are there
+    #[arg(long, help_heading = "Output")]
+    pub force: bool,
+    #[command(flatten)]
+    strictness: Strictness,
+    #[command(flatten)]
+    pub printing: Printing,
+}
+
 /// The options of a table.
 #[derive(Clone, Copy)]
 pub struct TableOptions<'a> {
@@ -40,10 +53,8 @@ pub struct TableOptions<'a> {
     /// The folder for the fields of the rows
     pub fields: Option<&'a Path>,
     pub stiffness: bool,
-    pub force: bool,
     pub units: &'a UnitOptions,
-    pub strictness: Strictness,
-    pub printing: Printing,
+    pub manner: &'a Manner,
     pub scene: &'a Scene,
     pub processes: &'a Processes,
 }
@@ -86,7 +97,8 @@ impl<'a> TableOptions<'a> {
     /// Opens the table, writes the scene of the run beside it, and says the warnings so far.
     fn open<T: Scalar>(self, given: Given<'_>, by: &impl Fill) -> Outcome<Table<'a, T>> {
         let Given { surface, adhesion, origin, part, start } = given;
-        let Self { problem, loads, out, force, scene, strictness, processes, printing, .. } = self;
+        let Self { problem, loads, out, scene, processes, manner, .. } = self;
+        let &Manner { force, strictness, printing } = manner;
         let listed = loads.values(problem.surface.full_pressure(&surface, loads.are_reduced())?);
         part.check(self.control)?;
         let controls = loads.controls(&listed);
@@ -156,9 +168,9 @@ impl<'a> TableOptions<'a> {
 impl<T: Scalar> Table<'_, T> {
     /// Sets what an interruption says of the rows.
     fn stands(&self) {
-        let TableOptions { out, force, .. } = self.options;
+        let TableOptions { out, manner, .. } = self.options;
         let of = self.rows.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
-        let command = if force { "the same command without --force" } else { "the same command" };
+        let command = if manner.force { "the same command without --force" } else { "the same command" };
         let (rows, out) = (self.rows(), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} goes on from there"));
     }
@@ -186,14 +198,14 @@ impl<T: Scalar> Table<'_, T> {
     /// Solves the next row, while a bar has its number, and appends it. Refuses a solution that ran away, and says its
     /// warnings; returns no row at the end of the course.
     pub fn extend(&mut self) -> Outcome<Option<Row>> {
-        let TableOptions { problem, printing, processes, .. } = self.options;
+        let TableOptions { problem, manner, processes, .. } = self.options;
         let of = self.rows.of_rows();
         if of == Some(self.rows()) {
             return Ok(None);
         }
         let name = format!("{}{}", self.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
         let (tolerance, grid) = (problem.solver.tolerance(), *self.posed.parts()?.1.grid());
-        let mut progress = Progress::new(&name, tolerance, grid.nodes(), printing.without_bars());
+        let mut progress = Progress::new(&name, tolerance, grid.nodes(), manner.printing.without_bars());
         let found = self.course.next(&mut self.posed, &mut |state| {
             progress.update(state);
             ControlFlow::Continue(())

@@ -202,8 +202,8 @@ fn resume(
     let refuse = |reason| Err(refused(reason).into());
     let state = State::read(path).map_err(refused)?;
     let written = state.written;
-    for (key, here) in identity {
-        let there = state.identity.get(key).unwrap_or(&Value::Null);
+    for key in identity.keys().chain(state.identity.keys()) {
+        let [here, there] = [identity, &state.identity].map(|inputs| inputs.get(key).unwrap_or(&Value::Null));
         if there != here {
             let name = key.replace('_', " ");
             return refuse(match key.as_str() {

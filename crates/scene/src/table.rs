@@ -239,16 +239,16 @@ impl Table {
     /// # Errors
     /// Those of [`Self::open`], and rows of another run.
     pub fn claim(&mut self) -> Outcome<()> {
-        let rows = self.rows;
-        if self.journal.is_none() {
-            self.lock(false, false)?;
+        if self.journal.is_some() {
+            return Ok(());
         }
-        if rows == self.rows { Ok(()) } else { Err(Error::file(&self.out, "has rows of another run by now").into()) }
-    }
-
-    /// The file of the table.
-    pub fn path(&self) -> &Path {
-        &self.out
+        let rows = self.rows;
+        self.lock(false, false)?;
+        if self.rows == rows {
+            return Ok(());
+        }
+        (self.journal, self.rows) = (None, rows);
+        Err(Error::file(&self.out, "has rows of another run by now: make the same call again").into())
     }
 
     /// The number of rows.
