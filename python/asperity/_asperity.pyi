@@ -1,6 +1,6 @@
 """The compiled core: what the modules of this package call, by position."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any, ClassVar, final
 
@@ -130,7 +130,8 @@ class Tabulated(Law):
     @property
     def source(self) -> str | None: ...
     @staticmethod
-    def read(path: str | PathLike[str]) -> Tabulated: ...
+    def meant(word: str, known: Sequence[str]) -> str | None: ...
+def read(path: str | PathLike[str]) -> Tabulated: ...
     def __getnewargs__(self) -> tuple[_Field, _Field, str | None]: ...
 
 @final
@@ -178,7 +179,13 @@ class Iteration:
 
 @final
 class Look:
-    def found(self) -> tuple[tuple[int, float, float, float, NDArray[np.int64], float, float, float], dict[str, Any]]: ...
+    def found(
+        self,
+    ) -> tuple[
+        tuple[int, float, float, float, NDArray[np.int64], float, float, float],
+        dict[str, Any],
+        list[tuple[str, str]],
+    ]: ...
 
 @final
 class Original:
@@ -221,7 +228,7 @@ class Problem:
     def full_pressure(self) -> float: ...
     def plan(
         self, load: tuple[str, list[float]], accuracy: tuple[float, str, float | None]
-    ) -> tuple[float, float, tuple[int, int], float, float]: ...
+    ) -> tuple[tuple[float, float, tuple[int, int], float, float], str]: ...
     def solve(
         self,
         load: tuple[str, list[float]],
@@ -246,6 +253,7 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
+def meant(word: str, known: Sequence[str]) -> str | None: ...
 def read(path: str, channel: str | None) -> _Map: ...
 def self_affine(
     shape: tuple[int, int],

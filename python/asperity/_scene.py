@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _law
-from ._accuracy import shortfall
 from ._control import Load, number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
@@ -85,11 +84,6 @@ class Scene:
 
     def start(self, start: Any, loads: list[Load]) -> NDArray[np.float64] | None:
         """The gap from which to start under the first of some loads."""
-        if self.original is not None and loads[:1] and loads[0][0] in ("normal_force", "spring"):
-            raise ValueError(
-                f"{loads[0][0]} would act on the mirror images of the map as well: give a pressure or a mean gap, or "
-                "whole=True for the force on all of them"
-            )
         if start is None:
             return None if self._unloads else self._afar(loads)
         if isinstance(start, str):
@@ -142,29 +136,6 @@ class Scene:
             if warning["code"] not in self._warned:
                 self._warned.add(warning["code"])
                 warn_of_input(warning)
-        searched = told["search"]
-        if solution.converged and searched is not None and not searched["reached"]:
-            text = f"no load was found with a contact fraction of {searched['wanted']}: it jumps from {searched['below']} to "
-            text += f"{searched['above']}, and the nearer one is the solution"
-            warn(text, ConvergenceWarning)
-        if not solution.converged:
-            warn(_not_converged(told), ConvergenceWarning)
-        elif told["accuracy"] is not None and not told["accuracy"]["reached"]:
-            warn(shortfall(told, found), AccuracyWarning)
+        for what, text in found["shortfalls"]:
+            warn(text, AccuracyWarning if what == "accuracy" else ConvergenceWarning)
         return solution
-
-
-def _not_converged(report: dict[str, Any]) -> str:
-    text = f"the solve ended as {report['status']} after {report['iterations']} iterations, "
-    errors = {"certified": report["relative_error"], "load": report["load_error"]}
-    missed = {name: error for name, error in errors.items() if not error <= report["tolerance"]}
-    told = (f"a {name} error of {error:.1e}" for name, error in (missed or errors).items())
-    text += f"with {' and '.join(told)} for a tolerance of {report['tolerance']:.1e}"
-    held = "a mean gap" if report["boundary"] == "periodic" else "an approach"
-    tolerance = "raise the tolerance" + (", or use precision='f64'" if report["precision"] == "f32" else "")
-    remedy = {
-        "iteration-limit": "raise max_iterations, or start from a solution nearby",
-        "stalled": f"start from a solution nearby, or give {held}" if [*missed] == ["load"] else tolerance,
-        "detached": f"no equilibrium holds this tension: press more, or give {held}",
-    }.get(report["status"])
-    return f"{text}: {remedy}" if remedy else text

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity, _picture, _plot
-from ._accuracy import Plan, estimate
+from ._accuracy import Plan
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -127,9 +127,9 @@ class Solution:
         return field.reshape(self.topography.shape)[self._part]
 
     @cached_property
-    def _looked(self) -> tuple[ContactStatistics, dict[str, Any]]:
-        counted, entries = self._look.found()
-        return ContactStatistics(*counted), entries
+    def _looked(self) -> tuple[ContactStatistics, dict[str, Any], list[tuple[str, str]]]:
+        counted, report, rows = self._look.found()
+        return ContactStatistics(*counted), report, rows
 
     def __getstate__(self) -> dict[str, Any]:
         # a solution travels complete, and without its view of the memory of this process
@@ -303,54 +303,15 @@ class Solution:
         """Number of operator applications, each a forward and an inverse transform."""
         return int(self._told["operator_applications"])
 
-    def _rows(self) -> list[tuple[str, str]]:
-        report = self.report
-        rows = [("status", report["status"])]
-        if report["part"] is not None:
-            solved = report["solved_shape"]
-            of = "" if solved is None else f" of {solved[0]} x {solved[1]}"
-            nodes = " x ".join(map(str, report["shape"]))
-            rows.append(("part of the mirrored map", f"{report['part']}, {nodes}{of} nodes"))
-        rows += [
-            ("contact", f"{100 * report['contact_fraction']:.4g} %"),
-            ("corrected for its edge", f"{100 * report['corrected_contact_fraction']:.4g} %"),
-            ("nodes in contact", f"{report['contact_nodes']} of {self.gap.size - self.absent_nodes}"),
-        ]
-        if self.approach is not None and self.edge_traction is not None:
-            rows.append(("approach", f"{self.approach:.7g}"))
-            rows.append(("normal force", f"{self.normal_force:.7g}"))
-            rows.append(("traction at the edge", f"{100 * self.edge_traction:.4g} %"))
-        for name in ("mean_gap", "mean_pressure", "mean_contact_pressure"):
-            rows.append((name.replace("_", " "), f"{report[name]:.7g}"))
-        rows.append(("least pressure", f"{report['min_pressure']:.7g}"))
-        rows.append(("greatest pressure", f"{report['max_pressure']:.7g}"))
-        rows.append(("elastic energy per area", f"{report['elastic_energy']:.7g}"))
-        if report["law"] != "none":
-            rows.append(("adhesive energy per area", f"{report['adhesive_energy']:.7g}"))
-            rows.append(("mu_rho", f"{report['mu_rho']:.4g}"))
-        if self.contact_stiffness is not None:
-            rows.append(("contact stiffness", f"{self.contact_stiffness:.7g}"))
-        if report["stability"] is not None:
-            rows.append(("stability", report["stability"]["verdict"]))
-            rows.append(("smallest eigenvalue", f"{report['stability']['eigenvalue']:.7g}"))
-        rows.append(("certified error", f"{report['relative_error']:.1e}"))
-        rows.append(("iterations", str(report["iterations"])))
-        rows.append(("operator applications", str(report["operator_applications"])))
-        if report["levels"] is not None:
-            rows.append(("with coarser grids", f"{report['equivalent_applications']:.1f}"))
-            rows.append(("error of the grid", estimate(report)))
-        rows.append(("time", f"{report['seconds']:.3f} s"))
-        return rows
-
     def __repr__(self) -> str:
-        rows = self._rows()
+        rows = self._looked[2]
         width = max(len(name) for name, _ in rows)
         return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)
 
     def _repr_html_(self) -> str:
         rows = "".join(
             f"<tr><td style='text-align:left'>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>"
-            for name, value in self._rows()
+            for name, value in self._looked[2]
         )
         picture = _picture.data_uri(self.contact)
         return (

@@ -197,8 +197,6 @@ def solve(
         raise ValueError("nested grids make their own start, and do not test stability: leave out start, stability and leave")
     if branch is not None and start is not None:
         raise ValueError("start chooses the branch: leave out branch, or start")
-    if branch == "both":
-        _check_both(law, method, contact_fraction, accuracy, leave)
     goal = _accuracy.goal(
         accuracy,
         accuracy_of,
@@ -232,20 +230,3 @@ def solve(
     given = goal.given if goal else None
     found = scene.problem.solve(load, begin, observe, stability or leave, leave, stiffness, given)
     return scene.solution({**found, "plan": plan})
-
-
-def _check_both(
-    law: Any, method: str, contact_fraction: float | None, accuracy: float | None, leave: bool
-) -> None:
-    """Refuses both branches of equilibria where there is nothing to be compared."""
-    reason = None
-    if law is None:
-        reason = "without adhesion there is but one equilibrium"
-    elif leave:
-        reason = "an equilibrium that is left leads off its branch: give one branch"
-    elif method == "rey2017":
-        reason = "rey2017 has one start"
-    elif contact_fraction is not None or accuracy is not None:
-        reason = "each branch has a load or an accuracy of its own: give a load alone"
-    if reason is not None:
-        raise ValueError(f"branch is both: {reason}")

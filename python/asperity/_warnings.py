@@ -7,7 +7,10 @@ import warnings
 
 
 class ConvergenceWarning(UserWarning):
-    """A solve that has not converged: its ``status`` says how it ended, its fields how far it got."""
+    """A solve that has not converged, or not to what was asked: its ``status`` and ``report`` say how it ended.
+
+    An equilibrium whose stability was asked for, and that would not last, is one too.
+    """
 
 
 class AccuracyWarning(UserWarning):

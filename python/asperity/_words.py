@@ -2,46 +2,15 @@
 
 from __future__ import annotations
 
-import difflib
 import functools
 import inspect
 from collections.abc import Callable, Iterable, Sequence
 from typing import ParamSpec, TypeVar
 
-from . import _control
+from . import _asperity, _control
 
 P = ParamSpec("P")
 R = TypeVar("R")
-
-#: Other words for keywords, in lower case.
-_MEANT = {
-    "pressure": "mean_pressure",
-    "p": "mean_pressure",
-    "load": "mean_pressure",
-    "gap": "mean_gap",
-    "force": "normal_force",
-    "displacement": "approach",
-    "indentation": "approach",
-    "area": "contact_fraction",
-    "e": "modulus",
-    "e_star": "modulus",
-    "youngs_modulus": "modulus",
-    "adhesion": "law",
-    "w": "work_of_adhesion",
-    "work": "work_of_adhesion",
-    "gamma": "work_of_adhesion",
-    "surface_energy": "work_of_adhesion",
-    "rho": "range",
-    "z0": "range",
-    "d0": "range",
-    "n": "exponent",
-    "a": "hamaker",
-    "length": "lengths",
-    "size": "lengths",
-    "tol": "tolerance",
-    "maxiter": "max_iterations",
-    "periodic": "boundary",
-}
 
 
 def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
@@ -58,11 +27,7 @@ def _meant(word: str, known: Sequence[str]) -> str:
         return f"give {one}, or many loads to asperity.sweep, as {word}=[...]"
     if many in known:
         return f"give {many}=[...], or one load to asperity.solve, as {word}"
-    meant = _MEANT.get(word.lower(), "")
-    plural = next((plural for plural, single in _control.PLURALS.items() if single == meant), meant)
-    right = next((name for name in (meant, plural) if name in known), None)
-    if right is None:
-        right = next(iter(difflib.get_close_matches(word, known, 1)), None)
+    right = _asperity.meant(word, known)
     return f"did you mean {right}?" if right else f"it has {', '.join(known)}"
 
 

@@ -2,8 +2,7 @@
 
 use asperity::{Solution, Status};
 use asperity_maps::Topography;
-use asperity_maps::warning::Warning;
-use asperity_scene::{Account, Found, Told, check_finite};
+use asperity_scene::{Account, Found, Skin, check_finite, shortfalls, worded};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -28,14 +27,13 @@ pub fn answer<'py, T: Scalar>(
         (Err(_), Some(raised)) => return Err(raised),
         (Err(error), None) => return Err(refusal(error)),
     };
-    let Found { solution, sight, mode, refined, accuracy, .. } = found;
+    let Found { solution, sight, mode, refined, .. } = found;
     if solution.report.status != Status::Stopped {
-        let other = if T::NAME == "f32" { "precision='f64'" } else { "another start" };
-        let refused = |found| format!("{found}; use {other}, or units in which the numbers are moderate");
-        check_finite(&solution).map_err(|found| PyValueError::new_err(refused(found)))?;
+        check_finite(&solution).map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
     }
     let found = PyDict::new(py);
     found.set_item("report", to_pyobject(py, &account)?)?;
+    found.set_item("shortfalls", shortfalls(&account, Skin::Keywords))?;
     let Solution { gap, pressure, contact_pressure, .. } = solution;
     let fields = [gap, pressure, contact_pressure].map(|field| field.into_pyarray(py));
     for (name, field) in ["gap", "pressure", "contact_pressure"].into_iter().zip(&fields) {
@@ -45,19 +43,10 @@ pub fn answer<'py, T: Scalar>(
     }
     found.set_item("look", Look::at(sight, account, threads, fields))?;
     found.set_item("mode", mode.map(|mode| mode.into_pyarray(py)))?;
-    // the grid of an accuracy, and what keeps it from being finer
-    if let (Some(surface), Some(reached)) = (refined, accuracy) {
+    // those of an accuracy
+    if let Some(surface) = refined {
         found.set_item("heights", Topography::from(surface).heights.into_pyarray(py))?;
-        found.set_item("refinable", reached.refinable)?;
-        found.set_item("unaffordable", reached.unaffordable)?;
     }
     found.set_item("raised", raised)?;
     Ok(found)
-}
-
-/// A warning, whose lengths have their unit if it is known.
-pub fn told(found: &Warning, unit: Option<&str>) -> Told {
-    let length =
-        |value| unit.map_or_else(|| Warning::figure(value), |unit| format!("{} {unit}", Warning::figure(value)));
-    Told::new(found, length, Warning::figure)
 }

@@ -42,6 +42,8 @@ mod _asperity {
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]
+    use crate::refusal::meant;
+    #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
     use crate::surface::{prepare, read, self_affine, spectrum, statistics};

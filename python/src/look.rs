@@ -3,7 +3,8 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::contact::ContactStatistics;
-use asperity_scene::{Account, Sight};
+use asperity_scene::units::Units;
+use asperity_scene::{Account, Sight, Skin, rows};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use serde_pyobject::to_pyobject;
@@ -14,7 +15,7 @@ use crate::refusal::refusal;
 
 /// A sight in either precision, with the fields.
 trait Looks: Send + Sync {
-    fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyAny>)>;
+    fn look<'py>(&self, py: Python<'py>) -> PyResult<Looked<'py>>;
 }
 
 struct Seen<T: Scalar> {
@@ -41,14 +42,14 @@ impl Look {
 
 #[pymethods]
 impl Look {
-    /// The statistics of the contact, and the whole report.
-    fn found<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyAny>)> {
+    /// The statistics of the contact, the whole report, and the rows of the summary.
+    fn found<'py>(&self, py: Python<'py>) -> PyResult<Looked<'py>> {
         self.0.look(py)
     }
 }
 
 impl<T: Scalar> Looks for Seen<T> {
-    fn look<'py>(&self, py: Python<'py>) -> PyResult<(Statistics<'py>, Bound<'py, PyAny>)> {
+    fn look<'py>(&self, py: Python<'py>) -> PyResult<Looked<'py>> {
         let fields = self.fields.each_ref().map(|field| field.bind(py).readonly());
         let fields = fields.each_ref().map(|field| field.as_array());
         let pool = Pool::of(self.threads)?;
@@ -60,9 +61,14 @@ impl<T: Scalar> Looks for Seen<T> {
             Ok((found, account.clone()))
         };
         let (found, account) = py.detach(look).map_err(refusal)?;
-        Ok((statistics_of(py, found), to_pyobject(py, &account)?))
+        let units = Units::of_map(account.inputs.length_unit.as_deref());
+        let rows = rows(&[&account], &units, Skin::Keywords).into_iter().map(|(name, texts)| (name, texts.concat()));
+        Ok((statistics_of(py, found), to_pyobject(py, &account)?, rows.collect()))
     }
 }
+
+/// The statistics, the report, and the name and the text of each row of the summary.
+type Looked<'py> = (Statistics<'py>, Bound<'py, PyAny>, Vec<(String, String)>);
 
 /// Nodes in contact, their share, its corrected value, the perimeter, sizes of clusters, and the shares of the nodes
 /// that repel, attract and do not notice each other.

@@ -2,10 +2,9 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use asperity::accuracy::Plan;
 use asperity::path::PathSettings;
-use asperity::{Grid, Surface};
-use asperity_scene::{Asked, Branches, Inputs, Wall, Way, settings};
+use asperity::{Control, Grid, Surface};
+use asperity_scene::{Asked, Branches, Inputs, Skin, Wall, Way, check_part, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -17,8 +16,8 @@ use crate::pools::Pool;
 use crate::refusal::refusal_of_heights;
 use crate::state::{File, Run, Solves, state};
 
-/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan.
-type Planned = (f64, f64, (usize, usize), f64, f64);
+/// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan, and the plan in words.
+type Planned = ((f64, f64, (usize, usize), f64, f64), String);
 
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
@@ -40,7 +39,15 @@ impl Problem {
     /// The solution that a load asks for.
     fn asked(&self, load: &Load) -> PyResult<Asked> {
         let (nested, other_branch) = (self.nested, self.other_branch);
-        Ok(Asked { fraction: contact_fraction(load), nested, other_branch, ..Asked::under(control(load)?) })
+        Ok(Asked { fraction: contact_fraction(load), nested, other_branch, ..Asked::under(self.control(load)?) })
+    }
+
+    /// The control of a load, unless it would act on mirror images as well.
+    fn control(&self, load: &Load) -> PyResult<Control> {
+        let control = control(load)?;
+        let is_original = self.inputs.part.as_deref() == Some("original");
+        check_part(is_original, control, Skin::Keywords).map_err(PyValueError::new_err)?;
+        Ok(control)
     }
 }
 
@@ -134,9 +141,10 @@ impl Problem {
     #[pyo3(signature = (load, accuracy))]
     fn plan(&mut self, py: Python<'_>, load: Load, accuracy: Accuracy) -> PyResult<Planned> {
         let (pool, _, solves) = self.parts()?;
-        let (Plan { nodes_per_wave, tolerance, shape, bytes, .. }, seconds) =
-            solves.plan(py, &pool, control(&load)?, goal(accuracy)?)?;
-        Ok((nodes_per_wave, tolerance, shape, bytes, seconds))
+        let goal = goal(accuracy)?;
+        let (plan, seconds) = solves.plan(py, &pool, control(&load)?, goal)?;
+        let text = goal.announced(&plan, seconds);
+        Ok(((plan.nodes_per_wave, plan.tolerance, plan.shape, plan.bytes, seconds), text))
     }
 
     /// The equilibrium at a load.
@@ -156,6 +164,8 @@ impl Problem {
         let goal = accuracy.map(goal).transpose()?;
         let asked = Asked { stability, leave, stiffness, goal, ..self.asked(&load)? };
         let (pool, inputs, solves) = self.parts()?;
+        let sensible = asked.check_branches(&inputs.adhesion.law, inputs.method, Skin::Keywords);
+        sensible.map_err(PyValueError::new_err)?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
     }
 
@@ -173,7 +183,7 @@ impl Problem {
         seed: Option<u64>,
         table: Option<File<'py>>,
     ) -> PyResult<(Vec<&'static str>, Bound<'py, PyAny>)> {
-        let controls = loads.iter().map(control).collect::<PyResult<_>>()?;
+        let controls = loads.iter().map(|load| self.control(load)).collect::<PyResult<_>>()?;
         let fractions: Vec<_> = loads.iter().filter_map(contact_fraction).collect();
         let way = match path {
             Some((steps, smallest_step, imbalance, smooth)) => {

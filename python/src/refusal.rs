@@ -4,13 +4,21 @@ use std::error::Error as _;
 use std::io;
 
 use asperity::{Error, ErrorKind};
-use pyo3::PyErr;
+use asperity_scene::synonyms::similar;
 use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyValueError};
+use pyo3::prelude::*;
 
 /// The exception of an error: `ValueError` with the library's message, its remedies in the words of Python,
 /// `FileNotFoundError` for a file that does not exist, and `MemoryError` for memory that there is not.
 pub fn refusal(error: Error) -> PyErr {
     refused(error, "")
+}
+
+/// The one of the keywords of a function that another word means.
+#[pyfunction]
+pub fn meant(word: &str, known: Vec<String>) -> Option<String> {
+    let known: Vec<_> = known.iter().map(|name| name.replace('_', "-")).collect();
+    similar(&word.replace('_', "-"), known.iter().map(String::as_str)).map(|name| name.replace('-', "_"))
 }
 
 /// The exception of an error in the heights of a solve, in which missing points may be absent nodes.

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use asperity::accuracy::Plan;
 use asperity::contact::Original;
 use asperity::{Control, Settings, Solver, Status, Surface};
-use asperity_maps::warning::Warning;
 use asperity_scene::output::{check_apart, check_free, with_suffix};
 use asperity_scene::processes::Processes;
+use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Asked, Course, Fields, Format, Found, Goal, HalfSpace, Inputs, Opening, Posed, Table, Way, check_finite,
+    Account, Asked, Course, Fields, Format, Found, Goal, HalfSpace, Inputs, Opening, Posed, Table, Told, Way,
+    check_finite, warnings_of_input,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
@@ -18,7 +19,7 @@ use pyo3::types::{PyDict, PyList};
 use serde_json::Value;
 use serde_pyobject::to_pyobject;
 
-use crate::answer::{Scalar, answer, told};
+use crate::answer::{Scalar, answer};
 use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -30,8 +31,9 @@ struct State<T: Scalar> {
     posed: Posed<T>,
     threads: Option<usize>,
     strongest: Option<(usize, usize)>,
+    units: Units,
     /// of the input
-    warnings: Vec<Warning>,
+    warnings: Vec<Told>,
     course: Option<Course<T>>,
     /// of the surface
     seed: Option<u64>,
@@ -96,8 +98,7 @@ impl<T: Scalar> State<T> {
         found: Found<T>,
     ) -> asperity::Result<(Found<T>, Account)> {
         let mut warnings = self.warnings.clone();
-        warnings.extend(found.warnings()?);
-        let warnings = warnings.iter().map(|found| told(found, inputs.length_unit.as_deref())).collect();
+        warnings.extend(found.warnings()?.iter().map(|warning| self.units.told(warning)));
         let account = found.account(command, inputs, self.strongest, warnings)?;
         Ok((found, account))
     }
@@ -239,13 +240,12 @@ pub fn state<T: Scalar>(
 ) -> PyResult<Box<dyn Solves>> {
     let (law, strongest) = (law::<T>(given)?, strongest(given));
     let &Inputs { boundary, modulus, ref adhesion, ref length_unit, .. } = inputs;
+    let units = Units::of_map(length_unit.as_deref());
     let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint: adhesion.wall });
     let make = || {
-        let mut warnings = boundary.warnings(&surface);
-        warnings.extend(Warning::of_modulus(modulus, surface.grid(), length_unit.as_deref()));
-        warnings.extend(Warning::of_law(&law, &surface, modulus));
+        let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);
         let posed = Posed::new(surface, law.into(), half_space, solver, original);
-        State { posed, threads, strongest, warnings, course: None, seed: None, table: None }
+        State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))
 }

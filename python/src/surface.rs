@@ -8,12 +8,12 @@ use asperity_maps::Topography;
 use asperity_maps::io::check_memory;
 use asperity_maps::warning::Warning;
 use asperity_maps::{Form, RowAlignment, ScanAxis, Trend};
+use asperity_scene::units::Units;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_pyobject::to_pyobject;
 
-use crate::answer::told;
 use crate::numbers::{Field, afford};
 use crate::pools::Pool;
 use crate::refusal::refusal;
@@ -209,8 +209,8 @@ pub fn prepare<'py>(
         }
         Ok((map, warnings))
     })?;
-    let unit = prepared.unit.clone();
-    let warnings: Vec<_> = warnings.iter().map(|found| told(found, unit.as_deref())).collect();
+    let units = Units::of_map(prepared.unit.as_deref());
+    let warnings: Vec<_> = warnings.iter().map(|found| units.told(found)).collect();
     let warnings = to_pyobject(py, &warnings)?;
     Ok((map(py, prepared), warnings))
 }

@@ -22,7 +22,7 @@ def test_an_accuracy_chooses_grid_and_tolerance(coarse, caplog):
     found = asperity.solve(coarse, accuracy=0.02, **PRESSED)
     plan = found.plan
     assert "accuracy 0.02 of the area: the shortest wave has 4." in caplog.text
-    assert f"likely {plan.shape[0]} x {plan.shape[1]} nodes, tolerance 1e-03" in caplog.text and "MiB" in caplog.text
+    assert f"likely {plan.shape[0]} x {plan.shape[1]} nodes, tolerance 1e-3" in caplog.text and "MiB" in caplog.text
     assert plan.tolerance == found.report["tolerance"] == 1e-3 and 3.9 < plan.nodes_per_wave < 5
     assert plan.bytes > 8 * np.prod(plan.shape) and plan.seconds > 0
     # the fields are those of the finest grid, on which the old nodes keep their heights

@@ -67,5 +67,6 @@ def test_arrays_outlive_their_solution(rough):
 def test_a_solution_travels_between_processes(rough, law):
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
     other = pickle.loads(pickle.dumps(solution))
-    assert other.report == solution.report and other.gap.tobytes() == solution.gap.tobytes()
+    assert other.report == solution.report and repr(other) == repr(solution)
+    assert other.gap.tobytes() == solution.gap.tobytes()
     assert other.statistics.cluster_sizes.tolist() == solution.statistics.cluster_sizes.tolist()

@@ -44,7 +44,6 @@ mod progress;
 mod report;
 mod scene;
 mod summary;
-mod synonyms;
 mod table;
 mod threads;
 mod units;
@@ -55,7 +54,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use asperity_scene::{csv, journal, numbers, outcome, output, processes, quantity};
+use asperity_scene::{csv, journal, numbers, outcome, output, processes, quantity, synonyms};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 

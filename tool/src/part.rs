@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use asperity::contact::Original;
 use asperity::{Control, Grid, Real, Result, Solution};
-use asperity_scene::Boundary;
+use asperity_scene::{Boundary, Skin, check_part};
 use ndarray::Array2;
 
 use crate::heights::Origin;
@@ -74,15 +74,7 @@ impl Part {
 
     /// Refuses a force, which would be on the images as well.
     pub fn check(&self, control: Control) -> Outcome<()> {
-        match (self.wanted(), control) {
-            (Some(_), Control::Force(_) | Control::Spring { .. }) => Err(format!(
-                "a {} would act on the mirror images of the map as well: give a pressure or a mean gap, or --whole for \
-                 the force on all of them",
-                control.name().replace('-', " ")
-            )
-            .into()),
-            _ => Ok(()),
-        }
+        Ok(check_part(self.wanted().is_some(), control, Skin::Options)?)
     }
 
     /// The solution on the part.

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use asperity::contact::PressureDistribution;
 use asperity::{AdhesionLaw, Solution, Status};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
-use asperity_scene::{Account, Asked, gap_to_write, write_fields};
+use asperity_scene::{Account, Asked, Skin, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{Array2, CowArray};
 use serde_json::json;
@@ -175,8 +175,9 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
     let problem = options.problem();
     options.check_shared(processes)?;
     problem.adhesion.check()?;
-    options.check_branches()?;
-    check_load(problem.surface.beyond.boundary, options.load.control(1.0))?;
+    let asked = options.asked(options.load.control(1.0));
+    asked.check_branches(&options.adhesion.law.to_string(), options.solver.settings().method, Skin::Options)?;
+    check_load(problem.surface.beyond.boundary, asked.control)?;
     let limits = options.colour_limits();
     if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
         return Err(format!("--colour-limits {} {}: the lower one must come first", plain(low), plain(high)).into());

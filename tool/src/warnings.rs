@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use asperity::{Error, Solution, Surface};
-use asperity_maps::Topography;
-use asperity_maps::warning::{Warning, WarningCode};
-use asperity_scene::{Told, warnings_of};
+use asperity_scene::{Told, warnings_of, warnings_of_input};
 use clap::Args;
 
 use crate::adhesion::Adhesion;
@@ -16,7 +14,6 @@ use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_free, with_suffix, write_text};
 use crate::part::Part;
 use crate::printing::complain;
-use crate::quantity::{power_of_length, times_ten_to};
 use crate::units::Units;
 
 /// Whether warnings are errors.
@@ -85,21 +82,9 @@ impl Warnings {
         options: ProblemOptions<'_>,
         units: &Units,
     ) -> Outcome<Self> {
-        let law = adhesion.law::<T>()?;
+        let (law, surface) = (adhesion.law::<T>()?, (surface, origin.converted_from.as_deref()));
         let mut warnings = Self::empty(strictness, units);
-        let mut found = options.surface.beyond.boundary.warnings(surface);
-        let codes = codes_in_file(surface, origin);
-        if !codes.is_empty() {
-            // nothing else can be told of the heights
-            found.retain(|warning| warning.code == WarningCode::Cells);
-        }
-        let modulus = options.surface.modulus();
-        // a unit of pressure that is known says what the modulus is in
-        let bare = units.pressure.is_none();
-        found.extend(Warning::of_modulus(modulus, surface.grid(), origin.unit.as_deref()).filter(|_| bare));
-        found.extend(Warning::of_law(&law, surface, modulus));
-        let told = found.iter().map(|warning| units.told(warning));
-        warnings.add(told.chain(codes).collect())?;
+        warnings.add(warnings_of_input(surface, options.surface.half_space(), &*law, units))?;
         Ok(warnings)
     }
 
@@ -170,22 +155,4 @@ impl Warnings {
     pub fn found(&self) -> &[Told] {
         &self.found
     }
-}
-
-/// The codes for missing points in heights that were converted, as they stand in the file, with its unit.
-fn codes_in_file(surface: &Surface, origin: &Origin) -> Vec<Told> {
-    let Some((unit, power)) = origin.converted_from.as_deref().and_then(|unit| Some((unit, power_of_length(unit)?)))
-    else {
-        return Vec::new();
-    };
-    // codes are whole numbers, of which the conversion may have rounded the last digit
-    let in_file = surface.heights().mapv(|height| {
-        let height = times_ten_to(-power, height);
-        let whole = height.round();
-        if (height - whole).abs() <= f64::EPSILON * whole.abs() { whole } else { height }
-    });
-    let mut codes = Warning::of_topography(&Topography::new(in_file));
-    codes.retain(|warning| warning.code == WarningCode::MissingCode);
-    let units = Units::of_map(Some(unit));
-    codes.iter().map(|warning| units.told(warning)).collect()
 }

@@ -1,14 +1,15 @@
-//! The accuracy that is planned, and the shortfalls of an answer, in words.
+//! What is refused, the accuracy that is planned, and the shortfalls of an answer, in words.
 
-use asperity::Status;
 use asperity::accuracy::{GridError, Plan, Quantity};
 use asperity::stability::Verdict;
+use asperity::{Control, Method, Status};
 
 use crate::account::Account;
 use crate::accuracy::{GIB, Goal};
 use crate::entries::{GridErrors, Reached, Search};
 use crate::half_space::Boundary;
 use crate::numbers::percent;
+use crate::posed::Asked;
 use crate::words::{Skin, worded};
 
 /// The shortfalls of an answer with their remedies, in the words of a skin: each with what was not reached, which is
@@ -82,9 +83,41 @@ fn inaccurate(account: &Account, reached: &Reached) -> String {
 fn unstable(account: &Account) -> Option<String> {
     account.stability.as_ref().filter(|found| found.verdict == Verdict::Unstable)?;
     Some(match &account.departures {
-        None => "the equilibrium is unstable, it would not last: {leave} goes on from it".to_owned(),
+        None => "the equilibrium is unstable, it would not last: {leave=} goes on from it".to_owned(),
         Some(left) => format!("still unstable after {} departures: try another {{initial_gap}}", left.len()),
     })
+}
+
+/// Refuses a force on the original of a mirrored map, which would be on its images as well.
+///
+/// # Errors
+/// The reason, in the words of a skin.
+pub fn check_part(is_original: bool, control: Control, skin: Skin) -> Result<(), String> {
+    if !is_original || !matches!(control, Control::Force(_) | Control::Spring { .. }) {
+        return Ok(());
+    }
+    let text = "would act on the mirror images of the map as well: give a pressure or a mean gap, or {whole=} for the \
+                force on all of them";
+    Err(format!("a {} {}", control.name().replace('-', " "), worded(text, skin)))
+}
+
+impl Asked {
+    /// Refuses both branches of equilibria where there is nothing to be compared.
+    ///
+    /// # Errors
+    /// The reason, in the words of a skin.
+    pub fn check_branches(&self, law: &str, method: Method, skin: Skin) -> Result<(), String> {
+        let reason = match self {
+            Self { other_branch: false, .. } => return Ok(()),
+            _ if law == "none" => "without adhesion there is but one equilibrium",
+            Self { fraction: Some(_), .. } => "each branch has a load of its own for a contact fraction: give a load",
+            Self { goal: Some(_), .. } => "each branch has an accuracy of its own: give one branch",
+            Self { leave: true, .. } => "an equilibrium that is left leads off its branch: give one branch",
+            _ if method == Method::Rey2017 => "rey2017 has one start: take the default method",
+            _ => return Ok(()),
+        };
+        Err(format!("{}: {reason}", worded("{branch=both}", skin)))
+    }
 }
 
 impl Search {

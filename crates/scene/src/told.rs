@@ -14,16 +14,10 @@ pub struct Told {
     pub message: String,
     /// How bad it is, among those of its code.
     #[serde(skip)]
-    severity: f64,
+    pub(crate) severity: f64,
 }
 
 impl Told {
-    /// A warning with its lengths and pressures in words.
-    pub fn new(warning: &Warning, length: impl Fn(f64) -> String, pressure: impl Fn(f64) -> String) -> Self {
-        let message = warning.message_with(length, pressure);
-        Self { code: warning.code.name().to_owned(), message, severity: warning.severity() }
-    }
-
     /// Takes the place of another one of its code, if it is worse; whether it is.
     pub fn replace_if_worse(self, known: &mut Self) -> bool {
         let worse = self.severity > known.severity;

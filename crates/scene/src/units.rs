@@ -34,7 +34,8 @@ impl Units {
 
     /// A warning in these units.
     pub fn told(&self, warning: &Warning) -> Told {
-        Told::new(warning, |value| self.number(value, LENGTH), |value| self.number(value, PRESSURE))
+        let message = warning.message_with(|value| self.number(value, LENGTH), |value| self.number(value, PRESSURE));
+        Told { code: warning.code.name().to_owned(), message, severity: warning.severity() }
     }
 
     /// The unit of a dimension: its own of the SI, or a product of those that are known.

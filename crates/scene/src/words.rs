@@ -13,7 +13,8 @@ pub enum Skin {
 const KEYWORDS: [(&str, &str); 1] = [("initial_gap", "start")];
 
 /// A text with the names of a skin in the place of the keys in braces: `{mean_gap}` is `--mean-gap` or `mean_gap`,
-/// with a value `{precision=f64}` is `--precision f64` or `precision='f64'`, and of a command `{cycle:mean_gaps}` is
+/// with a value `{precision=f64}` is `--precision f64` or `precision='f64'`, a switch `{whole=}` is `--whole` or
+/// `whole=True`, and of a command `{cycle:mean_gaps}` is
 /// `asperity cycle --mean-gaps` or `asperity.cycle(mean_gaps=...)`.
 pub fn worded(text: &str, skin: Skin) -> String {
     // between two braces, every other piece
@@ -25,12 +26,15 @@ pub fn worded(text: &str, skin: Skin) -> String {
 fn named(key: &str, skin: Skin) -> String {
     let (command, key) = key.split_once(':').map_or((None, key), |(command, key)| (Some(command), key));
     let (key, value) = key.split_once('=').map_or((key, None), |(key, value)| (key, Some(value)));
-    if skin == Skin::Options {
-        let words =
-            [command.map(|command| format!("asperity {command}")), Some(format!("--{}", key.replace('_', "-")))];
-        return words.into_iter().flatten().chain(value.map(str::to_owned)).collect::<Vec<_>>().join(" ");
-    }
     let keyword = KEYWORDS.iter().find(|(option, _)| *option == key).map_or(key, |(_, keyword)| keyword);
-    let keyword = value.map_or(keyword.to_owned(), |value| format!("{keyword}='{value}'"));
-    command.map_or(keyword.clone(), |command| format!("asperity.{command}({keyword}=...)"))
+    let option = key.replace('_', "-");
+    match (skin, command, value) {
+        (Skin::Options, Some(command), _) => format!("asperity {command} --{option}"),
+        (Skin::Options, None, Some(value)) => format!("--{option} {value}").trim_end().to_owned(),
+        (Skin::Options, None, None) => format!("--{option}"),
+        (Skin::Keywords, Some(command), _) => format!("asperity.{command}({keyword}=...)"),
+        (Skin::Keywords, None, Some("")) => format!("{keyword}=True"),
+        (Skin::Keywords, None, Some(value)) => format!("{keyword}='{value}'"),
+        (Skin::Keywords, None, None) => keyword.to_owned(),
+    }
 }

@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use asperity::accuracy::Quantity;
 use asperity::path::PathSettings;
-use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver};
+use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver, Status};
+use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, Asked, Boundary, Course, Found, Goal, HalfSpace, Inputs, Posed, Skin, Wall, Way, check_finite,
-    worded,
+    rows, shortfalls, worded,
 };
 use serde_json::{Value, json};
 
@@ -185,4 +186,52 @@ fn fields_that_are_not_finite_are_refused() {
     let told = worded(&told, Skin::Keywords);
     assert!(told.starts_with("the solve ran away") && told.contains("the pressure is not finite at 1 of 1024 nodes"));
     assert!(told.ends_with("use another start, or units in which the numbers are moderate"), "{told}");
+}
+
+#[test]
+fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_skin() {
+    let (_, account) = solved(&Asked::under(Control::MeanPressure(0.01)));
+    assert!(shortfalls(&account, Skin::Options).is_empty());
+    let iterations = account.iterations;
+    for (status, relative_error, load_error, errors, remedy) in [
+        (Status::Stalled, 1.2e-14, 1.0, "load error 1.0e0", "try another {initial_gap}, or hold a {mean_gap}"),
+        (Status::Stalled, 1e-3, 1.0, "error 1.0e-3 and load error 1.0e0", "use a larger {tolerance}, or another"),
+        (Status::Stalled, 1e-3, 0.0, "error 1.0e-3", "use a larger {tolerance}, or another {initial_gap}"),
+        (Status::IterationLimit, 1e-3, 0.0, "error 1.0e-3", "raise {max_iterations}, or give a gap"),
+        (Status::Detached, 1e-9, 0.0, "error 1.0e-9", "follow the branch by {cycle:mean_gaps}"),
+    ] {
+        let account = Account { status, relative_error, load_error, ..account.clone() };
+        for skin in [Skin::Options, Skin::Keywords] {
+            let told = shortfalls(&account, skin);
+            let begin = format!("not converged ({status}): {errors} after {iterations} iterations, tolerance 1e-6; ");
+            assert!(told.len() == 1 && told[0].0 == "convergence" && told[0].1.starts_with(&begin), "{told:?}");
+            assert!(told[0].1.contains(&worded(remedy, skin)), "{told:?}");
+        }
+    }
+    let text = "raise {tolerance}, give {initial_gap}, use {precision=f64} or {whole=}, or {cycle:mean_gaps}";
+    let options =
+        "raise --tolerance, give --initial-gap, use --precision f64 or --whole, or asperity cycle --mean-gaps";
+    assert_eq!(worded(text, Skin::Options), options);
+    let keywords = "raise tolerance, give start, use precision='f64' or whole=True, or asperity.cycle(mean_gaps=...)";
+    assert_eq!(worded(text, Skin::Keywords), keywords);
+}
+
+#[test]
+fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_they_say_nothing() {
+    let (_, account) = solved(&Asked::under(Control::MeanPressure(0.01)));
+    let summary = |solves: &[&Account], unit| rows(solves, &Units::of_map(unit), Skin::Options);
+    let text = |rows: &[(String, Vec<String>)], name: &str| {
+        rows.iter().find(|(row, _)| row == name).map(|(_, texts)| texts.join(", "))
+    };
+    let (bare, metres) = (summary(&[&account], None), summary(&[&account], Some("m")));
+    assert_eq!(
+        (text(&bare, "mean pressure"), text(&bare, "side lengths")),
+        (Some("0.01".into()), Some("1 x 1".into()))
+    );
+    assert_eq!(text(&metres, "side lengths"), Some("1 m x 1 m".to_owned()));
+    assert!(text(&metres, "mean gap").unwrap().ends_with(" mm") && text(&metres, "branch").is_some());
+    assert_eq!((text(&bare, "wanted"), text(&bare, "stability"), text(&bare, "approach")), (None, None, None));
+    let (_, searched) = solved(&Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) });
+    let both = summary(&[&account, &searched], None);
+    assert!(text(&both, "wanted").unwrap().starts_with(", 20.0 %, after "), "{both:?}");
 }

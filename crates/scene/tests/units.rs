@@ -1,9 +1,10 @@
-//! Quantities have the bits of their numbers in the SI, and figures their units.
+//! Quantities have the bits of their numbers in the SI, figures their units, and names that are none what they mean.
 
 use asperity_scene::quantity::{
     ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH,
     power_of_length, times_ten_to,
 };
+use asperity_scene::synonyms::{SYNONYMS, is_same, meant, similar};
 use asperity_scene::units::Units;
 
 #[test]
@@ -94,4 +95,33 @@ fn numbers_and_headers_have_their_units() {
         ["control_value [N]", "mean_gap [m]", "elastic_energy [J/m2]", "perimeter [m]", "status"]
     );
     assert_eq!(Units::of_map(Some("m")).columns(&names, "spring", false), names);
+}
+
+#[test]
+fn names_mean_what_a_command_has() {
+    let (one, many) = (["law", "mean-pressure", "approach"], ["law", "mean-pressures", "approaches"]);
+    for (name, found) in [
+        ("pressure", Some(1)),
+        ("pressures", Some(1)),
+        ("mean_pressures", Some(1)),
+        ("Adhesion", Some(0)),
+        ("approaches", Some(2)),
+        ("indentation", Some(2)),
+        ("poisson", None),
+        ("law-table", None),
+    ] {
+        assert_eq!(meant(name, one), found.map(|found| one[found]), "{name}");
+    }
+    for (name, found) in [("load", 1), ("mean-pressure", 1), ("approach", 2)] {
+        assert_eq!(meant(name, many), Some(many[found]), "{name}");
+    }
+    assert_eq!(similar("mean-gasp", ["mean-gaps", "law"]), Some("mean-gaps"));
+}
+
+#[test]
+fn no_word_has_two_meanings() {
+    let words: Vec<_> = SYNONYMS.iter().flat_map(|(words, _)| words.split(' ')).collect();
+    for (k, word) in words.iter().enumerate() {
+        assert!(words[..k].iter().all(|other| !is_same(other, word)), "{word}");
+    }
 }

@@ -4,36 +4,12 @@ use asperity::{Control, Solver};
 use asperity_scene::{Asked, Branches, Inputs, Wall};
 
 use super::Options;
-use crate::adhesion::Law;
-use crate::options::Iteration;
-use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::report;
 use crate::scene::Scene;
 use crate::units::Units;
 
 impl Options {
-    /// Whether both branches of equilibria are asked for.
-    fn wants_both(&self) -> bool {
-        self.solver.branch == Some(Branches::Both)
-    }
-
-    /// Refuses both branches where there is nothing to be compared.
-    pub fn check_branches(&self) -> Outcome<()> {
-        let reason = match self {
-            _ if !self.wants_both() => return Ok(()),
-            _ if self.adhesion.law == Law::None => "without adhesion there is but one equilibrium",
-            _ if self.load.contact_fraction.is_some() => {
-                "each branch has a load of its own for a contact fraction: give a load"
-            }
-            _ if self.accuracy.accuracy.is_some() => "each branch has an accuracy of its own: give one branch",
-            _ if self.leave => "an equilibrium that is left leads off its branch: give one branch",
-            _ if self.solver.method == Iteration::Rey2017 => "rey2017 has one start: take the default method",
-            _ => return Ok(()),
-        };
-        Err(format!("--branch both: {reason}").into())
-    }
-
     /// The solver that the options choose.
     pub fn solver(&self) -> Solver<Wall> {
         Solver { settings: self.solver.settings(), constraint: self.adhesion.wall }
@@ -44,7 +20,7 @@ impl Options {
         Asked {
             fraction: self.load.contact_fraction,
             nested: (self.nested || self.no_nested).then_some(self.nested),
-            other_branch: self.wants_both(),
+            other_branch: self.solver.branch == Some(Branches::Both),
             stability: self.stability || self.leave,
             leave: self.leave,
             stiffness: self.stiffness,
