@@ -44,7 +44,7 @@ struct State<T: Scalar> {
 pub type Begin<'py> = Option<Field<'py>>;
 
 /// The file of a table as Python passes it: its path, the folder for fields, whether to start over, the gaps and
-/// tractions and the works of adhesion of the law, and whether the law has no name of its own.
+/// tractions and the works of adhesion of the law, and whether it is another law than those of its name.
 pub type File<'py> = (PathBuf, Option<PathBuf>, bool, Option<Field<'py>>, Option<Field<'py>>, bool);
 
 /// The names of the columns of a table, and the cells of its rows.
@@ -125,38 +125,31 @@ impl<T: Scalar> Solves for State<T> {
         let course = Course::new(way, stiffness);
         let names = course.columns();
         self.seed = seed;
-        let Some((out, fields, force, law_table, works, is_own)) = file else {
+        let Some((out, fields, force, law_table, works, law_differs)) = file else {
             self.course = Some(course.starting_from(start.map(field::<T>)));
             return Ok((names, PyList::empty(py).into_any()));
         };
         let [start, law_table, works] =
             [start, law_table, works].map(|given| given.map(|given| given.as_array().to_owned()));
         let open = || {
-            let surface = self.posed.surface()?.clone();
             let given = Fields {
-                surface: &surface,
+                surface: self.posed.surface()?,
                 law_table: law_table.as_deref(),
                 works: works.as_deref(),
                 start: start.as_deref().filter(|_| at.inputs.initial_gap.is_some()),
+                law_differs,
             };
-            let (solver, problem) = self.posed.parts()?;
-            let (branch, nodes) = (solver.settings.branch, *problem.operator().grid());
-            let mut identity = at.inputs.identity(branch, "none", given);
-            if is_own {
-                identity.insert("law_values".to_owned(), self.posed.fingerprint().to_string().into());
-            }
+            let identity = self.posed.identity(at.inputs, "none", given);
             course.check(&mut self.posed)?;
+            let nodes = *self.posed.parts()?.1.operator().grid();
             let format = Format::of(&out).ok_or("out ends in neither .csv nor .jsonl: rename it")?;
             check_apart(&out, at.inputs.heights.as_deref().map(Path::new))?;
             let beside = [".scene.toml", ".warnings.txt"].map(|suffix| with_suffix(&out, suffix)).to_vec();
-            for file in &beside {
-                check_free(file, force || out.exists(), "--out")?;
-            }
+            beside.iter().try_for_each(|file| check_free(file, force || out.exists(), "--out"))?;
             let header = names.iter().map(|&name| name.to_owned()).collect();
-            let (fields, processes) = (fields.as_deref(), Processes::start()?);
-            let opening = Opening { out: &out, format, header, fields, force, waits: false, beside, nodes };
-            let (mut table, saved) = Table::open(&opening, Some(identity), &course)?;
-            let course = table.resume(course, saved, start, &processes)?;
+            let opening = Opening { out, format, header, fields, force, waits: false, beside, nodes };
+            let processes = Processes::start()?;
+            let (table, course) = Table::open(opening, Some(identity), course, start, &processes)?;
             let rows = table.read(&processes)?;
             Ok((course, table, processes, rows))
         };

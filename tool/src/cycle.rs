@@ -107,11 +107,11 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
         out,
         format: Format::Csv,
         fields: options.fields.as_deref(),
-        stiffness: false,
         units,
-        manner: &options.manner,
         scene,
         processes,
+        manner: &options.manner,
+        stiffness: false,
     };
     table.fill(options)
 }

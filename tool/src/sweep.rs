@@ -90,13 +90,30 @@ pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<b
         out,
         format,
         fields: options.fields.as_deref(),
-        stiffness: options.stiffness,
         units,
-        manner: &options.manner,
         scene,
         processes,
+        manner: &options.manner,
+        stiffness: options.stiffness,
     };
     table.fill(options)
+}
+
+impl Options {
+    /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
+    fn control(&self) -> Control {
+        match (self.fractions.values(), self.adhesion.law, self.surface.beyond.boundary) {
+            (None, _, _) => self.loads.control(0.0),
+            (Some(_), Law::None, _) => Control::MeanPressure(0.0),
+            (Some(_), _, Boundary::Periodic) => Control::MeanGap(0.0),
+            (Some(_), _, Boundary::Free) => Control::Approach(0.0),
+        }
+    }
+
+    fn format(&self) -> Outcome<Format> {
+        let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it, or give --format");
+        Ok(self.format.or_else(|| Format::of(&self.out)).ok_or_else(refused)?)
+    }
 }
 
 impl Fill for Options {
@@ -127,22 +144,5 @@ impl Fill for Options {
             Some(_) => "or leave out the contact fractions past which the contact jumps",
             None => "use a larger --tolerance or finer steps, or less tension where they are detached",
         }))
-    }
-}
-
-impl Options {
-    /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
-    fn control(&self) -> Control {
-        match (self.fractions.values(), self.adhesion.law, self.surface.beyond.boundary) {
-            (None, _, _) => self.loads.control(0.0),
-            (Some(_), Law::None, _) => Control::MeanPressure(0.0),
-            (Some(_), _, Boundary::Periodic) => Control::MeanGap(0.0),
-            (Some(_), _, Boundary::Free) => Control::Approach(0.0),
-        }
-    }
-
-    fn format(&self) -> Outcome<Format> {
-        let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it, or give --format");
-        Ok(self.format.or_else(|| Format::of(&self.out)).ok_or_else(refused)?)
     }
 }

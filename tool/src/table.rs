@@ -15,7 +15,7 @@ use crate::interruption;
 use crate::numbers::percent;
 use crate::options::{Given, Precision, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::output::check_apart;
+use crate::output::{OutputFile, check_apart};
 use crate::part::Part;
 use crate::printing::{Printing, complain, name};
 use crate::processes::{Processes, WHOLE};
@@ -52,11 +52,11 @@ pub struct TableOptions<'a> {
     pub format: Format,
     /// The folder for the fields of the rows
     pub fields: Option<&'a Path>,
-    pub stiffness: bool,
     pub units: &'a UnitOptions,
-    pub manner: &'a Manner,
     pub scene: &'a Scene,
     pub processes: &'a Processes,
+    pub manner: &'a Manner,
+    pub stiffness: bool,
 }
 
 /// What a command does with its table in the precision of its solves; whether all rows converged.
@@ -114,10 +114,10 @@ impl<'a> TableOptions<'a> {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
         let opening = Opening {
-            out,
+            out: out.to_owned(),
             format: self.format,
             header: units.columns(&course.columns(), self.control.name(), grid.is_line()),
-            fields: self.fields,
+            fields: self.fields.map(Path::to_owned),
             force,
             // a study has the lock of its case: a former run of that is about to end
             waits: interruption::is_case(),
@@ -129,36 +129,36 @@ impl<'a> TableOptions<'a> {
         let mut opened = None;
         processes.first(|| {
             let Some((surface, adhesion)) = whole else { return Ok(()) };
-            let mut warnings = Warnings::of_input::<T>(strictness, (&surface, &origin), &adhesion, problem, &units)?;
+            let warnings = Warnings::of_input::<T>(strictness, (&surface, &origin), &adhesion, problem, &units)?;
             check_apart(out, problem.files().chain(problem.solver.initial_gap.as_deref()))?;
             scene.check_beside(out, force || out.exists())?;
             warnings::check_beside(out, force || out.exists())?;
-            let scene_file = scene.written_beside(out)?;
             let fields = Fields {
                 surface: &surface,
                 law_table: adhesion.table.as_deref(),
                 works: adhesion.works.as_ref().map(|works| &*works.rows),
                 start: first.as_deref(),
+                law_differs: false,
             };
-            let identity = inputs.identity(problem.solver.settings().branch, &units.of_table(), fields);
-            let (rows, saved) = asperity_scene::Table::open(&opening, Some(identity), &course)?;
-            scene_file.commit()?;
-            warnings.keep_beside(out, rows.rows() > 0)?;
-            opened = Some((rows, saved, warnings));
+            let identity = posed.identity(&inputs, &units.of_table(), fields);
+            opened = Some((identity, scene.written_beside(out)?, warnings));
             Ok(())
         })?;
-        let opened = match opened {
-            Some(opened) => Ok(opened),
-            None => asperity_scene::Table::open(&opening, None, &course)
-                .and_then(|(rows, saved)| Ok((rows, saved, Warnings::none(strictness, &units, true)?))),
-        };
-        let (mut rows, saved, warnings) = processes.agree(opened)?;
-        if rows.rows() > 0 {
-            let of = rows.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
-            printing.say(&format!("{} has {}{of} rows already", name(out), rows.rows()));
-        }
         let start = start.or_else(|| problem.start_afar(&surface, &controls));
-        let course = rows.resume(course, saved, start, processes)?;
+        let (identity, scene_file, mut warnings) = match opened {
+            Some((identity, scene_file, warnings)) => (Some(identity), Some(scene_file), warnings),
+            None => (None, None, Warnings::none(strictness, &units, true)?),
+        };
+        let (rows, course) = asperity_scene::Table::open(opening, identity, course, start, processes)?;
+        let count = rows.rows();
+        processes.first(|| {
+            scene_file.map_or(Ok(()), OutputFile::commit)?;
+            warnings.keep_beside(out, count > 0)
+        })?;
+        if count > 0 {
+            let of = rows.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
+            printing.say(&format!("{} has {count}{of} rows already", name(out)));
+        }
         let table = Table { options: self, units, part, inputs, seed: origin.seed, posed, course, rows, warnings };
         table.stands();
         Ok(table)

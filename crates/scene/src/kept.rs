@@ -15,12 +15,13 @@ use crate::scalar::Scalar;
 const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 
 /// The folder of the fields, if they are kept.
-pub struct Kept(pub Option<PathBuf>);
+#[derive(Clone, Copy)]
+pub struct Kept<'a>(pub Option<&'a Path>);
 
-impl Kept {
+impl Kept<'_> {
     /// Refuses to replace fields, unless they may be, or belong to the rows of a table that is there.
-    pub fn check(&self, force: bool, table: &Path) -> Outcome<()> {
-        let Some(folder) = &self.0 else { return Ok(()) };
+    pub fn check(self, force: bool, table: &Path) -> Outcome<()> {
+        let Some(folder) = self.0 else { return Ok(()) };
         // only a trial
         drop(OutputFolder::create(folder, &[], true)?);
         // the fields first: a run that starts at the same time makes its table before them
@@ -29,13 +30,13 @@ impl Kept {
     }
 
     /// Removes the fields of all rows, of a run that starts over.
-    pub fn clear(&self) {
-        self.0.as_deref().map(present).into_iter().flatten().for_each(remove);
+    pub fn clear(self) {
+        self.0.map(present).into_iter().flatten().for_each(remove);
     }
 
     /// Writes the fields of a row, the first of which is 1; each process its rows.
-    pub fn write<T: Scalar>(&self, row: usize, solution: &Solution<T>, processes: &Processes) -> Outcome<()> {
-        let Some(out) = &self.0 else { return Ok(()) };
+    pub fn write<T: Scalar>(self, row: usize, solution: &Solution<T>, processes: &Processes) -> Outcome<()> {
+        let Some(out) = self.0 else { return Ok(()) };
         let create = || Ok(OutputFolder::create(out, &[], true)?);
         let folder = processes.agree(processes.is_first().then(create).transpose())?;
         let gap = gap_to_write(solution);
@@ -46,8 +47,8 @@ impl Kept {
     }
 
     /// Removes the fields of a row.
-    pub fn forget(&self, row: usize) {
-        self.0.iter().flat_map(|folder| FIELDS.map(|name| folder.join(file(name, row)))).for_each(remove);
+    pub fn forget(self, row: usize) {
+        self.0.into_iter().flat_map(|folder| FIELDS.map(|name| folder.join(file(name, row)))).for_each(remove);
     }
 }
 

@@ -15,13 +15,13 @@ use asperity::{
 };
 use ndarray::Array2;
 
+use crate::account::Inputs;
 use crate::accuracy::{Goal, planned};
 use crate::compiled::compiled;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
 use crate::half_space::{Boundary, HalfSpace};
-use crate::hash::Hash;
-use crate::identity::fingerprint;
+use crate::identity::{Fields, Identity, identity};
 use crate::wall::Wall;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
@@ -129,9 +129,9 @@ impl<T: Real> Posed<T> {
         if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
     }
 
-    /// The fingerprint of the law, by its values at some hundred gaps.
-    pub fn fingerprint(&self) -> Hash {
-        fingerprint(&*self.law)
+    /// The identity of the problem, with the units of a table: all that its solutions depend on beside the loads.
+    pub fn identity(&self, inputs: &Inputs, units: &str, given: Fields<'_>) -> Identity {
+        identity(inputs, self.solver.settings.branch, units, given, &*self.law)
     }
 
     /// The boundary of the half-space.

@@ -31,15 +31,15 @@ pub enum Format {
 }
 
 /// The opening of a table.
-pub struct Opening<'a> {
+pub struct Opening {
     /// The file.
-    pub out: &'a Path,
+    pub out: PathBuf,
     /// Its format.
     pub format: Format,
     /// The names of the columns, with their units where these are known.
     pub header: Vec<String>,
     /// The folder for the fields of the rows, if they are kept.
-    pub fields: Option<&'a Path>,
+    pub fields: Option<PathBuf>,
     /// Whether to start over, and to replace files that are there.
     pub force: bool,
     /// Whether to wait for another run that writes there.
@@ -54,14 +54,10 @@ pub struct Opening<'a> {
 ///
 /// One that ends without a row, as by an error at the first one, leaves no file behind that it made.
 pub struct Table {
-    out: PathBuf,
-    format: Format,
-    header: String,
+    opening: Opening,
     names: Vec<&'static str>,
     identity: Identity,
     loads: Option<Vec<f64>>,
-    nodes: Grid,
-    kept: Kept,
     journal: Option<Journal>,
     rows: usize,
     unconverged: usize,
@@ -104,85 +100,88 @@ impl Format {
 }
 
 impl Table {
-    /// Opens the table of a course whose problem has an identity, and returns it with the state from which an
-    /// interrupted run goes on. The first of several processes does; another one, without an identity, reads after it
-    /// what it has open.
+    /// Opens the table of a course whose problem has an identity, which the first of several processes knows, and returns
+    /// it with the course from where its last row leads, or from a start.
     ///
     /// # Errors
     /// A table of another run, one that was changed or is being written, and files that are not to be replaced or
     /// cannot be written.
     pub fn open<T: Scalar>(
-        opening: &Opening<'_>,
+        opening: Opening,
         identity: Option<Identity>,
-        course: &Course<T>,
-    ) -> Outcome<(Self, Saved)> {
-        let &Opening { out, format, ref header, fields, force, waits, ref beside, nodes } = opening;
-        let mut table = Self {
-            out: out.to_owned(),
-            format,
-            header: if format == Format::Csv { csv::header(header) + "\n" } else { String::new() },
-            names: course.columns(),
-            identity: Identity::new(),
-            loads: course.loads(),
-            nodes,
-            kept: Kept(fields.map(Path::to_owned)),
-            journal: None,
-            rows: 0,
-            unconverged: 0,
-            had_event: false,
-            made: Vec::new(),
-        };
-        let Some(identity) = identity else {
-            let Seen { saved, rows, unconverged } = Seen::read(out)?;
-            (table.rows, table.unconverged) = (rows, unconverged);
-            return Ok((table, saved));
-        };
-        table.kept.check(force, out)?;
-        table.identity = identity;
-        table.identity.extend(course.identity());
-        let is_kept = if fields.is_some() { "kept" } else { "left out" };
-        table.identity.insert("fields".to_owned(), is_kept.into());
-        if table.loads.is_some() {
-            table.identity.insert("format".to_owned(), format.name().into());
+        course: Course<T>,
+        start: Option<Array2<f64>>,
+        processes: &Processes,
+    ) -> Outcome<(Self, Course<T>)> {
+        let mut identity = identity.unwrap_or_default();
+        identity.extend(course.identity());
+        identity.insert("fields".to_owned(), if opening.fields.is_some() { "kept" } else { "left out" }.into());
+        let loads = course.loads();
+        if loads.is_some() {
+            identity.insert("format".to_owned(), opening.format.name().into());
         }
-        let files = [state_path(out)].into_iter().chain(beside.clone()).chain([out.to_owned()]);
-        table.made = files.filter(|path| !path.exists()).collect();
-        let saved = table.lock(force, waits)?;
-        if table.rows == 0 {
-            table.kept.clear();
-            remove(if force { beside } else { &[] });
+        let (names, journal, made) = (course.columns(), None, Vec::new());
+        let mut table =
+            Self { opening, names, identity, loads, journal, rows: 0, unconverged: 0, had_event: false, made };
+        let begun = processes.agree(processes.is_first().then(|| table.begin()).transpose())?;
+        // what the first process has open by now
+        let saved = processes.agree(begun.map_or_else(|| table.see(), Ok))?;
+        let course = table.resume(course, saved, start, processes)?;
+        Ok((table, course))
+    }
+
+    /// Begins the table, or goes on with it, in the first process.
+    fn begin(&mut self) -> Outcome<Saved> {
+        let &Opening { ref out, force, waits, ref beside, .. } = &self.opening;
+        self.kept().check(force, out)?;
+        let files = [state_path(out)].into_iter().chain(beside.clone()).chain([out.clone()]);
+        self.made = files.filter(|path| !path.exists()).collect();
+        let saved = self.lock(force, waits)?;
+        if self.rows == 0 {
+            self.kept().clear();
+            remove(if force { &self.opening.beside } else { &[] });
         }
-        Ok((table, saved))
+        Ok(saved)
+    }
+
+    /// The table as a process sees it that does not have its file.
+    fn see(&mut self) -> Outcome<Saved> {
+        let Seen { saved, rows, unconverged } = Seen::read(&self.opening.out)?;
+        (self.rows, self.unconverged) = (rows, unconverged);
+        Ok(saved)
     }
 
     fn lock(&mut self, force: bool, waits: bool) -> Outcome<Saved> {
+        let Opening { out, format, header, .. } = &self.opening;
+        let header = if *format == Format::Csv { csv::header(header) + "\n" } else { String::new() };
         let (identity, loads) = (self.identity.clone(), self.loads.as_deref());
-        let (journal, saved) = Journal::open(&self.out, &self.header, identity, loads, (force, waits))?;
+        let (journal, saved) = Journal::open(out, &header, identity, loads, (force, waits))?;
         (self.rows, self.unconverged) = (journal.rows(), journal.unconverged());
         self.journal = Some(journal);
         Ok(saved)
     }
 
-    /// The course of the rows: from where the last one leads, whose cells tell whether a leg of a cycle ends there, or
-    /// from a start.
-    ///
-    /// # Errors
-    /// A table that cannot be read.
-    pub fn resume<T: Scalar>(
+    /// The folder of the fields.
+    fn kept(&self) -> Kept<'_> {
+        Kept(self.opening.fields.as_deref())
+    }
+
+    /// The course of the rows: the cells of the last one tell whether a leg of a cycle ends there.
+    fn resume<T: Scalar>(
         &mut self,
         course: Course<T>,
         Saved { fields, values }: Saved,
         start: Option<Array2<f64>>,
         processes: &Processes,
     ) -> Outcome<Course<T>> {
-        let text = self.text(processes)?;
+        let (text, nodes) = (self.text(processes)?, self.opening.nodes);
         if self.rows == 0 {
             return Ok(course.starting_from(start.map(T::field)));
         }
-        let last = self.format.parsed(&self.names, text.lines().next_back().unwrap_or_default());
+        let last = self.opening.format.parsed(&self.names, text.lines().next_back().unwrap_or_default());
         self.had_event = !last["event"].is_null();
-        let own = |field: Array2<f64>| match self.nodes.is_shared() {
-            true => field.slice_axis(Axis(0), Slice::from(self.nodes.rows())).to_owned(),
+        let own = |field: Array2<f64>| match nodes.is_shared() {
+            true => field.slice_axis(Axis(0), Slice::from(nodes.rows())).to_owned(),
             false => field,
         };
         let fields = fields.into_iter().map(own).map(T::field).collect();
@@ -203,21 +202,21 @@ impl Table {
         row: &Row,
         processes: &Processes,
     ) -> Outcome<()> {
-        self.kept.write(self.rows + 1, &*found.part()?, processes)?;
+        self.kept().write(self.rows + 1, &*found.part()?, processes)?;
         let PathCheckpoint { fields, values } = course.place();
-        let whole: Vec<_> = fields.iter().map(|field| self.nodes.gathered(field)).collect();
+        let whole: Vec<_> = fields.iter().map(|field| self.opening.nodes.gathered(field)).collect();
         let load = row.wanted_contact_fraction.unwrap_or(row.account.control_value);
         let converged = row.account.status == Status::Converged && row.reached != Some(false);
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
             let fields: Vec<_> = whole.iter().flatten().map(|field| field.view()).collect();
-            let text = self.format.line(&row.cells(&self.names));
+            let text = self.opening.format.line(&row.cells(&self.names));
             journal.append(&Line { text: &text, load, converged, fields: &fields, values })
         })?;
         if let Some(step) = &row.step {
             let has_event = step.event.is_some();
             if !self.had_event && !has_event && self.journal.is_some() {
-                self.kept.forget(self.rows);
+                self.kept().forget(self.rows);
             }
             self.had_event = has_event;
         }
@@ -248,7 +247,7 @@ impl Table {
             return Ok(());
         }
         (self.journal, self.rows) = (None, rows);
-        Err(Error::file(&self.out, "has rows of another run by now: make the same call again").into())
+        Err(Error::file(&self.opening.out, "has rows of another run by now: make the same call again").into())
     }
 
     /// The number of rows.
@@ -272,8 +271,8 @@ impl Table {
     /// A file that cannot be read.
     pub fn read(&self, processes: &Processes) -> Outcome<Vec<Value>> {
         let text = self.text(processes)?;
-        let lines = text.lines().skip(usize::from(self.format == Format::Csv));
-        Ok(lines.map(|line| self.format.parsed(&self.names, line)).collect())
+        let lines = text.lines().skip(usize::from(self.opening.format == Format::Csv));
+        Ok(lines.map(|line| self.opening.format.parsed(&self.names, line)).collect())
     }
 
     fn text(&self, processes: &Processes) -> Outcome<String> {
