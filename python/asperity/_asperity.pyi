@@ -34,6 +34,7 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
+    "meant",
     "prepare",
     "pressure_distribution",
     "read",
@@ -130,8 +131,7 @@ class Tabulated(Law):
     @property
     def source(self) -> str | None: ...
     @staticmethod
-    def meant(word: str, known: Sequence[str]) -> str | None: ...
-def read(path: str | PathLike[str]) -> Tabulated: ...
+    def read(path: str | PathLike[str]) -> Tabulated: ...
     def __getnewargs__(self) -> tuple[_Field, _Field, str | None]: ...
 
 @final

@@ -381,6 +381,8 @@ def test_threads_are_as_many_as_in_the_tool(rough):
         (lambda h: asperity.cycle(h, modulus=1.0, gap=[1.0]), "has no keyword gap: did you mean mean_gaps"),
         (lambda h: asperity.solve(h, E=1.0, mean_gap=1.0), "did you mean modulus"),
         (lambda h: asperity.solve(h, modulus=1.0, mean_gap=1.0, tolerence=1.0), "did you mean tolerance"),
+        (lambda h: asperity.solve(h, modulus=1.0, mean_gap=1.0, initial_gap=h), "did you mean start"),
+        (lambda h: asperity.sweep(h, modulus=1.0, indentation=[1.0]), "did you mean approaches"),
         (lambda h: asperity.prepare(h, detrand="plane"), r"prepare\(\) has no keyword detrand: did you mean detrend"),
         (lambda h: asperity.Exponential(work_of_adhesion=1.0, rho=1.0), r"Exponential\(\) .* rho: did you mean range"),
         (lambda h: asperity.VanDerWaals(A=1.0, range=1.0), r"VanDerWaals\(\) has no keyword A: did you mean hamaker"),
