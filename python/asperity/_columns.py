@@ -68,7 +68,7 @@ class Rows(Iterator[T]):
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns of the tool's table by name, as ``pandas.DataFrame`` takes them; solves what is left.
 
-        The rows that a file had before come first.
+        The rows that a file had come first; what is not finite in them is NaN.
 
         Numbers that do not apply are NaN. An event that did not happen is None, and so is the part of a map that was not
         mirrored.

@@ -158,12 +158,13 @@ def cycle(
     smooth : bool
         Whether jumps of the law's traction are smoothed by what the grid resolves.
     out : str or path, optional
-        File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs: a row is appended as it comes.
-        The same call goes on with a file that is there, and ends with the
-        same bytes as one that was not interrupted; beside the file it keeps ``.state.npz`` for that. Rows that the file
-        has are in ``columns``, and are not solved again: iterating gives the states behind them.
+        File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
+        comes. The same call goes on with a file that is there, and ends with the same bytes as one that was not
+        interrupted; for that it keeps ``.state.npz`` beside the file. Rows that the file has are in ``columns`` and are
+        not solved again: iterating gives the states behind them.
     fields : str or path, optional
-        Folder for gap, pressure and contact pressure of the rows at the jumps, ``gap-0001.npy`` and so on; with ``out``.
+        Folder for gap, pressure and contact pressure at the jumps and of the last row, ``gap-0001.npy`` and so on; with
+        ``out``.
     force : bool
         Starts over, and replaces the files that are there.
 
@@ -208,4 +209,5 @@ def cycle(
         threads=threads,
         whole=whole,
     )
-    return Cycle(scene, loads, start, observe, path=(steps, smallest_step, imbalance, smooth), file=(out, fields, force))
+    path = (steps, smallest_step, imbalance, smooth)
+    return Cycle(scene, loads, start, observe, path=path, file=(out, fields, force))

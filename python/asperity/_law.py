@@ -39,7 +39,7 @@ def entries(law: Any, wall: str) -> dict[str, Any]:
 
 
 def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:
-    """Gaps and tractions and the works of adhesion of a law, as far as it has them, and whether it differs from others of its name."""
+    """Gaps and tractions and the works of adhesion of a law, and whether it may differ from others of its name."""
     law, _, works = _unwrapped(law)
     table = np.column_stack([law.gaps, law.tractions]) if isinstance(law, _asperity.Tabulated) else None
     own = law is not None and not isinstance(law, _asperity.Law)
