@@ -243,7 +243,9 @@ class Problem:
         start: str | _Field | None,
         stiffness: bool,
         path: tuple[int, float, float, bool] | None,
-    ) -> list[str]: ...
+        seed: int | None,
+        table: tuple[str, str | None, bool, _Field | None, _Field | None, bool] | None,
+    ) -> tuple[list[str], list[list[Any]]]: ...
     def next(self, observe: Callable[[Iteration], object] | None) -> dict[str, Any] | None: ...
     def stability(
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float

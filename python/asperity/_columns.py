@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _law
 from ._control import Load
 from ._scene import Scene
 from ._solution import Solution
+
+#: A file for the rows, a folder for fields, and whether to start over.
+File = tuple[str | os.PathLike[str] | None, str | os.PathLike[str] | None, bool]
 
 T = TypeVar("T")
 R = TypeVar("R", bound="Rows[Any]")
@@ -27,11 +32,18 @@ class Rows(Iterator[T]):
         observe: Any,
         stiffness: bool = False,
         path: tuple[int, float, float, bool] | None = None,
+        file: File = (None, None, False),
     ) -> None:
-        self.rows: list[dict[str, Any]] = []
+        out, fields, force = file
+        if out is None and (fields is not None or force):
+            raise ValueError("fields and force are of the table in a file: give out, too")
         self._scene, self._loads, self._observe, self._ended = scene, loads, observe, False
+        kept = fields if fields is None else os.path.abspath(fields)
+        table = None if out is None else (os.path.abspath(out), kept, force, *_law.fields(scene.adhesion))
+        start, seed = scene.start(start, loads), scene.topography.seed
         #: the names of the columns, as in the tool's table
-        self.names = tuple(scene.problem.begin(loads, scene.start(start), stiffness, path))
+        self.names, rows = scene.problem.begin(loads, start, stiffness, path, seed, table)
+        self.rows: list[dict[str, Any]] = [dict(zip(self.names, row, strict=True)) for row in rows]
 
     def _solve(self) -> Solution:
         """The next solution, whose row is kept."""
@@ -40,10 +52,9 @@ class Rows(Iterator[T]):
             self._ended = True
             raise StopIteration
         if found["raised"] is None:
-            numbers = {**found["row"], "seed": self._scene.topography.seed}
-            self.rows.append({name: numbers[name] for name in self.names})
+            self.rows.append({name: found["row"][name] for name in self.names})
             # ended by the observer: it goes no further
-            self._ended = numbers["status"] == "stopped"
+            self._ended = found["row"]["status"] == "stopped"
         return self._scene.solution(found)
 
     def run(self: R) -> R:
@@ -55,6 +66,8 @@ class Rows(Iterator[T]):
     @property
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns of the tool's table by name, as ``pandas.DataFrame`` takes them; solves what is left.
+
+        The rows that a file had come first; what is not finite in them is NaN.
 
         Numbers that do not apply are NaN. An event that did not happen is None, and so is the part of a map that was not
         mirrored.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
@@ -126,6 +127,9 @@ def cycle(
     observe: Callable[[Iteration], object] | None = None,
     threads: int | None = None,
     whole: bool = False,
+    out: str | PathLike[str] | None = None,
+    fields: str | PathLike[str] | None = None,
+    force: bool = False,
 ) -> Cycle:
     """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
 
@@ -155,6 +159,16 @@ def cycle(
         Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed.
     smooth : bool
         Whether jumps of the law's traction are smoothed by what the grid resolves.
+    out : str or path, optional
+        File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
+        comes. The same call goes on with a file that is there, and ends with the same bytes as one that was not
+        interrupted; for that it keeps ``.state.npz`` beside the file. Rows that the file has are in ``columns`` and are
+        not solved again: iterating gives the states behind them.
+    fields : str or path, optional
+        Folder for gap, pressure and contact pressure at the jumps and of the last row, ``gap-0001.npy`` and so on; with
+        ``out``.
+    force : bool
+        Starts over, and replaces the files that are there.
 
     Returns
     -------
@@ -197,4 +211,5 @@ def cycle(
         threads=threads,
         whole=whole,
     )
-    return Cycle(scene, loads, start, observe, path=(steps, smallest_step, imbalance, smooth))
+    path = (steps, smallest_step, imbalance, smooth)
+    return Cycle(scene, loads, start, observe, path=path, file=(out, fields, force))

@@ -68,7 +68,7 @@ class Scene:
             given.get(),
         )
         self.pressure_unit = None if given.get() is None else "Pa"
-        self._adhesion = law
+        self.adhesion = law
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
             warn(
@@ -91,7 +91,7 @@ class Scene:
         if "heights" in found:
             # those of an accuracy
             topography = refined(topography, found["heights"])
-        solution = Solution(topography, self._adhesion, told, found)
+        solution = Solution(topography, self.adhesion, told, found)
         raised = found["raised"]
         if raised is not None:
             # an exception with slots has no room for it

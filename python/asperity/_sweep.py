@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
@@ -77,6 +78,9 @@ def sweep(
     stiffness: bool = False,
     threads: int | None = None,
     whole: bool = False,
+    out: str | PathLike[str] | None = None,
+    fields: str | PathLike[str] | None = None,
+    force: bool = False,
 ) -> Sweep:
     """Solves under many loads, one after the other, each from where the ones before lead.
 
@@ -104,6 +108,15 @@ def sweep(
         ``wanted_contact_fraction`` and ``reached``.
     stiffness : bool
         Finds the contact stiffness under each load: two more columns, ``contact_stiffness`` and ``normal_stiffness``.
+    out : str or path, optional
+        File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
+        comes. The same call goes on with a file that is there, also with loads added to the end of the list, and ends
+        with the same bytes as one that was not interrupted; for that it keeps ``.state.npz`` beside the file. Rows that
+        the file has are in ``columns`` and are not solved again: iterating gives the states behind them.
+    fields : str or path, optional
+        Folder for gap, pressure and contact pressure of the rows, ``gap-0001.npy`` and so on; with ``out``.
+    force : bool
+        Starts over, and replaces the files that are there.
 
     Returns
     -------
@@ -147,4 +160,4 @@ def sweep(
         threads=threads,
         whole=whole,
     )
-    return Sweep(scene, loads, start, observe, stiffness)
+    return Sweep(scene, loads, start, observe, stiffness, file=(out, fields, force))

@@ -1,6 +1,6 @@
 //! The answer to a solve: the dictionary in which Python gets what was found.
 
-use asperity::{Real, Solution, Status};
+use asperity::{Solution, Status};
 use asperity_maps::Topography;
 use asperity_scene::{Account, Found, Skin, check_finite, shortfalls, worded};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
@@ -13,8 +13,8 @@ use crate::look::Look;
 use crate::refusal::refusal;
 
 /// A scalar in which one can solve, and that numpy has.
-pub trait Scalar: Real + Element {}
-impl<T: Real + Element> Scalar for T {}
+pub trait Scalar: asperity_scene::Scalar + Element {}
+impl<T: asperity_scene::Scalar + Element> Scalar for T {}
 
 /// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(

@@ -15,7 +15,7 @@ use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal_of_heights};
-use crate::state::{Run, Solves, state};
+use crate::state::{File, Run, Solves, state};
 
 /// The words of Python for a key.
 fn word(key: &str) -> String {
@@ -121,7 +121,7 @@ impl Problem {
         let solves = match precision {
             "f64" => state::<f64>(py, &pool, problem, (&inputs, settings, original), threads)?,
             "f32" => {
-                inputs.precision = "f32";
+                (inputs.precision, inputs.tolerance) = ("f32", settings.tolerance_in::<f32>());
                 state::<f32>(py, &pool, problem, (&inputs, settings, original), threads)?
             }
             other => return Err(PyValueError::new_err(format!("precision is {other}: it must be f64 or f32"))),
@@ -164,17 +164,20 @@ impl Problem {
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
     }
 
-    /// Begins a sweep of loads, or with the settings of a path a cycle through them, and returns the names of its
-    /// columns.
-    #[pyo3(signature = (loads, start, stiffness, path))]
-    fn begin(
+    /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.
+    /// Returns the names of its columns, and the cells of the rows that the table has.
+    #[pyo3(signature = (loads, start, stiffness, path, seed, table))]
+    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
+    fn begin<'py>(
         &mut self,
-        py: Python<'_>,
+        py: Python<'py>,
         loads: Vec<Given>,
-        start: Option<Begin<'_>>,
+        start: Option<Begin<'py>>,
         stiffness: bool,
         path: Option<(usize, f64, f64, bool)>,
-    ) -> PyResult<Vec<&'static str>> {
+        seed: Option<u64>,
+        table: Option<File<'py>>,
+    ) -> PyResult<(Vec<&'static str>, Bound<'py, PyAny>)> {
         let loads = loads.iter().map(load).collect::<PyResult<Vec<_>>>()?;
         let full = self.full_pressure(py, &loads)?;
         let controls = loads.iter().map(|load| load.control(full)).collect();
@@ -188,7 +191,8 @@ impl Problem {
             None => Way::Search(fractions),
         };
         self.begins(start.as_ref());
-        self.parts()?.2.begin(way, stiffness, start)
+        let (pool, inputs, solves) = self.parts()?;
+        solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, stiffness, seed), start, table)
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.

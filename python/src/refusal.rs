@@ -1,6 +1,9 @@
 //! The refusal of input: errors of the library as exceptions of Python.
 
-use asperity::Error;
+use std::error::Error as _;
+use std::io;
+
+use asperity::{Error, ErrorKind};
 use asperity_scene::synonyms::similar;
 use asperity_scene::{Skin, worded};
 use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyValueError};
@@ -40,6 +43,19 @@ pub fn refusal_of_works(error: Error) -> PyErr {
 /// The exception of a reason with the names of keys in braces.
 pub fn reason(text: String) -> PyErr {
     PyValueError::new_err(worded(&text, Skin::Keywords))
+}
+
+/// The exception of an error of a table in a file: `OSError` for what the system refuses.
+pub fn refusal_of_table(error: Box<dyn std::error::Error + Send + Sync>) -> PyErr {
+    let message = error.to_string().replace("choose another --", "choose another ").replace("--force", "force=True");
+    match error.downcast::<Error>() {
+        Ok(error) if error.kind() != ErrorKind::File => refusal(*error),
+        Ok(error) => match error.source().and_then(|cause| cause.downcast_ref::<io::Error>()) {
+            Some(cause) => io::Error::new(cause.kind(), message).into(),
+            None => PyValueError::new_err(message),
+        },
+        Err(_) => PyValueError::new_err(message),
+    }
 }
 
 fn refused(error: Error, also: &str) -> PyErr {

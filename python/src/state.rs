@@ -1,23 +1,29 @@
 //! The state of a contact problem, with all that a sequence of solves carries on.
 
+use std::path::{Path, PathBuf};
+
 use asperity::contact::Original;
 use asperity::{Control, Settings, Solver, Status, Surface};
+use asperity_scene::output::{check_apart, check_free, with_suffix};
+use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Asked, Course, Formula, Found, Goal, HalfSpace, Inputs, Load, Posed, Told, Way, warnings_of_input,
+    Account, Asked, Course, Fields, Format, Formula, Found, Goal, HalfSpace, Inputs, Load, Opening, Posed, Table, Told,
+    Way, check_finite, warnings_of_input,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
+use serde_json::Value;
 use serde_pyobject::to_pyobject;
 
 use crate::answer::{Scalar, answer};
 use crate::inputs::Begin;
 use crate::numbers::Field;
 use crate::pools::Pool;
-use crate::refusal::{reason, refusal};
+use crate::refusal::{reason, refusal, refusal_of_table};
 use crate::running::{Observe, run};
 
 /// A problem in one precision, with all that a sequence of solves carries on.
@@ -29,7 +35,17 @@ struct State<T: Scalar> {
     /// of the input
     warnings: Vec<Told>,
     course: Option<Course<T>>,
+    /// of the surface
+    seed: Option<u64>,
+    table: Option<(Table, Processes)>,
 }
+
+/// The file of a table as Python passes it: its path, the folder for fields, whether to start over, the gaps and
+/// tractions and the works of adhesion of the law, and whether it is another law than those of its name.
+pub type File<'py> = (PathBuf, Option<PathBuf>, bool, Option<Field<'py>>, Option<Field<'py>>, bool);
+
+/// The names of the columns of a table, and the cells of its rows.
+type Columns<'py> = PyResult<(Vec<&'static str>, Bound<'py, PyAny>)>;
 
 /// The dictionary of what a solve found.
 type Answered<'py> = PyResult<Bound<'py, PyDict>>;
@@ -37,7 +53,14 @@ type Answered<'py> = PyResult<Bound<'py, PyDict>>;
 /// What a problem does in either precision.
 pub trait Solves: Send {
     fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Option<Begin<'py>>) -> Answered<'py>;
-    fn begin(&mut self, way: Way, stiffness: bool, start: Option<Begin<'_>>) -> PyResult<Vec<&'static str>>;
+    fn begin<'py>(
+        &mut self,
+        py: Python<'py>,
+        run: Run<'_>,
+        course: (Way, bool, Option<u64>),
+        start: Option<Begin<'py>>,
+        file: Option<File<'py>>,
+    ) -> Columns<'py>;
     fn next<'py>(&mut self, py: Python<'py>, run: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>>;
     fn full_pressure(&self, loads: &[Load]) -> Result<f64, String>;
     fn stability<'py>(
@@ -80,17 +103,18 @@ impl<T: Scalar> State<T> {
     }
 
     /// The gap from which solves under loads start, if it is not the default.
-    fn start(&self, given: Option<Begin<'_>>, loads: &[Control]) -> PyResult<Option<Array2<T>>> {
-        let gap = match (given, loads) {
-            (Some(Begin::Gap(gap)), _) => return Ok(Some(field(gap))),
-            (Some(Begin::Word(word)), &[load, ..]) if word == "apart" => Some(self.posed.apart(load).map_err(reason)?),
+    fn start(&self, given: Option<Begin<'_>>, loads: &[Control]) -> PyResult<Option<Array2<f64>>> {
+        match (given, loads) {
+            (Some(Begin::Gap(gap)), _) => Ok(Some(gap.as_array().to_owned())),
+            (Some(Begin::Word(word)), &[load, ..]) if word == "apart" => {
+                self.posed.apart(load).map(Some).map_err(reason)
+            }
             (Some(Begin::Word(word)), _) => {
                 let remedy = "it must be 'apart', with a load that is given, an array of gaps, or a solution";
-                return Err(PyValueError::new_err(format!("start is '{word}': {remedy}")));
+                Err(PyValueError::new_err(format!("start is '{word}': {remedy}")))
             }
-            (None, loads) => self.posed.start_afar(loads),
-        };
-        Ok(gap.map(|gap| gap.mapv_into_any(T::lit)))
+            (None, loads) => Ok(self.posed.start_afar(loads)),
+        }
     }
 
     /// The plan of a solve to an accuracy, which the logger `asperity` says.
@@ -105,7 +129,7 @@ impl<T: Scalar> State<T> {
 
 impl<T: Scalar> Solves for State<T> {
     fn solve<'py>(&mut self, py: Python<'py>, at: Run<'_>, asked: Asked, start: Option<Begin<'py>>) -> Answered<'py> {
-        let start = self.start(start, &[asked.control])?;
+        let start = self.start(start, &[asked.control])?.map(|gap| gap.mapv_into_any(T::lit));
         let plan = asked.goal.map(|goal| self.plan(py, at.pool, asked.control, goal)).transpose()?;
         let found = run(py, at.pool, at.observer, |observe: Observe<'_>| {
             let found = self.posed.solve(&asked, start, &mut |_, state, _| observe(state))?;
@@ -116,32 +140,87 @@ impl<T: Scalar> Solves for State<T> {
         Ok(found)
     }
 
-    fn begin(&mut self, way: Way, stiffness: bool, start: Option<Begin<'_>>) -> PyResult<Vec<&'static str>> {
-        let start = match &way {
-            Way::Sweep(loads) | Way::Cycle(loads, _) => self.start(start, loads)?,
-            Way::Search(_) => self.start(start, &[])?,
+    fn begin<'py>(
+        &mut self,
+        py: Python<'py>,
+        at: Run<'_>,
+        (way, stiffness, seed): (Way, bool, Option<u64>),
+        start: Option<Begin<'py>>,
+        file: Option<File<'py>>,
+    ) -> Columns<'py> {
+        let (loads, adhesive) = (way.loads(), at.inputs.adhesion.law != "none");
+        let control = loads.first().copied().unwrap_or_else(|| at.inputs.boundary.searched_by(adhesive));
+        let start = self.start(start, loads)?;
+        let course = Course::new(way, stiffness);
+        let names = course.columns();
+        self.seed = seed;
+        let Some((out, fields, force, law_table, works, law_differs)) = file else {
+            self.course = Some(course.starting_from(start.map(|gap| gap.mapv_into_any(T::lit))));
+            return Ok((names, PyList::empty(py).into_any()));
         };
-        let course = Course::new(way, stiffness).starting_from(start);
-        Ok(self.course.insert(course).columns())
+        let [law_table, works] = [law_table, works].map(|given| given.map(|given| given.as_array().to_owned()));
+        let open = || {
+            let given = Fields {
+                surface: self.posed.surface()?,
+                law_table: law_table.as_deref(),
+                works: works.as_deref(),
+                start: start.as_deref().filter(|_| at.inputs.initial_gap.is_some()),
+                law_differs,
+            };
+            let identity = self.posed.identity(at.inputs, &self.units.of_table(), given);
+            course.check(&mut self.posed)?;
+            let nodes = *self.posed.parts()?.1.operator().grid();
+            let format = Format::of(&out).ok_or("out ends in neither .csv nor .jsonl: rename it")?;
+            check_apart(&out, at.inputs.heights.as_deref().map(Path::new))?;
+            let beside = [".scene.toml", ".warnings.txt"].map(|suffix| with_suffix(&out, suffix)).to_vec();
+            beside.iter().try_for_each(|file| check_free(file, force || out.exists(), "--out"))?;
+            let header = self.units.columns(&names, control.name(), nodes.is_line());
+            let opening = Opening { out, format, header, fields, force, waits: false, beside, nodes };
+            let processes = Processes::start()?;
+            let (table, course) = Table::open(opening, Some(identity), course, start, &processes)?;
+            let rows = table.read(&processes)?;
+            Ok((course, table, processes, rows))
+        };
+        let (course, table, processes, rows) = py.detach(|| at.pool.get().install(open)).map_err(refusal_of_table)?;
+        (self.course, self.table) = (Some(course), Some((table, processes)));
+        // null alone would become an empty tuple
+        let cells =
+            |row: &Value| names.iter().map(|&name| Some(row[name].clone()).filter(|cell| !cell.is_null())).collect();
+        let rows: Vec<Vec<Option<Value>>> = rows.iter().map(cells).collect();
+        Ok((names, to_pyobject(py, &rows)?))
     }
 
     fn next<'py>(&mut self, py: Python<'py>, at: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(mut course) = self.course.clone() else { return Ok(None) };
+        if let Some((table, _)) = &mut self.table {
+            py.detach(|| table.claim()).map_err(refusal_of_table)?;
+        }
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| -> asperity::Result<_> {
             let Some(found) = course.next(&mut self.posed, observe)? else { return Ok(None) };
             let (mut found, account) = self.account(course.command(), at.inputs, found)?;
-            let row = course.row(&mut found, account, None)?;
+            let row = course.row(&mut found, account, self.seed)?;
             Ok(Some((found, row)))
         })?;
+        // a state that was not reached is looked for again from where the ones before lead
+        let reached = found.as_ref().ok().and_then(Option::as_ref).filter(|(found, _)| {
+            let went_on = raised.is_none() && found.solution.report.status != Status::Stopped;
+            went_on && check_finite(&found.solution).is_ok()
+        });
+        if let Some((table, processes)) = &mut self.table {
+            let append = |(found, row): &(_, _)| table.append(&course, found, row, processes);
+            let appended = py.detach(|| reached.map(append).transpose());
+            if !matches!(appended, Ok(Some(()))) {
+                // for another call that goes on with it
+                table.release();
+            }
+            appended.map_err(refusal_of_table)?;
+        }
+        if reached.is_some() {
+            self.course = Some(course);
+        }
         let Some(found) = found.transpose() else { return raised.map_or(Ok(None), Err) };
         let mut entries = None;
-        let found = found.map(|(found, row)| {
-            // a state that was not reached is looked for again from where the ones before lead
-            if raised.is_none() && found.solution.report.status != Status::Stopped {
-                self.course = Some(course);
-            }
-            (found, entries.insert(row).account.clone())
-        });
+        let found = found.map(|(found, row)| (found, entries.insert(row).account.clone()));
         let found = answer(py, self.threads, (found, raised))?;
         found.set_item("row", entries.map(|row| to_pyobject(py, &row)).transpose()?)?;
         Ok(Some(found))
@@ -183,7 +262,7 @@ pub fn state<T: Scalar>(
     let make = || {
         let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);
         let posed = Posed::new(surface, law, half_space, solver, original);
-        State { posed, threads, strongest, units, warnings, course: None }
+        State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))
 }

@@ -6,7 +6,8 @@ use clap::Args;
 
 use crate::allowed::{finite, share};
 use crate::loads::{Loads, list};
-use crate::outcome::{Outcome, in_options};
+use crate::options::in_options;
+use crate::outcome::Outcome;
 use crate::quantity::{FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Quantity};
 
 /// The boundary of the half-space, and the nodes at which nothing faces it.
@@ -204,11 +205,5 @@ impl LoadsOptions {
     /// The stiffness of the spring, if there is one.
     pub fn spring_stiffness(&self) -> Option<f64> {
         self.spring_stiffness.map(|stiffness| stiffness.value)
-    }
-
-    /// The kind of the loads, with all that they have in common, for comparing two runs.
-    pub fn kind(&self) -> String {
-        let name = self.control(0.0).name();
-        self.spring_stiffness().map_or(name.to_owned(), |stiffness| format!("{name} of stiffness {stiffness}"))
     }
 }

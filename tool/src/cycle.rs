@@ -1,30 +1,25 @@
 //! `asperity cycle`: a path of equilibria through loading and unloading, with its jumps.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use asperity::path::PathSettings;
-use asperity::{Error, Surface};
-use asperity_scene::{Boundary, Course, Way};
+use asperity::{Control, Error};
+use asperity_scene::{Boundary, Format, Way};
 use clap::{ArgGroup, Args};
-use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::{Adhesion, AdhesionOptions};
+use crate::adhesion::AdhesionOptions;
 use crate::allowed::positive;
-use crate::boundary::{LOADS, LoadsOptions, check_load};
-use crate::csv;
-use crate::identity::{Identity, identity};
-use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::boundary::{LOADS, LoadsOptions};
+use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
-use crate::printing::{self, Printing, say};
+use crate::printing::{self, say};
 use crate::processes::Processes;
 use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
 use crate::scene::Scene;
-use crate::table::{self, Table, TableOptions};
-use crate::units::{UnitOptions, Units, header};
-use crate::warnings::Strictness;
+use crate::table::{Fill, Manner, Table, TableOptions};
+use crate::units::UnitOptions;
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -82,13 +77,8 @@ pub struct Options {
     resolution: Resolution,
     #[command(flatten)]
     units: UnitOptions,
-    /// Start over, and replace files that are there
-    #[arg(long, help_heading = "Output")]
-    force: bool,
     #[command(flatten)]
-    strictness: Strictness,
-    #[command(flatten)]
-    printing: Printing,
+    manner: Manner,
 }
 
 const EXAMPLES: &str = "\
@@ -109,106 +99,53 @@ const MOST_EVENTS: usize = 8;
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
     processes.first(|| options.check_files())?;
-    options.solver.check_table()?;
-    check_load(options.surface.beyond.boundary, options.loads.control(0.0))?;
-    let given = options.problem().read(scene.is_si(), processes)?;
-    match options.solver.precision {
-        Precision::F32 => options.run::<f32>(given, scene, processes),
-        Precision::F64 => options.run::<f64>(given, scene, processes),
+    let Options { surface, loads, adhesion, solver, units, out, .. } = options;
+    let table = TableOptions {
+        problem: ProblemOptions { surface, adhesion, solver },
+        loads,
+        control: loads.control(0.0),
+        out,
+        format: Format::Csv,
+        fields: options.fields.as_deref(),
+        units,
+        scene,
+        processes,
+        manner: &options.manner,
+        stiffness: false,
+    };
+    table.fill(options)
+}
+
+impl Fill for Options {
+    fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way> {
+        if loads.len() < 2 {
+            return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
+        }
+        let settings = PathSettings::default().steps(self.steps).smallest_step(self.smallest_step);
+        Ok(Way::Cycle(loads, settings.imbalance(self.imbalance).smooth(!self.sharp)))
+    }
+
+    fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
+        while let Some(row) = table.extend()? {
+            let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
+            self.manner.printing.say(&format!("{:>4}  {}{event}", table.rows(), table.brief(&row.account)));
+        }
+        self.conclude(table)?;
+        Ok(table.converged("or use a larger --tolerance"))
     }
 }
 
 impl Options {
-    fn run<T: Scalar>(&self, given: Given<'_>, scene: &Scene, processes: &Processes) -> Outcome<bool> {
-        let Given { surface, adhesion, origin, part, start } = given;
-        part.check(self.loads.control(0.0))?;
-        let values = self.loads.values(self.surface.full_pressure(&surface, self.loads.are_reduced())?);
-        let loads = self.loads.controls(&values);
-        if loads.len() < 2 {
-            return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
-        }
-        let grid = *surface.grid();
-        let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
-        let settings = PathSettings::default()
-            .steps(self.steps)
-            .smallest_step(self.smallest_step)
-            .imbalance(self.imbalance)
-            .smooth(!self.sharp);
-        let course = Course::new(Way::Cycle(loads.clone(), settings), false);
-        let names = course.columns();
-        let header = header(&units, &names, self.loads.control(0.0).name(), grid.is_line());
-        let &Self { ref out, force, printing, strictness, .. } = self;
-        let (fields, units) = (self.fields.as_deref(), &units);
-        let (problem, part, surface) = (self.problem(), &part, Arc::new(surface));
-        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law(), part)?;
-        let nodes = *posed.parts()?.1.operator().grid();
-        let options =
-            TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
-        let identity =
-            |surface: &_, adhesion: &Adhesion<'_>, start: Option<&_>| self.identity(surface, adhesion, start, &values);
-        course.check(&mut posed)?;
-        let given = (&*surface, &origin, &adhesion, start.as_ref());
-        let (mut table, saved) = Table::open::<T>(options, &header, given, identity, None)?;
-        let start = start.or_else(|| problem.start_afar(&surface, &loads));
-        drop(surface);
-        let last = csv::parsed(&names, table.text()?.lines().next_back().unwrap_or_default());
-        let mut had_event = !last["event"].is_null();
-        let mut course = table.course(course, saved, &last, start);
-        while let Some(row) = table.extend(&mut course, &mut posed, origin.seed, csv::line)? {
-            let event = row.step.and_then(|step| step.event);
-            // the fields of a row stay where it or the next one has an event
-            if !had_event && event.is_none() {
-                table.forget(table.rows() - 1);
-            }
-            had_event = event.is_some();
-            let event = event.map_or(String::new(), |event| format!("  {event}"));
-            self.printing.say(&format!("{:>4}  {}{event}", table.rows(), table::brief(&row.account, units)));
-        }
-        self.conclude(&table, &names, units, processes)?;
-        Ok(table.converged("or use a larger --tolerance"))
-    }
-
-    fn problem(&self) -> ProblemOptions<'_> {
-        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
-    }
-
     fn check_files(&self) -> Outcome<()> {
-        let ends =
-            |path: &std::path::Path, with: &str| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(with));
-        if !ends(&self.out, "csv") {
+        if Format::of(&self.out) != Some(Format::Csv) {
             return Err(Error::file(&self.out, "does not end in .csv: rename it").into());
         }
-        check_plot(self.plot.as_deref(), &self.out, self.force)
-    }
-
-    /// The inputs on which the rows depend.
-    fn identity(
-        &self,
-        surface: &Surface,
-        adhesion: &Adhesion<'_>,
-        start: Option<&ArrayRef2<f64>>,
-        values: &[f64],
-    ) -> Identity {
-        let mut identity = identity(self.problem(), surface, adhesion, start);
-        identity.insert("control".to_owned(), self.loads.kind().into());
-        let values: Vec<_> = values.iter().map(f64::to_string).collect();
-        identity.insert("loads".to_owned(), values.join(" ").into());
-        for (name, value) in [
-            ("steps", self.steps.to_string()),
-            ("smallest_step", self.smallest_step.to_string()),
-            ("imbalance", self.imbalance.to_string()),
-            ("sharp", self.sharp.to_string()),
-            ("fields", if self.fields.is_some() { "kept" } else { "left out" }.to_owned()),
-        ] {
-            identity.insert(name.to_owned(), value.into());
-        }
-        identity
+        check_plot(self.plot.as_deref(), &self.out, self.manner.force)
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude(&self, table: &Table<'_>, names: &[&str], units: &Units, processes: &Processes) -> Outcome<()> {
-        let text = table.text()?;
-        let rows: Vec<_> = text.lines().skip(1).map(|row| csv::parsed(names, row)).collect();
+    fn conclude<T: Scalar>(&self, table: &Table<'_, T>) -> Outcome<()> {
+        let (rows, units) = (table.read()?, &table.units);
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
         let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
         let tension = -least("mean_pressure");
@@ -219,7 +156,7 @@ impl Options {
         let free = self.surface.beyond.boundary == Boundary::Free;
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         let y_dimension = if free { FORCE } else { PRESSURE };
-        self.printing.report(|| {
+        self.manner.printing.report(|| {
             let last = rows.last().cloned().unwrap_or_default();
             let event = |&k: &usize| {
                 let kept = ["mean_gap", "mean_pressure", "normal_force", "approach"];
@@ -232,7 +169,6 @@ impl Options {
                 Value::Object(found)
             };
             let found = json!({
-                "spring_stiffness": self.loads.spring_stiffness(),
                 "greatest_tension": (tension > 0.0).then_some(tension),
                 "greatest_tensile_force": (tension > 0.0).then_some(-least("normal_force")),
                 "events": events.iter().map(event).collect::<Vec<_>>(),
@@ -241,9 +177,9 @@ impl Options {
                 "imbalance": last["imbalance"],
                 "last": last,
             });
-            table.report("cycle", self.loads.control(0.0).name(), found)
+            table.report(found)
         });
-        if self.printing.for_people() {
+        if self.manner.printing.for_people() {
             let energy = |value| units.number(value, ENERGY_PER_AREA);
             say(&format!("{} rows in {}", table.rows(), printing::name(&self.out)));
             if tension > 0.0 {
@@ -270,6 +206,6 @@ impl Options {
             }
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        processes.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.resolution.dpi)?))
+        table.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.resolution.dpi)?))
     }
 }

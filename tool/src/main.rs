@@ -28,24 +28,16 @@ mod accuracy;
 mod adhesion;
 mod boundary;
 mod citation;
-mod csv;
 mod entries;
 mod fields;
-mod hash;
 mod heights;
 mod hints;
-mod identity;
 mod interruption;
-mod journal;
-mod kept;
 mod loads;
 mod options;
-mod outcome;
-mod output;
 mod part;
 mod pictures;
 mod printing;
-mod processes;
 mod progress;
 mod report;
 mod scene;
@@ -60,7 +52,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use asperity_scene::{allowed, numbers, quantity, synonyms};
+use asperity_scene::{allowed, csv, journal, numbers, outcome, output, processes, quantity, synonyms};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -122,6 +114,9 @@ const NOT_CONVERGED: u8 = 2;
 fn main() -> ExitCode {
     match Processes::start() {
         Ok(processes) => {
+            if !processes.is_first() {
+                printing::silence();
+            }
             interruption::listen();
             run_on(&processes)
         }

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Control, Error, Method, Real, Settings, Solver, Surface};
+use asperity::{AdhesionLaw, Control, Error, Method, Settings, Solver, Surface};
 use asperity_maps::io::read_field;
-use asperity_scene::{Branches, Constraint, HalfSpace, Posed, settings};
+pub use asperity_scene::Scalar;
+use asperity_scene::{Branches, Constraint, HalfSpace, Posed, Skin, settings, worded};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
-use ndarray_npy::WritableElement;
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::{positive, threads};
@@ -84,15 +84,10 @@ pub enum Precision {
     F64,
 }
 
-/// A scalar in which one can solve, and that can be written.
-pub trait Scalar: Real + WritableElement {
-    /// A field in this precision; in place, if it is that of the file.
-    fn field(field: Array2<f64>) -> Array2<Self> {
-        field.mapv_into_any(Self::lit)
-    }
+/// A value, or the reason why there is none, in the words of options.
+pub fn in_options<V>(found: Result<V, String>) -> Outcome<V> {
+    Ok(found.map_err(|text| worded(&text, Skin::Options))?)
 }
-
-impl<T: Real + WritableElement> Scalar for T {}
 
 /// The options that choose a contact problem and its solver.
 #[derive(Clone, Copy)]

@@ -8,7 +8,8 @@ use asperity_scene::{Boundary, Load};
 use ndarray::Array2;
 
 use crate::heights::Origin;
-use crate::outcome::{Outcome, in_options};
+use crate::options::in_options;
+use crate::outcome::Outcome;
 
 /// The part of a map on its grid.
 #[derive(Clone, Copy)]

@@ -4,7 +4,6 @@ pub use asperity_scene::units::{Units, dimension_of};
 use clap::Args;
 
 use crate::allowed::unit;
-use crate::csv;
 use crate::outcome::Outcome;
 use crate::quantity::{Dimension, FORCE, LENGTH, PRESSURE};
 
@@ -39,9 +38,4 @@ impl UnitOptions {
             force: chosen("force", &self.force_unit, of_si(FORCE))?,
         })
     }
-}
-
-/// The header of a table with these columns: their names, with their units where those are all known.
-pub fn header(units: &Units, names: &[&str], control: &str, on_line: bool) -> String {
-    csv::header(units.columns(names, control, on_line)) + "\n"
 }

@@ -129,7 +129,7 @@ record! {
 }
 
 /// The stiffness of a spring, if the load is one.
-fn stiffness(control: Control) -> Option<f64> {
+pub(crate) fn stiffness(control: Control) -> Option<f64> {
     if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
 }
 

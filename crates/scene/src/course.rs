@@ -10,13 +10,14 @@ use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::{ContactSearch, Control, Iteration, Real, Result, Sweep};
 use ndarray::Array2;
 use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
-use crate::account::Account;
+use crate::account::{Account, stiffness};
 use crate::compiled::compiled;
 use crate::entries::Search;
 use crate::found::{Found, check_finite};
 use crate::half_space::Boundary;
+use crate::identity::Identity;
 use crate::posed::Posed;
 
 /// The way through the loads of a table.
@@ -100,6 +101,16 @@ type See<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
 compiled!(Checked: (&'a Course<T>, &'a mut Posed<T>) => Result<()> = Course::checked);
 compiled!(Next: (&'a mut Course<T>, &'a mut Posed<T>, See<'a>) => Result<Option<Found<T>>> = Course::following);
 
+impl Way {
+    /// The loads, where they are given.
+    pub fn loads(&self) -> &[Control] {
+        match self {
+            Self::Sweep(loads) | Self::Cycle(loads, _) => loads,
+            Self::Search(_) => &[],
+        }
+    }
+}
+
 impl<T: Real> Course<T> {
     /// A course from its beginning, with the contact stiffness of each state or without.
     pub fn new(way: Way, stiffness: bool) -> Self {
@@ -137,6 +148,34 @@ impl<T: Real> Course<T> {
         };
         let stiffness = if self.stiffness { "contact_stiffness normal_stiffness" } else { "" };
         all.into_iter().chain([stiffness]).flat_map(str::split_whitespace).collect()
+    }
+
+    /// The loads of the rows, where these are known before.
+    pub fn loads(&self) -> Option<Vec<f64>> {
+        match &self.way {
+            Way::Search(fractions) => Some(fractions.clone()),
+            Way::Sweep(loads) => Some(values(loads)),
+            Way::Cycle(..) => None,
+        }
+    }
+
+    /// The inputs on which the rows depend, beside those of the problem and the loads that are known before.
+    pub(crate) fn identity(&self) -> Identity {
+        let entries = match &self.way {
+            Way::Cycle(loads, PathSettings { steps, smallest_step, imbalance, smooth, .. }) => json!({
+                "control": kind(loads),
+                "loads": listed(&values(loads)),
+                "steps": steps.to_string(),
+                "smallest_step": smallest_step.to_string(),
+                "imbalance": imbalance.to_string(),
+                "sharp": (!smooth).to_string(),
+            }),
+            way => json!({
+                "control": if let Way::Sweep(loads) = way { kind(loads) } else { "contact-fraction".to_owned() },
+                "stiffness": if self.stiffness { "asked for" } else { "left out" },
+            }),
+        };
+        entries.as_object().cloned().unwrap_or_default()
     }
 
     /// Refuses a cycle that the problem does not have.
@@ -264,6 +303,26 @@ impl Row {
 /// leg of a cycle ends there.
 pub fn is_apart(direction: Option<&str>, shares: [Option<f64>; 2]) -> bool {
     direction == Some(WITHDRAWAL) && shares == [Some(0.0); 2]
+}
+
+/// The kind of some loads, with all that they have in common.
+fn kind(loads: &[Control]) -> String {
+    let name = loads.first().map_or("none", |load| load.name());
+    let mut stiffnesses: Vec<_> = loads.iter().copied().filter_map(stiffness).collect();
+    if stiffnesses.windows(2).all(|two| two[0] == two[1]) {
+        stiffnesses.truncate(1);
+    }
+    if stiffnesses.is_empty() { name.to_owned() } else { format!("{name} of stiffness {}", listed(&stiffnesses)) }
+}
+
+/// The values of some loads.
+fn values(loads: &[Control]) -> Vec<f64> {
+    loads.iter().map(|load| load.value()).collect()
+}
+
+/// Numbers as text.
+fn listed(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
 }
 
 /// The direction of a leg of a cycle; the start has none.

@@ -1,5 +1,6 @@
 //! The findings of a solve: the solution, and all that was asked for beside it.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -109,6 +110,15 @@ impl<T: Real> Found<T> {
         warnings_of(&self.solution, self.sight.original)
     }
 
+    /// The solution on the part of a mirrored map of which results are.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
+    pub fn part(&self) -> Result<Cow<'_, Solution<T>>> {
+        let part = self.sight.original.map(|original| original.of_solution(&self.solution)).transpose()?;
+        Ok(part.map_or(Cow::Borrowed(&self.solution), Cow::Owned))
+    }
+
     /// The account of the solve by a command, of which [`Sight::look`] adds the keys that are found of the fields.
     ///
     /// # Errors
@@ -120,13 +130,11 @@ impl<T: Real> Found<T> {
         strongest: Option<(usize, usize)>,
         warnings: Vec<Told>,
     ) -> Result<Account> {
-        let original = self.sight.original;
-        let part = original.map(|original| original.of_solution(&self.solution)).transpose()?;
-        let (grid, report) =
-            part.as_ref().map_or((&self.solution.grid, &self.solution.report), |part| (&part.grid, &part.report));
+        let (original, part) = (self.sight.original, self.part()?);
+        let (grid, report) = (&part.grid, &part.report);
         let share = original.map_or(1.0, |original| original.share());
         let inputs = Inputs {
-            solved_shape: part.as_ref().map(|_| self.solution.grid.shape()),
+            solved_shape: original.map(|_| self.solution.grid.shape()),
             shape: grid.shape(),
             lengths: grid.lengths(),
             tolerance: report.tolerance,

@@ -31,6 +31,15 @@ impl Boundary {
         found
     }
 
+    /// The load by which a contact fraction is searched for, of no meaning but for its kind.
+    pub fn searched_by(self, adhesive: bool) -> Control {
+        match (adhesive, self) {
+            (false, _) => Control::MeanPressure(0.0),
+            (true, Self::Periodic) => Control::MeanGap(0.0),
+            (true, Self::Free) => Control::Approach(0.0),
+        }
+    }
+
     /// The gap of a body that comes from afar: undeformed, at the approach at which `loads` begin, if they grow from
     /// one before touch. The default start of a solve under a pull would find the body sticking.
     pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {

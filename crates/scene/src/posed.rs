@@ -15,12 +15,14 @@ use asperity::{
 };
 use ndarray::Array2;
 
+use crate::account::Inputs;
 use crate::accuracy::{Goal, planned};
 use crate::asked::Asked;
 use crate::compiled::compiled;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
 use crate::half_space::{Boundary, HalfSpace};
+use crate::identity::{Fields, Identity, identity};
 use crate::load::Load;
 use crate::wall::Constraint;
 
@@ -92,6 +94,19 @@ impl<T: Real> Posed<T> {
         }
     }
 
+    /// The surface, before the first solve.
+    ///
+    /// # Errors
+    /// [`Error::Control`] after it.
+    pub fn surface(&self) -> Result<&Arc<Surface>> {
+        if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
+    }
+
+    /// The identity of the problem, with the units of a table: all that its solutions depend on beside the loads.
+    pub fn identity(&self, inputs: &Inputs, units: &str, given: Fields<'_>) -> Identity {
+        identity(inputs, self.solver.settings.branch, units, given, &*self.law)
+    }
+
     /// The boundary of the half-space.
     pub fn boundary(&self) -> Boundary {
         self.half_space.boundary
@@ -104,7 +119,11 @@ impl<T: Real> Posed<T> {
     pub fn full_pressure(&self, loads: &[Load]) -> std::result::Result<f64, String> {
         loads.iter().try_for_each(|load| load.check(self.boundary(), self.original.is_some()))?;
         let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
-        if reduced { self.half_space.full_pressure(self.surface()?) } else { Ok(1.0) }
+        if reduced {
+            self.half_space.full_pressure(self.surface().map_err(|error| error.to_string())?)
+        } else {
+            Ok(1.0)
+        }
     }
 
     /// The gap from which solves under `loads` begin, before the first of them, if it is not the default; see
@@ -119,11 +138,7 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`Boundary::apart`], for [`worded`](crate::worded).
     pub fn apart(&self, load: Control) -> std::result::Result<Array2<f64>, String> {
-        self.boundary().apart(self.surface()?, load)
-    }
-
-    fn surface(&self) -> std::result::Result<&Surface, String> {
-        if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent().to_string()) }
+        self.boundary().apart(self.surface().map_err(|error| error.to_string())?, load)
     }
 
     /// The plan of a solve to an accuracy, and the seconds that it is likely to take.
@@ -135,8 +150,7 @@ impl<T: Real> Posed<T> {
     }
 
     fn planned((this, control, goal): (&Self, Control, Goal)) -> Result<(Plan, f64)> {
-        let Body::Surface(surface) = &this.body else { return Err(spent()) };
-        planned(&goal.by(this.solver.clone(), false), surface, this.half_space, &this.law, control)
+        planned(&goal.by(this.solver.clone(), false), this.surface()?, this.half_space, &this.law, control)
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
@@ -202,8 +216,7 @@ impl<T: Real> Posed<T> {
     }
 
     fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
-        let Body::Surface(surface) = &self.body else { return Err(spent()) };
-        let clock = Instant::now();
+        let (clock, surface) = (Instant::now(), self.surface()?);
         let mut wanted = goal.by(self.solver.clone(), asked.stiffness);
         let tolerance = wanted.tolerance()?;
         let half_space = |grid| self.half_space.operator(grid);

@@ -3,7 +3,8 @@
 use asperity_scene::{Asked, Branches, Inputs};
 
 use super::Options;
-use crate::outcome::{Outcome, in_options};
+use crate::options::in_options;
+use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::report;
 use crate::scene::Scene;

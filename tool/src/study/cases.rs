@@ -6,11 +6,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
+use asperity_scene::{Format, Hash};
 use clap::Command;
 use toml::{Table, Value};
 
 use crate::entries::{document, entries, spelled};
-use crate::hash::Hash;
 use crate::loads::parsed;
 use crate::outcome::Outcome;
 use crate::printing::{on_one_line, on_terminal};
@@ -41,13 +41,6 @@ pub struct Study {
     /// The options that vary, by their names in a table
     pub columns: Vec<String>,
     pub cases: Vec<Case>,
-}
-
-/// The format of a table.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Format {
-    Csv,
-    Jsonl,
 }
 
 /// A run of a sweep or a cycle.
@@ -87,14 +80,10 @@ impl Study {
             (None, None) => return Err(refuse(lacks(&table, "out", "names no table", "study.csv")).into()),
             (None, Some(other)) => return Err(refuse(format!("out is {other}: it must be the name of a file")).into()),
         };
-        let format = match out.extension().and_then(|extension| extension.to_str()) {
-            Some("csv") => Format::Csv,
-            // a cycle has no other
-            Some("jsonl") if name == "sweep" => Format::Jsonl,
-            _ => {
-                let allowed = if name == "sweep" { ".csv or .jsonl" } else { ".csv" };
-                return Err(Error::file(&out, format!("does not end in {allowed}: rename it")).into());
-            }
+        // a cycle has no other format than CSV
+        let Some(format) = Format::of(&out).filter(|format| name == "sweep" || *format == Format::Csv) else {
+            let allowed = if name == "sweep" { ".csv or .jsonl" } else { ".csv" };
+            return Err(Error::file(&out, format!("does not end in {allowed}: rename it")).into());
         };
         let section = |table: &mut Table, name: &str| match table.remove(name) {
             Some(Value::Table(section)) => Ok(Some(section)),

@@ -3,10 +3,10 @@
 use std::fs;
 
 use asperity::Error;
-use asperity_scene::Told;
+use asperity_scene::{Format, Told};
 use serde_json::{Map, Number, Value};
 
-use super::cases::{Case, Format, Study, text};
+use super::cases::{Case, Study, text};
 use super::work::Folder;
 use crate::csv;
 use crate::outcome::Outcome;
@@ -56,10 +56,7 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
             row.retain(|name, _| !is_left_out(study, name));
             let mut whole = own(study, k, case, &columns);
             whole.extend(row);
-            table += &match study.format {
-                Format::Csv => csv::line(&whole),
-                Format::Jsonl => Value::Object(whole).to_string(),
-            };
+            table += &study.format.line(&whole);
             table.push('\n');
         }
     }

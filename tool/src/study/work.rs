@@ -14,9 +14,9 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use asperity::Error;
+use asperity_scene::Hash;
 
-use super::cases::{Case, Format, Study};
-use crate::hash::Hash;
+use super::cases::{Case, Study};
 use crate::interruption::{CASE, stands};
 use crate::journal::{is_whole, state_path, written};
 use crate::outcome::Outcome;
@@ -36,7 +36,7 @@ pub struct Folder {
 impl Folder {
     pub fn of(study: &Study) -> Self {
         let path = with_suffix(&study.out, ".cases");
-        Self { path, extension: if study.format == Format::Csv { "csv" } else { "jsonl" } }
+        Self { path, extension: study.format.name() }
     }
 
     pub fn exists(&self) -> bool {

@@ -1,10 +1,15 @@
-//! The journal against what kills, changes and locks may do to its files.
+//! Tables: lines and the rows that they were, and the journal against what kills, changes and locks may do to its files.
 
+use std::fs;
+use std::path::Path;
+
+use asperity_scene::Identity;
+use asperity_scene::csv::{header, line, names, parsed};
+use asperity_scene::journal::{Journal, Row, Saved, Values, state_path};
+use asperity_scene::outcome::Outcome;
+use asperity_scene::output::with_suffix;
 use ndarray::array;
-use serde_json::json;
-
-use super::*;
-use crate::output::with_suffix;
+use serde_json::{Value, json};
 
 const HEADER: &str = "load,answer\n";
 const LOADS: [f64; 3] = [1.0, 2.0, 3.0];
@@ -15,7 +20,7 @@ fn identity(modulus: &str) -> Identity {
 }
 
 fn open(path: &Path, loads: &[f64]) -> Outcome<(Journal, Saved)> {
-    Journal::open(path, HEADER, identity("1"), Some(loads), false)
+    Journal::open(path, HEADER, identity("1"), Some(loads), (false, false))
 }
 
 /// A sweep whose answer depends on the two gaps before, killed after so many rows.
@@ -70,7 +75,7 @@ fn a_sweep_can_be_made_longer_but_not_another() {
     let whole = sweep(&path, &LOADS, 3).unwrap();
     assert!(reason(sweep(&path, &LOADS[..2], 2)).contains("loads are others"));
     assert!(reason(sweep(&path, &[1.0, 2.5, 3.0], 3)).contains("loads are others"));
-    let other = |modulus, force| Journal::open(&path, HEADER, identity(modulus), Some(&LOADS), force);
+    let other = |modulus, force| Journal::open(&path, HEADER, identity(modulus), Some(&LOADS), (force, false));
     let refused = reason(other("2", false));
     assert!(["modulus is 1, and not 2", "--force"].iter().all(|part| refused.contains(part)), "{refused}");
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
@@ -130,7 +135,7 @@ fn two_sweeps_do_not_write_into_one_file() {
     let path = folder.path().join("sweep.csv");
     let (mut first, _) = open(&path, &LOADS).unwrap();
     for force in [false, true] {
-        let second = Journal::open(&path, HEADER, identity("1"), Some(&LOADS), force);
+        let second = Journal::open(&path, HEADER, identity("1"), Some(&LOADS), (force, false));
         assert!(reason(second).contains("sweep.csv: another run is writing there"));
     }
     let gap = array![[1.0], [2.0]];
@@ -153,4 +158,28 @@ fn two_sweeps_do_not_write_into_one_file() {
 
 fn values(sum: &[f64]) -> Values {
     Values::from([("sum".to_owned(), sum.to_vec())])
+}
+
+#[test]
+fn a_line_says_what_its_row_was() {
+    let row = json!({ "a": 1.5, "b": "none", "c": null, "d": "one, \"two\".npy", "e": true, "f": "7, 8" });
+    let line = line(row.as_object().unwrap());
+    assert_eq!(line, "1.5,none,,\"one, \"\"two\"\".npy\",true,\"7, 8\"");
+    assert_eq!(parsed(&["a", "b", "c", "d", "e", "f"], &line), row);
+    assert_eq!(parsed(&["a", "b", "c"], "1"), json!({ "a": 1 }));
+    // nothing that a spreadsheet computes, and no word that becomes a number or nothing
+    for text in ["=1+1", "+5", "-x", "@a", "7", "true", "null", "", "a,b", "\"", "1e-3", "none", "a = b"] {
+        let row = json!({ "a": text, "b": 1 });
+        let line = asperity_scene::csv::line(row.as_object().unwrap());
+        assert_eq!(parsed(&["a", "b"], &line), row);
+        assert_eq!(line.starts_with('"'), !["none", "a = b"].contains(&text), "{line}");
+    }
+}
+
+#[test]
+fn a_header_says_what_its_names_were() {
+    let all = ["case", "mean_gap [m, or so]", "say \"nm\""];
+    let line = header(all);
+    assert_eq!(line, "case,\"mean_gap [m, or so]\",\"say \"\"nm\"\"\"");
+    assert_eq!(names(&line), all);
 }

@@ -1,11 +1,10 @@
-//! The processes of the tool: one, or with the feature `mpi` those that `mpiexec` started.
+//! The processes of a run: one, or with the feature `mpi` those that `mpiexec` started.
 
 #[cfg(feature = "mpi")]
 use asperity::World;
 use asperity::{Error, Grid};
 
 use crate::outcome::Outcome;
-use crate::printing;
 
 /// The most nodes of which one process takes the whole fields, where several have solved: for pictures, for warnings,
 /// for the state of a table, and for files that are not written in rows.
@@ -18,16 +17,12 @@ pub struct Processes {
 }
 
 impl Processes {
-    /// Joins the processes that were started with this one. Only the first of them prints.
+    /// Joins the processes that were started with this one.
     pub fn start() -> Outcome<Self> {
-        let processes = Self {
+        Ok(Self {
             #[cfg(feature = "mpi")]
             world: World::start()?,
-        };
-        if !processes.is_first() {
-            printing::silence();
-        }
-        Ok(processes)
+        })
     }
 
     /// The number of processes.
@@ -38,7 +33,7 @@ impl Processes {
         1
     }
 
-    /// Whether this is the first process, which prints.
+    /// Whether this is the first process, which prints and keeps tables.
     pub fn is_first(&self) -> bool {
         #[cfg(feature = "mpi")]
         return self.world.rank() == 0;

@@ -13,6 +13,7 @@ pub fn header(names: impl IntoIterator<Item = impl AsRef<str>>) -> String {
     names.into_iter().map(|name| word(name.as_ref())).collect::<Vec<_>>().join(",")
 }
 
+/// A cell of a row.
 pub fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -64,35 +65,4 @@ fn cells(line: &str) -> Vec<(String, bool)> {
         }
     }
     cells
-}
-
-#[cfg(test)]
-mod tests {
-    use serde_json::json;
-
-    use super::*;
-
-    #[test]
-    fn a_line_says_what_its_row_was() {
-        let row = json!({ "a": 1.5, "b": "none", "c": null, "d": "one, \"two\".npy", "e": true, "f": "7, 8" });
-        let line = line(row.as_object().unwrap());
-        assert_eq!(line, "1.5,none,,\"one, \"\"two\"\".npy\",true,\"7, 8\"");
-        assert_eq!(parsed(&["a", "b", "c", "d", "e", "f"], &line), row);
-        assert_eq!(parsed(&["a", "b", "c"], "1"), json!({ "a": 1 }));
-        // nothing that a spreadsheet computes, and no word that becomes a number or nothing
-        for text in ["=1+1", "+5", "-x", "@a", "7", "true", "null", "", "a,b", "\"", "1e-3", "none", "a = b"] {
-            let row = json!({ "a": text, "b": 1 });
-            let line = super::line(row.as_object().unwrap());
-            assert_eq!(parsed(&["a", "b"], &line), row);
-            assert_eq!(line.starts_with('"'), !["none", "a = b"].contains(&text), "{line}");
-        }
-    }
-
-    #[test]
-    fn a_header_says_what_its_names_were() {
-        let all = ["case", "mean_gap [m, or so]", "say \"nm\""];
-        let line = header(all);
-        assert_eq!(line, "case,\"mean_gap [m, or so]\",\"say \"\"nm\"\"\"");
-        assert_eq!(names(&line), all);
-    }
 }

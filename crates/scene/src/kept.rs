@@ -3,14 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::{Grid, Solution};
+use asperity::Solution;
 use asperity_maps::io::OutputFolder;
 
 use crate::fields::{gap_to_write, write_fields};
-use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::check_free;
 use crate::processes::Processes;
+use crate::scalar::Scalar;
 
 const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
 
@@ -35,20 +35,14 @@ impl Kept<'_> {
     }
 
     /// Writes the fields of a row, the first of which is 1; each process its rows.
-    pub fn write<T: Scalar>(
-        self,
-        row: usize,
-        grid: Grid,
-        solution: &Solution<T>,
-        processes: &Processes,
-    ) -> Outcome<()> {
+    pub fn write<T: Scalar>(self, row: usize, solution: &Solution<T>, processes: &Processes) -> Outcome<()> {
         let Some(out) = self.0 else { return Ok(()) };
         let create = || Ok(OutputFolder::create(out, &[], true)?);
         let folder = processes.agree(processes.is_first().then(create).transpose())?;
         let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
         let named: Vec<_> = FIELDS.iter().zip(fields).map(|(name, field)| (file(name, row), field)).collect();
-        write_fields(processes, folder.as_ref(), out, grid, &named)?;
+        write_fields(processes, folder.as_ref(), out, solution.grid, &named)?;
         processes.first(|| folder.map_or(Ok(()), |folder| Ok(folder.commit()?)))
     }
 

@@ -7,8 +7,6 @@
 
 mod lock;
 mod state;
-#[cfg(test)]
-mod tests;
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, Write};
@@ -39,8 +37,9 @@ pub struct Journal {
 /// The fields and values that were saved with the last row, and from which the next one starts.
 #[derive(Debug, Default)]
 pub struct Saved {
-    /// The latest last
+    /// The fields, the latest last.
     pub fields: Vec<Array2<f64>>,
+    /// The values.
     pub values: Values,
 }
 
@@ -54,9 +53,11 @@ impl Saved {
 /// What a journal that another process has open has saved.
 #[derive(Debug)]
 pub struct Seen {
+    /// The fields and values from which the next row starts.
     pub saved: Saved,
+    /// The number of rows.
     pub rows: usize,
-    /// The number of rows that did not converge
+    /// The number of rows that did not converge.
     pub unconverged: usize,
 }
 
@@ -72,10 +73,15 @@ impl Seen {
 
 /// A row to append, with the fields (the latest last) and values from which the next one starts.
 pub struct Row<'a, T> {
+    /// The line.
     pub text: &'a str,
+    /// The load, as it stands in the list of the loads.
     pub load: f64,
+    /// Whether the row converged.
     pub converged: bool,
+    /// The fields, the latest last.
     pub fields: &'a [ArrayView2<'a, T>],
+    /// The values.
     pub values: &'a Values,
 }
 
@@ -83,13 +89,13 @@ const REMEDY: &str = "choose another --out, or --force to start over";
 
 impl Journal {
     /// Opens the file of a table, new or to go on with; with `force` it is new in any case. The rows are those of
-    /// `loads`, where these are known before.
+    /// `loads`, where these are known before. While another run writes there, the file is refused, or the opening waits.
     pub fn open(
         path: &Path,
         header: &str,
         identity: Identity,
         loads: Option<&[f64]>,
-        force: bool,
+        (force, waits): (bool, bool),
     ) -> Outcome<(Self, Saved)> {
         match fs::metadata(path) {
             Ok(metadata) if !metadata.is_file() => {
@@ -101,7 +107,7 @@ impl Journal {
                 fs::create_dir_all(folder).map_err(|e| Error::unwritable(folder, e))?;
             }
         }
-        let (mut file, made) = open_locked(path)?;
+        let (mut file, made) = open_locked(path, waits)?;
         let mut begin = || -> Outcome<_> {
             let mut content = Vec::new();
             file.read_to_end(&mut content).map_err(|e| Error::unreadable(path, e))?;
@@ -196,8 +202,8 @@ fn resume(
     let refuse = |reason| Err(refused(reason).into());
     let state = State::read(path).map_err(refused)?;
     let written = state.written;
-    for (key, here) in identity {
-        let there = state.identity.get(key).unwrap_or(&Value::Null);
+    for key in identity.keys().chain(state.identity.keys()) {
+        let [here, there] = [identity, &state.identity].map(|inputs| inputs.get(key).unwrap_or(&Value::Null));
         if there != here {
             let name = key.replace('_', " ");
             return refuse(match key.as_str() {

@@ -7,6 +7,7 @@ use std::fmt;
 pub struct Hash(pub u64);
 
 impl Hash {
+    /// The hash of nothing.
     pub const NEW: Self = Self(0xcbf2_9ce4_8422_2325);
 
     /// The hash with some more bytes.

@@ -6,10 +6,9 @@ use std::path::Path;
 
 use asperity::Error;
 
-use crate::interruption::is_case;
-
-/// Opens a file, which is made if needed, and locks it until it is closed; whether it was made.
-pub fn open_locked(path: &Path) -> asperity::Result<(File, bool)> {
+/// Opens a file, which is made if needed, and locks it until it is closed; whether it was made. A lock of another run is
+/// refused, or waited for.
+pub fn open_locked(path: &Path, waits: bool) -> asperity::Result<(File, bool)> {
     let mut options = OpenOptions::new();
     options.read(true).append(true);
     let (opened, made) = match options.clone().create_new(true).open(path) {
@@ -17,8 +16,7 @@ pub fn open_locked(path: &Path) -> asperity::Result<(File, bool)> {
         opened => (opened, true),
     };
     let file = opened.map_err(|e| Error::unwritable(path, e))?;
-    // a study has the lock of its case: a former run of that is about to end
-    match if is_case() { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
+    match if waits { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
         Err(TryLockError::WouldBlock) => {
             Err(Error::file(path, "another run is writing there: wait until it has ended, or choose another --out"))
         }

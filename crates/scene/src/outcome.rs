@@ -1,0 +1,6 @@
+//! The outcome of whatever a run does.
+
+use std::error::Error;
+
+/// A value, or an error of one line that names the cause and the remedy.
+pub type Outcome<T> = Result<T, Box<dyn Error + Send + Sync>>;
