@@ -1,4 +1,4 @@
-"""The accuracy that is asked for: its plan, and what became of it."""
+"""The accuracy that is asked for, and its plan."""
 
 from __future__ import annotations
 
@@ -35,19 +35,15 @@ class Plan(NamedTuple):
     seconds: float
 
 
-class Goal:
-    """An accuracy of a quantity, for a solve."""
+#: An accuracy as the compiled core takes it: the relative error, the name of the quantity, and the memory in GiB.
+Goal = tuple[float, str, float | None]
 
-    def __init__(self, accuracy: float, of: str | None, memory: float | None) -> None:
-        self.accuracy, self.of = float(accuracy), of or "area"
-        #: as the compiled core takes it
-        self.given = (self.accuracy, self.of, None if memory is None else float(memory))
 
-    def plan(self, problem: _asperity.Problem, load: Load) -> Plan:
-        """The plan of a solve, which the logger ``asperity`` says before it begins."""
-        plan, text = problem.plan(load, self.given)
-        _log.info(text)
-        return Plan(*plan)
+def plan(problem: _asperity.Problem, load: Load, goal: Goal) -> Plan:
+    """The plan of a solve to an accuracy, which the logger ``asperity`` says before it begins."""
+    numbers, text = problem.plan(load, goal)
+    _log.info(text)
+    return Plan(*numbers)
 
 
 def goal(accuracy: float | None, of: str | None, memory: float | None, **choices: bool) -> Goal | None:
@@ -59,4 +55,4 @@ def goal(accuracy: float | None, of: str | None, memory: float | None, **choices
     made = [name for name, is_made in choices.items() if is_made]
     if made:
         raise ValueError(f"an accuracy makes its own start and chooses the grids: leave out {' and '.join(made)}")
-    return Goal(accuracy, of, memory)
+    return (float(accuracy), of or "area", None if memory is None else float(memory))

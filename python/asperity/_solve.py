@@ -226,7 +226,6 @@ def solve(
     )
     (load,) = scene.held([load])
     begin = scene.start(start, [load])
-    plan = goal.plan(scene.problem, load) if goal else None
-    given = goal.given if goal else None
-    found = scene.problem.solve(load, begin, observe, stability or leave, leave, stiffness, given)
+    plan = _accuracy.plan(scene.problem, load, goal) if goal else None
+    found = scene.problem.solve(load, begin, observe, stability or leave, leave, stiffness, goal)
     return scene.solution({**found, "plan": plan})

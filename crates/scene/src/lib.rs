@@ -15,7 +15,6 @@ mod identity;
 pub mod journal;
 mod kept;
 mod law;
-pub mod numbers;
 pub mod outcome;
 pub mod output;
 mod posed;
@@ -33,6 +32,8 @@ pub mod units;
 mod wall;
 mod warnings;
 mod words;
+
+pub use asperity_maps::numbers;
 
 pub use account::{Account, Adhesion, Inputs};
 pub use accuracy::Goal;
