@@ -122,6 +122,10 @@ def test_a_cycle_interrupted_anywhere_ends_as_one_that_was_not(folder, tool):
     for rows in (0, 1, 9, 20):
         out, fields = folder / f"{rows}.csv", folder / f"fields-{rows}"
         first = interrupted(lambda **given: cycle(folder, out, fields=fields, **given), rows)  # noqa: B023
+        # as left by a run that was killed before it removed them
+        left = fields / f"gap-{rows - 1:04}.npy"
+        if rows > 1 and not left.exists():
+            left.touch()
         found = cycle(folder, out, fields=fields)
         assert len(found.rows) == rows and [row["leg"] for row in found.rows] == [row["leg"] for row in first.rows]
         steps = list(found)

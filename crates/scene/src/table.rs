@@ -178,8 +178,13 @@ impl Table {
         if self.rows == 0 {
             return Ok(course.starting_from(start.map(T::field)));
         }
-        let last = self.opening.format.parsed(&self.names, text.lines().next_back().unwrap_or_default());
+        let mut rows = text.lines().rev().map(|line| self.opening.format.parsed(&self.names, line));
+        let [last, before] = [rows.next(), rows.next()].map(Option::unwrap_or_default);
         self.had_event = !last["event"].is_null();
+        // a run that was killed may have left them
+        if self.loads.is_none() && !self.had_event && before["event"].is_null() && self.journal.is_some() {
+            self.kept().forget(self.rows - 1);
+        }
         let own = |field: Array2<f64>| match nodes.is_shared() {
             true => field.slice_axis(Axis(0), Slice::from(nodes.rows())).to_owned(),
             false => field,
