@@ -35,16 +35,3 @@ fn values(text: &str, key: &str) -> Vec<String> {
     };
     lines.iter().enumerate().filter_map(value).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_citations_name_program_and_paper() {
-        let [program, paper] = citations();
-        assert_eq!(program, format!("The asperity developers: asperity, version {}.", env!("CARGO_PKG_VERSION")));
-        assert!(paper.starts_with("Rey, Anciaux, Molinari: Normal adhesive contact on rough surfaces: "), "{paper}");
-        assert!(paper.ends_with("Computational Mechanics 60 (2017), doi:10.1007/s00466-017-1392-5."), "{paper}");
-    }
-}

@@ -209,16 +209,3 @@ fn quoted(word: &OsStr) -> String {
     let plain = word.chars().all(|c| c.is_alphanumeric() || "/._-+".contains(c));
     if plain { word.into_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_surface_has_its_rms_height_and_the_adhesion_is_resolved() {
-        let surface = rough(Grid::square(128, SIDE).unwrap()).unwrap();
-        assert!((surface.rms_height() / RMS_HEIGHT - 1.0).abs() < 1e-12);
-        let spacing = SIDE / NODES as f64;
-        assert!((WORK_OF_ADHESION * spacing / MODULUS).sqrt() / RANGE < 0.5);
-    }
-}

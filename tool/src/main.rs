@@ -33,7 +33,6 @@ mod fields;
 mod heights;
 mod hints;
 mod interruption;
-mod loads;
 mod options;
 mod part;
 mod pictures;
@@ -52,7 +51,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use asperity_scene::{allowed, csv, journal, numbers, outcome, output, processes, quantity, synonyms};
+use asperity_scene::{allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 

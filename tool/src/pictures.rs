@@ -4,6 +4,7 @@ use std::path::Path;
 
 use asperity::{Grid, Result, Solution};
 use asperity_plot::{Chart, Colouring, DPI, Format, Map, Picture};
+use asperity_scene::legs::{legs, logarithmic, value};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use serde_json::Value;
@@ -14,9 +15,6 @@ use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_free};
 use crate::units::Units;
-
-/// The most cases of a study that a chart names: it has as many colours.
-const MOST_NAMED: usize = 4;
 
 /// The format of pictures of which the tool chooses the names.
 #[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
@@ -106,9 +104,7 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
 }
 
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, broken where the state jumps,
-/// and for each part of a sweep in which the loads rise or fall. Axes are logarithmic where the values along x span
-/// more than a decade, and are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not:
-/// the area of its loop is an energy.
+/// and for each part of a sweep in which the loads rise or fall. For its axes see [`logarithmic`].
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
     let mut jumps = Vec::new();
     let curves = legs(rows).into_iter().map(|(name, rows)| {
@@ -141,79 +137,6 @@ pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f6
         ..Chart::default()
     };
     chart.draw(dpi)
-}
-
-/// The value of a column, not a number where there is none.
-fn value(row: &Value, column: &str) -> f64 {
-    row[column].as_f64().unwrap_or(f64::NAN)
-}
-
-/// Whether the axes of columns `x` and `y` are logarithmic.
-fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
-    let [across, up] = [x, y].map(|column| Spread::of(rows.iter().map(|row| value(row, column))));
-    let x_log = !is_cycle(rows) && across.is_some_and(|x| x.is_wide() && x.is_geometric());
-    [x_log, x_log && up.is_some_and(|y| y.is_wide())]
-}
-
-/// Whether rows are those of a cycle.
-fn is_cycle(rows: &[Value]) -> bool {
-    rows.first().is_some_and(|row| row["leg"].is_u64())
-}
-
-/// The spread of the values along an axis.
-struct Spread {
-    low: f64,
-    median: f64,
-    high: f64,
-}
-
-impl Spread {
-    /// The spread of those that are finite, if there are any.
-    fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
-        let mut values: Vec<_> = values.filter(|value| value.is_finite()).collect();
-        values.sort_by(f64::total_cmp);
-        let (&low, &high) = (values.first()?, values.last()?);
-        Some(Self { low, median: values[(values.len() - 1) / 2], high })
-    }
-
-    /// Whether they are positive and span more than a decade, but for rounding.
-    fn is_wide(&self) -> bool {
-        self.low > 0.0 && self.high > 9.99 * self.low
-    }
-
-    /// Whether the one in the middle is nearer to the geometric mean of the ends than to their arithmetic mean.
-    fn is_geometric(&self) -> bool {
-        let (geometric, arithmetic) = ((self.low * self.high).sqrt(), 0.5 * (self.low + self.high));
-        self.median * self.median < geometric * arithmetic
-    }
-}
-
-/// The rows of each part of a table, with its name; a part begins with the row before it, but for the cases of a study.
-/// A single one has no name, and neither have more cases than there are colours.
-fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
-    if rows.first().is_some_and(|row| row["case"].is_u64()) {
-        let cases: Vec<_> = rows.chunk_by(|row, next| row["case"] == next["case"]).collect();
-        let name = |rows: &[Value]| format!("case {}", rows[0]["case"]);
-        let named = (2..=MOST_NAMED).contains(&cases.len());
-        return cases.into_iter().map(|rows| (if named { name(rows) } else { String::new() }, rows)).collect();
-    }
-    let load = |row: &Value| value(row, "control_value");
-    let cycle = is_cycle(rows);
-    let direction = |k: usize| match &rows[k]["direction"] {
-        Value::String(name) => name.clone(),
-        _ => if load(&rows[k]) < load(&rows[k - 1]) { "falling" } else { "rising" }.to_owned(),
-    };
-    // the first row is a start and no leg
-    let same = |k: usize| if cycle { rows[k]["leg"] == rows[k - 1]["leg"] } else { direction(k) == direction(k - 1) };
-    let mut starts = vec![0];
-    starts.extend((2..rows.len()).filter(|&k| !same(k)).map(|k| k - 1));
-    let ends = starts.iter().skip(1).map(|start| start + 1).chain([rows.len()]);
-    let legs: Vec<_> = starts.iter().zip(ends).map(|(&start, end)| &rows[start..end]).collect();
-    if legs.len() < 2 {
-        return legs.into_iter().map(|leg| (String::new(), leg)).collect();
-    }
-    let number = |k: usize| if legs.len() > 2 { format!(" {}", k / 2 + 1) } else { String::new() };
-    starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), legs[k])).collect()
 }
 
 /// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1
@@ -264,43 +187,4 @@ pub fn draw_pressure<T: Scalar>(
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
     map.draw(dpi)
-}
-
-#[cfg(test)]
-mod tests {
-    use serde_json::json;
-
-    use super::*;
-
-    #[test]
-    fn an_axis_is_logarithmic_where_values_are_spread_so() {
-        let log = |values: &[f64]| {
-            let spread = Spread::of(values.iter().copied()).unwrap();
-            spread.is_wide() && spread.is_geometric()
-        };
-        assert!(log(&[0.01, 0.02, 0.04, 0.08, 0.15, 0.3]) && log(&[1.0, 10.0]) && log(&[1.0, 3.0, 10.0, f64::NAN]));
-        assert!(!log(&[0.01, 0.11, 0.21, 0.31]) && !log(&[1.0, 3.0, 9.0]) && !log(&[0.0, 0.1, 1.0, 10.0]));
-        assert!(!log(&[-1.0, 0.1, 1.0, 10.0]) && Spread::of([f64::NAN].into_iter()).is_none());
-        // but not of a cycle
-        let rows = |leg: Value| -> Vec<Value> {
-            let row = |load: f64| json!({ "leg": leg, "mean_gap": load, "mean_pressure": load });
-            [0.01, 0.02, 0.05, 0.1, 0.2].map(row).to_vec()
-        };
-        assert_eq!(logarithmic(&rows(Value::Null), "mean_gap", "mean_pressure"), [true; 2]);
-        assert_eq!(logarithmic(&rows(1.into()), "mean_gap", "mean_pressure"), [false; 2]);
-    }
-
-    #[test]
-    fn the_cases_of_a_study_are_no_legs_of_one_sweep() {
-        let rows = |cases: &[u64]| -> Vec<Value> {
-            let row = |(k, case): (usize, &u64)| json!({ "case": case, "control_value": k % 2 });
-            cases.iter().enumerate().map(row).collect()
-        };
-        let found = |rows: &[Value]| -> Vec<(String, usize)> {
-            legs(rows).into_iter().map(|(name, rows)| (name, rows.len())).collect()
-        };
-        assert_eq!(found(&rows(&[1, 1, 2, 2])), [("case 1".to_owned(), 2), ("case 2".to_owned(), 2)]);
-        assert_eq!(found(&rows(&[1, 1])), [(String::new(), 2)]);
-        assert!(found(&rows(&[1, 2, 3, 4, 5])).iter().all(|(name, count)| name.is_empty() && *count == 1));
-    }
 }

@@ -1,17 +1,13 @@
 //! The progress bar of a solve, and how fast its error falls.
 
-use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use asperity::{Grid, Iteration};
+use asperity_scene::fall::Fall;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// The steps from the first error to the tolerance, on a logarithmic scale.
 const STEPS: f64 = 1000.0;
-
-/// The iterations from which the fall of the error is told, at most and at least.
-const WINDOW: usize = 12;
-const ENOUGH: usize = 4;
 
 /// The progress of a solve, drawn on standard error if that is a terminal, and gone when dropped.
 pub struct Progress {
@@ -85,84 +81,5 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
-    }
-}
-
-/// The fall of the error over the last iterations of one minimisation.
-#[derive(Default)]
-struct Fall {
-    /// the iteration, its error, and its time in seconds
-    last: VecDeque<(usize, f64, f64)>,
-    /// the minimisation: an error of another function says nothing of its own
-    of: (usize, bool),
-}
-
-impl Fall {
-    fn add(&mut self, state: &Iteration, error: f64, seconds: f64) {
-        self.next((state.round, state.smoothed), state.iteration, error, seconds);
-    }
-
-    fn next(&mut self, of: (usize, bool), iteration: usize, error: f64, seconds: f64) {
-        if self.of != of {
-            *self = Self { of, ..Self::default() };
-        }
-        self.last.push_back((iteration, error, seconds));
-        if self.last.len() > WINDOW {
-            self.last.pop_front();
-        }
-    }
-
-    /// The factor by which the error falls in an iteration, and the seconds until it is at the tolerance at that rate;
-    /// nothing as long as it does not fall.
-    fn rate(&self, tolerance: f64) -> Option<(f64, f64)> {
-        let (&(first, before, start), &(last, error, now)) = (self.last.front()?, self.last.back()?);
-        let steps = last.checked_sub(first).filter(|&steps| steps >= ENOUGH)? as f64;
-        let per_step = (before / error).ln() / steps;
-        let left = (error / tolerance).ln().max(0.0) / per_step;
-        (per_step > 0.0 && left.is_finite()).then(|| (per_step.exp(), left * (now - start) / steps))
-    }
-
-    /// The same in words.
-    fn told(&self, tolerance: f64) -> String {
-        let Some((factor, seconds)) = self.rate(tolerance) else { return String::new() };
-        format!(", {factor:.2} times smaller in an iteration, {} left", time(seconds))
-    }
-}
-
-/// A time that is left, in words.
-fn time(seconds: f64) -> String {
-    match seconds {
-        seconds if seconds < 10.0 => format!("{seconds:.1} s"),
-        seconds if seconds < 120.0 => format!("{seconds:.0} s"),
-        seconds if seconds < 7200.0 => format!("{:.0} min", seconds / 60.0),
-        seconds => format!("{:.1} h", seconds / 3600.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_steady_fall_tells_its_rate_and_the_time_that_is_left() {
-        let mut fall = Fall::default();
-        for k in 0..3 {
-            fall.next((0, false), k, 0.5_f64.powi(k as i32), 0.1 * k as f64);
-            assert_eq!(fall.rate(1e-3), None);
-        }
-        for k in 3..9 {
-            fall.next((0, false), k, 0.5_f64.powi(k as i32), 0.1 * k as f64);
-        }
-        // from 2⁻⁸ to 2⁻¹⁰ in two iterations of 0.1 s
-        let (factor, seconds) = fall.rate(0.5_f64.powi(10)).unwrap();
-        assert!((factor - 2.0).abs() < 1e-12 && (seconds - 0.2).abs() < 1e-12);
-        assert_eq!(fall.told(0.5_f64.powi(10)), ", 2.00 times smaller in an iteration, 0.2 s left");
-        assert_eq!(fall.rate(0.1).unwrap().1, 0.0);
-        // another law is another error, and one that grows tells nothing
-        fall.next((1, false), 9, 1.0, 0.9);
-        assert_eq!(fall.told(1e-3), "");
-        (10..20).for_each(|k| fall.next((1, false), k, k as f64, 0.1 * k as f64));
-        assert_eq!(fall.told(1e-3), "");
-        assert_eq!([5.0, 60.0, 600.0, 9000.0].map(time), ["5.0 s", "60 s", "10 min", "2.5 h"]);
     }
 }

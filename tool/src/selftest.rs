@@ -330,16 +330,3 @@ fn rough<T: Real>(checks: &mut Vec<Check>) -> Outcome<Solution<T>> {
 fn spacing() -> f64 {
     1.0 / NODES as f64
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_check_holds_only_if_the_solve_converged_to_theory() {
-        let check = |found, status| Check { what: "", precision: "f64", found, theory: 1.0, allowed: 0.1, status };
-        assert!(check(1.05, Status::Converged).holds() && check(0.95, Status::Converged).holds());
-        assert!(!check(1.2, Status::Converged).holds() && !check(0.8, Status::Converged).holds());
-        assert!(!check(f64::NAN, Status::Converged).holds() && !check(1.0, Status::Stalled).holds());
-    }
-}

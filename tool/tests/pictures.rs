@@ -110,9 +110,17 @@ fn a_report_is_one_page_that_loads_nothing() {
         (3, 1)
     );
     let scene = bench.read("results/scene.toml").replace('"', "&quot;");
-    for part in
-        [">attractive<", ">tension (", "contact fraction", "<td>converged</td>", "10.1007/s00466-017-1392-5", &scene]
-    {
+    let program = format!("The asperity developers: asperity, version {}.", env!("CARGO_PKG_VERSION"));
+    for part in [
+        ">attractive<",
+        ">tension (",
+        "contact fraction",
+        "<td>converged</td>",
+        &program,
+        "Rey, Anciaux, Molinari: Normal adhesive contact on rough surfaces: ",
+        "Computational Mechanics 60 (2017), doi:10.1007/s00466-017-1392-5.",
+        &scene,
+    ] {
         assert!(page.contains(part), "{part}");
     }
     bench.refused_with("report results", &["report.html", "exists", "--force"]);

@@ -134,6 +134,10 @@ fn demo() {
     let [bare, sticky] = row("contact")[..] else { panic!("{said}") };
     assert!(sticky > 1.5 * bare, "{said}");
     assert_eq!(row("mean pressure"), [5.0, 5.0]);
+    let stats = bench.run("stats asperity-demo/heights.npy --lengths 1um --json");
+    let stats: Value = serde_json::from_slice(&stats.stdout).unwrap();
+    let stated = said.split("rms height ").nth(1).unwrap().split(' ').next().unwrap().parse::<f64>().unwrap();
+    assert!((1e9 * number(&stats, "rms_height") / stated - 1.0).abs() < 1e-12, "{stats}");
 
     // The printed command gives the same as the table.
     let command = said.lines().find_map(|line| line.trim().strip_prefix("asperity ")).unwrap();
@@ -142,6 +146,8 @@ fn demo() {
     let report = bench.report("asperity-demo/with-adhesion");
     assert!((100.0 * number(&report, "contact_fraction") - sticky).abs() <= 0.05);
     assert_eq!(row("iterations")[1], number(&report, "iterations"));
+    // the grid resolves the adhesion
+    assert!(number(&report, "mu_rho") < 0.5, "{report}");
 
     // and so does its scene
     let again = bench.run("run asperity-demo/scene.toml --no-pictures --json --out scene");

@@ -1,11 +1,16 @@
-//! Quantities have the bits of their numbers in the SI, figures their units, and names that are none what they mean.
+//! Quantities have the bits of their numbers in the SI, figures their units, and names that are none what they mean; lists,
+//! legs of tables and the time that is left are read as people mean them.
 
+use asperity_scene::fall::{Fall, time};
+use asperity_scene::legs::{legs, logarithmic};
+use asperity_scene::list::{Loads, list};
 use asperity_scene::quantity::{
     ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH,
     power_of_length, times_ten_to,
 };
 use asperity_scene::synonyms::{SYNONYMS, is_same, meant, similar};
 use asperity_scene::units::Units;
+use serde_json::{Value, json};
 
 #[test]
 fn a_quantity_has_the_bits_of_the_number_in_si_units() {
@@ -124,4 +129,119 @@ fn no_word_has_two_meanings() {
     for (k, word) in words.iter().enumerate() {
         assert!(words[..k].iter().all(|other| !is_same(other, word)), "{word}");
     }
+}
+
+fn gaps(text: &str) -> Result<Loads, String> {
+    list(LENGTH.non_negative())(text)
+}
+
+fn signed(text: &str) -> Result<Loads, String> {
+    list(LENGTH.finite())(text)
+}
+
+#[test]
+fn lists_are_numbers_and_ranges() {
+    let check = |text, expected: &[f64]| assert_eq!(signed(text).unwrap().values, expected, "{text}");
+    check("1", &[1.0]);
+    check("1e-3, -2,3", &[1e-3, -2.0, 3.0]);
+    check("0:1:5", &[0.0, 0.25, 0.5, 0.75, 1.0]);
+    check("1:0:3,-1", &[1.0, 0.5, 0.0, -1.0]);
+    check("1:16:5:log", &[1.0, 2.0, 4.0, 8.0, 16.0]);
+    check("-4:-1:2:log", &[-4.0, -1.0]);
+    check("-6nm,0,1nm", &[-6e-9, 0.0, 1e-9]);
+    check("1um:4um:3:log", &[1e-6, 2e-6, 4e-6]);
+}
+
+#[test]
+fn lists_that_are_none_are_refused() {
+    for (text, part) in [
+        ("", "''"),
+        ("1,,2", "''"),
+        ("1,", "''"),
+        ("one", "'one'"),
+        ("nan", "'nan'"),
+        ("1,inf", "'inf'"),
+        ("-1", "'-1'"),
+        ("0.1,-1e-3", "'-1e-3'"),
+        ("1:2", "FROM:TO:COUNT"),
+        ("1:2:3:4", "FROM:TO:COUNT"),
+        ("1:2:3:log:1", "FROM:TO:COUNT"),
+        ("1:2:1", "from 2"),
+        ("1:2:0", "from 2"),
+        ("1:2:-3", "from 2"),
+        ("1:2:2.5", "from 2"),
+        ("1:2:99999999999999999999", "from 2"),
+        ("1:2:100001", "from 2"),
+        ("0:1:5:log", ":log"),
+        ("1:0:5:log", ":log"),
+        ("0:-1:5", "'-1'"),
+        ("1nm-2nm", "as 1nm:2nm:10 or"),
+        ("1e-3-1e-1", "as 1e-3:1e-1:10 or"),
+        ("1..2", "as 1:2:10 or"),
+        ("1nm-2N", "nm-2N is no unit"),
+        ("1nm,2", "2 has no unit"),
+        ("1:2nm:5", "1 has no unit"),
+        ("1nm:2nN:5", "'2nN'"),
+    ] {
+        let error = gaps(text).unwrap_err();
+        assert!(error.contains(part) && error.lines().count() == 1, "{text}: {error}");
+    }
+    let refused = signed("-1:1:5:log").unwrap_err();
+    assert!(refused.contains(":log"), "{refused}");
+    let many = ["0:1:100000"; 2].join(",");
+    assert!(gaps(&many).unwrap_err().contains("more loads than the 100000"));
+    assert!(signed("-1e308:1e308:3").unwrap_err().contains("finite"));
+}
+
+#[test]
+fn a_steady_fall_tells_its_rate_and_the_time_that_is_left() {
+    let mut fall = Fall::default();
+    for k in 0..3 {
+        fall.next((0, false), k, 0.5_f64.powi(k as i32), 0.1 * k as f64);
+        assert_eq!(fall.rate(1e-3), None);
+    }
+    for k in 3..9 {
+        fall.next((0, false), k, 0.5_f64.powi(k as i32), 0.1 * k as f64);
+    }
+    // from 2⁻⁸ to 2⁻¹⁰ in two iterations of 0.1 s
+    let (factor, seconds) = fall.rate(0.5_f64.powi(10)).unwrap();
+    assert!((factor - 2.0).abs() < 1e-12 && (seconds - 0.2).abs() < 1e-12);
+    assert_eq!(fall.told(0.5_f64.powi(10)), ", 2.00 times smaller in an iteration, 0.2 s left");
+    assert_eq!(fall.rate(0.1).unwrap().1, 0.0);
+    // another law is another error, and one that grows tells nothing
+    fall.next((1, false), 9, 1.0, 0.9);
+    assert_eq!(fall.told(1e-3), "");
+    (10..20).for_each(|k| fall.next((1, false), k, k as f64, 0.1 * k as f64));
+    assert_eq!(fall.told(1e-3), "");
+    assert_eq!([5.0, 60.0, 600.0, 9000.0].map(time), ["5.0 s", "60 s", "10 min", "2.5 h"]);
+}
+
+#[test]
+fn an_axis_is_logarithmic_where_values_are_spread_so() {
+    let rows = |values: &[f64]| values.iter().map(|value| json!({ "mean_gap": value })).collect::<Vec<_>>();
+    let log = |values: &[f64]| logarithmic(&rows(values), "mean_gap", "mean_gap") == [true; 2];
+    assert!(log(&[0.01, 0.02, 0.04, 0.08, 0.15, 0.3]) && log(&[1.0, 10.0]) && log(&[1.0, 3.0, 10.0, f64::NAN]));
+    assert!(!log(&[0.01, 0.11, 0.21, 0.31]) && !log(&[1.0, 3.0, 9.0]) && !log(&[0.0, 0.1, 1.0, 10.0]));
+    assert!(!log(&[-1.0, 0.1, 1.0, 10.0]) && !log(&[f64::NAN]));
+    // but not of a cycle
+    let rows = |leg: Value| -> Vec<Value> {
+        let row = |load: f64| json!({ "leg": leg, "mean_gap": load, "mean_pressure": load });
+        [0.01, 0.02, 0.05, 0.1, 0.2].map(row).to_vec()
+    };
+    assert_eq!(logarithmic(&rows(Value::Null), "mean_gap", "mean_pressure"), [true; 2]);
+    assert_eq!(logarithmic(&rows(1.into()), "mean_gap", "mean_pressure"), [false; 2]);
+}
+
+#[test]
+fn the_cases_of_a_study_are_no_legs_of_one_sweep() {
+    let rows = |cases: &[u64]| -> Vec<Value> {
+        let row = |(k, case): (usize, &u64)| json!({ "case": case, "control_value": k % 2 });
+        cases.iter().enumerate().map(row).collect()
+    };
+    let found = |rows: &[Value]| -> Vec<(String, usize)> {
+        legs(rows).into_iter().map(|(name, rows)| (name, rows.len())).collect()
+    };
+    assert_eq!(found(&rows(&[1, 1, 2, 2])), [("case 1".to_owned(), 2), ("case 2".to_owned(), 2)]);
+    assert_eq!(found(&rows(&[1, 1])), [(String::new(), 2)]);
+    assert!(found(&rows(&[1, 2, 3, 4, 5])).iter().all(|(name, count)| name.is_empty() && *count == 1));
 }

@@ -1,10 +1,11 @@
-//! Lists of loads: numbers and ranges on the command line.
+//! Lists of numbers and ranges, as options take them.
 
 use crate::quantity::Quantity;
 
 /// Loads in the order of a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loads {
+    /// The values.
     pub values: Vec<f64>,
     /// The numbers that stand in the list
     pub given: Vec<Quantity>,
@@ -13,7 +14,7 @@ pub struct Loads {
 /// The largest number of loads; more are taken for a slip of the pen.
 const MOST_LOADS: usize = 100_000;
 
-/// The parser of numbers and ranges with commas between, from that of a number.
+/// The parser of numbers and ranges with commas between, FROM:TO:COUNT or FROM:TO:COUNT:log, from that of a number.
 pub fn list<P>(number: P) -> impl Fn(&str) -> Result<Loads, String> + Clone + Send + Sync + 'static
 where
     P: Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static,
@@ -22,6 +23,9 @@ where
 }
 
 /// Reads numbers and ranges with commas between.
+///
+/// # Errors
+/// The part that is no number and no range, with the reason.
 pub fn parsed(text: &str, number: &dyn Fn(&str) -> Result<Quantity, String>) -> Result<Loads, String> {
     let (mut loads, mut given) = (Vec::new(), Vec::new());
     for item in text.split(',').map(str::trim) {
@@ -83,72 +87,4 @@ fn ends_of<'a>(text: &'a str, number: &dyn Fn(&str) -> Result<Quantity, String>)
         text.match_indices(dash).map(end)
     });
     splits.into_iter().find(|(from, to)| number(from).is_ok() && number(to).is_ok())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::quantity::LENGTH;
-
-    fn gaps(text: &str) -> Result<Loads, String> {
-        list(LENGTH.non_negative())(text)
-    }
-
-    fn signed(text: &str) -> Result<Loads, String> {
-        list(LENGTH.finite())(text)
-    }
-
-    #[test]
-    fn lists_are_numbers_and_ranges() {
-        let check = |text, expected: &[f64]| assert_eq!(signed(text).unwrap().values, expected, "{text}");
-        check("1", &[1.0]);
-        check("1e-3, -2,3", &[1e-3, -2.0, 3.0]);
-        check("0:1:5", &[0.0, 0.25, 0.5, 0.75, 1.0]);
-        check("1:0:3,-1", &[1.0, 0.5, 0.0, -1.0]);
-        check("1:16:5:log", &[1.0, 2.0, 4.0, 8.0, 16.0]);
-        check("-4:-1:2:log", &[-4.0, -1.0]);
-        check("-6nm,0,1nm", &[-6e-9, 0.0, 1e-9]);
-        check("1um:4um:3:log", &[1e-6, 2e-6, 4e-6]);
-    }
-
-    #[test]
-    fn lists_that_are_none_are_refused() {
-        for (text, part) in [
-            ("", "''"),
-            ("1,,2", "''"),
-            ("1,", "''"),
-            ("one", "'one'"),
-            ("nan", "'nan'"),
-            ("1,inf", "'inf'"),
-            ("-1", "'-1'"),
-            ("0.1,-1e-3", "'-1e-3'"),
-            ("1:2", "FROM:TO:COUNT"),
-            ("1:2:3:4", "FROM:TO:COUNT"),
-            ("1:2:3:log:1", "FROM:TO:COUNT"),
-            ("1:2:1", "from 2"),
-            ("1:2:0", "from 2"),
-            ("1:2:-3", "from 2"),
-            ("1:2:2.5", "from 2"),
-            ("1:2:99999999999999999999", "from 2"),
-            ("1:2:100001", "from 2"),
-            ("0:1:5:log", ":log"),
-            ("1:0:5:log", ":log"),
-            ("0:-1:5", "'-1'"),
-            ("1nm-2nm", "as 1nm:2nm:10 or"),
-            ("1e-3-1e-1", "as 1e-3:1e-1:10 or"),
-            ("1..2", "as 1:2:10 or"),
-            ("1nm-2N", "nm-2N is no unit"),
-            ("1nm,2", "2 has no unit"),
-            ("1:2nm:5", "1 has no unit"),
-            ("1nm:2nN:5", "'2nN'"),
-        ] {
-            let error = gaps(text).unwrap_err();
-            assert!(error.contains(part) && error.lines().count() == 1, "{text}: {error}");
-        }
-        let refused = signed("-1:1:5:log").unwrap_err();
-        assert!(refused.contains(":log"), "{refused}");
-        let many = ["0:1:100000"; 2].join(",");
-        assert!(gaps(&many).unwrap_err().contains("more loads than the 100000"));
-        assert!(signed("-1e308:1e308:3").unwrap_err().contains("finite"));
-    }
 }
