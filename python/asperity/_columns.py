@@ -41,8 +41,9 @@ class Rows(Iterator[T]):
         kept = fields if fields is None else os.path.abspath(fields)
         table = None if out is None else (os.path.abspath(out), kept, force, *_law.fields(scene.adhesion))
         start, seed = scene.start(start, loads), scene.topography.seed
+        names, rows = scene.problem.begin(loads, start, stiffness, path, seed, table)
         #: the names of the columns, as in the tool's table
-        self.names, rows = scene.problem.begin(loads, start, stiffness, path, seed, table)
+        self.names = tuple(names)
         self.rows: list[dict[str, Any]] = [dict(zip(self.names, row, strict=True)) for row in rows]
 
     def _solve(self) -> Solution:

@@ -124,7 +124,7 @@ impl<T: Real> Course<T> {
     }
 
     /// The course continued behind as many states from the [place](Self::place) of the last one, bit for bit; of a
-    /// cycle, whether its surfaces [are apart](is_apart) there.
+    /// cycle, whether its surfaces are apart there.
     pub fn continuing(self, states: usize, place: PathCheckpoint<T>, apart: bool) -> Self {
         Self { states, place, leg_ends: apart, ..self }
     }
