@@ -57,7 +57,7 @@ impl<T: Real> Solution<T> {
     /// The region of each node under the law of the solution.
     ///
     /// # Errors
-    /// [`Error::Value`](crate::Error::Value) if the law has another work of adhesion than that of the solution.
+    /// [`Error::Value`](crate::Error::Value) if the law has another name or work of adhesion than that of the solution.
     pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Result<Array2<Region>> {
         self.check_law(law)?;
         let contact = self.contact_map();
@@ -190,7 +190,7 @@ impl ContactStatistics {
     /// adhesion two scalars.
     ///
     /// # Errors
-    /// [`Error::Value`](crate::Error::Value) if the law has another work of adhesion than that of the solution;
+    /// [`Error::Value`](crate::Error::Value) if the law has another name or work of adhesion than that of the solution;
     /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
     pub fn of<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<Self> {
         solution.check_law(law)?;

@@ -37,6 +37,7 @@ from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Topography, from_topography, read
 from ._types import OwnLaw, Report
+from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
@@ -60,6 +61,7 @@ __all__ = [
     "MaugisDugdale",
     "Morse",
     "OwnLaw",
+    "Penalty",
     "Plan",
     "PowerLaw",
     "PressureDistribution",
@@ -70,6 +72,7 @@ __all__ = [
     "Sweep",
     "Tabulated",
     "Topography",
+    "Uzawa",
     "VanDerWaals",
     "Varying",
     "__version__",

@@ -213,7 +213,7 @@ class Problem:
         modulus: float,
         law: Any,
         wall: str,
-        adhesion: dict[str, Any],
+        wall_stiffness: float | None,
         precision: str,
         tolerance: float | None,
         max_iterations: int | None,

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _asperity, _law
+from . import _asperity
 from ._control import Load, number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
-from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
+from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start
 from ._units import given
+from ._wall import Wall, parts
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
@@ -52,8 +53,7 @@ class Scene:
             boundary,
             modulus,
             law,
-            wall,
-            _law.entries(law, wall),
+            *parts(wall),
             precision,
             tolerance,
             max_iterations,

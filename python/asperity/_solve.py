@@ -21,8 +21,8 @@ from ._types import (
     Precision,
     Quantity,
     Start,
-    Wall,
 )
+from ._wall import Wall
 
 
 def solve(
@@ -108,9 +108,9 @@ def solve(
         `VanDerWaals` and `Tabulated` are laws, `CutOff` ends one, and with `Varying` its work of adhesion differs from
         node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
         `check_law`.
-    wall : {"hard", "none"}
-        What keeps the surfaces apart: a rigid wall at zero gap, or a law that repels alone, as `LennardJones` and
-        `Morse` do.
+    wall : {"hard", "none"}, Penalty or Uzawa
+        What keeps the surfaces apart: a rigid wall at zero gap, a law that repels alone, as `LennardJones` and `Morse`
+        do, or springs of a stiffness.
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional

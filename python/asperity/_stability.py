@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from . import _control
 from ._scene import Scene
 from ._solution import Solution
+from ._wall import Penalty
 
 
 class Stability(NamedTuple):
@@ -78,6 +79,10 @@ def stability(
     ('stable', 'unstable')
     """
     report = solution.report
+    if report["wall"] == "uzawa":
+        raise ValueError(
+            "the solution was found with asperity.Uzawa, whose multipliers it does not have: give stability=True to its solve"
+        )
     given: dict[str, Any] = {
         "mean_pressure": mean_pressure,
         "mean_gap": mean_gap,
@@ -95,7 +100,7 @@ def stability(
         law=solution.law,
         modulus=report["modulus"],
         boundary=report["boundary"],
-        wall=report["wall"],
+        wall=report["wall"] if report["wall"] != "penalty" else Penalty(report["wall_stiffness"] or 0.0),
         precision=report["precision"],
         method=report["method"],
         threads=report["threads"],

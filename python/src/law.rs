@@ -3,100 +3,33 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::adhesion::{Discretisation, Hints, Values};
-use asperity::{AdhesionLaw, NoAdhesion, Real};
+use asperity::AdhesionLaw;
+use asperity::adhesion::Values;
+use asperity_scene::{Adhesion, Formula};
 use numpy::ndarray::ArrayD;
 use numpy::{PyArray1, ToPyArray};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use crate::functions::{self, Functions};
 use crate::numbers::{Field, Numbers, mapped, returned};
 use crate::refusal::{refusal, refusal_of_works};
 use crate::table::Table;
 
-/// A law in either precision.
-#[derive(Clone, PartialEq)]
-pub enum Form {
-    Exponential(asperity::Exponential),
-    MaugisDugdale(asperity::MaugisDugdale),
-    LennardJones(asperity::LennardJones),
-    Morse(asperity::Morse),
-    PowerLaw(asperity::PowerLaw),
-    Tabulated(asperity::Tabulated),
-    CutOff(asperity::adhesion::CutOff<Box<Form>>),
-    Varying(asperity::adhesion::Varying<Box<Form>>),
-    /// That of an object of Python
-    Table(Arc<Table>),
-}
-
-impl Form {
-    /// The form of an object: that of a law of the library, or a table of the functions that it has.
-    fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        match object.cast::<Law>() {
-            Ok(law) => Ok(law.get().0.clone()),
-            Err(_) => Ok(Self::Table(Arc::new(Table::of(&Functions::of(object)?)?))),
-        }
-    }
-
-    fn law<T: Real>(&self) -> &dyn AdhesionLaw<T> {
-        match self {
-            Self::Exponential(law) => law,
-            Self::MaugisDugdale(law) => law,
-            Self::LennardJones(law) => law,
-            Self::Morse(law) => law,
-            Self::PowerLaw(law) => law,
-            Self::Tabulated(law) => law,
-            Self::CutOff(law) => law,
-            Self::Varying(law) => law,
-            Self::Table(law) => law.as_ref(),
-        }
-    }
-}
-
-impl<T: Real> AdhesionLaw<T> for Form {
-    fn energy(&self, gap: T) -> T {
-        self.law().energy(gap)
-    }
-    fn traction(&self, gap: T) -> T {
-        self.law().traction(gap)
-    }
-    fn slope(&self, gap: T) -> T {
-        self.law().slope(gap)
-    }
-    fn hints(&self) -> Hints<T> {
-        self.law().hints()
-    }
-    fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) {
-        self.law().evaluate(first, gaps, values);
-    }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
-        self.law().adapted(to)
-    }
-}
-
-/// The law of an object in the precision of a solve; no adhesion for `None`.
-pub fn law<T: Real>(object: &Bound<'_, PyAny>) -> PyResult<Box<dyn AdhesionLaw<T>>> {
-    if object.is_none() { Ok(Box::new(NoAdhesion)) } else { Ok(Box::new(Form::of(object)?)) }
-}
-
-/// The node at which the work of adhesion of an object is largest, if it varies.
-pub fn strongest(object: &Bound<'_, PyAny>) -> Option<(usize, usize)> {
-    let mut form = &object.cast::<Law>().ok()?.get().0;
-    loop {
-        match form {
-            Form::Varying(law) => return Some(law.strongest()),
-            Form::CutOff(law) => form = law.law(),
-            _ => return None,
-        }
-    }
-}
-
 /// An adhesion law of the library: functions of the gap between the surfaces, a length.
 #[pyclass(frozen, eq, subclass, module = "asperity")]
-#[derive(Clone, PartialEq)]
-pub struct Law(Form);
+#[derive(Clone)]
+pub struct Law {
+    pub formula: Formula,
+    /// Its part of a report; of the wall it says no more than whether the law is made for one
+    pub adhesion: Adhesion,
+}
+
+impl PartialEq for Law {
+    fn eq(&self, other: &Self) -> bool {
+        *self.formula == *other.formula
+    }
+}
 
 #[pymethods]
 impl Law {
@@ -122,10 +55,35 @@ impl Law {
 }
 
 impl Law {
+    /// The law of an object: one of the library, a table of the functions that it has, or no adhesion for `None`.
+    pub fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if object.is_none() {
+            return Self::of_library(Adhesion::of("none"));
+        }
+        Self::some(object)
+    }
+
+    /// The law of an object that is one.
+    fn some(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if let Ok(law) = object.cast::<Self>() {
+            return Ok(law.get().clone());
+        }
+        let functions = Functions::of(object)?;
+        let formula: Formula = Arc::new(Table::of(&functions)?);
+        let (work_of_adhesion, range) = (functions.number("work_of_adhesion")?, functions.number("range")?);
+        let name = object.get_type().name()?.to_string();
+        Ok(Self { formula, adhesion: Adhesion { work_of_adhesion, range, ..Adhesion::of(name) } })
+    }
+
+    /// The law of the library that a description has.
+    pub fn of_library(adhesion: Adhesion) -> PyResult<Self> {
+        Ok(Self { formula: adhesion.formula(None).map_err(refusal)?, adhesion })
+    }
+
     /// Energies (0), tractions (1) or slopes (2) at gaps of any shape; where the work of adhesion varies, at one for each
     /// of its nodes or one for all.
     fn at<'py>(&self, py: Python<'py>, gap: &Numbers<'py>, order: usize) -> PyResult<Bound<'py, PyAny>> {
-        let law: &dyn AdhesionLaw<f64> = self.0.law();
+        let law = self.formula.clone().law::<f64>();
         let Some((nx, ny)) = law.hints().shape else {
             return mapped(py, gap, |gap| [law.energy(gap), law.traction(gap), law.slope(gap)][order]);
         };
@@ -142,191 +100,6 @@ impl Law {
         law.evaluate(0, &gaps, Values::one(order, values.as_slice_mut().unwrap_or_default()));
         returned(py, values)
     }
-}
-
-/// The type of a parameter's name.
-macro_rules! name {
-    ($parameter:ident) => { &'static str };
-}
-
-/// Refuses keywords that a class does not have, with those that they may mean.
-fn check_words(py: Python<'_>, class: &str, known: &[&str], other: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
-    let Some(other) = other else { return Ok(()) };
-    py.import("asperity._words")?.call_method1("check", (class, other, known)).map(|_| ())
-}
-
-/// The value of a parameter, refused if there is none.
-fn given<V>(class: &str, parameter: &str, value: Option<V>) -> PyResult<V> {
-    value.ok_or_else(|| PyTypeError::new_err(format!("{class}() is without {parameter}: give a number")))
-}
-
-/// A law of the library as a class: its parameters, and how it is made of them.
-macro_rules! class {
-    (
-        $(#[$doc:meta])*
-        $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $signature:literal, $make:expr
-    ) => {
-        $(#[$doc])*
-        #[pyclass(frozen, extends = Law, module = "asperity")]
-        pub struct $name { $($parameter: $type),* }
-
-        #[pymethods]
-        impl $name {
-            #[classattr]
-            #[expect(non_upper_case_globals, reason = "Python's name")]
-            const __match_args__: ($(name!($parameter),)*) = ($(stringify!($parameter),)*);
-            #[new]
-            #[pyo3(signature = ($($parameter = None,)* **other), text_signature = $signature)]
-            fn new(
-                py: Python<'_>,
-                $($parameter: Option<$type>,)*
-                other: Option<&Bound<'_, PyDict>>,
-            ) -> PyResult<PyClassInitializer<Self>> {
-                let class = stringify!($name);
-                check_words(py, class, &[$(stringify!($parameter)),*], other)?;
-                $(let $parameter = given(class, stringify!($parameter), $parameter $(.or(Some($default)))?)?;)*
-                let form: asperity::Result<Form> = $make;
-                Ok(PyClassInitializer::from(Law(form.map_err(refusal)?)).add_subclass(Self { $($parameter),* }))
-            }
-            $(
-                #[getter]
-                fn $parameter(&self) -> $type {
-                    self.$parameter
-                }
-            )*
-            fn __getnewargs__(&self) -> ($($type,)*) {
-                ($(self.$parameter,)*)
-            }
-        }
-    };
-}
-
-class! {
-    /// The exponential law, φ(g) = −w exp(−g/ρ).
-    ///
-    /// Parameters
-    /// ----------
-    /// work_of_adhesion : float
-    ///     Work of adhesion w ≥ 0, an energy per area.
-    /// range : float
-    ///     Range ρ > 0, a length.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import asperity
-    /// >>> law = asperity.Exponential(work_of_adhesion=0.05, range=2e-9)
-    /// >>> law.energy(0.0)
-    /// -0.05
-    Exponential(work_of_adhesion: f64, range: f64),
-    "(work_of_adhesion, range)",
-    asperity::Exponential::new(work_of_adhesion, range).map(Form::Exponential)
-}
-class! {
-    /// The law of Maugis and Dugdale: a constant traction w/ρ where the gap is below ρ.
-    ///
-    /// Parameters
-    /// ----------
-    /// work_of_adhesion : float
-    ///     Work of adhesion w ≥ 0, an energy per area.
-    /// range : float
-    ///     Range ρ > 0, a length.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import asperity
-    /// >>> asperity.MaugisDugdale(work_of_adhesion=1e-4, range=2e-3).traction([0.0, 3e-3])
-    /// array([0.05, 0.  ])
-    MaugisDugdale(work_of_adhesion: f64, range: f64),
-    "(work_of_adhesion, range)",
-    asperity::MaugisDugdale::new(work_of_adhesion, range).map(Form::MaugisDugdale)
-}
-class! {
-    /// The law of Lennard-Jones between two half-spaces, φ'(g) = 8w/3z₀ (x³ − x⁹) with x = z₀/g.
-    ///
-    /// It attracts beyond the equilibrium separation z₀, and repels below: for a solve with ``wall="none"``, where
-    /// contact is where it repels. For one with ``wall="hard"`` it has to be cut at z₀, from which the gap counts then.
-    ///
-    /// Parameters
-    /// ----------
-    /// work_of_adhesion : float
-    ///     Work of adhesion w > 0, an energy per area.
-    /// range : float
-    ///     Distance of rest z₀ > 0, a length.
-    /// cut : bool
-    ///     Leaves the repulsion to a wall at z₀: x = z₀/(z₀ + g).
-    ///
-    /// Examples
-    /// --------
-    /// >>> import asperity
-    /// >>> law = asperity.LennardJones(work_of_adhesion=0.05, range=3e-10)
-    /// >>> law.traction(3e-10), bool(law.traction(2.9e-10) < 0)
-    /// (0.0, True)
-    LennardJones(work_of_adhesion: f64, range: f64, cut: bool = false),
-    "(work_of_adhesion, range, cut=False)",
-    asperity::LennardJones::new(work_of_adhesion, range)
-        .map(|law| Form::LennardJones(if cut { law.cut() } else { law }))
-}
-class! {
-    /// The law of Morse, φ(g) = w (e² − 2e) with e = exp(−g/ρ): it attracts at g > 0, and repels at g < 0.
-    ///
-    /// With ``wall="none"`` it keeps the surfaces apart by itself; with a wall at g = 0 the attraction is what counts.
-    ///
-    /// Parameters
-    /// ----------
-    /// work_of_adhesion : float
-    ///     Work of adhesion w > 0, an energy per area.
-    /// range : float
-    ///     Range ρ > 0, a length.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import asperity
-    /// >>> asperity.Morse(work_of_adhesion=0.05, range=5e-10).energy(0.0)
-    /// -0.05
-    Morse(work_of_adhesion: f64, range: f64),
-    "(work_of_adhesion, range)",
-    asperity::Morse::new(work_of_adhesion, range).map(Form::Morse)
-}
-class! {
-    /// A power law, φ(g) = −w (1 + g/nρ)⁻ⁿ. Its tail reaches far: `CutOff` ends it.
-    ///
-    /// Parameters
-    /// ----------
-    /// work_of_adhesion : float
-    ///     Work of adhesion w ≥ 0, an energy per area.
-    /// range : float
-    ///     Range ρ > 0, a length.
-    /// exponent : float
-    ///     Exponent n > 0 of the energy.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import asperity
-    /// >>> asperity.PowerLaw(work_of_adhesion=0.05, range=2e-9, exponent=3).traction(0.0)
-    /// 25000000.0
-    PowerLaw(work_of_adhesion: f64, range: f64, exponent: f64),
-    "(work_of_adhesion, range, exponent)",
-    asperity::PowerLaw::new(work_of_adhesion, range, exponent).map(Form::PowerLaw)
-}
-class! {
-    /// The van der Waals attraction of two half-spaces, φ(g) = −A/12π(D₀ + g)². Its tail reaches far: `CutOff` ends it.
-    ///
-    /// Parameters
-    /// ----------
-    /// hamaker : float
-    ///     Hamaker's constant A ≥ 0, an energy.
-    /// range : float
-    ///     Distance D₀ > 0 between the surfaces in contact, a length, often taken to be 0.165 nm.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import asperity
-    /// >>> law = asperity.VanDerWaals(hamaker=6e-20, range=0.165e-9)
-    /// >>> f"work of adhesion {-law.energy(0.0):.4f} J/m²"
-    /// 'work of adhesion 0.0585 J/m²'
-    VanDerWaals(hamaker: f64, range: f64),
-    "(hamaker, range)",
-    asperity::PowerLaw::van_der_waals(hamaker, range).map(Form::PowerLaw)
 }
 
 /// A law of which the traction is a monotone cubic through the points of a table.
@@ -364,8 +137,8 @@ impl Tabulated {
     fn new(gaps: Numbers<'_>, tractions: Numbers<'_>, source: Option<String>) -> PyResult<PyClassInitializer<Self>> {
         let [gaps, tractions]: [Vec<f64>; 2] =
             [gaps, tractions].map(|values| values.as_array().iter().copied().collect());
-        let law = Law(Form::Tabulated(asperity::Tabulated::new(&gaps, &tractions).map_err(refusal)?));
-        Ok(PyClassInitializer::from(law).add_subclass(Self { gaps, tractions, source }))
+        let law = asperity::Tabulated::new(&gaps, &tractions).map_err(refusal)?;
+        Ok(Self { gaps, tractions, source }.of_law(law))
     }
     /// The law of a file with a gap and a traction on each line.
     ///
@@ -396,10 +169,16 @@ impl Tabulated {
 impl Tabulated {
     fn of_file(path: &Path) -> asperity::Result<PyClassInitializer<Self>> {
         let table = asperity_maps::io::read_field(path)?;
-        let law = Law(Form::Tabulated(asperity_scene::tabulated(path, &table)?));
+        let law = asperity_scene::tabulated(path, &table)?;
         let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
         let source = Some(path.to_string_lossy().into_owned());
-        Ok(PyClassInitializer::from(law).add_subclass(Self { gaps, tractions, source }))
+        Ok(Self { gaps, tractions, source }.of_law(law))
+    }
+
+    fn of_law(self, law: asperity::Tabulated) -> PyClassInitializer<Self> {
+        let law_table = self.source.clone().or_else(|| Some("array".to_owned()));
+        let adhesion = Adhesion { law_table, ..Adhesion::of("table") };
+        PyClassInitializer::from(Law { formula: Arc::new(law), adhesion }).add_subclass(self)
     }
 }
 
@@ -437,13 +216,15 @@ impl CutOff {
     const __match_args__: (&str, &str) = ("law", "distance");
     #[new]
     fn new(law: &Bound<'_, PyAny>, distance: f64) -> PyResult<PyClassInitializer<Self>> {
-        let form = Form::of(law)?;
-        if matches!(form, Form::CutOff(_)) {
+        let Law { formula, adhesion } = Law::some(law)?;
+        if formula.is_cut_off() {
             return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
         }
-        let form = asperity::adhesion::CutOff::new(Box::new(form), distance).map_err(refusal)?;
+        let formula = formula.cut_off(distance).map_err(refusal)?;
+        // the innermost of several
+        let adhesion = Adhesion { cut_off: adhesion.cut_off.or(Some(distance)), ..adhesion };
         let own = Self { law: law.clone().unbind(), distance };
-        Ok(PyClassInitializer::from(Law(Form::CutOff(form))).add_subclass(own))
+        Ok(PyClassInitializer::from(Law { formula, adhesion }).add_subclass(own))
     }
     fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, f64) {
         (self.law.clone_ref(py), self.distance)
@@ -482,18 +263,20 @@ impl Varying {
     const __match_args__: (&str, &str) = ("law", "work_of_adhesion");
     #[new]
     fn new(law: &Bound<'_, PyAny>, work_of_adhesion: &Bound<'_, PyAny>) -> PyResult<PyClassInitializer<Self>> {
-        let form = Form::of(law)?;
-        if AdhesionLaw::<f64>::hints(&form).shape.is_some() {
+        let Law { formula, adhesion } = Law::some(law)?;
+        if AdhesionLaw::<f64>::hints(&formula).shape.is_some() {
             return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
         }
         let maps = law.py().import("asperity._topography")?;
         let (works, is_line): (Field<'_>, bool) =
             maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
         let works = works.to_array()?;
-        let varying = asperity::adhesion::Varying::new(Box::new(form), works.view()).map_err(refusal_of_works)?;
+        let formula = formula.varied(works.view(), None).map_err(refusal_of_works)?;
         let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };
         let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
-        Ok(PyClassInitializer::from(Law(Form::Varying(varying))).add_subclass(own))
+        let work_of_adhesion_map = Some("array".to_owned());
+        let adhesion = Adhesion { work_of_adhesion: None, work_of_adhesion_map, ..adhesion };
+        Ok(PyClassInitializer::from(Law { formula, adhesion }).add_subclass(own))
     }
     fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, Py<PyAny>) {
         (self.law.clone_ref(py), self.work_of_adhesion.clone_ref(py))
@@ -540,8 +323,8 @@ impl Varying {
 pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
     match law.cast::<Law>() {
         Ok(law) => {
-            let form = &law.get().0;
-            asperity::adhesion::check_law::<f64>(form, largest_gap.unwrap_or_else(|| functions::far(form)))
+            let law = &law.get().formula;
+            asperity::adhesion::check_law::<f64>(law, largest_gap.unwrap_or_else(|| functions::far(law)))
                 .map_err(refusal)
         }
         Err(_) => functions::check(law, largest_gap),

@@ -4,6 +4,7 @@
 mod answer;
 mod contact;
 mod exact;
+mod formulas;
 mod functions;
 mod inputs;
 mod jumps;
@@ -31,12 +32,11 @@ mod _asperity {
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
+    use crate::formulas::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
+    #[pymodule_export]
     use crate::inputs::{has_dimension, quantity};
     #[pymodule_export]
-    use crate::law::{
-        CutOff, Exponential, Law, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, VanDerWaals, Varying,
-        check_law,
-    };
+    use crate::law::{CutOff, Law, Tabulated, Varying, check_law};
     #[pymodule_export]
     use crate::look::Look;
     #[pymodule_export]

@@ -5,13 +5,13 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Control, Grid, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Asked, Branches, Inputs, Skin, Wall, Way, check_part, settings};
+use asperity_scene::{Adhesion, Asked, Branches, Inputs, Skin, Way, check_part, settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_pyobject::from_pyobject;
 
 use crate::inputs::{Accuracy, Load, contact_fraction, control, goal, keys, named};
+use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal_of_heights;
@@ -19,6 +19,11 @@ use crate::state::{Run, Solves, state};
 
 /// The nodes in the shortest wave, tolerance, shape, bytes and seconds of a plan, and the plan in words.
 type Planned = ((f64, f64, (usize, usize), f64, f64), String);
+
+/// The words of Python for a key.
+fn word(key: &str) -> String {
+    if key == "wall_stiffness" { "a stiffness, as of asperity.Penalty(stiffness)" } else { key }.to_owned()
+}
 
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
@@ -56,7 +61,7 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, modulus, law, wall, adhesion, precision, tolerance, max_iterations,
+        heights, lengths, absent_missing, boundary, modulus, law, wall, wall_stiffness, precision, tolerance, max_iterations,
         method, branch, nested, threads, original, part, unit, source, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
@@ -69,7 +74,7 @@ impl Problem {
         modulus: f64,
         law: &Bound<'_, PyAny>,
         wall: &str,
-        adhesion: Bound<'_, PyAny>,
+        wall_stiffness: Option<f64>,
         precision: &str,
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
@@ -90,11 +95,14 @@ impl Problem {
         let pool = Pool::of(threads)?;
         let heights = heights.to_array()?;
         let boundary = named("boundary", boundary, "periodic or free")?;
-        named::<Wall>("wall", wall, "hard or none")?;
+        let wall = named("wall", wall, "hard, none, or asperity.Penalty(stiffness) or asperity.Uzawa(stiffness)")?;
         let original = original.map(|original| original.0);
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
+        let Law { formula, adhesion } = Law::of(law)?;
+        let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
+        adhesion.check_wall(word).map_err(PyValueError::new_err)?;
         let mut inputs = Inputs {
             heights: source,
             initial_gap: None,
@@ -107,7 +115,7 @@ impl Problem {
             given: given.map(keys).transpose()?,
             boundary,
             modulus,
-            adhesion: from_pyobject(adhesion)?,
+            adhesion,
             method,
             precision: "f64",
             tolerance: settings.tolerance_in::<f64>(),
@@ -115,7 +123,7 @@ impl Problem {
             threads: pool.threads(),
             version: env!("CARGO_PKG_VERSION"),
         };
-        let problem = (surface, law);
+        let problem = (surface, formula);
         let solves = match precision {
             "f64" => state::<f64>(py, &pool, problem, (&inputs, settings, original), threads)?,
             "f32" => {

@@ -4,7 +4,9 @@ use asperity::accuracy::Plan;
 use asperity::contact::Original;
 use asperity::{Control, Settings, Solver, Status, Surface};
 use asperity_scene::units::Units;
-use asperity_scene::{Account, Asked, Course, Found, Goal, HalfSpace, Inputs, Posed, Told, Way, warnings_of_input};
+use asperity_scene::{
+    Account, Asked, Course, Formula, Found, Goal, HalfSpace, Inputs, Posed, Told, Way, warnings_of_input,
+};
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
@@ -12,7 +14,6 @@ use pyo3::types::PyDict;
 use serde_pyobject::to_pyobject;
 
 use crate::answer::{Scalar, answer};
-use crate::law::{law, strongest};
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
@@ -145,17 +146,18 @@ impl<T: Scalar> Solves for State<T> {
 pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
-    (surface, given): (Surface, &Bound<'_, PyAny>),
+    (surface, formula): (Surface, Formula),
     (inputs, settings, original): (&Inputs, Settings, Option<Original>),
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
-    let (law, strongest) = (law::<T>(given)?, strongest(given));
+    let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let &Inputs { boundary, modulus, ref adhesion, .. } = inputs;
+    let constraint = adhesion.constraint::<T>().map_err(refusal)?;
     let units = inputs.units();
-    let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint: adhesion.wall });
+    let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint });
     let make = || {
         let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);
-        let posed = Posed::new(surface, law.into(), half_space, solver, original);
+        let posed = Posed::new(surface, law, half_space, solver, original);
         State { posed, threads, strongest, units, warnings, course: None }
     };
     Ok(Box::new(py.detach(|| pool.get().install(make))))

@@ -498,3 +498,43 @@ def test_a_map_of_works_with_holes_is_refused_by_its_name(rough):
     for holed in (works, np.ma.masked_array(np.full((64, 64), W), np.isnan(works))):
         with pytest.raises(ValueError, match=r"work_of_adhesion: 1 of 4096 nodes .* \(NaN\) at index \[3, 4\]: give"):
             asperity.Varying(asperity.Exponential(1.0, RANGE), holed)
+
+
+def test_springs_stand_for_the_wall(rough):
+    options = {"modulus": 1.0, "mean_pressure": 0.01}
+    hard = asperity.solve(rough, **options)
+    assert hard.report["wall_stiffness"] is None
+    off = []
+    for stiffness in (1e3, 1e4):
+        soft = asperity.solve(rough, wall=asperity.Penalty(stiffness), **options)
+        assert soft.report["wall"] == "penalty" and soft.report["wall_stiffness"] == stiffness
+        depth = np.maximum(-soft.gap, 0.0)
+        assert soft.converged and np.allclose(soft.contact_pressure, stiffness * depth, rtol=1e-9)
+        off.append(np.abs(soft.contact_pressure - hard.contact_pressure).max())
+    assert 0 < off[1] < 0.3 * off[0] and off[1] < 0.1 * hard.contact_pressure.max()
+    found = asperity.solve(rough, wall=asperity.Uzawa(50.0), tolerance=1e-8, **options)
+    reference = asperity.solve(rough, tolerance=1e-8, **options)
+    assert found.converged and np.array_equal(found.contact, reference.contact)
+    assert np.allclose(found.gap, reference.gap, rtol=0, atol=1e-6 * reference.gap.max())
+
+
+def test_walls_of_springs_are_values_and_refuse_what_they_cannot_do(rough):
+    wall = asperity.Penalty(stiffness=100)
+    assert wall == asperity.Penalty(100.0) != asperity.Uzawa(100.0) and wall.stiffness == 100.0
+    assert pickle.loads(pickle.dumps(wall)) == wall and eval(repr(wall), vars(asperity)) == wall
+    for stiffness in (0.0, -1.0, np.inf, np.nan):
+        with pytest.raises(ValueError, match="stiffness is .*: it must be positive and finite"):
+            asperity.Uzawa(stiffness)
+    options = {"modulus": 1.0, "law": asperity.Exponential(W, RANGE)}
+    with pytest.raises(ValueError, match=r"wall penalty lacks a stiffness, as of asperity.Penalty\(stiffness\)"):
+        asperity.solve(rough, mean_pressure=0.01, wall="penalty", **options)
+    with pytest.raises(ValueError, match="springs .* rigid wall"):
+        asperity.cycle(rough, mean_gaps=[0.02, 0.01], wall=wall, **options)
+    soft = asperity.solve(rough, mean_gap=0.02, wall=wall, stability=True, **options)
+    assert asperity.stability(soft).verdict == soft.report["stability"]["verdict"] == "stable"
+    rounds = asperity.solve(rough, mean_gap=0.02, wall=asperity.Uzawa(100.0), stability=True, **options)
+    assert rounds.report["stability"]["verdict"] == "stable"
+    with pytest.raises(ValueError, match="multipliers .* stability=True"):
+        asperity.stability(rounds)
+    columns = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.005, 0.01], wall=wall).columns
+    assert (columns["min_gap"] < 0).all() and (columns["status"] == "converged").all()

@@ -38,6 +38,10 @@ WITHOUT_WALL = {
     "lennard-jones": ([*GIVEN, "--wall", "none"], asperity.LennardJones(WORK, REACH), "none"),
     "morse": ([*GIVEN, "--wall", "none"], asperity.Morse(WORK, REACH), "none"),
 }
+SPRINGS = {
+    "none": (["--wall", "penalty", "--wall-stiffness", 500], None, asperity.Penalty(500.0)),
+    "exponential": ([*GIVEN, "--wall", "uzawa", "--wall-stiffness", 500], LAWS["exponential"][1], asperity.Uzawa(500.0)),
+}
 VARYING = {
     "exponential": (
         ["--work-of-adhesion-map", "works.npy", "--range", REACH],
@@ -45,7 +49,7 @@ VARYING = {
         "hard",
     )
 }
-SCENES = [*LAWS.items(), *WITHOUT_WALL.items(), *VARYING.items()]
+SCENES = [*LAWS.items(), *WITHOUT_WALL.items(), *SPRINGS.items(), *VARYING.items()]
 
 
 def asked(tool, folder, command, *options):

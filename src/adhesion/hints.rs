@@ -5,6 +5,8 @@ use crate::real::Real;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hints<T> {
+    /// The name of the law, by which a solution knows it; empty unless it is set, as by the laws of this crate.
+    pub name: &'static str,
     /// The work of adhesion w, energy per area.
     pub work_of_adhesion: T,
     /// The length ρ over which the traction decays, for μ_ρ; peaks narrower than ρ/100 may be overlooked.
@@ -23,7 +25,7 @@ pub struct Hints<T> {
 impl<T: Real> Hints<T> {
     /// A law of the gap alone with a work of adhesion w and a range ρ, which only attracts.
     pub fn new(work_of_adhesion: T, range: T) -> Self {
-        Self { work_of_adhesion, range, rest: None, concave: false, zero: false, shape: None }
+        Self { name: "", work_of_adhesion, range, rest: None, concave: false, zero: false, shape: None }
     }
 
     /// The work of adhesion w = −φ(0) and the range w/φ'(0) of a law, which is ρ for an exponential and a constant
@@ -31,6 +33,12 @@ impl<T: Real> Hints<T> {
     pub fn of<L: AdhesionLaw<T> + ?Sized>(law: &L) -> Self {
         let (w, traction) = (T::zero() - law.energy(T::zero()), law.traction(T::zero()));
         Self::new(w, if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() })
+    }
+
+    /// The same for a law of this name.
+    #[must_use]
+    pub fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
     }
 
     /// The same with another range ρ.

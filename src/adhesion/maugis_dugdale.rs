@@ -86,7 +86,7 @@ impl<T: Real> AdhesionLaw<T> for MaugisDugdale {
     }
     fn hints(&self) -> Hints<T> {
         let (w, range, _) = self.rounded::<T>();
-        Hints { zero: w == T::zero(), ..Hints::new(w, range).concave() }
+        Hints { zero: w == T::zero(), ..Hints::new(w, range).named("maugis-dugdale").concave() }
     }
     fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let Discretisation::Smooth(compliance) = to else { return None };

@@ -146,6 +146,7 @@ impl<T: Real> AdhesionLaw<T> for Tabulated {
         T::lit(b + x * (2.0 * c + x * 3.0 * d))
     }
     fn hints(&self) -> Hints<T> {
-        Hints { concave: self.concave, ..Hints::new(-self.energy(T::zero()), T::lit(self.range)) }
+        let hints = Hints::new(-self.energy(T::zero()), T::lit(self.range)).named("table");
+        Hints { concave: self.concave, ..hints }
     }
 }

@@ -118,6 +118,8 @@ pub struct Report {
     /// The wall, by the name of [`Wall::name`](crate::constraint::Wall::name).
     #[cfg_attr(feature = "serde", serde(deserialize_with = "named"))]
     pub wall: Name,
+    /// The name of the law, [`Hints::name`](crate::adhesion::Hints::name).
+    pub law: Cow<'static, str>,
     /// The work of adhesion w of the law, the largest where it varies; zero without adhesion.
     pub work_of_adhesion: f64,
     /// The mean gap, over the nodes that are not absent.
@@ -252,14 +254,19 @@ impl<T: Real> Solution<T> {
         Some(Cow::Owned(Self { gap, pressure, contact_pressure, grid: self.grid.alone(), report: self.report.clone() }))
     }
 
-    /// Refuses an adhesion law of another work of adhesion than that under which the solution was found.
+    /// Refuses an adhesion law of another name or work of adhesion than that under which the solution was found.
     pub(crate) fn check_law(&self, law: &dyn AdhesionLaw<T>) -> Result<()> {
-        let (value, known) = (law.hints().work_of_adhesion.widen(), self.report.work_of_adhesion);
-        if value == known || (value - known).abs() <= T::epsilon().widen().sqrt() * known.abs() {
-            return Ok(());
-        }
+        let hints = law.hints();
+        let (value, known) = (hints.work_of_adhesion.widen(), self.report.work_of_adhesion);
+        let same = value == known || (value - known).abs() <= T::epsilon().widen().sqrt() * known.abs();
+        let name = match same {
+            // no adhesion has many names
+            true if known == 0.0 || self.report.law == hints.name => return Ok(()),
+            true => "work of adhesion of a law of another name",
+            false => "work of adhesion",
+        };
         let requirement = "that of the law of the solution: give the law of its problem";
-        Err(Error::Value { name: "work of adhesion", value, requirement })
+        Err(Error::Value { name, value, requirement })
     }
 
     /// Refuses to take the solution for one of a problem with another grid, body, law or wall.

@@ -146,7 +146,7 @@ pub(crate) fn extrapolated<T: Real>(
 /// Refuses springs, where the energy of a solution has to be in its report.
 pub(crate) fn refuse_springs<T: Real>(wall: Wall<'_, T>) -> Result<()> {
     let reason = "the energy of springs is not in the report of a solution, so that jumps could not be told from work: \
-                  take a rigid wall (Projection), or NoWall with a law that repels";
+                  take a rigid wall, or none with a law that repels";
     if let Wall::Springs(_) = wall { Err(Error::Wall { wall: "springs", reason }) } else { Ok(()) }
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{rough, sphere};
-use asperity::adhesion::Varying;
+use asperity::adhesion::{CutOff, Varying};
 use asperity::contact::{ContactArea, ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;
@@ -330,6 +330,12 @@ fn statistics_refuse_what_does_not_fit() {
     let refused = ContactStatistics::of(&solution, &other);
     assert!(matches!(refused, Err(Error::Value { name: "work of adhesion", .. })));
     assert!(solution.regions(&other).is_err());
+    let mut adhesive = sphere::<f64, _>(16, other);
+    let found = Solver::default().solve(&mut adhesive, Control::MeanGap(0.04)).unwrap();
+    assert_eq!(found.report.law, "exponential");
+    assert!(found.regions(&CutOff::new(other, 1e-2).unwrap()).is_ok());
+    let refused = found.regions(&MaugisDugdale::new(1e-4, 1e-3).unwrap());
+    assert!(matches!(refused, Err(Error::Value { name: "work of adhesion of a law of another name", .. })));
     solution.contact_pressure[[3, 4]] = f64::NAN;
     let refused = PressureDistribution::of_contact_pressure(&solution, 3);
     assert!(matches!(refused, Err(Error::NotFinite { name: "contact pressure", first: (3, 4), .. })));

@@ -140,7 +140,7 @@ impl Options {
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part, surface) = (self.problem(), &part, Arc::new(surface));
-        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law()?, part);
+        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law(), part)?;
         let nodes = *posed.parts()?.1.operator().grid();
         let options =
             TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };

@@ -3,6 +3,7 @@
 use std::ffi::{OsStr, OsString};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use asperity::{AdhesionLaw, Amplitude, Control, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use asperity_maps::io::{OutputFolder, write_npy};
@@ -99,10 +100,10 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let part = Part::all(grid);
     let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
-        let tolerance = options.solver().settings.tolerance_in::<f64>();
+        let tolerance = options.problem().solver.settings().tolerance_in::<f64>();
         let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
         let asked = options.asked(Control::MeanPressure(PRESSURE));
-        let mut found = options.problem().posed::<f64>(surface, law, &part).solve(
+        let mut found = options.problem().posed::<f64>(surface, law, &part)?.solve(
             &asked,
             None,
             &mut |grid, state, tolerance| {
@@ -114,9 +115,9 @@ pub fn run(options: &Options) -> Outcome<bool> {
         found.sight.look_at(&mut account, &found.solution)?;
         Ok((found.solution, account))
     };
-    let none = Box::new(NoAdhesion);
+    let none = Arc::new(NoAdhesion);
     let (bare, without) = solved(surface.clone(), none, "without adhesion", &bare_options, &bare_scene)?;
-    let (sticky, with) = solved(surface, Box::new(law), "with adhesion", &sticky_options, &scene)?;
+    let (sticky, with) = solved(surface, Arc::new(law), "with adhesion", &sticky_options, &scene)?;
 
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {

@@ -30,14 +30,14 @@ pub fn identity(
         "absent_nodes": surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
         "boundary": options.beyond.boundary,
         "modulus": options.modulus().to_string(),
-        "law": adhesion.law.to_string(),
+        "law": adhesion.law,
         "work_of_adhesion": number(adhesion.work_of_adhesion),
         "range": number(adhesion.range),
         "exponent": adhesion.exponent.map_or("none".to_owned(), |value| value.to_string()),
         "hamaker": number(adhesion.hamaker),
         "law_table": given.table.as_deref().map_or("none".to_owned(), field),
         "cut_off": number(adhesion.cut_off),
-        "work_of_adhesion_map": given.works.as_ref().map_or("none".to_owned(), |works| field(&works.rows)),
+        "work_of_adhesion_map": given.works.as_deref().map_or("none".to_owned(), field),
         "wall": adhesion.wall,
         "precision": solver.precision.name(),
         "method": settings.method.name(),
@@ -47,5 +47,10 @@ pub fn identity(
         "initial_gap": start.map_or("none".to_owned(), field),
         "version": env!("CARGO_PKG_VERSION"),
     });
-    identity.as_object().cloned().unwrap_or_default()
+    let mut identity = identity.as_object().cloned().unwrap_or_default();
+    if let Some(stiffness) = adhesion.wall_stiffness {
+        // a table of a wall without springs has none
+        identity.insert("wall_stiffness".to_owned(), stiffness.to_string().into());
+    }
+    identity
 }

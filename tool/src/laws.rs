@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use clap::{Args, ValueEnum};
+use asperity_scene::{LAWS, Law};
+use clap::Args;
 
-use crate::adhesion::{AdhesionOptions, Law};
+use crate::adhesion::{AdhesionOptions, option};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::pictures::Resolution;
@@ -50,22 +51,23 @@ const REACH: f64 = 5.0;
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     let units = options.units.units(None, scene.is_si())?;
-    let chosen = options.adhesion.law;
-    let listed =
-        Law::value_variants().iter().filter(|&&law| if chosen == Law::None { law != Law::None } else { law == chosen });
+    let chosen = Law::named(&options.adhesion.law).filter(|_| options.adhesion.adheres());
     let Some(path) = &options.plot else {
-        listed.for_each(|&law| list(law));
+        match chosen {
+            Some(law) => list(law),
+            None => LAWS.iter().skip(1).for_each(list),
+        }
         return Ok(true);
     };
-    if chosen == Law::None {
+    let Some(chosen) = chosen else {
         return Err("--plot needs a law: choose one by --law, with its parameters".into());
-    }
+    };
     Format::of(path)?;
     options.adhesion.check()?;
-    let law = options.adhesion.uniform()?.law::<f64>()?;
+    let law = options.adhesion.uniform()?.0.law::<f64>();
     check_apart(path, options.adhesion.law_table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;
-    listed.for_each(|&law| list(law));
+    list(chosen);
     let Hints { range, rest, .. } = law.hints();
     // from where the repulsion is as large as some attractions
     let singular = rest.is_some() && !law.energy(0.0).is_finite();
@@ -76,15 +78,14 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     };
     let to = rest.unwrap_or(0.0) + REACH * range;
     let gaps = (0..=POINTS).map(|i| from + (to - from) * f64::from(i) / f64::from(POINTS));
-    let name = chosen.to_string();
     let chart = Chart {
         title: "Adhesive traction over the gap",
-        caption: chosen.description()[0],
+        caption: chosen.formula,
         x_label: "gap",
         x_unit: units.length.as_deref(),
         y_label: "traction",
         y_unit: units.pressure.as_deref(),
-        curves: vec![(&name, gaps.map(|gap| (gap, law.traction(gap))).collect())],
+        curves: vec![(chosen.name, gaps.map(|gap| (gap, law.traction(gap))).collect())],
         ..Chart::default()
     };
     let picture = chart.draw(options.resolution.dpi)?;
@@ -93,7 +94,6 @@ pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
     Ok(true)
 }
 
-fn list(law: Law) {
-    let [formula, parameters, source] = law.description();
-    say(&format!("{}\n  {formula}\n  {parameters}\n  {source}", bold(&law.to_string())));
+fn list(law: &Law) {
+    say(&format!("{}\n  {}\n  {}\n  {}", bold(law.name), law.formula, law.parameters(option), law.source));
 }

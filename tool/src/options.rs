@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use asperity::{AdhesionLaw, Control, Error, Method, Real, Settings, Solver, Surface};
 use asperity_maps::io::read_field;
-use asperity_scene::{Branches, HalfSpace, Posed, settings};
+use asperity_scene::{Branches, Constraint, HalfSpace, Posed, settings};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
@@ -172,11 +172,15 @@ impl<'a> ProblemOptions<'a> {
     pub fn posed<T: Scalar>(
         self,
         surface: impl Into<Arc<Surface>>,
-        law: Box<dyn AdhesionLaw<T>>,
+        law: Arc<dyn AdhesionLaw<T>>,
         part: &Part,
-    ) -> Posed<T> {
-        let solver = Solver { settings: self.solver.settings(), constraint: self.adhesion.wall };
-        Posed::new(surface, law.into(), self.surface.half_space(), solver, part.wanted())
+    ) -> asperity::Result<Posed<T>> {
+        Ok(Posed::new(surface, law, self.surface.half_space(), self.solver()?, part.wanted()))
+    }
+
+    /// The solver that the options choose.
+    pub fn solver<T: Scalar>(self) -> asperity::Result<Solver<Constraint<T>>> {
+        Ok(Solver { settings: self.solver.settings(), constraint: self.adhesion.described().constraint()? })
     }
 
     /// The gap at which bodies that come from afar begin under `loads`; on the branch of unloading they do not.

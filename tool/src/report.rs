@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use asperity_scene::{Adhesion, Inputs};
+use asperity_scene::Inputs;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::options::ProblemOptions;
 use crate::part::Part;
-use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::threads;
 use crate::units::Units;
@@ -21,7 +20,6 @@ pub fn inputs(
     scene: &Scene,
 ) -> Inputs {
     let settings = solver.settings();
-    let number = |given: Option<Quantity>| given.map(|given| given.value);
     let path = |file: Option<&Path>| file.map(|path| path.to_string_lossy().into_owned());
     Inputs {
         heights: path(Some(&surface.heights)),
@@ -35,17 +33,7 @@ pub fn inputs(
         given: scene.given(),
         boundary: surface.beyond.boundary,
         modulus: surface.modulus(),
-        adhesion: Adhesion {
-            law: adhesion.law.to_string(),
-            work_of_adhesion: number(adhesion.work_of_adhesion),
-            range: number(adhesion.range),
-            exponent: adhesion.exponent,
-            hamaker: number(adhesion.hamaker),
-            law_table: path(adhesion.law_table.as_deref()),
-            cut_off: number(adhesion.cut_off),
-            work_of_adhesion_map: path(adhesion.work_of_adhesion_map.as_deref()),
-            wall: adhesion.wall,
-        },
+        adhesion: adhesion.described(),
         method: settings.method,
         precision: solver.precision.name(),
         tolerance: solver.tolerance(),

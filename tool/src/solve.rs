@@ -16,7 +16,7 @@ use ndarray::{Array2, CowArray};
 use serde_json::json;
 
 use crate::accuracy::AccuracyOptions;
-use crate::adhesion::{Adhesion, AdhesionOptions, Law};
+use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions, check_load};
 use crate::fields::{check_finite, gap_to_write, write_fields};
@@ -254,14 +254,14 @@ impl Job<'_> {
             self.leave_out_what_takes_whole_fields()?;
         }
         let start = start.map(T::field);
-        let solver = self.options.solver();
+        let solver = self.options.problem().solver::<T>()?;
         let tolerance = match self.asked.goal {
             Some(goal) => goal.by(solver, false).tolerance()?,
             None => solver.settings.tolerance_in::<T>(),
         };
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let strictness = self.options.strictness;
-        let whole_adhesion = if fits { adhesion.gathered() } else { None };
+        let whole_adhesion = if fits { adhesion.gathered(processes)? } else { None };
         let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
         let mut warnings = processes.agree(match whole {
             Some((surface, adhesion)) => {
@@ -271,7 +271,7 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
-        let mut posed = self.options.problem().posed::<T>(surface, adhesion.law()?, &self.part);
+        let mut posed = self.options.problem().posed::<T>(surface, adhesion.law(), &self.part)?;
         if let Some(goal) = self.asked.goal {
             let (plan, time) = posed.plan(self.asked.control, goal)?;
             printing.say(&goal.announced(&plan, time));
@@ -312,7 +312,7 @@ impl Job<'_> {
         }
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
-            let law = whole_adhesion.as_ref().map(Adhesion::law).transpose()?;
+            let law = whole_adhesion.as_ref().map(Adhesion::law);
             let whole = whole.as_deref().zip(law.as_ref());
             let written = self.write(&folder, whole, mode.as_ref(), &account);
             written.map_err(|error| at_destination(error, out))?;
@@ -386,7 +386,7 @@ impl Job<'_> {
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
             let regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
             pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?.write(path(contact_name))?;
-            let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.law != Law::None);
+            let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.adheres());
             let limits = self.options.colour_limits();
             let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
             picture.write(path(pressure_name))?;

@@ -9,7 +9,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::{Adhesion, AdhesionOptions, Law};
+use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::boundary::{FractionsOptions, LOADS, LoadsOptions, check_load};
 use crate::csv;
 use crate::identity::{Identity, identity};
@@ -135,7 +135,7 @@ impl Options {
         let &Self { ref out, force, printing, strictness, .. } = self;
         let (fields, units) = (self.fields.as_deref(), &units);
         let (problem, part, surface) = (self.problem(), &part, Arc::new(surface));
-        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law()?, part);
+        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law(), part)?;
         let nodes = *posed.parts()?.1.operator().grid();
         let options =
             TableOptions { problem, out, force, printing, scene, units, part, strictness, fields, processes, nodes };
@@ -177,9 +177,9 @@ impl Options {
 
     /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
     fn control(&self) -> Control {
-        match (self.fractions.values(), self.adhesion.law, self.surface.beyond.boundary) {
+        match (self.fractions.values(), self.adhesion.adheres(), self.surface.beyond.boundary) {
             (None, _, _) => self.loads.control(0.0),
-            (Some(_), Law::None, _) => Control::MeanPressure(0.0),
+            (Some(_), false, _) => Control::MeanPressure(0.0),
             (Some(_), _, Boundary::Periodic) => Control::MeanGap(0.0),
             (Some(_), _, Boundary::Free) => Control::Approach(0.0),
         }

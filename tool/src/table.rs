@@ -85,7 +85,7 @@ impl<'a> Table<'a> {
         }
         let kept = Kept(options.fields);
         let start = start.map(|start| grid.gathered(start));
-        let whole = surface.gathered().zip(adhesion.gathered());
+        let whole = surface.gathered().zip(adhesion.gathered(processes)?);
         let mut opened = None;
         processes.first(|| {
             let Some((surface, adhesion)) = whole else { return Ok(()) };

@@ -82,7 +82,7 @@ impl Warnings {
         options: ProblemOptions<'_>,
         units: &Units,
     ) -> Outcome<Self> {
-        let (law, surface) = (adhesion.law::<T>()?, (surface, origin.converted_from.as_deref()));
+        let (law, surface) = (adhesion.law::<T>(), (surface, origin.converted_from.as_deref()));
         let mut warnings = Self::empty(strictness, units);
         warnings.add(warnings_of_input(surface, options.surface.half_space(), &*law, units))?;
         Ok(warnings)

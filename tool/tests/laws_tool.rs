@@ -126,6 +126,50 @@ fn laws_that_lack_something_or_have_too_much_are_refused() {
 }
 
 #[test]
+fn springs_stand_for_the_wall() {
+    let bench = wave();
+    let solve = |wall: &str, out: &str| {
+        let report = bench.reported(&format!("{SOLVE} --wall {wall} --out {out}"));
+        assert_eq!(report["status"], "converged", "{wall}");
+        let number = |key: &str| report[key].as_f64().unwrap();
+        let figures = [number("mean_gap"), -number("min_gap"), number("max_pressure"), number("contact_fraction")];
+        (report, figures)
+    };
+    let (hard, [rigid, _, _, touching]) = solve("hard", "hard");
+    assert_eq!((&hard["wall"], &hard["wall_stiffness"]), (&"hard".into(), &serde_json::Value::Null));
+    let [soft, stiff] = [100.0, 1e4].map(|stiffness| {
+        let (report, [gap, depth, pressure, _]) =
+            solve(&format!("penalty --wall-stiffness {stiffness}"), &format!("springs-{stiffness}"));
+        assert_eq!((&report["wall"], report["wall_stiffness"].as_f64()), (&"penalty".into(), Some(stiffness)));
+        assert!((depth * stiffness / pressure - 1.0).abs() < 1e-4, "{stiffness}: {depth} {pressure}");
+        (gap - rigid).abs()
+    });
+    assert!(soft > 1e-5 && stiff < 0.03 * soft, "{soft} {stiff}");
+    let (_, [gap, depth, _, fraction]) = solve("uzawa --wall-stiffness 20", "rounds");
+    assert!((gap - rigid).abs() < 1e-6 * rigid && depth.abs() < 1e-6 * rigid, "{gap} {rigid} {depth}");
+    assert_eq!(fraction, touching);
+    bench.said("run rounds/scene.toml --out again --quiet");
+    assert_eq!(bench.bytes("again/gap.npy"), bench.bytes("rounds/gap.npy"));
+
+    let sweep = "sweep --heights heights.txt --threads 1 --quiet --out sweep.csv --wall penalty";
+    bench.said(&format!("{sweep} --wall-stiffness 100 --mean-pressures 1e-3,2e-3"));
+    bench.said(&format!("{sweep} --wall-stiffness 100 --mean-pressures 1e-3,2e-3,3e-3"));
+    assert_eq!(bench.read("sweep.csv").lines().count(), 4);
+    let other = format!("{sweep} --wall-stiffness 200 --mean-pressures 1e-3,2e-3,3e-3,4e-3");
+    bench.refused_with(&other, &["wall stiffness is 100, and not 200"]);
+    for (wall, parts) in [
+        ("penalty", ["--wall penalty lacks --wall-stiffness", "a pressure per length"]),
+        ("hard --wall-stiffness 5", ["--wall-stiffness is 5, but --wall hard", "--wall uzawa"]),
+        ("uzawa --wall-stiffness 5nN", ["--wall-stiffness", "pressure per length, as 1GPa/um"]),
+    ] {
+        bench.refused_with(&format!("{SOLVE} --out out --wall {wall}"), &parts);
+    }
+    let cycle = "cycle --heights heights.txt --mean-gaps 0.02,0.01 --out cycle.csv --wall penalty --wall-stiffness 100";
+    bench.refused_with(cycle, &["springs", "take a rigid wall"]);
+    assert!(!bench.path("cycle.csv").exists() && !bench.path("out").exists());
+}
+
+#[test]
 fn surfaces_that_their_law_keeps_apart_go_through_a_cycle_and_leave_a_saddle() {
     let bench = wave();
     let law = "--threads 1 --law lennard-jones --work-of-adhesion 3.9e-4 --range 0.01 --wall none";

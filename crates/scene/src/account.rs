@@ -2,16 +2,16 @@
 
 use asperity::contact::Patch;
 use asperity::{Branch, Control, Criterion, Method, Real, Report, Status};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::Value;
 
+use crate::adhesion::Adhesion;
 use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
 use crate::found::Found;
 use crate::half_space::Boundary;
 use crate::record::record;
 use crate::told::Told;
 use crate::units::Units;
-use crate::wall::Wall;
 
 record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
@@ -183,27 +183,4 @@ impl Inputs {
     pub fn units(&self) -> Units {
         Units { length: self.length_unit.clone(), pressure: self.pressure_unit.clone(), force: None }
     }
-}
-
-/// The adhesion and the wall, by their names in every report.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Adhesion {
-    /// The name of the law.
-    pub law: String,
-    /// The work of adhesion, if it is a parameter.
-    pub work_of_adhesion: Option<f64>,
-    /// The range, if it is a parameter.
-    pub range: Option<f64>,
-    /// The exponent of a power law.
-    pub exponent: Option<f64>,
-    /// Hamaker's constant, if it is a parameter.
-    pub hamaker: Option<f64>,
-    /// The file of a table.
-    pub law_table: Option<String>,
-    /// The gap at which the law is cut off, if it is.
-    pub cut_off: Option<f64>,
-    /// The file of works of adhesion that vary.
-    pub work_of_adhesion_map: Option<String>,
-    /// The wall.
-    pub wall: Wall,
 }

@@ -9,7 +9,7 @@ use asperity_maps::io::available_memory;
 use ndarray::Array2;
 
 use crate::half_space::HalfSpace;
-use crate::wall::Wall;
+use crate::wall::Constraint;
 
 /// The bytes of a GiB.
 pub(crate) const GIB: f64 = 1_073_741_824.0;
@@ -27,7 +27,7 @@ pub struct Goal {
 
 impl Goal {
     /// The accuracy by a solver, with the contact stiffness if that is asked for.
-    pub fn by(&self, solver: Solver<Wall>, stiffness: bool) -> Accuracy<Wall> {
+    pub fn by<T: Real>(&self, solver: Solver<Constraint<T>>, stiffness: bool) -> Accuracy<Constraint<T>> {
         let mut wanted = Accuracy::with_solver(self.accuracy, self.of, solver);
         wanted.memory = self.memory.map_or_else(available_memory, |memory| memory * GIB);
         wanted.nested.stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
@@ -40,7 +40,7 @@ impl Goal {
 /// # Errors
 /// Those of the operator and of [`Accuracy::plan`].
 pub(crate) fn planned<T: Real>(
-    wanted: &Accuracy<Wall>,
+    wanted: &Accuracy<Constraint<T>>,
     surface: &Surface,
     half_space: HalfSpace,
     law: &dyn AdhesionLaw<T>,

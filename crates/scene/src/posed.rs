@@ -20,7 +20,7 @@ use crate::compiled::compiled;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
 use crate::half_space::{Boundary, HalfSpace};
-use crate::wall::Wall;
+use crate::wall::Constraint;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
 const MOST_DEPARTURES: usize = 10;
@@ -45,7 +45,7 @@ pub struct Posed<T: Real> {
     body: Body<T>,
     law: Arc<dyn AdhesionLaw<T>>,
     half_space: HalfSpace,
-    solver: Solver<Wall>,
+    solver: Solver<Constraint<T>>,
     original: Option<Original>,
 }
 
@@ -78,7 +78,7 @@ impl Asked {
     }
 }
 
-compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Wall>, &'a mut AnyProblem<T>)> = Posed::parts_of);
+compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Constraint<T>>, &'a mut AnyProblem<T>)> = Posed::parts_of);
 compiled!(Planned: (&'a Posed<T>, Control, Goal) => Result<(Plan, f64)> = Posed::planned);
 compiled!(Solved: (&'a mut Posed<T>, &'a Asked, Option<Array2<T>>, Observe<'a>) => Result<Found<T>> = Posed::solved);
 compiled!(Stiff: (&'a mut Posed<T>, &'a Solution<T>) => Result<Option<ContactStiffness>> = Posed::stiff);
@@ -91,7 +91,7 @@ impl<T: Real> Posed<T> {
         surface: impl Into<Arc<Surface>>,
         law: Arc<dyn AdhesionLaw<T>>,
         half_space: HalfSpace,
-        solver: Solver<Wall>,
+        solver: Solver<Constraint<T>>,
         original: Option<Original>,
     ) -> Self {
         Self { body: Body::Surface(surface.into()), law, half_space, solver, original }
@@ -102,11 +102,11 @@ impl<T: Real> Posed<T> {
     ///
     /// # Errors
     /// Those of [`HalfSpace::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
-    pub fn parts(&mut self) -> Result<(&mut Solver<Wall>, &mut AnyProblem<T>)> {
+    pub fn parts(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut AnyProblem<T>)> {
         T::call::<Parts<'_>>(self)
     }
 
-    fn parts_of(&mut self) -> Result<(&mut Solver<Wall>, &mut AnyProblem<T>)> {
+    fn parts_of(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut AnyProblem<T>)> {
         if let Body::Surface(surface) = &self.body {
             let operator = self.half_space.operator(*surface.grid())?;
             if let Body::Surface(surface) = mem::replace(&mut self.body, Body::Spent) {
@@ -227,7 +227,7 @@ impl<T: Real> Posed<T> {
     fn on_nested_grids(&self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
         let Body::Surface(surface) = &self.body else { return Ok(None) };
         let (control, settings) = (asked.control, self.solver.settings);
-        let may = !started && !asked.stability && self.solver.constraint == Wall::Hard;
+        let may = !started && !asked.stability && matches!(self.solver.constraint, Constraint::Hard);
         let pays = || may && Nested::new(settings).pays(surface, &self.law, control);
         if asked.fraction.is_some() || !asked.nested.unwrap_or_else(pays) {
             return Ok(None);

@@ -122,7 +122,7 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
             ENERGY_PER_AREA
         }
         ("hamaker", _) => ENERGY,
-        ("contact_stiffness", _) => PRESSURE_PER_LENGTH,
+        ("contact_stiffness" | "wall_stiffness", _) => PRESSURE_PER_LENGTH,
         ("normal_stiffness" | "spring_stiffness", _) => FORCE_PER_LENGTH,
         ("control_value", "mean-pressure") => PRESSURE,
         ("control_value", "normal-force") => FORCE,

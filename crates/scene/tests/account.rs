@@ -8,8 +8,8 @@ use asperity::path::PathSettings;
 use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, Asked, Boundary, Course, Found, Goal, HalfSpace, Inputs, Posed, Skin, Wall, Way, check_finite,
-    rows, shortfalls, worded,
+    Account, Adhesion, Asked, Boundary, Constraint, Course, Found, Goal, HalfSpace, Inputs, Posed, Skin, Way,
+    check_finite, rows, shortfalls, worded,
 };
 use serde_json::{Value, json};
 
@@ -23,7 +23,7 @@ const OUTCOME: &str = "\
     departures mu_rho mu_rho_node under_resolved warnings seconds control control_value";
 const INPUTS: &str = "\
     heights initial_gap part solved_shape shape lengths length_unit pressure_unit given boundary modulus law \
-    work_of_adhesion range exponent hamaker law_table cut_off work_of_adhesion_map wall method precision \
+    work_of_adhesion range exponent hamaker law_table cut_off work_of_adhesion_map wall wall_stiffness method precision \
     tolerance max_iterations threads version";
 const OTHER_BRANCH: &str = "\
     branch status relative_error load_error operator_applications contact_fraction mean_gap mean_pressure \
@@ -43,8 +43,6 @@ fn words(text: &str) -> Vec<&str> {
 }
 
 fn inputs() -> Inputs {
-    let law = "exponential".to_owned();
-    let (range, work_of_adhesion) = (Some(8e-3), Some(2e-5));
     Inputs {
         heights: None,
         initial_gap: None,
@@ -57,17 +55,7 @@ fn inputs() -> Inputs {
         given: None,
         boundary: Boundary::Periodic,
         modulus: 1.0,
-        adhesion: Adhesion {
-            law,
-            work_of_adhesion,
-            range,
-            exponent: None,
-            hamaker: None,
-            law_table: None,
-            cut_off: None,
-            work_of_adhesion_map: None,
-            wall: Wall::Hard,
-        },
+        adhesion: Adhesion { work_of_adhesion: Some(2e-5), range: Some(8e-3), ..Adhesion::of("exponential") },
         method: Method::Preconditioned,
         precision: "f64",
         tolerance: 0.0,
@@ -82,7 +70,7 @@ fn posed() -> Posed<f64> {
     let surface = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap();
     let law = Arc::new(Exponential::new(2e-5, 8e-3).unwrap());
     let half_space = HalfSpace { boundary: Boundary::Periodic, modulus: 1.0 };
-    Posed::new(surface, law, half_space, Solver { settings: Settings::default(), constraint: Wall::Hard }, None)
+    Posed::new(surface, law, half_space, Solver { settings: Settings::default(), constraint: Constraint::Hard }, None)
 }
 
 fn solved(asked: &Asked) -> (Found<f64>, Account) {

@@ -1,7 +1,7 @@
 //! The problem of a solve, as its options pose it.
 
-use asperity::{Control, Solver};
-use asperity_scene::{Asked, Branches, Inputs, Wall};
+use asperity::Control;
+use asperity_scene::{Asked, Branches, Inputs};
 
 use super::Options;
 use crate::part::Part;
@@ -10,11 +10,6 @@ use crate::scene::Scene;
 use crate::units::Units;
 
 impl Options {
-    /// The solver that the options choose.
-    pub fn solver(&self) -> Solver<Wall> {
-        Solver { settings: self.solver.settings(), constraint: self.adhesion.wall }
-    }
-
     /// The solution that the options ask for, under a load.
     pub fn asked(&self, control: Control) -> Asked {
         Asked {

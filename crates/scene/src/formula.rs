@@ -1,0 +1,92 @@
+//! Adhesion laws as one type, in both precisions.
+
+use std::any::Any;
+use std::path::Path;
+use std::sync::Arc;
+
+use asperity::adhesion::{CutOff, Varying};
+use asperity::{AdhesionLaw, Error, Grid, Real, Result, Tabulated};
+use ndarray::{ArrayRef2, ArrayView2};
+
+use crate::compiled::compiled;
+
+/// An adhesion law in both precisions, whichever it is; a clone shares it.
+pub type Formula = Arc<dyn AnyLaw>;
+
+/// An adhesion law in both precisions that can be compared with others. All laws of the library have this trait, and
+/// every other type that is a law and has an equality.
+pub trait AnyLaw: AdhesionLaw<f32> + AdhesionLaw<f64> + Any {
+    /// Whether another law is of the same type and equal.
+    fn equals(&self, other: &dyn AnyLaw) -> bool;
+}
+
+impl<L: AdhesionLaw<f32> + AdhesionLaw<f64> + PartialEq + Any> AnyLaw for L {
+    fn equals(&self, other: &dyn AnyLaw) -> bool {
+        (other as &dyn Any).downcast_ref() == Some(self)
+    }
+}
+
+impl PartialEq for dyn AnyLaw {
+    fn eq(&self, other: &Self) -> bool {
+        self.equals(other)
+    }
+}
+
+compiled!(InPrecision: Formula => Arc<dyn AdhesionLaw<T>> = |law| law);
+
+impl dyn AnyLaw {
+    /// The law in the precision of a solve.
+    pub fn law<T: Real>(self: Arc<Self>) -> Arc<dyn AdhesionLaw<T>> {
+        T::call::<InPrecision<'_>>(self)
+    }
+
+    /// The law, zero from a gap on.
+    ///
+    /// # Errors
+    /// Those of [`CutOff::new`].
+    pub fn cut_off(self: Arc<Self>, distance: f64) -> Result<Formula> {
+        Ok(Arc::new(CutOff::new(self, distance)?))
+    }
+
+    /// Whether the law is one that [`cut_off`](Self::cut_off) has made.
+    pub fn is_cut_off(&self) -> bool {
+        (self as &dyn Any).is::<CutOff<Formula>>()
+    }
+
+    /// The law with works of adhesion at all nodes, shape (Nx, Ny), or at those of a grid, of which this process gives
+    /// its rows.
+    ///
+    /// # Errors
+    /// Those of [`Varying::on`] and [`Varying::new`].
+    pub fn varied(self: Arc<Self>, works: ArrayView2<'_, f64>, grid: Option<&Grid>) -> Result<Formula> {
+        Ok(Arc::new(match grid {
+            Some(grid) => Varying::on(grid, self, works)?,
+            None => Varying::new(self, works)?,
+        }))
+    }
+
+    /// The node at which the work of adhesion is largest, if it varies. All processes that share the grid have to ask.
+    pub fn strongest(&self) -> Option<(usize, usize)> {
+        let law: &dyn Any = self;
+        match law.downcast_ref::<Varying<Formula>>() {
+            Some(varying) => Some(varying.strongest()),
+            None => law.downcast_ref::<CutOff<Formula>>()?.law().strongest(),
+        }
+    }
+}
+
+/// The law of a table of gaps and tractions, which was read from a file.
+///
+/// # Errors
+/// [`Error::File`] unless the table has two columns that make a law.
+pub fn tabulated(path: &Path, table: &ArrayRef2<f64>) -> Result<Tabulated> {
+    if table.ncols() != 2 {
+        let columns = table.ncols();
+        return Err(Error::file(
+            path,
+            format!("has {columns} columns, not two: put a gap and a traction on each line"),
+        ));
+    }
+    let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
+    Tabulated::new(&gaps, &tractions).map_err(|error| Error::file(path, format!("is no law: {error}")))
+}

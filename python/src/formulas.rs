@@ -1,0 +1,200 @@
+//! The laws of the library that are formulas of a few parameters, as classes.
+
+use asperity_scene::{Adhesion, Wall};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::law::Law;
+
+/// The adhesion by a law of a work of adhesion and a range.
+fn adhesion(law: &str, work_of_adhesion: f64, range: f64) -> Adhesion {
+    Adhesion { work_of_adhesion: Some(work_of_adhesion), range: Some(range), ..Adhesion::of(law) }
+}
+
+/// The type of a parameter's name.
+macro_rules! name {
+    ($parameter:ident) => { &'static str };
+}
+
+/// Refuses keywords that a class does not have, with those that they may mean.
+fn check_words(py: Python<'_>, class: &str, known: &[&str], other: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    let Some(other) = other else { return Ok(()) };
+    py.import("asperity._words")?.call_method1("check", (class, other, known)).map(|_| ())
+}
+
+/// The value of a parameter, refused if there is none.
+fn given<V>(class: &str, parameter: &str, value: Option<V>) -> PyResult<V> {
+    value.ok_or_else(|| PyTypeError::new_err(format!("{class}() is without {parameter}: give a number")))
+}
+
+/// A law of the library as a class: its parameters, and its description by them.
+macro_rules! class {
+    (
+        $(#[$doc:meta])*
+        $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $signature:literal, $adhesion:expr
+    ) => {
+        $(#[$doc])*
+        #[pyclass(frozen, extends = Law, module = "asperity")]
+        pub struct $name { $($parameter: $type),* }
+
+        #[pymethods]
+        impl $name {
+            #[classattr]
+            #[expect(non_upper_case_globals, reason = "Python's name")]
+            const __match_args__: ($(name!($parameter),)*) = ($(stringify!($parameter),)*);
+            #[new]
+            #[pyo3(signature = ($($parameter = None,)* **other), text_signature = $signature)]
+            fn new(
+                py: Python<'_>,
+                $($parameter: Option<$type>,)*
+                other: Option<&Bound<'_, PyDict>>,
+            ) -> PyResult<PyClassInitializer<Self>> {
+                let class = stringify!($name);
+                check_words(py, class, &[$(stringify!($parameter)),*], other)?;
+                $(let $parameter = given(class, stringify!($parameter), $parameter $(.or(Some($default)))?)?;)*
+                let law = Law::of_library($adhesion)?;
+                Ok(PyClassInitializer::from(law).add_subclass(Self { $($parameter),* }))
+            }
+            $(
+                #[getter]
+                fn $parameter(&self) -> $type {
+                    self.$parameter
+                }
+            )*
+            fn __getnewargs__(&self) -> ($($type,)*) {
+                ($(self.$parameter,)*)
+            }
+        }
+    };
+}
+
+class! {
+    /// The exponential law, φ(g) = −w exp(−g/ρ).
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w ≥ 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> law = asperity.Exponential(work_of_adhesion=0.05, range=2e-9)
+    /// >>> law.energy(0.0)
+    /// -0.05
+    Exponential(work_of_adhesion: f64, range: f64),
+    "(work_of_adhesion, range)",
+    adhesion("exponential", work_of_adhesion, range)
+}
+class! {
+    /// The law of Maugis and Dugdale: a constant traction w/ρ where the gap is below ρ.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w ≥ 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> asperity.MaugisDugdale(work_of_adhesion=1e-4, range=2e-3).traction([0.0, 3e-3])
+    /// array([0.05, 0.  ])
+    MaugisDugdale(work_of_adhesion: f64, range: f64),
+    "(work_of_adhesion, range)",
+    adhesion("maugis-dugdale", work_of_adhesion, range)
+}
+class! {
+    /// The law of Lennard-Jones between two half-spaces, φ'(g) = 8w/3z₀ (x³ − x⁹) with x = z₀/g.
+    ///
+    /// It attracts beyond the equilibrium separation z₀, and repels below: for a solve with ``wall="none"``, where
+    /// contact is where it repels. For one with ``wall="hard"`` it has to be cut at z₀, from which the gap counts then.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w > 0, an energy per area.
+    /// range : float
+    ///     Distance of rest z₀ > 0, a length.
+    /// cut : bool
+    ///     Leaves the repulsion to a wall at z₀: x = z₀/(z₀ + g).
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> law = asperity.LennardJones(work_of_adhesion=0.05, range=3e-10)
+    /// >>> law.traction(3e-10), bool(law.traction(2.9e-10) < 0)
+    /// (0.0, True)
+    LennardJones(work_of_adhesion: f64, range: f64, cut: bool = false),
+    "(work_of_adhesion, range, cut=False)",
+    Adhesion {
+        wall: if cut { Wall::Hard } else { Wall::None },
+        ..adhesion("lennard-jones", work_of_adhesion, range)
+    }
+}
+class! {
+    /// The law of Morse, φ(g) = w (e² − 2e) with e = exp(−g/ρ): it attracts at g > 0, and repels at g < 0.
+    ///
+    /// With ``wall="none"`` it keeps the surfaces apart by itself; with a wall at g = 0 the attraction is what counts.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w > 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> asperity.Morse(work_of_adhesion=0.05, range=5e-10).energy(0.0)
+    /// -0.05
+    Morse(work_of_adhesion: f64, range: f64),
+    "(work_of_adhesion, range)",
+    adhesion("morse", work_of_adhesion, range)
+}
+class! {
+    /// A power law, φ(g) = −w (1 + g/nρ)⁻ⁿ. Its tail reaches far: `CutOff` ends it.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w ≥ 0, an energy per area.
+    /// range : float
+    ///     Range ρ > 0, a length.
+    /// exponent : float
+    ///     Exponent n > 0 of the energy.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> asperity.PowerLaw(work_of_adhesion=0.05, range=2e-9, exponent=3).traction(0.0)
+    /// 25000000.0
+    PowerLaw(work_of_adhesion: f64, range: f64, exponent: f64),
+    "(work_of_adhesion, range, exponent)",
+    Adhesion { exponent: Some(exponent), ..adhesion("power", work_of_adhesion, range) }
+}
+class! {
+    /// The van der Waals attraction of two half-spaces, φ(g) = −A/12π(D₀ + g)². Its tail reaches far: `CutOff` ends it.
+    ///
+    /// Parameters
+    /// ----------
+    /// hamaker : float
+    ///     Hamaker's constant A ≥ 0, an energy.
+    /// range : float
+    ///     Distance D₀ > 0 between the surfaces in contact, a length, often taken to be 0.165 nm.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> law = asperity.VanDerWaals(hamaker=6e-20, range=0.165e-9)
+    /// >>> f"work of adhesion {-law.energy(0.0):.4f} J/m²"
+    /// 'work of adhesion 0.0585 J/m²'
+    VanDerWaals(hamaker: f64, range: f64),
+    "(hamaker, range)",
+    Adhesion { hamaker: Some(hamaker), range: Some(range), ..Adhesion::of("van-der-waals") }
+}
