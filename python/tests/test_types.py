@@ -68,7 +68,7 @@ def test_the_type_of_a_report_has_the_keys_and_values_of_the_account(rough, sphe
     ("keyword", "kind"),
     [
         ("boundary", _types.Boundary),
-        ("wall", _types.Wall),
+        ("wall", _types.WallName),
         ("method", _types.Method),
         ("precision", _types.Precision),
         ("branch", _types.Branches),
