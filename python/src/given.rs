@@ -1,5 +1,6 @@
 //! The numbers of a law as they were typed, with a unit or without one.
 
+use asperity_scene::numbers::plain;
 use asperity_scene::units::dimension_of_key;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
@@ -44,7 +45,8 @@ impl Given {
         };
         match (&self.bare, self.texts.first()) {
             (Some((key, value)), Some((with, text))) => Err(PyValueError::new_err(format!(
-                "{key} is {value}, without a unit, but {with} {text} has one: give both units, or neither"
+                "{key} is {}, without a unit, but {with} {text} has one: give both units, or neither",
+                plain(*value)
             ))),
             _ => Ok(value),
         }

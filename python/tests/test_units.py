@@ -59,9 +59,9 @@ def test_laws_and_walls_have_units_or_none(rough):
     copied = pickle.loads(pickle.dumps(law))
     assert copied.given == law.given == ({"work_of_adhesion": "50mJ/m2", "range": "1nm"}, None)
     for message, wrong in [
-        ("range is 1e-09, without a unit, but work_of_adhesion 50mJ/m2 has", lambda: asperity.Morse("50mJ/m2", 1e-9)),
+        ("range is 1e-9, without a unit, but work_of_adhesion 50mJ/m2 has", lambda: asperity.Morse("50mJ/m2", 1e-9)),
         ("work_of_adhesion is 1nm: nm is a unit of something else", lambda: asperity.Morse("1nm", "1nm")),
-        ("cut_off is 1e-08, without a unit", lambda: asperity.CutOff(law, 1e-8)),
+        ("cut_off is 1e-8, without a unit", lambda: asperity.CutOff(law, 1e-8)),
     ]:
         with pytest.raises(ValueError, match=message):
             wrong()
