@@ -51,6 +51,7 @@ __all__ = [
 VERSION: str
 
 _Field = NDArray[np.float64]
+_Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
 _Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, int | None]
 
 @disjoint_base
@@ -261,9 +262,7 @@ class Problem:
 
 def has_dimension(key: str) -> bool: ...
 def quantity(key: str, text: str) -> float: ...
-def in_metres(
-    heights: _Field, lengths: tuple[float, float] | None, unit: str
-) -> tuple[_Field, tuple[float, float] | None]: ...
+def in_metres(given: _Given) -> _Map: ...
 def meant(word: str, known: Sequence[str]) -> str | None: ...
 def read(path: str, channel: str | None) -> _Map: ...
 def made(
@@ -276,7 +275,7 @@ def spectrum(
 def clusters(map: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(
-    given: tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None],
+    given: _Given,
     new_lengths: tuple[float, float] | None,
     in_metres: bool,
     steps: dict[str, Any],
