@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from . import _asperity
-from ._topography import Topography, _lengths, found, plain
+from ._topography import Topography, _lengths, found, known, plain
 from ._types import AxisOrder, Heights, Lengths, RemovedForm, RowAlignment, ScanAxis, Trend
 from ._units import given as units
 from ._warnings import warn_of_input
@@ -110,8 +110,8 @@ def prepare(
         "resample": resample,
     }
     both = None if lengths is None else _lengths(lengths, given.heights.shape)
-    known = (given.heights, given.lengths, given.unit, given.original)
-    (made, both, name, original, _), log, warnings = _asperity.prepare(known, both, units.get() is not None, plain(keys))
+    prepared = _asperity.prepare(known(given), both, units.get() is not None, plain(keys))
+    (made, both, name, original, _), log, warnings = prepared
     for warning in warnings:
         warn_of_input(warning)
     periodic = True if mirror or window else given.periodic

@@ -12,9 +12,9 @@ from . import _asperity
 from ._control import number
 from ._solution import Solution
 from ._topography import Topography, field_of, original_of, refined, sides, taken
-from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
+from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start
 from ._units import given
-from ._wall import parts
+from ._wall import Wall, parts
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 

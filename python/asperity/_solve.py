@@ -22,8 +22,8 @@ from ._types import (
     Precision,
     Quantity,
     Start,
-    Wall,
 )
+from ._wall import Wall
 
 
 def solve(
@@ -64,7 +64,7 @@ def solve(
 
     Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach``, ``spring``, ``reduced_pressure`` or
     ``contact_fraction``. Quantities are numbers in any consistent units, or all are texts with units, as
-    ``modulus="70GPa"`` and ``mean_gap="2nm"``: then the map is brought to metres, and all results are in the SI.
+    ``modulus="70GPa"`` and ``law=asperity.Exponential("50mJ/m2", "1nm")``: then the map is brought to metres, and all results are in the SI.
 
     Parameters
     ----------

@@ -100,7 +100,7 @@ def stability(
         law=solution.law,
         modulus=report["modulus"],
         boundary=report["boundary"],
-        wall=report["wall"] if report["wall"] != "penalty" else Penalty(report["wall_stiffness"]),
+        wall=report["wall"] if report["wall"] != "penalty" else Penalty(report["wall_stiffness"] or 0.0),
         precision=report["precision"],
         method=report["method"],
         threads=report["threads"],

@@ -128,10 +128,8 @@ def sphere(
 
     Parameters
     ----------
-    shape : int or (int, int)
-        Numbers of nodes (Nx, Ny); one alone for a square.
-    lengths : float or (float, float)
-        Side lengths; one alone for square cells.
+    shape, lengths
+        Numbers of nodes and side lengths, as of `self_affine`.
     radius : float
         Radius R, a length. Beyond it points are missing: `asperity.solve` takes them by ``absent_missing``.
     tilt : float or (float, float), optional

@@ -11,7 +11,8 @@ from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution
-from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start, Wall
+from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start
+from ._wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -175,8 +175,13 @@ def _in_metres(topography: Topography) -> Topography:
     """The map in metres, in which one without a unit is already."""
     if topography.unit in (None, "m"):
         return replace(topography, unit="m")
-    heights, lengths = _asperity.in_metres(topography.heights, topography.lengths, topography.unit)
-    return replace(topography, heights=heights, lengths=lengths, unit="m")
+    heights, lengths, unit, _, _ = _asperity.in_metres(known(topography))
+    return replace(topography, heights=heights, lengths=lengths, unit=unit)
+
+
+def known(topography: Topography) -> tuple[Any, Any, Any, Any]:
+    """A map as the compiled core takes it."""
+    return (topography.heights, topography.lengths, topography.unit, topography.original)
 
 
 def found(heights: Heights, axes: AxisOrder | None) -> Topography:

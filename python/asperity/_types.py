@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 if TYPE_CHECKING:
     from ._solution import Solution
     from ._topography import Topography
-    from ._wall import Penalty, Uzawa
 
 Boundary: TypeAlias = Literal["periodic", "free"]
-Wall: TypeAlias = "Literal['hard', 'none'] | Penalty | Uzawa"
+RigidWall: TypeAlias = Literal["hard", "none"]
+WallName: TypeAlias = Literal["hard", "none", "penalty", "uzawa"]
 Method: TypeAlias = Literal["default", "rey2017"]
 Precision: TypeAlias = Literal["f64", "f32"]
 Branch: TypeAlias = Literal["loading", "unloading"]
@@ -237,7 +237,8 @@ class Report(TypedDict):
     law_table: str | None
     cut_off: float | None
     work_of_adhesion_map: str | None
-    wall: Wall
+    wall: WallName
+    wall_stiffness: float | None
     method: Method
     precision: Precision
     tolerance: float

@@ -23,6 +23,12 @@ class Quantities:
     def read(self, key: str, value: Any) -> Any:
         """The value of a keyword with numbers in the SI in the place of its texts with units."""
         key = PLURALS.get(key, key)
+        if key in ("law", "wall"):
+            # these have read theirs
+            texts, bare = getattr(value, "given", ({}, None))
+            self._texts.update({name: [text] for name, text in texts.items()})
+            self._bare.update([bare] if bare else [])
+            return value
         if key == "spring":
             return self._spring(value)
         if value is None or isinstance(value, bytes) or not _asperity.has_dimension(key):

@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import TypeAlias
 
+from . import _asperity
 from ._control import number
-
-if TYPE_CHECKING:
-    from ._types import Wall
+from ._types import Quantity, RigidWall
 
 
 @dataclass(frozen=True)
 class _Springs:
-    stiffness: float
+    stiffness: Quantity
+    _text: str | None = field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        if isinstance(self.stiffness, str):
+            object.__setattr__(self, "_text", self.stiffness)
+            object.__setattr__(self, "stiffness", _asperity.quantity("wall_stiffness", self.stiffness))
         stiffness = number("stiffness", self.stiffness)
         if not 0 < stiffness < float("inf"):
             raise ValueError(f"stiffness is {stiffness}: it must be positive and finite, a pressure per length")
         object.__setattr__(self, "stiffness", stiffness)
+
+    @property
+    def given(self) -> tuple[dict[str, str], tuple[str, float] | None]:
+        """The stiffness as a text, if it was given with a unit, or as the number that has none."""
+        key = "wall_stiffness"
+        return ({}, (key, float(self.stiffness))) if self._text is None else ({key: self._text}, None)
 
 
 class Penalty(_Springs):
@@ -62,8 +71,12 @@ class Uzawa(_Springs):
     """
 
 
+#: A wall as functions take it.
+Wall: TypeAlias = RigidWall | Penalty | Uzawa
+
+
 def parts(wall: Wall) -> tuple[str, float | None]:
     """The name of a wall, and the stiffness of its springs, if it has some."""
     if isinstance(wall, _Springs):
-        return type(wall).__name__.lower(), wall.stiffness
+        return type(wall).__name__.lower(), float(wall.stiffness)
     return wall, None

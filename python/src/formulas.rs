@@ -3,8 +3,9 @@
 use asperity_scene::{Adhesion, Wall};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
+use crate::given::{Given, Parameter};
 use crate::law::Law;
 
 /// The adhesion by a law of a work of adhesion and a range.
@@ -24,7 +25,7 @@ fn check_words(py: Python<'_>, class: &str, known: &[&str], other: Option<&Bound
 }
 
 /// The value of a parameter, refused if there is none.
-fn given<V>(class: &str, parameter: &str, value: Option<V>) -> PyResult<V> {
+fn wanted<V>(class: &str, parameter: &str, value: Option<V>) -> PyResult<V> {
     value.ok_or_else(|| PyTypeError::new_err(format!("{class}() is without {parameter}: give a number")))
 }
 
@@ -47,13 +48,15 @@ macro_rules! class {
             #[pyo3(signature = ($($parameter = None,)* **other), text_signature = $signature)]
             fn new(
                 py: Python<'_>,
-                $($parameter: Option<$type>,)*
+                $($parameter: Option<<$type as Parameter>::Typed>,)*
                 other: Option<&Bound<'_, PyDict>>,
             ) -> PyResult<PyClassInitializer<Self>> {
                 let class = stringify!($name);
                 check_words(py, class, &[$(stringify!($parameter)),*], other)?;
-                $(let $parameter = given(class, stringify!($parameter), $parameter $(.or(Some($default)))?)?;)*
-                let law = Law::of_library($adhesion)?;
+                $(let $parameter = wanted(class, stringify!($parameter), $parameter $(.or(Some($default)))?)?;)*
+                let mut given = Given::default();
+                $(let $parameter = <$type>::read($parameter, stringify!($parameter), &mut given)?;)*
+                let law = Law { given, ..Law::of_library($adhesion)? };
                 Ok(PyClassInitializer::from(law).add_subclass(Self { $($parameter),* }))
             }
             $(
@@ -62,8 +65,9 @@ macro_rules! class {
                     self.$parameter
                 }
             )*
-            fn __getnewargs__(&self) -> ($($type,)*) {
-                ($(self.$parameter,)*)
+            fn __getnewargs__<'py>(slf: PyRef<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+                let (py, given) = (slf.py(), &slf.as_super().given);
+                PyTuple::new(py, [$(given.typed(py, stringify!($parameter), slf.$parameter)?),*])
             }
         }
     };

@@ -1,5 +1,6 @@
 //! Adhesion laws: those of the library as classes, and any object of Python with the three functions of a law.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -12,6 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::functions::{self, Functions};
+use crate::given::{Given, Measure};
 use crate::numbers::{Field, Numbers, mapped, returned};
 use crate::refusal::{refusal, refusal_of_works};
 use crate::table::Table;
@@ -23,6 +25,7 @@ pub struct Law {
     pub formula: Formula,
     /// Its part of a report; of the wall it says no more than whether the law is made for one
     pub adhesion: Adhesion,
+    pub given: Given,
 }
 
 impl PartialEq for Law {
@@ -44,6 +47,11 @@ impl Law {
     /// Slope of the traction φ''(g), of the shape of the gaps.
     fn slope<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.at(py, &gap, 2)
+    }
+    /// The numbers that were given with a unit, as texts by their names in reports, and the first one that has none.
+    #[getter]
+    fn given(&self) -> (HashMap<String, String>, Option<(String, f64)>) {
+        (self.given.texts.iter().cloned().collect(), self.given.bare.clone())
     }
     /// The constructor's call, with its parameters by name.
     fn __repr__(law: &Bound<'_, Self>) -> PyResult<String> {
@@ -72,12 +80,13 @@ impl Law {
         let formula: Formula = Arc::new(Table::of(&functions)?);
         let (work_of_adhesion, range) = (functions.number("work_of_adhesion")?, functions.number("range")?);
         let name = object.get_type().name()?.to_string();
-        Ok(Self { formula, adhesion: Adhesion { work_of_adhesion, range, ..Adhesion::of(name) } })
+        let adhesion = Adhesion { work_of_adhesion, range, ..Adhesion::of(name) };
+        Ok(Self { formula, adhesion, given: Given::default() })
     }
 
     /// The law of the library that a description has.
     pub fn of_library(adhesion: Adhesion) -> PyResult<Self> {
-        Ok(Self { formula: adhesion.formula(None).map_err(refusal)?, adhesion })
+        Ok(Self { formula: adhesion.formula(None).map_err(refusal)?, adhesion, given: Given::default() })
     }
 
     /// Energies (0), tractions (1) or slopes (2) at gaps of any shape; where the work of adhesion varies, at one for each
@@ -178,7 +187,8 @@ impl Tabulated {
     fn of_law(self, law: asperity::Tabulated) -> PyClassInitializer<Self> {
         let law_table = self.source.clone().or_else(|| Some("array".to_owned()));
         let adhesion = Adhesion { law_table, ..Adhesion::of("table") };
-        PyClassInitializer::from(Law { formula: Arc::new(law), adhesion }).add_subclass(self)
+        let law = Law { formula: Arc::new(law), adhesion, given: Given::default() };
+        PyClassInitializer::from(law).add_subclass(self)
     }
 }
 
@@ -215,8 +225,9 @@ impl CutOff {
     #[expect(non_upper_case_globals, reason = "Python's name")]
     const __match_args__: (&str, &str) = ("law", "distance");
     #[new]
-    fn new(law: &Bound<'_, PyAny>, distance: f64) -> PyResult<PyClassInitializer<Self>> {
-        let Law { formula, adhesion } = Law::some(law)?;
+    fn new(law: &Bound<'_, PyAny>, distance: Measure) -> PyResult<PyClassInitializer<Self>> {
+        let Law { formula, adhesion, mut given } = Law::some(law)?;
+        let distance = given.read("cut_off", distance)?;
         if formula.is_cut_off() {
             return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
         }
@@ -224,10 +235,11 @@ impl CutOff {
         // the innermost of several
         let adhesion = Adhesion { cut_off: adhesion.cut_off.or(Some(distance)), ..adhesion };
         let own = Self { law: law.clone().unbind(), distance };
-        Ok(PyClassInitializer::from(Law { formula, adhesion }).add_subclass(own))
+        Ok(PyClassInitializer::from(Law { formula, adhesion, given }).add_subclass(own))
     }
-    fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, f64) {
-        (self.law.clone_ref(py), self.distance)
+    fn __getnewargs__<'py>(slf: PyRef<'py, Self>) -> PyResult<(Py<PyAny>, Bound<'py, PyAny>)> {
+        let py = slf.py();
+        Ok((slf.law.clone_ref(py), slf.as_super().given.typed(py, "cut_off", slf.distance)?))
     }
 }
 
@@ -263,7 +275,8 @@ impl Varying {
     const __match_args__: (&str, &str) = ("law", "work_of_adhesion");
     #[new]
     fn new(law: &Bound<'_, PyAny>, work_of_adhesion: &Bound<'_, PyAny>) -> PyResult<PyClassInitializer<Self>> {
-        let Law { formula, adhesion } = Law::some(law)?;
+        let Law { formula, adhesion, mut given } = Law::some(law)?;
+        given.texts.retain(|(key, _)| key != "work_of_adhesion");
         if AdhesionLaw::<f64>::hints(&formula).shape.is_some() {
             return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
         }
@@ -276,7 +289,7 @@ impl Varying {
         let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
         let work_of_adhesion_map = Some("array".to_owned());
         let adhesion = Adhesion { work_of_adhesion: None, work_of_adhesion_map, ..adhesion };
-        Ok(PyClassInitializer::from(Law { formula, adhesion }).add_subclass(own))
+        Ok(PyClassInitializer::from(Law { formula, adhesion, given }).add_subclass(own))
     }
     fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, Py<PyAny>) {
         (self.law.clone_ref(py), self.work_of_adhesion.clone_ref(py))

@@ -6,6 +6,7 @@ mod contact;
 mod exact;
 mod formulas;
 mod functions;
+mod given;
 mod inputs;
 mod jumps;
 mod law;

@@ -94,7 +94,7 @@ impl Problem {
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
-        let Law { formula, adhesion } = Law::of(law)?;
+        let Law { formula, adhesion, .. } = Law::of(law)?;
         let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
         adhesion.check_wall(word).map_err(PyValueError::new_err)?;
         let mut inputs = Inputs {

@@ -256,8 +256,8 @@ pub fn state<T: Scalar>(
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let &Inputs { boundary, modulus, ref adhesion, .. } = inputs;
-    let units = inputs.units();
     let constraint = adhesion.constraint::<T>().map_err(refusal)?;
+    let units = inputs.units();
     let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint });
     let make = || {
         let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);

@@ -108,23 +108,23 @@ pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -
     Ok((wave_numbers.into_pyarray(py), densities.into_pyarray(py), waves.into_pyarray(py), cell))
 }
 
-/// The heights and side lengths in metres of a map in a unit of length.
-#[pyfunction]
-pub fn in_metres<'py>(
-    py: Python<'py>,
-    heights: Field<'py>,
-    lengths: Option<(f64, f64)>,
-    unit: String,
-) -> PyResult<(Bound<'py, PyArray2<f64>>, Option<(f64, f64)>)> {
-    let mut map = Topography::new(heights.to_array()?);
-    (map.lengths, map.unit) = (lengths, Some(unit));
-    let map = in_unit(map, LENGTH.si);
-    let map = map.map_err(|text| PyValueError::new_err(format!("heights: {}", worded(&text, Skin::Keywords))))?;
-    Ok((map.heights.into_pyarray(py), map.lengths))
-}
-
 /// A map as Python has it: heights, side lengths, unit, and the nodes of the original of a mirrored one.
 type Given<'py> = (Field<'py>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>);
+
+/// A map of the library from one of Python.
+fn topography((heights, lengths, unit, original): Given<'_>) -> PyResult<Topography> {
+    let mut map = Topography::new(heights.to_array()?);
+    (map.lengths, map.unit, map.original) = (lengths, unit, original);
+    Ok(map)
+}
+
+/// A map in metres.
+#[pyfunction]
+pub fn in_metres<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Map<'py>> {
+    let found = in_unit(topography(given)?, LENGTH.si);
+    let refused = |text: String| PyValueError::new_err(format!("heights: {}", worded(&text, Skin::Keywords)));
+    Ok(map(py, found.map_err(refused)?))
+}
 
 /// A prepared map, the lines of its log, and the warnings.
 type Prepared<'py> = (Map<'py>, Vec<String>, Bound<'py, PyAny>);
@@ -139,9 +139,7 @@ pub fn prepare<'py>(
     steps: Bound<'py, PyAny>,
 ) -> PyResult<Prepared<'py>> {
     let mut steps: Preparation = keys(steps)?;
-    let (heights, lengths, unit, original) = given;
-    let mut measured = Topography::new(heights.to_array()?);
-    (measured.lengths, measured.unit, measured.original) = (lengths, unit, original);
+    let measured = topography(given)?;
     if let Some(lengths) = new_lengths {
         let found = steps.set_lengths(lengths, in_metres, measured.unit.as_deref());
         found.map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;

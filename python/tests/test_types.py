@@ -68,7 +68,7 @@ def test_the_type_of_a_report_has_the_keys_and_values_of_the_account(rough, sphe
     ("keyword", "kind"),
     [
         ("boundary", _types.Boundary),
-        ("wall", _types.Wall),
+        ("wall", _types.RigidWall),
         ("method", _types.Method),
         ("precision", _types.Precision),
         ("branch", _types.Branches),
@@ -80,7 +80,8 @@ def test_names_are_those_of_the_core(rough, keyword, kind):
     with pytest.raises(ValueError, match=f"{keyword} is nothing: it must be") as refused:
         asperity.solve(rough, modulus=1.0, mean_pressure=0.01, **{keyword: "nothing"}, **accuracy)
     expected = str(refused.value).split("it must be ")[1].replace("one of ", "").replace(" or ", ", ").split(", ")
-    assert set(expected) == set(get_args(kind))
+    # a wall may be an object, too
+    assert {name.strip(",") for name in expected if "asperity" not in name} == set(get_args(kind))
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Quantities with units."""
 
+import pickle
 import re
 
 import numpy as np
@@ -49,3 +50,34 @@ def test_quantities_with_units_are_in_the_si(rough):
     drawn = asperity.surface.self_affine(64, "2um", rms_height="5nm", k_s=16)
     assert (drawn.lengths, drawn.unit) == ((2e-6, 2e-6), "m") and np.isclose(drawn.heights.std(), 5e-9, rtol=1e-12)
     assert np.isclose(asperity.surface.statistics(known, "2um").rms_height, metres.heights.std(), rtol=1e-12)
+
+
+def test_laws_and_walls_have_units_or_none(rough):
+    law = asperity.Exponential("50mJ/m2", range="1nm")
+    assert (law.work_of_adhesion, law.range) == (0.05, 1e-9) and law == asperity.Exponential(0.05, 1e-9)
+    assert repr(law) == "Exponential(work_of_adhesion='50mJ/m2', range='1nm')"
+    copied = pickle.loads(pickle.dumps(law))
+    assert copied.given == law.given == ({"work_of_adhesion": "50mJ/m2", "range": "1nm"}, None)
+    for message, wrong in [
+        ("range is 1e-9, without a unit, but work_of_adhesion 50mJ/m2 has", lambda: asperity.Morse("50mJ/m2", 1e-9)),
+        ("work_of_adhesion is 1nm: nm is a unit of something else", lambda: asperity.Morse("1nm", "1nm")),
+        ("cut_off is 1e-8, without a unit", lambda: asperity.CutOff(law, 1e-8)),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            wrong()
+    metres = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6))
+    options = {"modulus": "1GPa", "mean_gap": "10nm"}
+    cut = asperity.CutOff(asperity.PowerLaw("1mJ/m2", "5nm", 3), "0.1um")
+    solution = asperity.solve(metres, law=cut, wall=asperity.Penalty("1GPa/nm"), **options)
+    bare = asperity.CutOff(asperity.PowerLaw(1e-3, 5e-9, 3), 1e-7)
+    plain = asperity.solve(metres, modulus=1e9, mean_gap=1e-8, law=bare, wall=asperity.Penalty(1e18))
+    assert solution.gap.tobytes() == plain.gap.tobytes() and plain.report["given"] is None
+    texts = {"work_of_adhesion": "1mJ/m2", "range": "5nm", "cut_off": "0.1um", "wall_stiffness": "1GPa/nm"}
+    assert solution.report["given"] == {**options, **texts}
+    # a law of one's own and works at the nodes are in the SI
+    varying = asperity.Varying(law, np.full(rough.shape, 1e-3))
+    given = asperity.solve(metres, law=varying, **options).report["given"]
+    assert given == {**options, "range": "1nm"}
+    for wrong in ({"law": bare}, {"wall": asperity.Penalty(1e18)}, {"modulus": 1e9, "mean_gap": 1e-8, "law": cut}):
+        with pytest.raises(ValueError, match="without a unit"):
+            asperity.solve(metres, **{**options, **wrong})

@@ -1,0 +1,89 @@
+//! The numbers of a law as they were typed, with a unit or without one.
+
+use asperity_scene::numbers::plain;
+use asperity_scene::units::dimension_of_key;
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::inputs::quantity;
+
+/// A number as it is typed: as one, or as a text with a unit.
+#[derive(FromPyObject)]
+pub enum Measure {
+    #[pyo3(transparent, annotation = "float")]
+    Number(f64),
+    #[pyo3(transparent, annotation = "str")]
+    Text(String),
+}
+
+/// The numbers of a law as they were typed, by their names in reports: all with units, or none.
+#[derive(Clone, Default)]
+pub struct Given {
+    /// Those with a unit
+    pub texts: Vec<(String, String)>,
+    /// The first one without, if it has a dimension
+    pub bare: Option<(String, f64)>,
+}
+
+impl Given {
+    /// The number that was typed, in the SI if it has a unit.
+    pub fn read(&mut self, key: &str, typed: Measure) -> PyResult<f64> {
+        let value = match typed {
+            Measure::Number(value) => {
+                // zero is zero in all units
+                if value != 0.0 && dimension_of_key(key).is_some() {
+                    self.bare.get_or_insert_with(|| (key.to_owned(), value));
+                }
+                value
+            }
+            Measure::Text(text) => {
+                let value = quantity(key, &text)?;
+                self.texts.push((key.to_owned(), text));
+                value
+            }
+        };
+        match (&self.bare, self.texts.first()) {
+            (Some((key, value)), Some((with, text))) => Err(PyValueError::new_err(format!(
+                "{key} is {}, without a unit, but {with} {text} has one: give both units, or neither",
+                plain(*value)
+            ))),
+            _ => Ok(value),
+        }
+    }
+
+    /// The value of a parameter as it was typed.
+    pub fn typed<'py>(
+        &self,
+        py: Python<'py>,
+        key: &str,
+        value: impl IntoPyObjectExt<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        match self.texts.iter().find(|(name, _)| name == key) {
+            Some((_, text)) => text.into_bound_py_any(py),
+            None => value.into_bound_py_any(py),
+        }
+    }
+}
+
+/// The type of a law's parameter.
+pub trait Parameter: Sized {
+    /// The type in which it is typed.
+    type Typed;
+    /// Its value.
+    fn read(typed: Self::Typed, key: &str, given: &mut Given) -> PyResult<Self>;
+}
+
+impl Parameter for f64 {
+    type Typed = Measure;
+    fn read(typed: Measure, key: &str, given: &mut Given) -> PyResult<Self> {
+        given.read(key, typed)
+    }
+}
+
+impl Parameter for bool {
+    type Typed = bool;
+    fn read(typed: bool, _: &str, _: &mut Given) -> PyResult<Self> {
+        Ok(typed)
+    }
+}
