@@ -40,7 +40,7 @@ class Rows(Iterator[T]):
         self._scene, self._loads, self._observe, self._ended = scene, loads, observe, False
         kept = fields if fields is None else os.path.abspath(fields)
         table = None if out is None else (os.path.abspath(out), kept, force, *_law.fields(scene.adhesion))
-        start, seed = scene.start(start, loads), scene.topography.seed
+        start, seed = scene.start(start), scene.topography.seed
         names, rows = scene.problem.begin(loads, start, stiffness, path, seed, table)
         #: the names of the columns, as in the tool's table
         self.names = tuple(names)
