@@ -34,7 +34,7 @@ class _Springs:
 class Penalty(_Springs):
     """A wall of springs, into which the surfaces sink by the contact pressure over the stiffness.
 
-    A stiffer wall takes more iterations. Paths of equilibria, as of `cycle`, are for the other walls.
+    A stiffer wall takes more iterations. `cycle` refuses springs.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class Penalty(_Springs):
 class Uzawa(_Springs):
     """A wall of springs with multipliers, which take over the contact pressure in rounds until the wall is hard.
 
-    The augmented Lagrangian method of Uzawa, for comparison with the hard wall, which is faster.
+    The augmented Lagrangian method of Uzawa, for comparison with the hard wall, which is faster. `cycle` refuses springs.
 
     Parameters
     ----------
