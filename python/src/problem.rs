@@ -95,7 +95,7 @@ impl Problem {
         let pool = Pool::of(threads)?;
         let heights = heights.to_array()?;
         let boundary = named("boundary", boundary, "periodic or free")?;
-        let wall = named("wall", wall, "hard, none, or asperity.Penalty(stiffness) or asperity.Uzawa(stiffness)")?;
+        let wall = named("wall", wall, "hard or none, or of springs, as asperity.Penalty(stiffness)")?;
         let original = original.map(|original| original.0);
         let make = if absent_missing { Surface::with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));

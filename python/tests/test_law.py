@@ -529,7 +529,7 @@ def test_walls_of_springs_are_values_and_refuse_what_they_cannot_do(rough):
     with pytest.raises(ValueError, match=r"wall penalty lacks a stiffness, as of asperity.Penalty\(stiffness\)"):
         asperity.solve(rough, mean_pressure=0.01, wall="penalty", **options)
     with pytest.raises(ValueError, match="springs .* rigid wall"):
-        asperity.cycle(rough, mean_gaps=[0.02, 0.01], wall=wall, **options)
+        list(asperity.cycle(rough, mean_gaps=[0.02, 0.01], wall=wall, **options))
     soft = asperity.solve(rough, mean_gap=0.02, wall=wall, stability=True, **options)
     assert asperity.stability(soft).verdict == soft.report["stability"]["verdict"] == "stable"
     rounds = asperity.solve(rough, mean_gap=0.02, wall=asperity.Uzawa(100.0), stability=True, **options)

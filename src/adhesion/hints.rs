@@ -35,6 +35,11 @@ impl<T: Real> Hints<T> {
         Self::new(w, if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() })
     }
 
+    /// The name by which a solution knows the law: that of no adhesion for every law that is zero.
+    pub(crate) fn known_as(&self) -> &'static str {
+        if self.zero { "none" } else { self.name }
+    }
+
     /// The same for a law of this name.
     #[must_use]
     pub fn named(self, name: &'static str) -> Self {

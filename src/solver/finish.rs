@@ -78,7 +78,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             modulus,
             control: self.posed.asked.0,
             wall: self.posed.asked.1,
-            law: law.hints().name.into(),
+            law: law.hints().known_as().into(),
             work_of_adhesion: law.hints().work_of_adhesion.widen(),
             mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
             mean_pressure: given * padding,

@@ -118,7 +118,7 @@ pub struct Report {
     /// The wall, by the name of [`Wall::name`](crate::constraint::Wall::name).
     #[cfg_attr(feature = "serde", serde(deserialize_with = "named"))]
     pub wall: Name,
-    /// The name of the law, [`Hints::name`](crate::adhesion::Hints::name).
+    /// The name of the law, [`Hints::name`](crate::adhesion::Hints::name); `"none"` without adhesion.
     pub law: Cow<'static, str>,
     /// The work of adhesion w of the law, the largest where it varies; zero without adhesion.
     pub work_of_adhesion: f64,
@@ -260,8 +260,7 @@ impl<T: Real> Solution<T> {
         let (value, known) = (hints.work_of_adhesion.widen(), self.report.work_of_adhesion);
         let same = value == known || (value - known).abs() <= T::epsilon().widen().sqrt() * known.abs();
         let name = match same {
-            // no adhesion has many names
-            true if known == 0.0 || self.report.law == hints.name => return Ok(()),
+            true if self.report.law == hints.known_as() => return Ok(()),
             true => "work of adhesion of a law of another name",
             false => "work of adhesion",
         };

@@ -48,7 +48,7 @@ impl dyn AnyLaw {
         Ok(Arc::new(CutOff::new(self, distance)?))
     }
 
-    /// Whether the law is one that [`cut_off`](Self::cut_off) has made.
+    /// Whether the law is a [`CutOff`].
     pub fn is_cut_off(&self) -> bool {
         (self as &dyn Any).is::<CutOff<Formula>>()
     }
