@@ -3,10 +3,12 @@
 //! | module | contents |
 //! |---|---|
 //! | [`io`] | files of instruments, of Gwyddion and of numpy; fields and heights written; folders of results |
+//! | [`numbers`] | numbers as text for people |
 //! | the root | [`Topography`]: a map with missing points, tilt and edges, on its way to a surface |
 //! | [`warning`] | probable mistakes in heights, in the law on them, and in an answer |
 
 pub mod io;
+pub mod numbers;
 mod topography;
 pub mod warning;
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::numbers::rounded;
 use crate::topography::{ScanAxis, Topography};
 use asperity::AdhesionLaw;
 use asperity::Grid;
@@ -131,19 +132,7 @@ impl Warning {
     /// assert_eq!([2.0, 0.01234, 1.5e-9].map(Warning::figure), ["2", "0.0123", "1.5e-9"]);
     /// ```
     pub fn figure(value: f64) -> String {
-        let magnitude = value.abs();
-        let (digits, exponent) = if value == 0.0 || (1e-3..1e5).contains(&magnitude) {
-            let decimals = if value == 0.0 { 0.0 } else { (2.0 - magnitude.log10().floor()).max(0.0) };
-            (format!("{value:.*}", decimals as usize), String::new())
-        } else {
-            let text = format!("{value:.2e}");
-            match text.split_once('e') {
-                Some((digits, exponent)) => (digits.to_owned(), format!("e{exponent}")),
-                None => (text, String::new()),
-            }
-        };
-        let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits };
-        format!("{digits}{exponent}")
+        rounded(value, 3, 1e5)
     }
 
     /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),

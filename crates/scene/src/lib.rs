@@ -14,7 +14,6 @@ mod formula;
 mod found;
 mod half_space;
 mod laws;
-pub mod numbers;
 mod posed;
 mod preparation;
 pub mod quantity;
@@ -28,6 +27,8 @@ pub mod units;
 mod wall;
 mod warnings;
 mod words;
+
+pub use asperity_maps::numbers;
 
 pub use account::{Account, Inputs};
 pub use accuracy::Goal;

@@ -12,10 +12,10 @@ pub enum Skin {
 /// The keywords with other names than their options.
 const KEYWORDS: [(&str, &str); 1] = [("initial_gap", "start")];
 
-/// A text with the names of a skin in the place of the keys in braces: `{mean_gap}` is `--mean-gap` or `mean_gap`,
-/// with a value `{precision=f64}` is `--precision f64` or `precision='f64'`, a switch `{whole=}` is `--whole` or
-/// `whole=True`, and of a command `{cycle:mean_gaps}` is
-/// `asperity cycle --mean-gaps` or `asperity.cycle(mean_gaps=...)`.
+/// A text with the names of a skin in the place of the keys in braces: `{mean_gap}` is `--mean-gap` or `mean_gap`, with
+/// a value `{precision=f64}` is `--precision f64` or `precision='f64'`, a switch `{whole=}` is `--whole` or
+/// `whole=True`, and of a command `{cycle:mean_gaps}` is `asperity cycle --mean-gaps` or
+/// `asperity.cycle(mean_gaps=...)`.
 pub fn worded(text: &str, skin: Skin) -> String {
     // between two braces, every other piece
     let pieces = text.split(['{', '}']).enumerate();

@@ -14,15 +14,20 @@ pub fn percent(share: f64) -> String {
 
 /// A number to seven digits.
 pub fn plain(value: f64) -> String {
+    rounded(value, 7, 1e6)
+}
+
+/// A number to so many digits, with an exponent below 1e-3 and from `most` on.
+pub(crate) fn rounded(value: f64, digits: usize, most: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {
         return "0".to_owned();
     }
-    if !(1e-3..1e6).contains(&magnitude) {
-        return scientific(format!("{value:.6e}"));
+    if !(1e-3..most).contains(&magnitude) {
+        return scientific(format!("{value:.*e}", digits - 1));
     }
-    let decimals = (6.0 - magnitude.log10().floor()).max(0.0) as usize;
-    trimmed(format!("{value:.decimals$}"))
+    let decimals = (digits as f64 - 1.0 - magnitude.log10().floor()).max(0.0);
+    trimmed(format!("{value:.*}", decimals as usize))
 }
 
 /// A number to four digits with its unit, and the prefix that makes it readable; one that is too large for any prefix
