@@ -139,16 +139,19 @@ class Patch(TypedDict):
     attractive_fraction: float
 
 
-class Steadiness(TypedDict):
-    """The stability of an equilibrium."""
-
-    verdict: Literal["stable", "unstable", "undecided"]
-    eigenvalue: float
-    residual: float
-    lower_bound: float
-    error_bound: float | None
-    smoothed: bool
-    operator_applications: int
+#: The stability of an equilibrium.
+Steadiness = TypedDict(
+    "Steadiness",
+    {
+        "verdict": Literal["stable", "unstable", "undecided"],
+        "eigenvalue": float,
+        "residual": float,
+        "lower_bound": float,
+        "error_bound": float | None,
+        "smoothed": bool,
+        "operator_applications": int,
+    },
+)
 
 
 class Departure(TypedDict):

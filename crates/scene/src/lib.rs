@@ -1,5 +1,5 @@
-//! The contact problem of a run, its solve and the account of it, by the names that the program `asperity` and the
-//! Python package share.
+//! The contact problem of a run, its solve and the account of it, and the surfaces that are prepared and made, by the
+//! names that the program `asperity` and the Python package share.
 
 mod account;
 mod accuracy;
