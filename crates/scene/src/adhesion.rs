@@ -14,7 +14,7 @@ use crate::wall::{Constraint, Wall};
 /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Adhesion {
-    /// The name of the law, one of [`LAWS`](crate::LAWS) or the class of one's own.
+    /// The name of the law, one of [`LAWS`] or the class of one's own.
     pub law: String,
     /// The work of adhesion, if it is a parameter.
     pub work_of_adhesion: Option<f64>,
