@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from . import _asperity
-from ._topography import Topography, _lengths, found, known, plain
-from ._types import AxisOrder, Heights, Lengths, RemovedForm, RowAlignment, ScanAxis, Trend
+from ._topography import Heights, Topography, _lengths, found, known, plain
+from ._types import AxisOrder, Lengths, RemovedForm, RowAlignment, ScanAxis, Trend
 from ._units import given as units
 from ._warnings import warn_of_input
 

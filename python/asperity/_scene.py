@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from . import _asperity
 from ._control import number
-from ._solution import Solution
-from ._topography import Topography, field_of, original_of, refined, sides, taken
-from ._types import AxisOrder, Boundary, Branches, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start
+from ._solution import Solution, Start
+from ._topography import Heights, Topography, field_of, original_of, refined, sides, taken
+from ._types import AxisOrder, Boundary, Branches, Lengths, Method, OwnLaw, Precision, Quantity
 from ._units import given
 from ._wall import Wall, parts
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import html
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity, _picture, _plot
 from ._accuracy import Plan
@@ -345,3 +345,7 @@ class Solution:
         return _plot.contact_and_pressure(
             self.contact, pressure, self.lengths, adhesive, self.contact_fraction, length_unit, pressure_unit
         )
+
+
+#: A start as functions take it.
+Start: TypeAlias = ArrayLike | Solution | Literal["apart"] | None

@@ -9,19 +9,18 @@ from . import _control
 from ._accuracy import Plan
 from ._asperity import Iteration
 from ._scene import Scene
-from ._solution import Solution
+from ._solution import Solution, Start
+from ._topography import Heights
 from ._types import (
     AccuracyOf,
     AxisOrder,
     Boundary,
     Branches,
-    Heights,
     Lengths,
     Method,
     OwnLaw,
     Precision,
     Quantity,
-    Start,
 )
 from ._wall import Wall
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
-from ._topography import Topography, _lengths, plain, sides, taken
-from ._types import AxisOrder, Heights, Lengths, Quantity, Shape, Tilt
+from ._topography import Heights, Topography, _lengths, plain, sides, taken
+from ._types import AxisOrder, Lengths, Quantity, Shape, Tilt
 from ._units import given
 
 

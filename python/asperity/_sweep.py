@@ -10,8 +10,9 @@ from . import _control, _plot
 from ._asperity import Iteration
 from ._columns import Rows
 from ._scene import Scene
-from ._solution import Solution
-from ._types import AxisOrder, Boundary, Branch, Heights, Lengths, Method, OwnLaw, Precision, Quantity, Start
+from ._solution import Solution, Start
+from ._topography import Heights
+from ._types import AxisOrder, Boundary, Branch, Lengths, Method, OwnLaw, Precision, Quantity
 from ._wall import Wall
 
 if TYPE_CHECKING:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity, _plot
-from ._types import AxisOrder, HeightMap, Heights, Lengths
+from ._types import AxisOrder, HeightMap, Lengths
 from ._units import given as units
 
 if TYPE_CHECKING:
@@ -104,6 +104,10 @@ class Topography:
         """
         lengths = self.lengths or (float(self.heights.shape[0]), float(self.heights.shape[1]))
         return _plot.heights(np.asarray(self), lengths, self.unit, ax)
+
+
+#: A map as functions take it.
+Heights: TypeAlias = ArrayLike | Topography | HeightMap | str | os.PathLike[str]
 
 
 def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topography:

@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import os
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypedDict
+from typing import Any, Literal, Protocol, TypeAlias, TypedDict
 
 from numpy.typing import ArrayLike, NDArray
-
-if TYPE_CHECKING:
-    from ._solution import Solution
-    from ._topography import Topography
 
 Boundary: TypeAlias = Literal["periodic", "free"]
 RigidWall: TypeAlias = Literal["hard", "none"]
@@ -32,8 +27,6 @@ Shape: TypeAlias = int | tuple[int, int]
 Quantity: TypeAlias = float | str
 Lengths: TypeAlias = Quantity | tuple[Quantity, Quantity]
 Tilt: TypeAlias = float | tuple[float, float] | None
-Heights: TypeAlias = "ArrayLike | Topography | HeightMap | str | os.PathLike[str]"
-Start: TypeAlias = "ArrayLike | Solution | Literal['apart'] | None"
 
 
 class HeightMap(Protocol):

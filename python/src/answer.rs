@@ -3,18 +3,15 @@
 use asperity::{Solution, Status};
 use asperity_maps::Topography;
 use asperity_scene::{Account, Found, Skin, check_finite, shortfalls, worded};
-use numpy::{Element, IntoPyArray, PyArrayMethods};
+use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_pyobject::to_pyobject;
 
 use crate::look::Look;
+use crate::numbers::Scalar;
 use crate::refusal::refusal;
-
-/// A scalar in which one can solve, and that numpy has.
-pub trait Scalar: asperity_scene::Scalar + Element {}
-impl<T: asperity_scene::Scalar + Element> Scalar for T {}
 
 /// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(

@@ -8,7 +8,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use serde_pyobject::to_pyobject;
 
-use crate::answer::Scalar;
+use crate::numbers::Scalar;
 use crate::pools::Pool;
 use crate::refusal::refusal;
 

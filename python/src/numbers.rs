@@ -5,12 +5,16 @@ use std::ops::Deref;
 use asperity::Error;
 use numpy::ndarray::{Array2, ArrayD, ArrayViewD, Dimension, Ix2, IxDyn};
 use numpy::{
-    AllowTypeChange, IntoPyArray, PyArray, PyArrayLike, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
+    AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::refusal::refusal;
+
+/// A scalar in which one can solve, and that numpy has.
+pub trait Scalar: asperity_scene::Scalar + Element {}
+impl<T: asperity_scene::Scalar + Element> Scalar for T {}
 
 /// The numbers of an array: of any float type, order and stride; masked ones are NaN.
 ///

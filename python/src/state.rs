@@ -19,9 +19,9 @@ use pyo3::types::{PyDict, PyList};
 use serde_json::Value;
 use serde_pyobject::to_pyobject;
 
-use crate::answer::{Scalar, answer};
+use crate::answer::answer;
 use crate::inputs::Begin;
-use crate::numbers::Field;
+use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal, refusal_of_table};
 use crate::running::{Observe, run};

@@ -6,8 +6,8 @@ use clap::Args;
 
 use crate::allowed::{finite, share};
 use crate::loads::{Loads, list};
-use crate::options::in_options;
 use crate::outcome::Outcome;
+use crate::printing::in_options;
 use crate::quantity::{FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, Quantity};
 
 /// The boundary of the half-space, and the nodes at which nothing faces it.

@@ -2,8 +2,9 @@
 
 use asperity::Solution;
 
-use crate::options::{Scalar, in_options};
+use crate::options::Scalar;
 use crate::outcome::Outcome;
+use crate::printing::in_options;
 
 /// Refuses a solution of a solve that has run away.
 pub fn check_finite<T: Scalar>(solution: &Solution<T>) -> Outcome<()> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use asperity::{AdhesionLaw, Control, Error, Method, Settings, Solver, Surface};
 use asperity_maps::io::read_field;
 pub use asperity_scene::Scalar;
-use asperity_scene::{Branches, Constraint, HalfSpace, Posed, Skin, settings, worded};
+use asperity_scene::{Branches, Constraint, HalfSpace, Posed, settings};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
@@ -82,11 +82,6 @@ pub enum Iteration {
 pub enum Precision {
     F32,
     F64,
-}
-
-/// A value, or the reason why there is none, in the words of options.
-pub fn in_options<V>(found: Result<V, String>) -> Outcome<V> {
-    Ok(found.map_err(|text| worded(&text, Skin::Options))?)
 }
 
 /// The options that choose a contact problem and its solver.

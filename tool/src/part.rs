@@ -8,8 +8,8 @@ use asperity_scene::{Boundary, Load};
 use ndarray::Array2;
 
 use crate::heights::Origin;
-use crate::options::in_options;
 use crate::outcome::Outcome;
+use crate::printing::in_options;
 
 /// The part of a map on its grid.
 #[derive(Clone, Copy)]

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::AutoStream;
+use asperity_scene::{Skin, worded};
 use clap::Args;
 use serde_json::Value;
 
@@ -144,4 +145,9 @@ pub fn on_one_line(error: &clap::Error) -> String {
         line.push_str(part.trim_start_matches("tip: "));
     }
     line
+}
+
+/// A value, or the reason why there is none, in the words of options.
+pub fn in_options<V>(found: Result<V, String>) -> Outcome<V> {
+    Ok(found.map_err(|text| worded(&text, Skin::Options))?)
 }

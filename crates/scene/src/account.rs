@@ -1,13 +1,14 @@
 //! The account of a solve, with the keys of its report.
 
-use asperity::contact::Patch;
-use asperity::{Branch, Control, Criterion, Method, Real, Report, Status};
+use asperity::contact::{ContactStatistics, Patch};
+use asperity::{Branch, Control, Criterion, Method, Real, Report, Result, Solution, Status};
+use ndarray::ArrayView2;
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::adhesion::Adhesion;
 use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
-use crate::found::Found;
+use crate::found::{Found, Sight};
 use crate::half_space::Boundary;
 use crate::record::record;
 use crate::told::Told;
@@ -131,6 +132,73 @@ record! {
 /// The stiffness of a spring, if the load is one.
 pub(crate) fn stiffness(control: Control) -> Option<f64> {
     if let Control::Spring { stiffness, .. } = control { Some(stiffness) } else { None }
+}
+
+impl<T: Real> Found<T> {
+    /// The account of the solve by a command, of which [`Sight::look`] adds the keys that are found of the fields.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
+    pub fn account(
+        &self,
+        command: &'static str,
+        inputs: &Inputs,
+        strongest: Option<(usize, usize)>,
+        warnings: Vec<Told>,
+    ) -> Result<Account> {
+        let (original, part) = (self.sight.original, self.part()?);
+        let (grid, report) = (&part.grid, &part.report);
+        let share = original.map_or(1.0, |original| original.share());
+        let inputs = Inputs {
+            solved_shape: original.map(|_| self.solution.grid.shape()),
+            shape: grid.shape(),
+            lengths: grid.lengths(),
+            tolerance: report.tolerance,
+            ..inputs.clone()
+        };
+        let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);
+        self.sight.tell(&mut account);
+        Ok(account)
+    }
+}
+
+impl<T: Real> Sight<T> {
+    /// Looks at the fields of the solution, as [`Sight::look`].
+    ///
+    /// # Errors
+    /// Those of [`Sight::look`].
+    pub fn look_at(&mut self, account: &mut Account, solution: &Solution<T>) -> Result<ContactStatistics> {
+        let Solution { gap, pressure, contact_pressure, .. } = solution;
+        self.look(account, [gap.view(), pressure.view(), contact_pressure.view()])
+    }
+
+    /// Looks at gap, pressure and contact pressure: fills in the keys of the account that are found of them, and
+    /// returns the statistics of the contact. All processes that share the grid have to look.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](asperity::Error::Shape) if a field does not have the shape of the grid.
+    pub fn look(&mut self, account: &mut Account, fields: [ArrayView2<'_, T>; 3]) -> Result<ContactStatistics> {
+        let (found, (min_pressure, max_pressure)) = self.seen(fields)?;
+        if let Some((surface, levels)) = self.open.take() {
+            self.estimate(&surface, &levels);
+        }
+        self.tell(account);
+        account.corrected_contact_fraction = Some(found.corrected_contact_fraction);
+        account.perimeter = Some(found.perimeter);
+        account.repulsive_fraction = Some(found.repulsive_fraction);
+        account.attractive_fraction = Some(found.attractive_fraction);
+        account.patches = Some(found.patches.clone());
+        account.min_pressure = Some(min_pressure);
+        account.max_pressure = Some(max_pressure);
+        Ok(found)
+    }
+
+    /// Puts the errors that are known into an account.
+    fn tell(&self, account: &mut Account) {
+        if let Some((errors, nodes_per_wave)) = self.errors {
+            (account.grid_error, account.nodes_per_wave) = (Some(errors), nodes_per_wave);
+        }
+    }
 }
 
 /// The inputs of a command, by their names in every report.

@@ -14,7 +14,7 @@ use serde_json::{Map, Value, json};
 
 use crate::account::{Account, stiffness};
 use crate::compiled::compiled;
-use crate::entries::Search;
+use crate::entries::{Search, Step};
 use crate::found::{Found, check_finite};
 use crate::half_space::Boundary;
 use crate::identity::Identity;
@@ -43,25 +43,6 @@ pub struct Course<T> {
     place: PathCheckpoint<T>,
     /// Whether the present leg of a cycle ends at the place
     leg_ends: bool,
-}
-
-/// The place of a state on a cycle, by the names of its columns; see [`PathStep`](asperity::path::PathStep).
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Step {
-    /// The leg: 0 is the start, 1 the way to the second load.
-    pub leg: usize,
-    /// The direction of the leg, or `"start"`.
-    pub direction: &'static str,
-    /// The work done by the load since the start, per area.
-    pub work: f64,
-    /// The energy dropped in jumps since the start, per area.
-    pub dissipated: f64,
-    /// The imbalance of energy.
-    pub imbalance: f64,
-    /// The event before the state.
-    pub event: Option<&'static str>,
-    /// The energy that its jump dissipates, per area.
-    pub energy_drop: Option<f64>,
 }
 
 /// The row of a state in a table: its account, and the figures that tables alone have.

@@ -182,3 +182,22 @@ where
     let pair: Option<(T, T)> = (*pair).into();
     pair.map(|(first, second)| vec![first, second]).serialize(serializer)
 }
+
+/// The place of a state on a cycle, by the names of its columns; see [`PathStep`](asperity::path::PathStep).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// The leg: 0 is the start, 1 the way to the second load.
+    pub leg: usize,
+    /// The direction of the leg, or `"start"`.
+    pub direction: &'static str,
+    /// The work done by the load since the start, per area.
+    pub work: f64,
+    /// The energy dropped in jumps since the start, per area.
+    pub dissipated: f64,
+    /// The imbalance of energy.
+    pub imbalance: f64,
+    /// The event before the state.
+    pub event: Option<&'static str>,
+    /// The energy that its jump dissipates, per area.
+    pub energy_drop: Option<f64>,
+}

@@ -11,11 +11,8 @@ use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
 use asperity_maps::warning::Warning;
 use ndarray::{Array2, ArrayView2};
 
-use crate::account::{Account, Inputs};
 use crate::compiled::compiled;
-use crate::course::Step;
-use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness};
-use crate::told::Told;
+use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
 
 /// The solution of a contact problem, with all that was asked for beside it.
 pub struct Found<T> {
@@ -52,20 +49,20 @@ pub struct Found<T> {
 /// The sight of a solution: all that a look at its fields needs beside them.
 pub struct Sight<T> {
     law: Arc<dyn AdhesionLaw<T>>,
-    original: Option<Original>,
+    pub(crate) original: Option<Original>,
     grid: Grid,
     /// The report on the whole.
     report: Report,
     /// The surface and the nested grids, whose errors are estimated with the first look.
     pub(crate) open: Option<(Arc<Surface>, Vec<Level>)>,
     /// The errors that are known, and the nodes of the shortest wave.
-    errors: Option<(GridErrors, f64)>,
+    pub(crate) errors: Option<(GridErrors, f64)>,
     /// The findings of the first look.
     seen: Option<Seen>,
 }
 
 /// The statistics of the contact, and the least and the greatest elastic pressure.
-type Seen = (ContactStatistics, (f64, f64));
+pub(crate) type Seen = (ContactStatistics, (f64, f64));
 
 impl<T: Real> Found<T> {
     /// A solution by a solve that began at a time; numbers are of the `original`, if there is one.
@@ -118,69 +115,18 @@ impl<T: Real> Found<T> {
         let part = self.sight.original.map(|original| original.of_solution(&self.solution)).transpose()?;
         Ok(part.map_or(Cow::Borrowed(&self.solution), Cow::Owned))
     }
-
-    /// The account of the solve by a command, of which [`Sight::look`] adds the keys that are found of the fields.
-    ///
-    /// # Errors
-    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
-    pub fn account(
-        &self,
-        command: &'static str,
-        inputs: &Inputs,
-        strongest: Option<(usize, usize)>,
-        warnings: Vec<Told>,
-    ) -> Result<Account> {
-        let (original, part) = (self.sight.original, self.part()?);
-        let (grid, report) = (&part.grid, &part.report);
-        let share = original.map_or(1.0, |original| original.share());
-        let inputs = Inputs {
-            solved_shape: original.map(|_| self.solution.grid.shape()),
-            shape: grid.shape(),
-            lengths: grid.lengths(),
-            tolerance: report.tolerance,
-            ..inputs.clone()
-        };
-        let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);
-        self.sight.tell(&mut account);
-        Ok(account)
-    }
 }
 
 compiled!(Sees: (&'a Sight<T>, [ArrayView2<'a, T>; 3]) => Result<Seen> = Sight::see);
 
 impl<T: Real> Sight<T> {
-    /// Looks at the fields of the solution, as [`Sight::look`].
-    ///
-    /// # Errors
-    /// Those of [`Sight::look`].
-    pub fn look_at(&mut self, account: &mut Account, solution: &Solution<T>) -> Result<ContactStatistics> {
-        let Solution { gap, pressure, contact_pressure, .. } = solution;
-        self.look(account, [gap.view(), pressure.view(), contact_pressure.view()])
-    }
-
-    /// Looks at gap, pressure and contact pressure: fills in the keys of the account that are found of them, and
-    /// returns the statistics of the contact. All processes that share the grid have to look.
-    ///
-    /// # Errors
-    /// [`Error::Shape`](asperity::Error::Shape) if a field does not have the shape of the grid.
-    pub fn look(&mut self, account: &mut Account, fields: [ArrayView2<'_, T>; 3]) -> Result<ContactStatistics> {
+    /// The findings of the first look at the fields.
+    pub(crate) fn seen(&mut self, fields: [ArrayView2<'_, T>; 3]) -> Result<Seen> {
         let seen = match self.seen.take() {
             Some(seen) => seen,
             None => T::call::<Sees<'_>>((self, fields))?,
         };
-        let (found, (min_pressure, max_pressure)) = self.seen.insert(seen).clone();
-        if let Some((surface, levels)) = self.open.take() {
-            self.estimate(&surface, &levels);
-        }
-        self.tell(account);
-        account.corrected_contact_fraction = Some(found.corrected_contact_fraction);
-        account.perimeter = Some(found.perimeter);
-        account.repulsive_fraction = Some(found.repulsive_fraction);
-        account.attractive_fraction = Some(found.attractive_fraction);
-        account.patches = Some(found.patches.clone());
-        account.min_pressure = Some(min_pressure);
-        account.max_pressure = Some(max_pressure);
-        Ok(found)
+        Ok(self.seen.insert(seen).clone())
     }
 
     fn see((this, [gap, pressure, contact_pressure]): (&Self, [ArrayView2<'_, T>; 3])) -> Result<Seen> {
@@ -201,13 +147,6 @@ impl<T: Real> Sight<T> {
     pub(crate) fn estimate(&mut self, surface: &Surface, levels: &[Level]) {
         let nodes_per_wave = surface.nodes_per_wave(self.report.boundary);
         self.errors = Some((GridErrors::of(levels, &self.report, nodes_per_wave), nodes_per_wave));
-    }
-
-    /// Puts the errors that are known into an account.
-    fn tell(&self, account: &mut Account) {
-        if let Some((errors, nodes_per_wave)) = self.errors {
-            (account.grid_error, account.nodes_per_wave) = (Some(errors), nodes_per_wave);
-        }
     }
 }
 

@@ -3,9 +3,9 @@
 use asperity_scene::{Asked, Branches, Inputs};
 
 use super::Options;
-use crate::options::in_options;
 use crate::outcome::Outcome;
 use crate::part::Part;
+use crate::printing::in_options;
 use crate::report;
 use crate::scene::Scene;
 use crate::units::Units;
