@@ -10,7 +10,7 @@ use toml::Value;
 
 use crate::entries::{document, entries, spelled};
 use crate::outcome::Outcome;
-use crate::scene::{key, section};
+use crate::scene::{COMMANDS, key, section};
 use crate::study;
 
 /// Do what a scene file says.
@@ -50,9 +50,6 @@ const EXAMPLES: &str = "\
   Go on with a sweep that was interrupted:
     asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
     asperity run sweep.csv.scene.toml";
-
-/// The commands that a scene may have.
-pub const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
 
 /// The arguments that a scene file stands for.
 pub struct Arguments {

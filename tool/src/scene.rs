@@ -54,6 +54,9 @@ const FIRST: &str = "# Written by asperity ";
 /// Options without influence on the results.
 const LEFT_OUT: [&str; 3] = ["force", "quiet", "json"];
 
+/// The commands that a scene may have.
+pub const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface", "stats", "demo"];
+
 /// The name of the scene in a folder of results.
 pub const NAME: &str = "scene.toml";
 

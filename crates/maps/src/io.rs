@@ -13,6 +13,7 @@ mod memory;
 mod npy;
 mod npz;
 mod output;
+mod refusal;
 mod text;
 mod units;
 mod vti;
@@ -30,77 +31,18 @@ use crate::Topography;
 use asperity::{Error, Result};
 use gsf::{GSF, read_gsf, write_gsf};
 use gwy::{GWY, read_gwy};
-use memory::is_there;
 pub use memory::{available_memory, check_memory};
 use npy::{NPY, read_npy, read_npy_rows};
 pub use npz::write_npz;
 use npz::{ZIP, read_npz};
 pub use output::OutputFolder;
+use refusal::{DAMAGED, Parsed, Refusal, TRUNCATED, check_room, quoted, refuse, reserve, unreadable};
 use text::read_text;
 pub use vti::write_vti;
 use xyz::read_xyz;
 
 /// The largest number of characters of a unit in a file that is written; far more than any has.
 pub const LONGEST_UNIT: usize = 64;
-
-const TRUNCATED: &str = "ends too early: it is truncated or damaged, copy or save it again";
-const DAMAGED: &str = "is damaged: copy or save it again";
-
-/// The result of a reader.
-type Parsed<T> = std::result::Result<T, Refusal>;
-
-/// Why a file is not read.
-enum Refusal {
-    /// It is not as it should be
-    Reason(String),
-    /// The system does not read it
-    System(String, io::Error),
-    /// It takes more memory than there is, so many bytes
-    Memory(usize),
-}
-
-impl<T: Into<String>> From<T> for Refusal {
-    fn from(reason: T) -> Self {
-        Self::Reason(reason.into())
-    }
-}
-
-impl Refusal {
-    /// The error, with the path of the file.
-    fn of(self, path: &Path) -> Error {
-        match self {
-            Self::Reason(reason) => Error::file(path, reason),
-            Self::System(reason, error) => Error::caused(path, reason, error),
-            Self::Memory(bytes) => Error::Memory { what: path.display().to_string(), bytes: bytes as f64 },
-        }
-    }
-}
-
-fn refuse<T>(reason: impl Into<String>) -> Parsed<T> {
-    Err(Refusal::Reason(reason.into()))
-}
-
-/// Makes room for `more` values, as they are read.
-fn reserve<T>(values: &mut Vec<T>, more: usize) -> Parsed<()> {
-    let (needed, room) = (values.len().saturating_add(more), values.capacity());
-    if needed <= room {
-        return Ok(());
-    }
-    // in steps that double it
-    let size = needed.max(2 * room);
-    let bytes = size.saturating_mul(size_of::<T>());
-    check_room(bytes)?;
-    values.try_reserve_exact(size - values.len()).map_err(|_| Refusal::Memory(bytes))
-}
-
-/// Bytes that are not asked for before they are taken: 64 MiB.
-const SMALL: f64 = 67_108_864.0;
-
-/// Refuses more bytes than the machine has, or gives to this process.
-fn check_room(bytes: usize) -> Parsed<()> {
-    let given = || bytes as f64 <= SMALL || Vec::<u8>::new().try_reserve_exact(bytes).is_ok();
-    if is_there(bytes as f64) && given() { Ok(()) } else { Err(Refusal::Memory(bytes)) }
-}
 
 /// Reads a field, a height map or a gap, from a file of any of the formats of [`read_topography`]: its numbers alone.
 ///
@@ -399,112 +341,5 @@ fn is_side(length: f64) -> bool {
     length > 0.0 && length.is_finite()
 }
 
-fn unreadable(error: io::Error) -> Refusal {
-    let reason = match error.kind() {
-        io::ErrorKind::UnexpectedEof => TRUNCATED.to_owned(),
-        io::ErrorKind::NotFound => "does not exist: check the path".to_owned(),
-        _ => format!("cannot be read: {error}"),
-    };
-    Refusal::System(reason, error)
-}
-
-/// A piece of a file for a message: on one line, of a length that can be read.
-fn quoted(text: &str) -> String {
-    let mut short: String = text.chars().take(60).collect();
-    if short.len() < text.len() {
-        short.push_str("...");
-    }
-    format!("{short:?}")
-}
-
 #[cfg(test)]
-mod tests {
-    use ndarray::{ShapeBuilder, array};
-
-    use super::*;
-
-    pub(super) fn read(bytes: impl AsRef<[u8]>) -> Result<Array2<f64>> {
-        read_map(bytes, "heights").map(|map| map.heights)
-    }
-
-    pub(super) fn read_map(bytes: impl AsRef<[u8]>, name: &str) -> Result<Topography> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(name);
-        fs::write(&path, bytes).unwrap();
-        read_topography(&path)
-    }
-
-    /// Why it was refused, after checking that the message names the file and is a single line.
-    pub(super) fn reason(result: Result<impl std::fmt::Debug>) -> String {
-        let error = result.unwrap_err();
-        assert_eq!(error.to_string().lines().count(), 1, "{error:?}");
-        assert!(error.to_string().chars().all(|c| !c.is_control()), "{error:?}");
-        match error {
-            Error::File { reason, path, .. } if !path.as_os_str().is_empty() => reason,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    #[track_caller]
-    pub(super) fn assert_refused(result: Result<impl std::fmt::Debug>, parts: &[&str]) {
-        let reason = reason(result);
-        for part in parts {
-            assert!(reason.contains(part), "{part:?} not in {reason:?}");
-        }
-    }
-
-    #[test]
-    fn what_is_no_file_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        assert_refused(read_field(folder.path()), &["is a folder"]);
-        assert_refused(read_field(folder.path().join("missing.npy")), &["does not exist", "check the path"]);
-        if cfg!(unix) {
-            assert_refused(read_field(Path::new("/dev/zero")), &["not a regular file"]);
-        }
-    }
-
-    #[test]
-    fn sides_that_become_nothing_or_infinite_are_refused() {
-        let gsf = |side: &str| {
-            let mut file =
-                format!("Gwyddion Simple Field 1.0\nXRes=1\nYRes=1\nXReal={side}\nYReal=1\nXYUnits=pm\nZUnits=pm\n")
-                    .into_bytes();
-            file.resize((file.len() / 4 + 1) * 4 + 4, 0);
-            read_map(file, "map.gsf").map(|map| map.lengths)
-        };
-        assert_eq!(gsf("2").unwrap(), Some((2e-12, 1e-12)));
-        for side in ["0", "-1", "inf", "nan", "1e-320"] {
-            assert_refused(gsf(side), &["side lengths of", "positive"]);
-        }
-        let points = |far: &str| read_map(format!("0 0 1\n{far} 0 2\n0 1 3\n{far} 1 4\n"), "map.xyz");
-        assert_eq!(points("2").unwrap().lengths, Some((4.0, 2.0)));
-        assert_refused(points("1e308"), &["side lengths of inf", "positive"]);
-    }
-
-    #[test]
-    fn units_are_written_as_long_as_they_are_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("map.npz");
-        let mut map = Topography::new(array![[1.0, 2.0]]);
-        map.unit = Some("µ".repeat(LONGEST_UNIT));
-        write_topography(&path, &map).unwrap();
-        assert_eq!(read_topography(&path).unwrap(), map);
-        map.unit = Some("µ".repeat(LONGEST_UNIT + 1));
-        assert_refused(write_topography(&path, &map), &["a unit of 65 characters", "at most 64"]);
-    }
-
-    #[test]
-    fn written_npy_is_read_back() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("field.npy");
-        let field = array![[1.5, f64::INFINITY], [-0.0, 2.0], [3.0, 4.0]];
-        write_npy(&path, &field).unwrap();
-        assert_eq!(read_field(&path).unwrap(), field);
-        write_npy(&path, &field.mapv(|v| v as f32)).unwrap();
-        assert_eq!(read_field(&path).unwrap(), field);
-        let fortran = Array2::from_shape_fn((2, 3).f(), |(i, j)| (3 * i + j) as i16);
-        write_npy(&path, &fortran).unwrap();
-        assert_eq!(read_field(&path).unwrap(), fortran.mapv(f64::from));
-        assert_refused(write_npy(folder.path().join("missing/field.npy"), &field), &["cannot be written"]);
-    }
-}
+mod tests;

@@ -15,8 +15,7 @@ use crate::loads::parsed;
 use crate::outcome::Outcome;
 use crate::printing::{on_one_line, on_terminal};
 use crate::quantity::Quantity;
-use crate::run;
-use crate::scene::{is_path, key};
+use crate::scene::{self, is_path, key};
 use crate::synonyms::similar;
 
 /// The commands of which a case may be a run.
@@ -66,7 +65,7 @@ impl Study {
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
             Some(other) => {
-                let is_scene = other.as_str().is_some_and(|name| run::COMMANDS.contains(&name));
+                let is_scene = other.as_str().is_some_and(|name| scene::COMMANDS.contains(&name));
                 let hint = format!(", or run the scene by 'asperity run {}'", path.display());
                 let hint = if is_scene { hint.as_str() } else { "" };
                 return Err(refuse(format!("command is {other}: it must be sweep or cycle{hint}")).into());
