@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Branches, Inputs, Load, Way, settings};
+use asperity_scene::{Adhesion, Asked, Branches, HalfSpace, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -83,9 +83,8 @@ impl Problem {
         given: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let method = named("method", method, "default or rey2017")?;
-        let branches = branch.map(|name| named("branch", name, "loading, unloading or both")).transpose()?;
-        let (settings, other_branch) =
-            (settings(method, tolerance, max_iterations, branches), branches == Some(Branches::Both));
+        let branch = branch.map(|name| named("branch", name, "loading, unloading or both")).transpose()?;
+        let precision = named("precision", precision, "f64 or f32")?;
         let pool = Pool::of(threads)?;
         let heights = heights.to_array()?;
         let boundary = named("boundary", boundary, "periodic or free")?;
@@ -97,35 +96,22 @@ impl Problem {
         let Law { formula, adhesion, .. } = Law::of(law)?;
         let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
         adhesion.check_wall(word).map_err(PyValueError::new_err)?;
-        let mut inputs = Inputs {
+        let half_space = HalfSpace { boundary, modulus };
+        let scene = Scene { half_space, adhesion, method, precision, tolerance, max_iterations, branch };
+        let inputs = Inputs {
             heights: source,
-            initial_gap: None,
             part,
-            solved_shape: None,
-            shape: surface.grid().shape(),
-            lengths,
             length_unit: unit,
             pressure_unit: given.as_ref().map(|_| PRESSURE.si.to_owned()),
             given: given.map(keys).transpose()?,
-            boundary,
-            modulus,
-            adhesion,
-            method,
-            precision: "f64",
-            tolerance: settings.tolerance_in::<f64>(),
-            max_iterations: settings.max_iterations,
-            threads: pool.threads(),
-            version: env!("CARGO_PKG_VERSION"),
+            ..scene.inputs(surface.grid().shape(), lengths, pool.threads())
         };
-        let problem = (surface, formula);
+        let (units, problem) = (inputs.units(), (surface, formula, original));
         let solves = match precision {
-            "f64" => state::<f64>(py, &pool, problem, (&inputs, settings, original), threads)?,
-            "f32" => {
-                (inputs.precision, inputs.tolerance) = ("f32", settings.tolerance_in::<f32>());
-                state::<f32>(py, &pool, problem, (&inputs, settings, original), threads)?
-            }
-            other => return Err(PyValueError::new_err(format!("precision is {other}: it must be f64 or f32"))),
+            Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units), threads)?,
+            Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units), threads)?,
         };
+        let other_branch = branch == Some(Branches::Both);
         Ok(Self { solves: Mutex::new(solves), threads, nested, other_branch, inputs })
     }
 

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use asperity::contact::Original;
-use asperity::{Control, Settings, Solver, Status, Surface};
+use asperity::{Control, Status, Surface};
 use asperity_scene::output::{check_apart, check_free, with_suffix};
 use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Asked, Course, Fields, Format, Formula, Found, Goal, HalfSpace, Inputs, Load, Opening, Posed, Table, Told,
+    Account, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Table, Told,
     Way, check_finite, warnings_of_input,
 };
 use numpy::IntoPyArray;
@@ -250,19 +250,15 @@ impl<T: Scalar> Solves for State<T> {
 pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
-    (surface, formula): (Surface, Formula),
-    (inputs, settings, original): (&Inputs, Settings, Option<Original>),
+    (surface, formula, original): (Surface, Formula, Option<Original>),
+    (scene, units): (&Scene, Units),
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
-    let &Inputs { boundary, modulus, ref adhesion, .. } = inputs;
-    let constraint = adhesion.constraint::<T>().map_err(refusal)?;
-    let units = inputs.units();
-    let (half_space, solver) = (HalfSpace { boundary, modulus }, Solver { settings, constraint });
     let make = || {
-        let warnings = warnings_of_input((&surface, None), half_space, &*law, &units);
-        let posed = Posed::new(surface, law, half_space, solver, original);
-        State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None }
+        let warnings = warnings_of_input((&surface, None), scene.half_space, &*law, &units);
+        let posed = scene.posed(surface, law, original)?;
+        Ok(State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None })
     };
-    Ok(Box::new(py.detach(|| pool.get().install(make))))
+    Ok(Box::new(py.detach(|| pool.get().install(make)).map_err(refusal)?))
 }

@@ -17,7 +17,7 @@ use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
 use crate::printing::{self, say};
 use crate::processes::Processes;
 use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
 use crate::units::UnitOptions;
 
@@ -97,7 +97,7 @@ const EXAMPLES: &str = "\
 const MOST_EVENTS: usize = 8;
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     processes.first(|| options.check_files())?;
     let Options { surface, loads, adhesion, solver, units, out, .. } = options;
     let table = TableOptions {

@@ -20,7 +20,7 @@ use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::{Printing, name, on_terminal};
 use crate::progress::Progress;
-use crate::scene::{self, Scene};
+use crate::scene::{self, SceneFile};
 use crate::solve;
 use crate::summary::{table, warn};
 use crate::threads::use_threads;
@@ -100,10 +100,10 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let part = Part::all(grid);
     let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
-        let tolerance = options.problem().solver.settings().tolerance_in::<f64>();
+        let tolerance = options.problem().scene().tolerance();
         let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
         let asked = options.asked(1.0);
-        let mut found = options.problem().posed::<f64>(surface, law, &part)?.solve(
+        let mut found = options.problem().scene().posed::<f64>(surface, law, part.wanted())?.solve(
             &asked,
             None,
             &mut |grid, state, tolerance| {
@@ -193,12 +193,12 @@ fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
 }
 
 /// The options of `asperity solve` for one of the two cases, and its scene.
-fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(solve::Options, Scene)> {
+fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(solve::Options, SceneFile)> {
     let mut command = solve::Options::augment_args(Command::new("solve"));
     let matches = command.try_get_matches_from_mut(arguments(folder, adhesive).into_iter().skip(1));
     let parsed = matches.and_then(|matches| {
         let options = solve::Options::from_arg_matches(&matches)?;
-        Ok((options, Scene::of(&command, &matches)))
+        Ok((options, SceneFile::of(&command, &matches)))
     });
     parsed.map_err(|_| format!("--out {}: is no name that solve takes, choose another", folder.display()).into())
 }

@@ -13,7 +13,7 @@ use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::pictures::Resolution;
 use crate::printing::{bold, say};
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 use crate::units::UnitOptions;
 
 /// List the adhesion laws, with formula, parameters and source.
@@ -49,7 +49,7 @@ const POINTS: u32 = 400;
 const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let units = options.units.units(None, scene.is_si())?;
     let chosen = Law::named(&options.adhesion.law).filter(|_| options.adhesion.adheres());
     let Some(path) = &options.plot else {

@@ -59,7 +59,7 @@ use crate::hints::hinted;
 use crate::outcome::Outcome;
 use crate::printing::{check_printed, complain, on_one_line, printed};
 use crate::processes::{Processes, is_elsewhere};
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
 ///
@@ -140,7 +140,7 @@ fn run_on(processes: &Processes) -> ExitCode {
 }
 
 /// The command that the arguments name, and the scene that repeats it.
-fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, Scene), clap::Error>
+fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, SceneFile), clap::Error>
 where
     I: IntoIterator<Item: Into<OsString>>,
 {
@@ -148,14 +148,14 @@ where
     let matches = tool.try_get_matches_from_mut(&arguments).map_err(|error| hinted(tool, &arguments, error))?;
     let command = Tool::from_arg_matches(&matches)?.command;
     let chosen = matches.subcommand().and_then(|(name, matches)| Some((tool.find_subcommand(name)?, matches)));
-    let scene = chosen.map_or_else(Scene::default, |(command, matches)| Scene::of(command, matches));
+    let scene = chosen.map_or_else(SceneFile::default, |(command, matches)| SceneFile::of(command, matches));
     match scene.check_units() {
         Ok(()) => Ok((command, scene)),
         Err(reason) => Err(tool.error(ErrorKind::ValueValidation, reason)),
     }
 }
 
-fn execute(command: Command, scene: &Scene, processes: &Processes) -> ExitCode {
+fn execute(command: Command, scene: &SceneFile, processes: &Processes) -> ExitCode {
     if !matches!(command, Command::Solve(_) | Command::Sweep(_) | Command::Cycle(_))
         && let Err(error) = processes.alone("every command but solve, sweep and cycle")
     {

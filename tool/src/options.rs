@@ -1,12 +1,11 @@
 //! The options that more than one command has.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Control, Error, Method, Settings, Solver, Surface};
+use asperity::{Error, Method, Surface};
 use asperity_maps::io::read_field;
 pub use asperity_scene::Scalar;
-use asperity_scene::{Branches, Constraint, HalfSpace, Posed, settings};
+use asperity_scene::{Branches, HalfSpace, Precision, Scene};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
@@ -78,10 +77,11 @@ pub enum Iteration {
     Rey2017,
 }
 
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Precision {
-    F32,
-    F64,
+impl Iteration {
+    /// The method of the library.
+    pub fn method(self) -> Method {
+        if self == Self::Rey2017 { Method::Rey2017 } else { Method::Preconditioned }
+    }
 }
 
 /// The options that choose a contact problem and its solver.
@@ -124,16 +124,6 @@ impl<'a> ProblemOptions<'a> {
     }
 }
 
-impl Precision {
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F32 => "f32",
-            Self::F64 => "f64",
-        }
-    }
-}
-
 impl SurfaceOptions {
     /// The contact modulus.
     pub fn modulus(&self) -> f64 {
@@ -158,25 +148,18 @@ impl<'a> ProblemOptions<'a> {
         std::iter::once(&*self.surface.heights).chain(adhesion.into_iter().filter_map(Option::as_deref))
     }
 
-    /// The problem of a surface with a law, whose results are of a part.
-    pub fn posed<T: Scalar>(
-        self,
-        surface: impl Into<Arc<Surface>>,
-        law: Arc<dyn AdhesionLaw<T>>,
-        part: &Part,
-    ) -> asperity::Result<Posed<T>> {
-        Ok(Posed::new(surface, law, self.surface.half_space(), self.solver()?, part.wanted()))
-    }
-
-    /// The solver that the options choose.
-    pub fn solver<T: Scalar>(self) -> asperity::Result<Solver<Constraint<T>>> {
-        Ok(Solver { settings: self.solver.settings(), constraint: self.adhesion.described().constraint()? })
-    }
-
-    /// The gap at which bodies that come from afar begin under `loads`; on the branch of unloading they do not.
-    pub fn start_afar(self, surface: &Surface, loads: &[Control]) -> Option<Array2<f64>> {
-        let comes = self.solver.branch != Some(Branches::Unloading);
-        comes.then(|| self.surface.beyond.boundary.start_afar(surface, loads)).flatten()
+    /// The scene that the options describe.
+    pub fn scene(self) -> Scene {
+        let &SolverOptions { method, precision, tolerance, max_iterations, branch, .. } = self.solver;
+        Scene {
+            half_space: self.surface.half_space(),
+            adhesion: self.adhesion.described(),
+            method: method.method(),
+            precision,
+            tolerance,
+            max_iterations,
+            branch,
+        }
     }
 }
 
@@ -219,23 +202,5 @@ impl SolverOptions {
             }
             _ => Ok(()),
         }
-    }
-
-    /// The tolerance to which the solve is held.
-    pub fn tolerance(&self) -> f64 {
-        let settings = self.settings();
-        match self.precision {
-            Precision::F32 => settings.tolerance_in::<f32>(),
-            Precision::F64 => settings.tolerance_in::<f64>(),
-        }
-    }
-
-    /// The settings, with the defaults of the method.
-    pub fn settings(&self) -> Settings {
-        let method = match self.method {
-            Iteration::Default => Method::Preconditioned,
-            Iteration::Rey2017 => Method::Rey2017,
-        };
-        settings(method, self.tolerance, self.max_iterations, self.branch)
     }
 }

@@ -14,7 +14,7 @@ use crate::outcome::Outcome;
 use crate::output::OutputFile;
 use crate::printing::{Printing, complain, name, say};
 use crate::quantity::{LENGTH, Quantity};
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 
 /// Make a measured map into a surface that can be solved.
 ///
@@ -65,7 +65,7 @@ const EXAMPLES: &str = "\
       --resample 1024 1024 --out fine.npz";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     let file = OutputFile::create(&options.out, options.force)?;
     let mut log = Log::default();

@@ -8,38 +8,22 @@ use serde_json::{Map, Value, json};
 
 use crate::options::ProblemOptions;
 use crate::part::Part;
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 use crate::threads;
 use crate::units::Units;
 
 /// The inputs of a command, as every report has them.
-pub fn inputs(
-    ProblemOptions { surface, adhesion, solver }: ProblemOptions<'_>,
-    part: &Part,
-    units: &Units,
-    scene: &Scene,
-) -> Inputs {
-    let settings = solver.settings();
+pub fn inputs(problem: ProblemOptions<'_>, part: &Part, units: &Units, scene: &SceneFile) -> Inputs {
     let path = |file: Option<&Path>| file.map(|path| path.to_string_lossy().into_owned());
     Inputs {
-        heights: path(Some(&surface.heights)),
-        initial_gap: path(solver.initial_gap.as_deref()),
+        heights: path(Some(&problem.surface.heights)),
+        initial_gap: path(problem.solver.initial_gap.as_deref()),
         part: part.name().map(str::to_owned),
         solved_shape: part.solved(),
-        shape: part.grid().shape(),
-        lengths: part.grid().lengths(),
         length_unit: units.length.clone(),
         pressure_unit: units.pressure.clone(),
         given: scene.given(),
-        boundary: surface.beyond.boundary,
-        modulus: surface.modulus(),
-        adhesion: adhesion.described(),
-        method: settings.method,
-        precision: solver.precision.name(),
-        tolerance: solver.tolerance(),
-        max_iterations: settings.max_iterations,
-        threads: threads::count(),
-        version: env!("CARGO_PKG_VERSION"),
+        ..problem.scene().inputs(part.grid().shape(), part.grid().lengths(), threads::count())
     }
 }
 

@@ -17,7 +17,7 @@ use crate::quantity::Quantity;
 
 /// A run as a scene file that repeats it: every option that was given or has a default.
 #[derive(Default)]
-pub struct Scene {
+pub struct SceneFile {
     command: String,
     entries: Vec<Entry>,
     quantities: Vec<Given>,
@@ -60,7 +60,7 @@ pub const COMMANDS: [&str; 7] = ["solve", "sweep", "cycle", "prepare", "surface"
 /// The name of the scene in a folder of results.
 pub const NAME: &str = "scene.toml";
 
-impl Scene {
+impl SceneFile {
     /// The scene of a command with the options in `matches`.
     pub fn of(command: &Command, matches: &ArgMatches) -> Self {
         let entries = command.get_arguments().filter_map(|arg| entry(arg, matches)).collect();

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use asperity::contact::PressureDistribution;
 use asperity::{AdhesionLaw, Solution, Status};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
-use asperity_scene::{Account, Asked, Load, gap_to_write, write_fields};
+use asperity_scene::{Account, Asked, Load, Precision, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::{Array2, CowArray};
 use serde_json::json;
@@ -21,7 +21,7 @@ use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::fields::check_finite;
 use crate::numbers::plain;
-use crate::options::{Given, Precision, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
@@ -31,7 +31,7 @@ use crate::printing::{Printing, complain, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{PRESSURE, Quantity};
-use crate::scene::{self, Scene};
+use crate::scene::{self, SceneFile};
 use crate::summary::{table, warn};
 use crate::units::{UnitOptions, Units};
 use crate::warnings::{Strictness, Warnings};
@@ -172,7 +172,7 @@ const PICTURES: [[&str; 2]; 3] =
     [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
 
 /// Runs the command; whether it converged.
-pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     let problem = options.problem();
     options.check_shared(processes)?;
     problem.adhesion.check()?;
@@ -238,7 +238,7 @@ impl Options {
 /// A solve with all that was chosen for it.
 struct Job<'a> {
     options: &'a Options,
-    scene: &'a Scene,
+    scene: &'a SceneFile,
     processes: &'a Processes,
     names: Vec<&'static str>,
     asked: Asked,
@@ -255,12 +255,6 @@ impl Job<'_> {
             self.leave_out_what_takes_whole_fields()?;
         }
         let start = start.map(T::field);
-        let solver = self.options.problem().solver::<T>()?;
-        let tolerance = match self.asked.goal {
-            Some(goal) => goal.by(solver, false).tolerance()?,
-            None => solver.settings.tolerance_in::<T>(),
-        };
-        let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         let strictness = self.options.strictness;
         let whole_adhesion = if fits { adhesion.gathered(processes)? } else { None };
         let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
@@ -272,7 +266,9 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
-        let mut posed = self.options.problem().posed::<T>(surface, adhesion.law(), &self.part)?;
+        let mut posed = self.options.problem().scene().posed::<T>(surface, adhesion.law(), self.part.wanted())?;
+        let tolerance = posed.tolerance(self.asked.goal)?;
+        let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         if let Some(goal) = self.asked.goal {
             let (plan, time) = posed.plan(self.asked.control, goal)?;
             printing.say(&goal.announced(&plan, time));

@@ -17,7 +17,7 @@ use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::Printing;
 use crate::quantity::{Dimension, LENGTH, PER_LENGTH, Quantity};
 use crate::report;
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 use crate::units::Units;
 
 /// Print the statistics of a rough surface.
@@ -55,7 +55,7 @@ const EXAMPLES: &str = "\
   asperity stats asperity-demo/heights.npy --lengths 1um --psd psd.csv";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let (path, psd) = (&options.heights, options.psd.as_deref());
     psd.map_or(Ok(()), |psd| check_apart(psd, [path.as_path()]))?;
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;

@@ -17,7 +17,7 @@ use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, name};
 use crate::quantity::{LENGTH, Quantity};
 use crate::report;
-use crate::scene::{self, Scene};
+use crate::scene::{self, SceneFile};
 use crate::stats::{density_table, statistics, table};
 use crate::threads::use_threads;
 
@@ -81,7 +81,7 @@ const EXAMPLES: &str = "\
       --k-s 32 --out rough-tip.npz";
 
 /// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &Scene) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let shape = match (options.size, options.shape.as_deref()) {
         (None, Some([nx, ny])) => (*nx, *ny),
         (size, _) => (size.unwrap_or_default(), size.unwrap_or_default()),

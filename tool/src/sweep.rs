@@ -14,7 +14,7 @@ use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
 use crate::printing::{complain, name};
 use crate::processes::Processes;
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
 use crate::units::UnitOptions;
 
@@ -79,7 +79,7 @@ const EXAMPLES: &str = "\
       --range 4e-3 --mean-gaps 0.05:0.03:11,0.03:0.05:11 --out hysteresis.jsonl";
 
 /// Runs the command; whether all rows converged.
-pub fn run(options: &Options, scene: &Scene, processes: &Processes) -> Outcome<bool> {
+pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     let format = options.format()?;
     processes.first(|| options.plot.check(&options.out, options.manner.force))?;
     let Options { surface, loads, adhesion, solver, units, out, .. } = options;

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use asperity::Control;
-use asperity_scene::{Account, Course, Fields, Format, Inputs, Opening, Posed, Row, Way};
+use asperity_scene::{Account, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
@@ -13,7 +13,7 @@ use crate::boundary::{LoadsOptions, check_load};
 use crate::fields::check_finite;
 use crate::interruption;
 use crate::numbers::percent;
-use crate::options::{Given, Precision, ProblemOptions, Scalar};
+use crate::options::{Given, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::part::Part;
@@ -22,7 +22,7 @@ use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
-use crate::scene::{self, Scene};
+use crate::scene::{self, SceneFile};
 use crate::units::{UnitOptions, Units};
 use crate::warnings::{self, Strictness, Warnings};
 
@@ -53,7 +53,7 @@ pub struct TableOptions<'a> {
     /// The folder for the fields of the rows
     pub fields: Option<&'a Path>,
     pub units: &'a UnitOptions,
-    pub scene: &'a Scene,
+    pub scene: &'a SceneFile,
     pub processes: &'a Processes,
     pub manner: &'a Manner,
     pub stiffness: bool,
@@ -106,7 +106,8 @@ impl<'a> TableOptions<'a> {
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let inputs = report::inputs(problem, &part, &units, scene);
         let surface = Arc::new(surface);
-        let mut posed = problem.posed::<T>(surface.clone(), adhesion.law(), &part)?;
+        let mut posed = problem.scene().posed::<T>(surface.clone(), adhesion.law(), part.wanted())?;
+        let afar = if start.is_none() { posed.start_afar(&controls) } else { None };
         let nodes = *posed.parts()?.1.operator().grid();
         course.check(&mut posed)?;
         let grid = *surface.grid();
@@ -144,12 +145,11 @@ impl<'a> TableOptions<'a> {
             opened = Some((identity, scene.written_beside(out)?, warnings));
             Ok(())
         })?;
-        let start = start.or_else(|| problem.start_afar(&surface, &controls));
         let (identity, scene_file, mut warnings) = match opened {
             Some((identity, scene_file, warnings)) => (Some(identity), Some(scene_file), warnings),
             None => (None, None, Warnings::none(strictness, &units, true)?),
         };
-        let (rows, course) = asperity_scene::Table::open(opening, identity, course, start, processes)?;
+        let (rows, course) = asperity_scene::Table::open(opening, identity, course, start.or(afar), processes)?;
         let count = rows.rows();
         processes.first(|| {
             scene_file.map_or(Ok(()), OutputFile::commit)?;
@@ -204,7 +204,7 @@ impl<T: Scalar> Table<'_, T> {
             return Ok(None);
         }
         let name = format!("{}{}", self.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
-        let (tolerance, grid) = (problem.solver.tolerance(), *self.posed.parts()?.1.grid());
+        let (tolerance, grid) = (problem.scene().tolerance(), *self.posed.parts()?.1.grid());
         let mut progress = Progress::new(&name, tolerance, grid.nodes(), manner.printing.without_bars());
         let found = self.course.next(&mut self.posed, &mut |state| {
             progress.update(state);

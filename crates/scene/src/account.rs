@@ -11,6 +11,7 @@ use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, 
 use crate::found::{Found, Sight};
 use crate::half_space::Boundary;
 use crate::record::record;
+use crate::scene::Precision;
 use crate::told::Told;
 use crate::units::Units;
 
@@ -235,7 +236,7 @@ pub struct Inputs {
     /// The method.
     pub method: Method,
     /// The precision.
-    pub precision: &'static str,
+    pub precision: Precision,
     /// The tolerance to which the solve was held.
     pub tolerance: f64,
     /// The iterations after which to give up.

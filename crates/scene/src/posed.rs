@@ -94,6 +94,15 @@ impl<T: Real> Posed<T> {
         }
     }
 
+    /// The tolerance to which a solve is held, to an accuracy, if one is asked for.
+    ///
+    /// # Errors
+    /// Those of [`Accuracy::tolerance`](asperity::accuracy::Accuracy::tolerance).
+    pub fn tolerance(&self, goal: Option<Goal>) -> Result<f64> {
+        let settings = self.solver.settings;
+        goal.map_or(Ok(settings.tolerance_in::<T>()), |goal| goal.by(self.solver.clone(), false).tolerance())
+    }
+
     /// The surface, before the first solve.
     ///
     /// # Errors
@@ -217,8 +226,7 @@ impl<T: Real> Posed<T> {
 
     fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
         let (clock, surface) = (Instant::now(), self.surface()?);
-        let mut wanted = goal.by(self.solver.clone(), asked.stiffness);
-        let tolerance = wanted.tolerance()?;
+        let (mut wanted, tolerance) = (goal.by(self.solver.clone(), asked.stiffness), self.tolerance(Some(goal))?);
         let half_space = |grid| self.half_space.operator(grid);
         let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
         let found = wanted.solve_observed(surface, half_space, &self.law, asked.control, observe)?;

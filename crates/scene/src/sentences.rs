@@ -9,6 +9,7 @@ use crate::accuracy::{GIB, Goal};
 use crate::entries::{GridErrors, Reached, Search};
 use crate::half_space::Boundary;
 use crate::numbers::percent;
+use crate::scene::Precision;
 use crate::words::{Skin, worded};
 
 /// The shortfalls of an answer with their remedies, in the words of a skin: each with what was not reached, which is
@@ -46,7 +47,7 @@ fn unconverged(account: &Account) -> String {
         _ if load_error > tolerance && relative_error <= tolerance => {
             format!("the load is not carried: try another {{initial_gap}}, or hold {held}")
         }
-        _ if inputs.precision == "f32" => {
+        _ if inputs.precision == Precision::F32 => {
             "this is what f32 can do: use {precision=f64}, or a larger {tolerance}".to_owned()
         }
         _ => "this is the best to be had: use a larger {tolerance}, or another {initial_gap}".to_owned(),

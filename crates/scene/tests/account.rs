@@ -8,8 +8,8 @@ use asperity::path::PathSettings;
 use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, Asked, Boundary, Constraint, Course, Found, Goal, HalfSpace, Inputs, Posed, Skin, Way,
-    check_finite, rows, shortfalls, worded,
+    Account, Adhesion, Asked, Boundary, Constraint, Course, Found, Goal, HalfSpace, Inputs, Posed, Precision, Skin,
+    Way, check_finite, rows, shortfalls, worded,
 };
 use serde_json::{Value, json};
 
@@ -57,7 +57,7 @@ fn inputs() -> Inputs {
         modulus: 1.0,
         adhesion: Adhesion { work_of_adhesion: Some(2e-5), range: Some(8e-3), ..Adhesion::of("exponential") },
         method: Method::Preconditioned,
-        precision: "f64",
+        precision: Precision::F64,
         tolerance: 0.0,
         max_iterations: 0,
         threads: 1,

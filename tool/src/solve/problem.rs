@@ -7,7 +7,7 @@ use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::printing::in_options;
 use crate::report;
-use crate::scene::Scene;
+use crate::scene::SceneFile;
 use crate::units::Units;
 
 impl Options {
@@ -29,11 +29,11 @@ impl Options {
     /// Refuses what excludes each other.
     pub fn check_asked(&self) -> Outcome<()> {
         let (adhesive, started) = (self.adhesion.adheres(), self.solver.initial_gap.is_some());
-        in_options(self.asked(1.0).check(adhesive, self.solver.settings().method, started))
+        in_options(self.asked(1.0).check(adhesive, self.solver.method.method(), started))
     }
 
     /// The inputs of the report.
-    pub fn inputs(&self, part: &Part, units: &Units, scene: &Scene) -> Inputs {
+    pub fn inputs(&self, part: &Part, units: &Units, scene: &SceneFile) -> Inputs {
         report::inputs(self.problem(), part, units, scene)
     }
 }

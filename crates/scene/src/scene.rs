@@ -1,0 +1,122 @@
+//! The scene of a run: its problem but for surface and loads, and how that is solved.
+
+use std::sync::Arc;
+
+use asperity::contact::Original;
+use asperity::{AdhesionLaw, Branch, Method, Real, Result, Settings, Solver, Surface};
+use serde::{Deserialize, Serialize};
+
+use crate::account::Inputs;
+use crate::adhesion::Adhesion;
+use crate::half_space::HalfSpace;
+use crate::posed::Posed;
+
+/// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The elastic body.
+    pub half_space: HalfSpace,
+    /// The adhesion and the wall.
+    pub adhesion: Adhesion,
+    /// The method.
+    pub method: Method,
+    /// The precision.
+    pub precision: Precision,
+    /// The certified relative error at which to stop, if it is not the default of the precision.
+    pub tolerance: Option<f64>,
+    /// The iterations after which to give up, if they are not the default of the method.
+    pub max_iterations: Option<usize>,
+    /// The branches of equilibria to solve on, if they do not follow from the load.
+    pub branch: Option<Branches>,
+}
+
+/// The precision of a solve, and of its fields.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
+pub enum Precision {
+    /// 32 bits.
+    #[cfg_attr(feature = "options", value(help = None::<&str>))]
+    F32,
+    /// 64 bits.
+    #[default]
+    #[cfg_attr(feature = "options", value(help = None::<&str>))]
+    F64,
+}
+
+/// The branches of equilibria to solve on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
+pub enum Branches {
+    /// That of surfaces pressed together from afar.
+    #[cfg_attr(feature = "options", value(help = None::<&str>))]
+    Loading,
+    /// That of surfaces pressed flat before.
+    #[cfg_attr(feature = "options", value(help = None::<&str>))]
+    Unloading,
+    /// One after the other.
+    #[cfg_attr(feature = "options", value(help = None::<&str>))]
+    Both,
+}
+
+impl Scene {
+    /// The settings of the solver, with the defaults of the method, on the branch that is given, if it is one.
+    pub fn settings(&self) -> Settings {
+        let default = if self.method == Method::Rey2017 { Settings::rey2017() } else { Settings::default() };
+        let branch = match self.branch {
+            Some(Branches::Loading) => Some(Branch::Loading),
+            Some(Branches::Unloading) => Some(Branch::Unloading),
+            Some(Branches::Both) | None => None,
+        };
+        let max_iterations = self.max_iterations.unwrap_or(default.max_iterations);
+        default.tolerance(self.tolerance).max_iterations(max_iterations).branch(branch)
+    }
+
+    /// The tolerance to which a solve is held.
+    pub fn tolerance(&self) -> f64 {
+        match self.precision {
+            Precision::F32 => self.settings().tolerance_in::<f32>(),
+            Precision::F64 => self.settings().tolerance_in::<f64>(),
+        }
+    }
+
+    /// The problem of a surface with the law of the scene, whose results are of the `original` of a mirrored surface, or
+    /// of the whole.
+    ///
+    /// # Errors
+    /// Those of [`Adhesion::constraint`].
+    pub fn posed<T: Real>(
+        &self,
+        surface: impl Into<Arc<Surface>>,
+        law: Arc<dyn AdhesionLaw<T>>,
+        original: Option<Original>,
+    ) -> Result<Posed<T>> {
+        let solver = Solver { settings: self.settings(), constraint: self.adhesion.constraint()? };
+        Ok(Posed::new(surface, law, self.half_space, solver, original))
+    }
+
+    /// The inputs of a report as far as they are those of the scene, on a surface of a shape and side lengths.
+    pub fn inputs(&self, shape: (usize, usize), lengths: (f64, f64), threads: usize) -> Inputs {
+        Inputs {
+            heights: None,
+            initial_gap: None,
+            part: None,
+            solved_shape: None,
+            shape,
+            lengths,
+            length_unit: None,
+            pressure_unit: None,
+            given: None,
+            boundary: self.half_space.boundary,
+            modulus: self.half_space.modulus,
+            adhesion: self.adhesion.clone(),
+            method: self.method,
+            precision: self.precision,
+            tolerance: self.tolerance(),
+            max_iterations: self.settings().max_iterations,
+            threads,
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+}
