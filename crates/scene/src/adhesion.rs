@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use asperity::{Grid, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::formula::Formula;
 use crate::laws::{LAWS, Law, PARAMETERS, Parameter, WORK};
@@ -12,7 +12,8 @@ use crate::numbers::plain;
 use crate::wall::{Constraint, Wall};
 
 /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Adhesion {
     /// The name of the law, one of [`LAWS`] or the class of one's own.
     pub law: String,
@@ -36,10 +37,27 @@ pub struct Adhesion {
     pub wall_stiffness: Option<f64>,
 }
 
+impl Default for Adhesion {
+    fn default() -> Self {
+        Self::of("none")
+    }
+}
+
 impl Adhesion {
     /// A law by its name, without parameters.
     pub fn of(law: impl Into<String>) -> Self {
-        Self { law: law.into(), ..Self::default() }
+        Self {
+            law: law.into(),
+            work_of_adhesion: None,
+            range: None,
+            exponent: None,
+            hamaker: None,
+            law_table: None,
+            cut_off: None,
+            work_of_adhesion_map: None,
+            wall: Wall::default(),
+            wall_stiffness: None,
+        }
     }
 
     /// The law, if it is one of the library.

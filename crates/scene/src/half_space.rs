@@ -90,13 +90,20 @@ impl Boundary {
     }
 }
 
-/// The elastic half-space.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The elastic half-space; periodic, of a contact modulus of 1 by default.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct HalfSpace {
     /// The boundary.
     pub boundary: Boundary,
     /// The contact modulus E*, a pressure.
     pub modulus: f64,
+}
+
+impl Default for HalfSpace {
+    fn default() -> Self {
+        Self { boundary: Boundary::default(), modulus: 1.0 }
+    }
 }
 
 impl HalfSpace {

@@ -11,12 +11,23 @@ use crate::adhesion::Adhesion;
 use crate::half_space::HalfSpace;
 use crate::posed::Posed;
 
-/// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver.
-#[derive(Clone, Debug, PartialEq)]
+/// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
+/// has the keys of a report, which are left out where they have their defaults.
+///
+/// ```
+/// let scene: asperity_scene::Scene =
+///     serde_json::from_str(r#"{"modulus": 2.0, "law": "exponential", "work_of_adhesion": 1e-4, "range": 4e-3}"#)?;
+/// assert_eq!((scene.half_space.modulus, scene.tolerance()), (2.0, 1e-6));
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Scene {
     /// The elastic body.
+    #[serde(flatten)]
     pub half_space: HalfSpace,
     /// The adhesion and the wall.
+    #[serde(flatten)]
     pub adhesion: Adhesion,
     /// The method.
     pub method: Method,

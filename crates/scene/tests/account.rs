@@ -1,15 +1,14 @@
 //! A problem is posed and solved, and its account has the keys of every report.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use asperity::accuracy::Quantity;
 use asperity::path::PathSettings;
-use asperity::{Control, Exponential, Grid, Method, SelfAffine, Settings, Solver, Status};
+use asperity::{Control, Grid, Method, SelfAffine, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, Asked, Boundary, Constraint, Course, Found, Goal, HalfSpace, Inputs, Posed, Precision, Skin,
-    Way, check_finite, rows, shortfalls, worded,
+    Account, Adhesion, Asked, Boundary, Course, Found, Goal, HalfSpace, Inputs, Posed, Precision, Scene, Skin, Way,
+    check_finite, rows, shortfalls, worded,
 };
 use serde_json::{Value, json};
 
@@ -42,41 +41,40 @@ fn words(text: &str) -> Vec<&str> {
     text.split_whitespace().collect()
 }
 
+fn scene() -> Scene {
+    let adhesion = Adhesion { work_of_adhesion: Some(2e-5), range: Some(8e-3), ..Adhesion::of("exponential") };
+    Scene { adhesion, ..Scene::default() }
+}
+
 fn inputs() -> Inputs {
-    Inputs {
-        heights: None,
-        initial_gap: None,
-        part: None,
-        solved_shape: None,
-        shape: (0, 0),
-        lengths: (0.0, 0.0),
-        length_unit: None,
-        pressure_unit: None,
-        given: None,
-        boundary: Boundary::Periodic,
-        modulus: 1.0,
-        adhesion: Adhesion { work_of_adhesion: Some(2e-5), range: Some(8e-3), ..Adhesion::of("exponential") },
-        method: Method::Preconditioned,
-        precision: Precision::F64,
-        tolerance: 0.0,
-        max_iterations: 0,
-        threads: 1,
-        version: "0",
-    }
+    scene().inputs((0, 0), (0.0, 0.0), 1)
 }
 
 /// A rough surface with adhesion.
 fn posed() -> Posed<f64> {
     let surface = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap();
-    let law = Arc::new(Exponential::new(2e-5, 8e-3).unwrap());
-    let half_space = HalfSpace { boundary: Boundary::Periodic, modulus: 1.0 };
-    Posed::new(surface, law, half_space, Solver { settings: Settings::default(), constraint: Constraint::Hard }, None)
+    scene().posed(surface, scene().adhesion.formula(None).unwrap().law(), None).unwrap()
 }
 
 fn solved(asked: &Asked) -> (Found<f64>, Account) {
     let found = posed().solve(asked, None, &mut |_, _, _| ControlFlow::Continue(())).unwrap();
     let account = found.account("solve", &inputs(), None, Vec::new()).unwrap();
     (found, account)
+}
+
+#[test]
+fn the_inputs_of_a_report_describe_the_scene_of_its_run() {
+    let half_space = HalfSpace { boundary: Boundary::Free, modulus: 2.0 };
+    let (tolerance, max_iterations) = (Some(1e-3), Some(7));
+    let (method, precision) = (Method::Rey2017, Precision::F32);
+    let run = Scene { half_space, method, precision, tolerance, max_iterations, ..scene() };
+    assert_eq!(serde_json::from_value::<Scene>(json!(run.inputs((4, 4), (1.0, 1.0), 1))).unwrap(), run);
+    assert_eq!(serde_json::from_value::<Scene>(json!(run)).unwrap(), run);
+    let (settings, default) = (run.settings(), scene().settings());
+    assert_eq!((settings.max_iterations, run.tolerance(), default.max_iterations), (7, 1e-3, 2000));
+    let (single, rey) = (Precision::F32, Method::Rey2017);
+    let of_defaults = Scene { precision: single, method: rey, ..Scene::default() };
+    assert_eq!((of_defaults.tolerance(), of_defaults.settings().max_iterations), (1e-4, 20_000));
 }
 
 #[test]
