@@ -34,28 +34,29 @@ def number(name: str, value: Any) -> float:
     raise TypeError(f"{name} is {value!r}: it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa")
 
 
-def one(**given: Any) -> Load:
-    """The one load of those that may be given."""
-    name, value = _only("load", given)
+def one(given: dict[str, Any]) -> Load:
+    """The one load among the keywords of a function."""
+    name, value = _only("load", given, PLURALS.values())
     if name != "spring" and np.ndim(value) > 0:
         plural = next(plural for plural, one in PLURALS.items() if one == name)
         raise TypeError(f"{name} is {value!r}: it must be one number; asperity.sweep takes many, as {plural}=[...]")
     return _load(name, value)
 
 
-def many(**given: Iterable[Any] | None) -> list[Load]:
-    """The sequence of loads of those that may be given, by the plural of their names."""
-    name, values = _only("sequence of loads", given)
+def many(given: dict[str, Any]) -> list[Load]:
+    """The sequence of loads among the keywords of a function, by the plural of their names."""
+    name, values = _only("sequence of loads", given, PLURALS)
     if np.ndim(values) == 0 and not isinstance(values, Iterable):
         raise TypeError(f"{name} is {values!r}: it must be a sequence, as [{values!r}], or one load of asperity.solve")
     return [_load(PLURALS[name], value) for value in values]
 
 
-def _only(what: str, given: dict[str, Any]) -> tuple[str, Any]:
-    found = [(name, value) for name, value in given.items() if value is not None]
+def _only(what: str, given: dict[str, Any], loads: Iterable[str]) -> tuple[str, Any]:
+    known = [name for name in loads if name in given]
+    found = [(name, given[name]) for name in known if given[name] is not None]
     if len(found) != 1:
         names = " and ".join(name for name, _ in found) or "none"
-        raise TypeError(f"give one {what}, {' or '.join(given)}: {names} given")
+        raise TypeError(f"give one {what}, {' or '.join(known)}: {names} given")
     return found[0]
 
 

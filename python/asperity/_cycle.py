@@ -186,32 +186,10 @@ def cycle(
     >>> bool(found.columns["mean_pressure"].min() < 0)  # the pull-off stress
     True
     """
-    loads = _control.many(
-        mean_gaps=mean_gaps,
-        mean_pressures=mean_pressures,
-        normal_forces=normal_forces,
-        approaches=approaches,
-        springs=springs,
-        reduced_pressures=reduced_pressures,
-    )
+    given = locals()
+    loads = _control.many(given)
     if len(loads) < 2:
         raise ValueError("a cycle needs two turning points at least: give more loads")
-    scene = Scene(
-        heights,
-        lengths,
-        axes=axes,
-        modulus=modulus,
-        boundary=boundary,
-        absent_missing=absent_missing,
-        law=law,
-        wall=wall,
-        tolerance=tolerance,
-        max_iterations=max_iterations,
-        method=method,
-        branch=_control.only(branch),
-        precision=precision,
-        threads=threads,
-        whole=whole,
-    )
+    scene = Scene.of({**given, "branch": _control.only(branch)})
     path = (steps, smallest_step, imbalance, smooth)
     return Cycle(scene, loads, start, observe, path=path, file=(out, fields, force))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import inspect
 from typing import Any
 
 import numpy as np
@@ -76,6 +77,11 @@ class Scene:
                 "mirror=True) or window=0.1, or boundary='free' if the body ends there",
                 InputWarning,
             )
+
+    @classmethod
+    def of(cls, given: dict[str, Any]) -> Scene:
+        """The scene among the keywords of a function."""
+        return cls(**{name: given[name] for name in inspect.signature(cls).parameters if name in given})
 
     def start(self, start: Start) -> str | NDArray[np.float64] | None:
         """The gap from which to start, as the compiled core takes it."""

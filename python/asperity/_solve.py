@@ -195,35 +195,11 @@ def solve(
     >>> right.report["accuracy"], right.heights.shape
     ({'wanted': 0.01, 'of': 'area', 'reached': True}, (64, 64))
     """
-    load = _control.one(
-        mean_pressure=mean_pressure,
-        mean_gap=mean_gap,
-        normal_force=normal_force,
-        approach=approach,
-        spring=spring,
-        reduced_pressure=reduced_pressure,
-        contact_fraction=contact_fraction,
-    )
+    given = locals()
+    load = _control.one(given)
     if branch is not None and start is not None:
         raise ValueError("start chooses the branch: leave out branch, or start")
-    scene = Scene(
-        heights,
-        lengths,
-        axes=axes,
-        modulus=modulus,
-        boundary=boundary,
-        absent_missing=absent_missing,
-        law=law,
-        wall=wall,
-        tolerance=tolerance,
-        max_iterations=max_iterations,
-        method=method,
-        branch=branch,
-        precision=precision,
-        threads=threads,
-        whole=whole,
-        nested=nested,
-    )
+    scene = Scene.of(given)
     goal = (accuracy, accuracy_of, memory)
     found = scene.problem.solve(load, scene.start(start), observe, stability, leave, stiffness, goal)
     plan = found["plan"]

@@ -110,5 +110,5 @@ def stability(
         whole=report["part"] == "whole",
     )
     gap = np.asarray(solution.whole_gap, dtype=np.float64).reshape(solution.topography.heights.shape)
-    found = scene.problem.stability(_control.one(**given), gap, solution.relative_error)
+    found = scene.problem.stability(_control.one(given), gap, solution.relative_error)
     return Stability(**{**found, "mode": solution.part_of(found["mode"])})

@@ -136,30 +136,7 @@ def sweep(
     >>> [f"{share:.2f}" for share in found["contact_fraction"]], [f"{p:.4f}" for p in found["mean_pressure"]]
     (['0.05', '0.10'], ['0.0019', '0.0040'])
     """
-    loads = _control.many(
-        mean_pressures=mean_pressures,
-        mean_gaps=mean_gaps,
-        normal_forces=normal_forces,
-        approaches=approaches,
-        springs=springs,
-        reduced_pressures=reduced_pressures,
-        contact_fractions=contact_fractions,
-    )
-    scene = Scene(
-        heights,
-        lengths,
-        axes=axes,
-        modulus=modulus,
-        boundary=boundary,
-        absent_missing=absent_missing,
-        law=law,
-        wall=wall,
-        tolerance=tolerance,
-        max_iterations=max_iterations,
-        method=method,
-        branch=_control.only(branch),
-        precision=precision,
-        threads=threads,
-        whole=whole,
-    )
+    given = locals()
+    loads = _control.many(given)
+    scene = Scene.of({**given, "branch": _control.only(branch)})
     return Sweep(scene, loads, start, observe, stiffness, file=(out, fields, force))
