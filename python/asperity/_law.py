@@ -11,7 +11,7 @@ from . import _asperity
 
 def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:
     """Gaps and tractions and the works of adhesion of a law, and whether it may differ from others of its name."""
-    law, _, works = _unwrapped(law)
+    law, works = _unwrapped(law)
     table = np.column_stack([law.gaps, law.tractions]) if isinstance(law, _asperity.Tabulated) else None
     own = law is not None and not isinstance(law, _asperity.Law)
     if works is None:
@@ -20,13 +20,11 @@ def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | 
     return table, np.atleast_2d(works), own or getattr(law, "work_of_adhesion", None) != np.max(works)
 
 
-def _unwrapped(law: Any) -> tuple[Any, float | None, Any]:
-    """The law of which a law that ends or varies is made, the gap at which it ends, and its works of adhesion."""
-    cut_off, works = None, None
+def _unwrapped(law: Any) -> tuple[Any, Any]:
+    """The law of which a law that ends or varies is made, and its works of adhesion."""
+    works = None
     while isinstance(law, (_asperity.CutOff, _asperity.Varying)):
         if isinstance(law, _asperity.Varying):
             works = law.work_of_adhesion
-        else:
-            cut_off = law.distance
         law = law.law
-    return law, cut_off, works
+    return law, works

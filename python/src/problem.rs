@@ -142,7 +142,7 @@ impl Problem {
             goal,
             ..Asked::under(load.control(1.0))
         };
-        let adhesive = self.inputs.adhesion.law != "none";
+        let adhesive = self.inputs.adhesion.adheres();
         asked.check(adhesive, self.inputs.method, start.is_some()).map_err(reason)?;
         let asked = Asked { control: load.control(self.full_pressure(py, &[load])?), ..asked };
         self.begins(start.as_ref());

@@ -148,7 +148,7 @@ impl<T: Scalar> Solves for State<T> {
         start: Option<Begin<'py>>,
         file: Option<File<'py>>,
     ) -> Columns<'py> {
-        let (loads, adhesive) = (way.loads(), at.inputs.adhesion.law != "none");
+        let (loads, adhesive) = (way.loads(), at.inputs.adhesion.adheres());
         let control = loads.first().copied().unwrap_or_else(|| at.inputs.boundary.searched_by(adhesive));
         let start = self.start(start, loads)?;
         let course = Course::new(way, stiffness);

@@ -118,7 +118,7 @@ impl Page {
         if let Some(scene) = scene {
             let _ = writeln!(
                 self.text,
-                "<h2>SceneFile</h2>\n<p>asperity run repeats the run with this file.</p>\n<pre>{}</pre>",
+                "<h2>Scene</h2>\n<p>asperity run repeats the run with this file.</p>\n<pre>{}</pre>",
                 escaped(scene)
             );
         }

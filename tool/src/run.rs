@@ -25,7 +25,7 @@ use crate::study;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// SceneFile file
+    /// Scene file
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// Options of the command

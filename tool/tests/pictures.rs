@@ -113,6 +113,7 @@ fn a_report_is_one_page_that_loads_nothing() {
     let program = format!("The asperity developers: asperity, version {}.", env!("CARGO_PKG_VERSION"));
     for part in [
         ">attractive<",
+        "<h2>Scene</h2>",
         ">tension (",
         "contact fraction",
         "<td>converged</td>",

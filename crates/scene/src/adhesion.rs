@@ -65,6 +65,11 @@ impl Adhesion {
         Law::named(&self.law)
     }
 
+    /// Whether there is adhesion.
+    pub fn adheres(&self) -> bool {
+        self.law != LAWS[0].name
+    }
+
     /// The value of a parameter in words, if it is given.
     fn given(&self, key: &str) -> Option<String> {
         match key {

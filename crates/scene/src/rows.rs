@@ -19,7 +19,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
             rows.push((name.to_owned(), texts.into_iter().map(Option::unwrap_or_default).collect()));
         }
     };
-    let adhesive = solves.iter().any(|solve| solve.inputs.adhesion.law != "none");
+    let adhesive = solves.iter().any(|solve| solve.inputs.adhesion.adheres());
     let share = |share: f64| Some(format!("{} %", percent(share)));
     let length = |value: f64| Some(units.number(value, LENGTH));
     let pressure = |value: f64| Some(units.number(value, PRESSURE));
