@@ -1,37 +1,8 @@
-//! How to cite the program and its method, from `CITATION.cff`.
+//! How to cite the program and its method, as `CITATION.cff` in the repository says too; a test compares both.
 
-const FILE: &str = include_str!("../../CITATION.cff");
+/// The program.
+pub const PROGRAM: &str = concat!("The asperity developers: asperity, version ", env!("CARGO_PKG_VERSION"), ".");
 
-/// The program, and the paper whose method it builds on, a text each.
-pub fn citations() -> [String; 2] {
-    let (program, paper) = FILE.split_once("references:").unwrap_or((FILE, ""));
-    let names = values(paper, "family-names").join(", ");
-    let one = |text, key| values(text, key).into_iter().next().unwrap_or_default();
-    [
-        format!(
-            "{}: {}, version {}.",
-            values(program, "- name").join(", "),
-            one(program, "title"),
-            one(program, "version")
-        ),
-        format!(
-            "{names}: {}, {} {} ({}), doi:{}.",
-            one(paper, "title"),
-            one(paper, "journal"),
-            one(paper, "volume"),
-            one(paper, "year"),
-            one(paper, "doi")
-        ),
-    ]
-}
-
-/// The values of all lines with a key; one that is folded (`>-`) is on the next line.
-fn values(text: &str, key: &str) -> Vec<String> {
-    let lines: Vec<_> = text.lines().map(str::trim).collect();
-    let value = |(k, line): (usize, &&str)| {
-        let line = line.strip_prefix(key).or_else(|| line.strip_prefix("- ")?.strip_prefix(key))?;
-        let value = line.strip_prefix(':')?.trim();
-        Some(if value == ">-" { lines.get(k + 1)?.to_string() } else { value.to_owned() })
-    };
-    lines.iter().enumerate().filter_map(value).collect()
-}
+/// The paper whose method the program builds on.
+pub const PAPER: &str = "Rey, Anciaux, Molinari: Normal adhesive contact on rough surfaces: efficient algorithm for \
+                         FFT-based BEM resolution, Computational Mechanics 60 (2017), doi:10.1007/s00466-017-1392-5.";

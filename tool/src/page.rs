@@ -13,7 +13,7 @@ use ndarray::Zip;
 use serde_json::Value;
 use toml::Table;
 
-use crate::citation::citations;
+use crate::citation::{PAPER, PROGRAM};
 use crate::csv;
 use crate::journal::state_path;
 use crate::numbers::plain;
@@ -122,7 +122,7 @@ impl Page {
                 escaped(scene)
             );
         }
-        let [program, paper] = citations().map(|citation| escaped(&citation));
+        let (program, paper) = (escaped(PROGRAM), escaped(PAPER));
         let _ = write!(
             self.text,
             "<h2>How to cite</h2>\n<p>{program}</p>\n<p>{paper}</p>\n<script>\n{}</script>\n</body>\n</html>\n",

@@ -146,3 +146,8 @@ fn printable(text: &str) -> String {
 
 #[cfg(test)]
 mod tests;
+
+/// Runs the code of the README as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
