@@ -36,6 +36,7 @@ __all__ = [
     "check_law",
     "closing_pressure_2d",
     "clusters",
+    "command",
     "has_dimension",
     "in_metres",
     "made",
@@ -357,3 +358,4 @@ class AdhesiveWavyLine:
     def jump_to_full_contact(self) -> WaveContact: ...
 
 def closing_pressure_2d(amplitude: ArrayLike, wavelength: float, modulus: float) -> Any: ...
+def command(program: list[str], arguments: list[str]) -> int: ...

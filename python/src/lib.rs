@@ -2,6 +2,7 @@
 //! the folder `asperity` beside this one.
 
 mod answer;
+mod command;
 mod contact;
 mod exact;
 mod formulas;
@@ -28,6 +29,8 @@ mod _asperity {
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+    #[pymodule_export]
+    use crate::command::command;
     #[pymodule_export]
     use crate::contact::{clusters, pressure_distribution};
     #[pymodule_export]

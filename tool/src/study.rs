@@ -4,6 +4,7 @@ mod cases;
 mod merge;
 mod work;
 
+use std::ffi::OsString;
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -121,8 +122,8 @@ impl fmt::Display for Slice {
     }
 }
 
-/// Runs the command, of a `tool` with these commands and options; whether all rows converged.
-pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
+/// Runs the command, of a `tool` with these commands and options that the `program` is; whether all rows converged.
+pub fn run(options: &Options, mut tool: clap::Command, program: &[OsString]) -> Outcome<bool> {
     tool.build();
     let study = Study::read(&mut tool, &options.study, options.out.as_deref())?;
     let folder = Folder::of(&study);
@@ -139,7 +140,7 @@ pub fn run(options: &Options, mut tool: clap::Command) -> Outcome<bool> {
         let slice = options.slice.unwrap_or(Slice::WHOLE);
         let chosen: Vec<_> = (0..study.cases.len()).filter(|&case| slice.has(case)).collect();
         let jobs = options.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
-        let refused = solve(&study, &folder, &chosen, jobs, printing)?;
+        let refused = solve(&study, &folder, &chosen, program, jobs, printing)?;
         if refused > 0 {
             return Err(
                 format!("{refused} of {} cases were refused: mend the study, and run it again", chosen.len()).into()

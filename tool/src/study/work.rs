@@ -1,7 +1,6 @@
 //! The work on a study: its cases, each by a process of its own that keeps its rows in a folder.
 
 use std::collections::HashSet;
-use std::env;
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 #[cfg(unix)]
@@ -88,9 +87,15 @@ fn checksum(of_rows: Hash, rows: &Path) -> String {
 }
 
 /// Solves the cases with these numbers that are not done, some at a time; how many were refused.
-pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, printing: Printing) -> Outcome<usize> {
+pub fn solve(
+    study: &Study,
+    folder: &Folder,
+    chosen: &[usize],
+    program: &[OsString],
+    jobs: usize,
+    printing: Printing,
+) -> Outcome<usize> {
     fs::create_dir_all(&folder.path).map_err(|e| Error::unwritable(&folder.path, e))?;
-    let program = env::current_exe().map_err(|e| format!("this program is not found any more: {e}"))?;
     let jobs = jobs.min(chosen.len().max(1));
     let threads = (threads::count() / jobs).max(1);
     // equal cases are one
@@ -112,7 +117,7 @@ pub fn solve(study: &Study, folder: &Folder, chosen: &[usize], jobs: usize, prin
     stand(0);
     // whether the case is over, as it is not where another run has it
     let over = |number: usize, wait: bool| {
-        match solved(study, &study.cases[number], folder, &program, threads, wait) {
+        match solved(study, &study.cases[number], folder, program, threads, wait) {
             Ok(None) => return false,
             Ok(Some(warnings)) => {
                 let name = told(number);
@@ -157,7 +162,7 @@ fn solved(
     study: &Study,
     case: &Case,
     folder: &Folder,
-    program: &Path,
+    program: &[OsString],
     threads: usize,
     wait: bool,
 ) -> Result<Option<Vec<String>>, String> {
@@ -171,7 +176,13 @@ fn solved(
 }
 
 /// Solves a case; the warnings of its runs, or the line by which one was refused.
-fn rows_of(study: &Study, case: &Case, folder: &Folder, program: &Path, threads: usize) -> Result<Vec<String>, String> {
+fn rows_of(
+    study: &Study,
+    case: &Case,
+    folder: &Folder,
+    program: &[OsString],
+    threads: usize,
+) -> Result<Vec<String>, String> {
     let (rows, made) = (folder.rows(case), folder.surface(case));
     let run = |command: &str, arguments: &[OsString]| run(program, command, arguments, threads);
     let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
@@ -209,9 +220,10 @@ fn rows_of(study: &Study, case: &Case, folder: &Folder, program: &Path, threads:
 }
 
 /// Runs a command of this program; its warnings, or the line by which it was refused.
-fn run(program: &Path, command: &str, arguments: &[OsString], threads: usize) -> Result<Vec<String>, String> {
+fn run(program: &[OsString], command: &str, arguments: &[OsString], threads: usize) -> Result<Vec<String>, String> {
+    let [program, before @ ..] = program else { return Err("this program is not found any more".to_owned()) };
     let mut process = Command::new(program);
-    process.arg(command).args(arguments).args(["--quiet", "--threads", &threads.to_string()]);
+    process.args(before).arg(command).args(arguments).args(["--quiet", "--threads", &threads.to_string()]);
     process.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).env(CASE, "1");
     // ^C is for this process, with which the other one ends
     #[cfg(unix)]

@@ -1,0 +1,225 @@
+//! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
+//! many loads, `asperity cycle` a path with jumps, and `asperity study` every combination of options; `asperity
+//! surface` makes files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them.
+//! `asperity laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does
+//! any of these by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a
+//! page for a browser.
+
+// the report of a solve has more keys than serde_json's macro expands otherwise
+#![recursion_limit = "256"]
+
+// the commands
+mod completions;
+mod cycle;
+mod demo;
+mod laws;
+mod page;
+mod prepare;
+mod run;
+mod selftest;
+mod solve;
+mod stats;
+mod study;
+mod surface;
+mod sweep;
+
+// the parts of which commands are made
+mod accuracy;
+mod adhesion;
+mod boundary;
+mod citation;
+mod entries;
+mod fields;
+mod heights;
+mod hints;
+mod interruption;
+mod options;
+mod part;
+mod pictures;
+mod printing;
+mod progress;
+mod report;
+mod scene;
+mod summary;
+mod table;
+mod threads;
+mod units;
+mod warnings;
+
+use std::error::Error;
+use std::ffi::OsString;
+
+use asperity_scene::{allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::hints::hinted;
+use crate::outcome::Outcome;
+use crate::printing::{check_printed, complain, on_one_line, printed};
+use crate::processes::{Processes, is_elsewhere};
+use crate::scene::SceneFile;
+
+/// Frictionless normal contact of rough surfaces, with adhesion.
+///
+/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, in a periodic cell or with a
+/// free boundary, by an FFT-based boundary element method, and says how accurate they are.
+#[derive(Parser)]
+#[command(version, after_help = EXAMPLES, max_term_width = 100)]
+struct Tool {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mExamples:\u{1b}[0m
+  asperity demo
+  asperity surface --size 512 --rms-slope 0.1 --out heights.npy
+  asperity stats heights.npy
+  asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
+  asperity solve --heights heights.npy --mean-pressure 0.01 --out results
+  asperity report results
+  asperity run results/scene.toml --mean-pressure 0.02 --out more
+  asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
+  asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
+    --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
+  asperity study study.toml --jobs 4
+  asperity laws
+  asperity selftest
+  asperity solve --help";
+
+#[derive(Subcommand)]
+enum Command {
+    Demo(demo::Options),
+    Solve(Box<solve::Options>),
+    Sweep(Box<sweep::Options>),
+    Cycle(Box<cycle::Options>),
+    Study(study::Options),
+    Run(run::Options),
+    Report(page::Options),
+    Prepare(prepare::Options),
+    Surface(surface::Options),
+    Stats(stats::Options),
+    Laws(Box<laws::Options>),
+    Selftest(selftest::Options),
+    Completions(completions::Options),
+}
+
+const CONVERGED: u8 = 0;
+const REFUSED: u8 = 1;
+const NOT_CONVERGED: u8 = 2;
+
+/// Runs the program with the `arguments` of its process, of which the first is its name, and returns the exit code: 0 if
+/// all is well, 1 if something was refused, 2 if a solve did not converge. What starts the program again, as a study
+/// does for each of its cases, is `program`: a file, and what comes before the arguments.
+///
+/// A process runs it once, as its last work: an interruption ends the process, and threads are chosen for all of it.
+pub fn run(program: &[OsString], arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    match Processes::start() {
+        Ok(processes) => {
+            if !processes.is_first() {
+                printing::silence();
+            }
+            interruption::listen();
+            run_on(&processes, program, arguments)
+        }
+        Err(error) => refused(&*error),
+    }
+}
+
+fn run_on(processes: &Processes, program: &[OsString], arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let mut tool = Tool::command();
+    tool.build();
+    match parsed(&mut tool, arguments) {
+        Ok((Command::Run(options), _)) => match run::Arguments::read(&tool, options) {
+            Ok(read) => match parsed(&mut tool, read.arguments.clone()) {
+                Ok((command, scene)) => execute(command, &scene, processes, program),
+                Err(error) => usage(&error, processes, |argument| read.blamed(argument)),
+            },
+            Err(error) => agreed(processes, Err(error)),
+        },
+        Ok((command, scene)) => execute(command, &scene, processes, program),
+        Err(error) => usage(&error, processes, |_| None),
+    }
+}
+
+/// The command that the arguments name, and the scene that repeats it.
+fn parsed<I>(tool: &mut clap::Command, arguments: I) -> Result<(Command, SceneFile), clap::Error>
+where
+    I: IntoIterator<Item: Into<OsString>>,
+{
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let matches = tool.try_get_matches_from_mut(&arguments).map_err(|error| hinted(tool, &arguments, error))?;
+    let command = Tool::from_arg_matches(&matches)?.command;
+    let chosen = matches.subcommand().and_then(|(name, matches)| Some((tool.find_subcommand(name)?, matches)));
+    let scene = chosen.map_or_else(SceneFile::default, |(command, matches)| SceneFile::of(command, matches));
+    match scene.check_units() {
+        Ok(()) => Ok((command, scene)),
+        Err(reason) => Err(tool.error(ErrorKind::ValueValidation, reason)),
+    }
+}
+
+fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: &[OsString]) -> u8 {
+    if !matches!(command, Command::Solve(_) | Command::Sweep(_) | Command::Cycle(_))
+        && let Err(error) = processes.alone("every command but solve, sweep and cycle")
+    {
+        return agreed(processes, Err(error));
+    }
+    let converged = match command {
+        Command::Demo(options) => demo::run(&options),
+        Command::Solve(options) => solve::run(&options, scene, processes),
+        Command::Sweep(options) => sweep::run(&options, scene, processes),
+        Command::Cycle(options) => cycle::run(&options, scene, processes),
+        Command::Study(options) => study::run(&options, Tool::command(), program),
+        Command::Report(options) => page::run(&options),
+        Command::Prepare(options) => prepare::run(&options, scene),
+        Command::Surface(options) => surface::run(&options, scene),
+        Command::Stats(options) => stats::run(&options, scene),
+        Command::Laws(options) => laws::run(&options, scene),
+        Command::Selftest(options) => selftest::run(&options),
+        Command::Completions(options) => completions::run(&options, Tool::command()),
+        Command::Run(_) => Err("a scene cannot run another one: name a command in it".into()),
+    };
+    agreed(processes, converged)
+}
+
+/// The exit code of an outcome; one process tells of an error.
+fn agreed(processes: &Processes, converged: Outcome<bool>) -> u8 {
+    match processes.agree(converged.and_then(|converged| check_printed().map(|()| converged))) {
+        Ok(true) => CONVERGED,
+        Ok(false) => NOT_CONVERGED,
+        Err(error) => refused(&*error),
+    }
+}
+
+fn refused(error: &(dyn Error + 'static)) -> u8 {
+    if !is_elsewhere(error) {
+        complain("error", &error.to_string());
+    }
+    REFUSED
+}
+
+/// Prints help where it was asked for, and otherwise the mistake in the arguments on one line, after the name of the
+/// file that has the argument (`blamed`).
+fn usage(error: &clap::Error, processes: &Processes, blamed: impl Fn(&str) -> Option<String>) -> u8 {
+    let help = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    if !processes.is_first() {
+        return if help { CONVERGED } else { REFUSED };
+    }
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            printed(error.print());
+            return agreed(processes, Ok(true));
+        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            let _ = error.print();
+            return REFUSED;
+        }
+        _ => {}
+    }
+    let argument = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(argument)) => argument.as_str(),
+        _ => "",
+    };
+    complain("error", &format!("{}{}; see --help", blamed(argument).unwrap_or_default(), on_one_line(error)));
+    REFUSED
+}
