@@ -7,7 +7,7 @@ import re
 import sys
 from functools import cache
 from pathlib import Path
-from urllib.parse import unquote, urldefrag
+from urllib.parse import unquote, urlsplit
 
 LOADED = re.compile(r"<(?:script|img|iframe|link)\b[^>]*?\b(?:src|href)=\"([^\"]*)\"|(?:url|@import)\(?\s*[\"']?(https?:[^\"')]*)")
 LINK = re.compile(r"<a\b[^>]*?\bhref=\"([^\"]*)\"")
@@ -24,11 +24,12 @@ def faults(site: Path, page: Path) -> list[str]:
     text = page.read_text()
     loaded = [found for pair in LOADED.findall(text) for found in pair if found]
     wrong = [f"loads {address}" for address in loaded if re.match(r"(https?:)?//", address)]
-    if page.suffix == ".html" and site / "rust" not in page.parents:
+    if page.suffix == ".html" and not {site / "rust", site / "_static"} & set(page.parents):
         for address in loaded + LINK.findall(text):
-            path, anchor = map(unquote, urldefrag(address))
-            if re.match(r"[a-z]+:|//", address):
+            parts = urlsplit(address)
+            if parts.scheme or parts.netloc:
                 continue
+            path, anchor = unquote(parts.path), unquote(parts.fragment)
             target = (page.parent / path).resolve() if path else page
             target = target / "index.html" if target.is_dir() else target
             if not target.is_file() or anchor and target.suffix == ".html" and anchor not in anchors(target):

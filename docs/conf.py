@@ -36,7 +36,6 @@ autodoc_typehints = "none"
 # the word shape in a type, which several classes have as an attribute
 suppress_warnings = ["ref.python"]
 autodoc_member_order = "bysource"
-maximum_signature_line_length = 100
 
 html_theme = "pydata_sphinx_theme"
 html_title = "asperity"
@@ -52,5 +51,5 @@ html_theme_options = {
     "secondary_sidebar_items": ["page-toc"],
     "navigation_with_keys": False,
 }
-html_sidebars = {"index": []}
+html_sidebars = {page: [] for page in ["index", "start", "gallery", "rust"]}
 project_copyright = f"{author}, MIT or Apache-2.0"

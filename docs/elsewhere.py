@@ -116,7 +116,7 @@ def read(app: Sphinx, page: str, source: list[str]) -> None:
 
 def docstring(app: Sphinx, what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
     """Keeps absolute values, as |q|, from being substitutions."""
-    lines[:] = [re.sub(r"\|(\w+)\|", r"\\|\1\\|", line) for line in lines]
+    lines[:] = [re.sub(r"\|([^|\s]+)\|", r"\\|\1\\|", line) for line in lines]
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
