@@ -137,5 +137,5 @@ pub use world::World;
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
+#[doc = include_str!("README.md")]
 struct Readme;

@@ -18,7 +18,7 @@ pub struct Printing {
     /// Print no table and no progress, nothing but warnings
     #[arg(long, help_heading = "Output")]
     quiet: bool,
-    /// Print the report as one JSON document, and nothing else; its keys are in the documentation, on the page tool
+    /// Print the report as one JSON document, and nothing else; its keys are in the documentation, on the page reports
     #[arg(long, help_heading = "Output")]
     json: bool,
 }

@@ -21,7 +21,7 @@ use crate::threads;
 /// Shows in some seconds, without files, that this program finds on this machine what theory says: the sphere of Hertz,
 /// that of Maugis and Dugdale, and the waves of Westergaard and Johnson, in f64 and f32; and that a rough contact comes
 /// out the same, bit for bit, from one thread and from all. Lengths are in periods of the surface, pressures in contact
-/// moduli. What each difference may be is in the documentation, on the page tool. Exits with 0 if all holds, and 2 if
+/// moduli. What each difference may be is in the documentation, on the page self-test. Exits with 0 if all holds, and 2 if
 /// something does not.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]

@@ -93,8 +93,10 @@ fn commands(text: &str) -> Vec<String> {
 
 /// The texts for people: the pages in Markdown and the documentation in the code, with their names.
 fn texts() -> Vec<(String, String)> {
-    let (mut folders, mut files) =
-        (["src", "crates", "tool/src", "benches", "examples"].map(|folder| root().join(folder)).to_vec(), Vec::new());
+    let (mut folders, mut files) = (
+        ["src", "crates", "docs", "tool/src", "benches", "examples"].map(|folder| root().join(folder)).to_vec(),
+        Vec::new(),
+    );
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
@@ -103,7 +105,7 @@ fn texts() -> Vec<(String, String)> {
     }
     files.sort();
     files.insert(0, root().join("README.md"));
-    files.extend(["CHANGELOG.md", "tool/README.md", "tool/NUMPY.md"].map(|page| root().join(page)));
+    files.extend(["CHANGELOG.md", "tool/README.md", "python/README.md"].map(|page| root().join(page)));
     let text = |path: PathBuf| {
         let is = |end: &str| path.extension().is_some_and(|extension| extension == end);
         let text = if is("md") || is("rs") { fs::read_to_string(&path).unwrap() } else { return None };
@@ -165,6 +167,21 @@ fn commands_of_the_documentation_run() {
         run += reader.run;
     }
     assert!(run >= 10, "{run} commands found");
+}
+
+/// The library in ten lines, which `cargo test --doc` runs where the library has it.
+#[test]
+fn code_of_the_pages_is_that_of_the_library() {
+    let texts: HashMap<_, _> = texts().into_iter().collect();
+    let code = |page: &str| -> Vec<_> {
+        blocks(&texts[page])
+            .into_iter()
+            .filter(|(language, _)| *language == "rust")
+            .map(|(_, code)| code.to_owned())
+            .collect()
+    };
+    let tested = code("src/README.md");
+    assert!(tested.len() == 1 && code("README.md") == tested && code("docs/rust.md") == tested);
 }
 
 fn names_no_target_or_an_existing_one(command: &str) -> bool {

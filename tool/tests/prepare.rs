@@ -415,7 +415,7 @@ const SKIPPED: &str = "skipped: neither target/numpy/bin/python nor python3 has 
 fn scripts_of_the_page_on_python_run() {
     let Some(python) = python() else { return println!("{SKIPPED}") };
     let bench = Bench::new();
-    let page = include_str!("../NUMPY.md");
+    let page = include_str!("../../docs/program/numpy.md");
     let scripts: Vec<_> = page.split("```python\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
     let [before, after @ ..] = &scripts[..] else { panic!("{page}") };
     let solve = page.split("\nasperity ").nth(1).unwrap().split("\n```").next().unwrap().replace('\\', " ");
