@@ -18,6 +18,7 @@ mod mirror_tool;
 mod pictures;
 mod places;
 mod prepare;
+mod promised;
 mod scene_tool;
 mod selftest;
 mod study;

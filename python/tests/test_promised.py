@@ -1,0 +1,40 @@
+"""What version 0.1 promises: names, keywords and attributes of the package, as in `tool/tests/promised.toml`."""
+
+import inspect
+import operator
+import pathlib
+
+import pytest
+
+import asperity
+
+tomllib = pytest.importorskip("tomllib", reason="the standard library has it from Python 3.11 on")
+
+FILE = pathlib.Path(__file__).resolve().parents[2] / "tool" / "tests" / "promised.toml"
+PROMISED = tomllib.loads(FILE.read_text())["python"]
+
+
+def test_names_stay():
+    for name in PROMISED["names"].split():
+        operator.attrgetter(name)(asperity)
+
+
+@pytest.mark.parametrize("name", PROMISED["keywords"])
+def test_keywords_stay(name):
+    known = inspect.signature(operator.attrgetter(name)(asperity)).parameters
+    assert set(PROMISED["keywords"][name].split()) <= set(known)
+
+
+@pytest.mark.parametrize("name", PROMISED["attributes"])
+def test_attributes_stay(name):
+    kind = getattr(asperity, name)
+    known = {*dir(kind), *inspect.get_annotations(kind)}
+    assert set(PROMISED["attributes"][name].split()) <= known
+
+
+def test_reports_have_the_keys_of_the_program():
+    rough = asperity.surface.self_affine(32, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    report = asperity.solve(rough, modulus=1.0, mean_pressure=0.01).report
+    promised = tomllib.loads(FILE.read_text())["reports"]["solve"]
+    keys = {key for kind in ("numbers", "texts", "truths", "lists", "tables") for key in promised[kind].split()}
+    assert {key for key in keys if "." not in key} - set(report) == set()
