@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Branches, HalfSpace, Inputs, Load, Precision, Scene, Way};
+use asperity_scene::{Adhesion, Asked, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -96,8 +96,8 @@ impl Problem {
         let Law { formula, adhesion, .. } = Law::of(law)?;
         let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
         adhesion.check_wall(word).map_err(PyValueError::new_err)?;
-        let half_space = HalfSpace { boundary, modulus };
-        let scene = Scene { half_space, adhesion, method, precision, tolerance, max_iterations, branch };
+        let elastic = Elastic { boundary, modulus };
+        let scene = Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch };
         let inputs = Inputs {
             heights: source,
             part,

@@ -16,7 +16,7 @@ use crate::account::{Account, stiffness};
 use crate::compiled::compiled;
 use crate::entries::{Search, Step};
 use crate::found::{Found, check_finite};
-use crate::half_space::Boundary;
+use crate::boundary::Boundary;
 use crate::identity::Identity;
 use crate::posed::Posed;
 
