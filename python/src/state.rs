@@ -149,7 +149,7 @@ impl<T: Scalar> Solves for State<T> {
         file: Option<File<'py>>,
     ) -> Columns<'py> {
         let (loads, adhesive) = (way.loads(), at.inputs.adhesion.adheres());
-        let control = loads.first().copied().unwrap_or_else(|| at.inputs.boundary.searched_by(adhesive));
+        let control = loads.first().copied().unwrap_or_else(|| at.inputs.elastic.boundary.searched_by(adhesive));
         let start = self.start(start, loads)?;
         let course = Course::new(way, stiffness);
         let names = course.columns();

@@ -7,9 +7,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::adhesion::Adhesion;
+use crate::elastic::Elastic;
 use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
 use crate::found::{Found, Sight};
-use crate::elastic::Elastic;
 use crate::record::record;
 use crate::scene::Precision;
 use crate::told::Told;

@@ -8,6 +8,8 @@ use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::Boundary;
+use crate::quantity::{LENGTH, PRESSURE};
+use crate::units::Units;
 
 /// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -100,6 +102,22 @@ impl Elastic {
             ("coating_poisson", number(self.coating_poisson)),
         ];
         given.into_iter().filter_map(|(key, value)| Some((key, value?)))
+    }
+
+    /// The body in words, unless it is a half-space.
+    pub(crate) fn in_words(&self, units: &Units) -> Option<String> {
+        let length = |value| units.number(value, LENGTH);
+        match (self.layer, self.coating) {
+            (Some(thickness), _) => {
+                let hold = if self.base == Some(Base::Sliding) { "sliding" } else { "bonded" };
+                Some(format!("{hold} layer of {}", length(thickness)))
+            }
+            (_, Some(thickness)) => {
+                let modulus = units.number(self.coating_modulus.unwrap_or_default(), PRESSURE);
+                Some(format!("coating of {}, contact modulus {modulus}", length(thickness)))
+            }
+            (None, None) => None,
+        }
     }
 
     /// The kind of the body, unless it is a half-space.

@@ -18,11 +18,11 @@ use ndarray::Array2;
 use crate::account::Inputs;
 use crate::accuracy::{Goal, planned};
 use crate::asked::Asked;
+use crate::boundary::Boundary;
 use crate::compiled::compiled;
+use crate::elastic::Elastic;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
-use crate::boundary::Boundary;
-use crate::elastic::Elastic;
 use crate::identity::{Fields, Identity, identity};
 use crate::load::Load;
 use crate::wall::Constraint;
@@ -129,11 +129,7 @@ impl<T: Real> Posed<T> {
     pub fn full_pressure(&self, loads: &[Load]) -> std::result::Result<f64, String> {
         loads.iter().try_for_each(|load| load.check(self.boundary(), self.original.is_some()))?;
         let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
-        if reduced {
-            self.elastic.full_pressure(self.surface().map_err(|error| error.to_string())?)
-        } else {
-            Ok(1.0)
-        }
+        if reduced { self.elastic.full_pressure(self.surface().map_err(|error| error.to_string())?) } else { Ok(1.0) }
     }
 
     /// The gap from which solves under `loads` begin, before the first of them, if it is not the default; see

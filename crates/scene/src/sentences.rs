@@ -6,8 +6,8 @@ use asperity::stability::Verdict;
 
 use crate::account::Account;
 use crate::accuracy::{GIB, Goal};
-use crate::entries::{GridErrors, Reached, Search};
 use crate::boundary::Boundary;
+use crate::entries::{GridErrors, Reached, Search};
 use crate::numbers::percent;
 use crate::scene::Precision;
 use crate::words::{Skin, worded};

@@ -25,6 +25,7 @@ pub fn warnings_of_input<T: Real>(
     }
     let of_modulus = Warning::of_modulus(elastic.modulus, surface.grid(), units.length.as_deref());
     found.extend(of_modulus.filter(|_| units.pressure.is_none()));
+    found.extend(elastic.body().ok().and_then(|body| Warning::of_body(&*body, surface.grid())));
     found.extend(Warning::of_law(&law, surface, elastic.modulus));
     found.iter().map(|warning| units.told(warning)).chain(codes).collect()
 }

@@ -7,7 +7,7 @@ use asperity::path::PathSettings;
 use asperity::{Control, Grid, Method, SelfAffine, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, Asked, Boundary, Course, Found, Goal, Elastic, Inputs, Posed, Precision, Scene, Skin, Way,
+    Account, Adhesion, Asked, Boundary, Course, Elastic, Found, Goal, Inputs, Posed, Precision, Scene, Skin, Way,
     check_finite, rows, shortfalls, worded,
 };
 use serde_json::{Value, json};
