@@ -8,6 +8,7 @@ use crate::grid::Grid;
 use crate::real::Real;
 
 mod abilities;
+mod body;
 mod boussinesq;
 mod check;
 mod coarse;
@@ -15,6 +16,7 @@ mod spectral;
 mod westergaard;
 
 pub use abilities::{Abilities, Waves};
+pub use body::{Base, Body, Coating, HalfSpace, Layer, Material, Series};
 pub use boussinesq::Boussinesq;
 pub use check::check_operator;
 pub use coarse::CoarseSpace;
@@ -26,7 +28,7 @@ pub use westergaard::Westergaard;
 /// The operator is linear, symmetric, and positive on fields without mean. A rigid translation costs nothing: both
 /// applications return fields of zero mean and ignore the mean of their argument. [`Westergaard`] is the homogeneous
 /// half-space under periodic loads, [`Boussinesq`] under loads on a window alone, [`Spectral`] any operator that
-/// multiplies each wave by a factor. The page [`own_operator`](crate::guide::own_operator) has a layer of finite
+/// multiplies each wave by a factor, as layers, coatings and other [bodies](Body) do. The page [`own_operator`](crate::guide::own_operator) has a layer of finite
 /// thickness, and tells how to implement the trait for another body.
 ///
 /// Applications write into the caller's array and, for the operators of this crate, allocate nothing.

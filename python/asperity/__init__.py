@@ -30,6 +30,7 @@ from ._asperity import (
     Varying,
     check_law,
 )
+from ._body import Coating, Layer
 from ._cycle import Cycle, Step
 from ._progress import progress
 from ._solution import ContactStatistics, PressureDistribution, Solution
@@ -49,6 +50,7 @@ sweep = _checked(_sweep.sweep)
 
 __all__ = [
     "AccuracyWarning",
+    "Coating",
     "ContactStatistics",
     "ConvergenceWarning",
     "CutOff",
@@ -57,6 +59,7 @@ __all__ = [
     "InputWarning",
     "Iteration",
     "Law",
+    "Layer",
     "LennardJones",
     "MaugisDugdale",
     "Morse",

@@ -214,7 +214,7 @@ class Problem:
         lengths: tuple[float, float],
         absent_missing: bool,
         boundary: str,
-        modulus: float,
+        body: dict[str, Any],
         law: Any,
         wall: str,
         wall_stiffness: float | None,

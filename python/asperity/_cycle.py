@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
+from ._body import Body
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution, Start
@@ -112,6 +113,7 @@ def cycle(
     approaches: Iterable[Quantity] | None = None,
     springs: Iterable[tuple[Quantity, Quantity]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
+    body: Body | None = None,
     boundary: Boundary = "periodic",
     absent_missing: bool = False,
     law: OwnLaw | None = None,

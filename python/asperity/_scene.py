@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
+from ._body import Body, parameters
 from ._control import number
 from ._solution import Solution, Start
 from ._topography import Heights, Topography, field_of, original_of, refined, sides, taken
@@ -29,6 +30,7 @@ class Scene:
         *,
         axes: AxisOrder | None = None,
         modulus: Quantity,
+        body: Body | None = None,
         boundary: Boundary,
         absent_missing: bool,
         law: OwnLaw | None,
@@ -52,7 +54,7 @@ class Scene:
             lengths,
             absent_missing,
             boundary,
-            modulus,
+            {"modulus": modulus, **parameters(body)},
             law,
             *parts(wall),
             precision,

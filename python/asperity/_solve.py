@@ -8,6 +8,7 @@ from typing import Any
 from . import _control
 from ._accuracy import Plan
 from ._asperity import Iteration
+from ._body import Body
 from ._scene import Scene
 from ._solution import Solution, Start
 from ._topography import Heights
@@ -38,6 +39,7 @@ def solve(
     spring: tuple[Quantity, Quantity] | None = None,
     reduced_pressure: float | None = None,
     contact_fraction: float | None = None,
+    body: Body | None = None,
     boundary: Boundary = "periodic",
     absent_missing: bool = False,
     law: OwnLaw | None = None,
@@ -97,6 +99,8 @@ def solve(
         Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
         pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it was
         ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
+    body : Layer or Coating, optional
+        Body that deforms, a half-space by default; with a periodic boundary.
     boundary : {"periodic", "free"}
         What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. Free
         needs an area, and four times the memory.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _control, _plot
 from ._asperity import Iteration
+from ._body import Body
 from ._columns import Rows
 from ._scene import Scene
 from ._solution import Solution, Start
@@ -66,6 +67,7 @@ def sweep(
     springs: Iterable[tuple[Quantity, Quantity]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
     contact_fractions: Iterable[float] | None = None,
+    body: Body | None = None,
     boundary: Boundary = "periodic",
     absent_missing: bool = False,
     law: OwnLaw | None = None,

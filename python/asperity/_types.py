@@ -225,6 +225,12 @@ class Report(TypedDict):
     given: dict[str, str | list[str]] | None
     boundary: Boundary
     modulus: float
+    poisson: float | None
+    layer: float | None
+    base: str | None
+    coating: float | None
+    coating_modulus: float | None
+    coating_poisson: float | None
     law: str
     work_of_adhesion: float | None
     range: float | None

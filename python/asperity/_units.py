@@ -23,7 +23,7 @@ class Quantities:
     def read(self, key: str, value: Any) -> Any:
         """The value of a keyword with numbers in the SI in the place of its texts with units."""
         key = PLURALS.get(key, key)
-        if key in ("law", "wall"):
+        if key in ("law", "wall", "body"):
             # these have read theirs
             texts, bare = getattr(value, "given", ({}, None))
             self._texts.update({name: [text] for name, text in texts.items()})

@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TypeAlias
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
 
-from . import _asperity
-from ._control import number
+from ._measured import Measured
 from ._types import Quantity, RigidWall
 
 
 @dataclass(frozen=True)
-class _Springs:
+class _Springs(Measured):
     stiffness: Quantity
-    _text: str | None = field(default=None, init=False, repr=False, compare=False)
+
+    _keys: ClassVar[dict[str, str]] = {"stiffness": "wall_stiffness"}
 
     def __post_init__(self) -> None:
-        if isinstance(self.stiffness, str):
-            object.__setattr__(self, "_text", self.stiffness)
-            object.__setattr__(self, "stiffness", _asperity.quantity("wall_stiffness", self.stiffness))
-        stiffness = number("stiffness", self.stiffness)
-        if not 0 < stiffness < float("inf"):
-            raise ValueError(f"stiffness is {stiffness}: it must be positive and finite, a pressure per length")
-        object.__setattr__(self, "stiffness", stiffness)
-
-    @property
-    def given(self) -> tuple[dict[str, str], tuple[str, float] | None]:
-        """The stiffness as a text, if it was given with a unit, or as the number that has none."""
-        key = "wall_stiffness"
-        return ({}, (key, float(self.stiffness))) if self._text is None else ({key: self._text}, None)
+        super().__post_init__()
+        if not 0 < float(self.stiffness) < float("inf"):
+            raise ValueError(f"stiffness is {self.stiffness}: it must be positive and finite, a pressure per length")
 
 
 class Penalty(_Springs):

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Grid, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Branches, HalfSpace, Inputs, Load, Precision, Scene, Way};
+use asperity_scene::{Adhesion, Asked, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -14,7 +14,7 @@ use crate::inputs::{Accuracy, Begin, Given, goal, keys, load, named};
 use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
-use crate::refusal::{reason, refusal_of_heights};
+use crate::refusal::{reason, refusal, refusal_of_heights};
 use crate::state::{File, Run, Solves, state};
 
 /// The words of Python for a key.
@@ -55,7 +55,7 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, modulus, law, wall, wall_stiffness, precision, tolerance, max_iterations,
+        heights, lengths, absent_missing, boundary, body, law, wall, wall_stiffness, precision, tolerance, max_iterations,
         method, branch, nested, threads, original, part, unit, source, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
@@ -65,7 +65,7 @@ impl Problem {
         lengths: (f64, f64),
         absent_missing: bool,
         boundary: &str,
-        modulus: f64,
+        body: Bound<'_, PyAny>,
         law: &Bound<'_, PyAny>,
         wall: &str,
         wall_stiffness: Option<f64>,
@@ -96,8 +96,10 @@ impl Problem {
         let Law { formula, adhesion, .. } = Law::of(law)?;
         let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
         adhesion.check_wall(word).map_err(PyValueError::new_err)?;
-        let half_space = HalfSpace { boundary, modulus };
-        let scene = Scene { half_space, adhesion, method, precision, tolerance, max_iterations, branch };
+        let elastic = Elastic { boundary, ..keys(body)? };
+        elastic.check().map_err(reason)?;
+        elastic.body().map_err(refusal)?;
+        let scene = Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch };
         let inputs = Inputs {
             heights: source,
             part,

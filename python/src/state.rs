@@ -149,7 +149,7 @@ impl<T: Scalar> Solves for State<T> {
         file: Option<File<'py>>,
     ) -> Columns<'py> {
         let (loads, adhesive) = (way.loads(), at.inputs.adhesion.adheres());
-        let control = loads.first().copied().unwrap_or_else(|| at.inputs.boundary.searched_by(adhesive));
+        let control = loads.first().copied().unwrap_or_else(|| at.inputs.elastic.boundary.searched_by(adhesive));
         let start = self.start(start, loads)?;
         let course = Course::new(way, stiffness);
         let names = course.columns();
@@ -256,7 +256,7 @@ pub fn state<T: Scalar>(
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let make = || {
-        let warnings = warnings_of_input((&surface, None), scene.half_space, &*law, &units);
+        let warnings = warnings_of_input((&surface, None), scene.elastic, &*law, &units);
         let posed = scene.posed(surface, law, original)?;
         Ok(State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None })
     };

@@ -1,4 +1,4 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -66,6 +66,26 @@ impl<T: Real> Spectral<T> {
         }
         let (stiffness, convolver) = (Stiffness::Stored(stiffness), Convolver::new(grid.slab()));
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
+    }
+
+    /// The operator of a body, whose [`modulus`](ElasticOperator::modulus) is that of the shortest wave along a side,
+    /// 2k/q: that of the body where waves on the grid are short enough, and a larger one of a thin layer.
+    ///
+    /// ```
+    /// use asperity::{ElasticOperator, Grid, Spectral};
+    /// use asperity::elastic::{Base, Layer, Material};
+    /// let layer = Layer::new(Material::new(1.0, 0.3)?, 0.1, Base::Bonded)?;
+    /// let operator = Spectral::<f64>::of(Grid::square(64, 1.0)?, layer)?;
+    /// assert!((operator.modulus() - 1.0).abs() < 1e-9);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Spectral::new`].
+    pub fn of(grid: Grid, body: impl Body + 'static) -> Result<Self> {
+        let shortest = PI / grid.largest_spacing();
+        let modulus = 2.0 * body.stiffness(shortest, 0.0) / shortest;
+        Self::new(grid, modulus, move |qx, qy| body.stiffness(qx, qy))
     }
 
     pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {

@@ -6,6 +6,7 @@ mod common;
 mod accuracy;
 mod algorithm3;
 mod architecture;
+mod bodies;
 mod branches;
 mod constraints;
 mod cut_off;

@@ -26,6 +26,7 @@ mod sweep;
 // the parts of which commands are made
 mod accuracy;
 mod adhesion;
+mod body;
 mod boundary;
 mod citation;
 mod entries;

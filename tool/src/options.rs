@@ -5,16 +5,18 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Method, Surface};
 use asperity_maps::io::read_field;
 pub use asperity_scene::Scalar;
-use asperity_scene::{Branches, HalfSpace, Precision, Scene};
+use asperity_scene::{Branches, Elastic, Precision, Scene};
 use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::{positive, threads};
+use crate::body::BodyOptions;
 use crate::boundary::BoundaryOptions;
 use crate::heights::{self, Origin};
 use crate::outcome::Outcome;
 use crate::part::Part;
+use crate::printing::in_options;
 use crate::processes::Processes;
 use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::threads::use_threads;
@@ -38,6 +40,8 @@ pub struct SurfaceOptions {
     modulus: Quantity,
     #[command(flatten)]
     pub beyond: BoundaryOptions,
+    #[command(flatten)]
+    body: BodyOptions,
     /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
     /// force are those of the original
     #[arg(long, help_heading = "Surface")]
@@ -109,6 +113,7 @@ impl<'a> ProblemOptions<'a> {
     /// process holds, and starts the threads.
     pub fn read(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
         self.adhesion.check()?;
+        in_options(self.surface.elastic().check())?;
         let &SurfaceOptions { heights: ref path, ref lengths, ref beyond, whole, .. } = self.surface;
         let (surface, origin) = if processes.count() > 1 {
             heights::shared(path, lengths.as_deref(), si, beyond.absent_missing, processes)?
@@ -130,14 +135,14 @@ impl SurfaceOptions {
         self.modulus.value
     }
 
-    /// The half-space.
-    pub fn half_space(&self) -> HalfSpace {
-        HalfSpace { boundary: self.beyond.boundary, modulus: self.modulus() }
+    /// The elastic body.
+    pub fn elastic(&self) -> Elastic {
+        self.body.elastic(self.beyond.boundary, self.modulus())
     }
 
     /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
     pub fn full_pressure(&self, surface: &Surface, wanted: bool) -> Outcome<f64> {
-        if wanted { Ok(self.half_space().full_pressure(surface)?) } else { Ok(1.0) }
+        if wanted { Ok(self.elastic().full_pressure(surface)?) } else { Ok(1.0) }
     }
 }
 
@@ -152,7 +157,7 @@ impl<'a> ProblemOptions<'a> {
     pub fn scene(self) -> Scene {
         let &SolverOptions { method, precision, tolerance, max_iterations, branch, .. } = self.solver;
         Scene {
-            half_space: self.surface.half_space(),
+            elastic: self.surface.elastic(),
             adhesion: self.adhesion.described(),
             method: method.method(),
             precision,

@@ -13,6 +13,7 @@ use asperity::adhesion::mu_rho;
 use asperity::contact::Original;
 use asperity::{Report, Solution};
 
+mod body;
 mod code;
 mod extremes;
 mod heights;

@@ -7,9 +7,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::adhesion::Adhesion;
+use crate::elastic::Elastic;
 use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
 use crate::found::{Found, Sight};
-use crate::half_space::Boundary;
 use crate::record::record;
 use crate::scene::Precision;
 use crate::told::Told;
@@ -226,10 +226,9 @@ pub struct Inputs {
     pub pressure_unit: Option<String>,
     /// The quantities as they were typed, if they have units.
     pub given: Option<Value>,
-    /// The boundary.
-    pub boundary: Boundary,
-    /// The contact modulus.
-    pub modulus: f64,
+    /// The elastic body.
+    #[serde(flatten)]
+    pub elastic: Elastic,
     /// The adhesion and the wall.
     #[serde(flatten)]
     pub adhesion: Adhesion,

@@ -8,7 +8,7 @@ use asperity::{AdhesionLaw, Control, Real, Result, Solver, Surface};
 use asperity_maps::io::available_memory;
 use ndarray::Array2;
 
-use crate::half_space::HalfSpace;
+use crate::elastic::Elastic;
 use crate::wall::Constraint;
 
 /// The bytes of a GiB.
@@ -42,11 +42,11 @@ impl Goal {
 pub(crate) fn planned<T: Real>(
     wanted: &Accuracy<Constraint<T>>,
     surface: &Surface,
-    half_space: HalfSpace,
+    elastic: Elastic,
     law: &dyn AdhesionLaw<T>,
     control: Control,
 ) -> Result<(Plan, f64)> {
-    let mut operator = half_space.operator::<T>(*surface.grid())?;
+    let mut operator = elastic.operator::<T>(*surface.grid())?;
     let plan = wanted.plan(surface, &mut operator, &law, control)?;
     let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
     let [u, p] = &mut fields;

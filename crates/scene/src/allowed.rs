@@ -37,6 +37,11 @@ pub fn finite(text: &str) -> Result<f64, String> {
     number(text, f64::is_finite, "a number, and finite")
 }
 
+/// Poisson's ratio.
+pub fn poisson(text: &str) -> Result<f64, String> {
+    number(text, |v| v > -1.0 && v <= 0.5, "a number greater than -1 and at most 0.5")
+}
+
 /// A share that is neither nothing nor all.
 pub fn share(text: &str) -> Result<f64, String> {
     number(text, |v| v > 0.0 && v < 1.0, "a share between 0 and 1")

@@ -13,10 +13,10 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::account::{Account, stiffness};
+use crate::boundary::Boundary;
 use crate::compiled::compiled;
 use crate::entries::{Search, Step};
 use crate::found::{Found, check_finite};
-use crate::half_space::Boundary;
 use crate::identity::Identity;
 use crate::posed::Posed;
 

@@ -43,8 +43,8 @@ pub(crate) fn identity<T: Real>(
         "heights": field(given.surface.heights()),
         "lengths": format!("{} {}", grid.lengths().0, grid.lengths().1),
         "absent_nodes": given.surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
-        "boundary": inputs.boundary,
-        "modulus": inputs.modulus.to_string(),
+        "boundary": inputs.elastic.boundary,
+        "modulus": inputs.elastic.modulus.to_string(),
         "law": adhesion.law,
         "work_of_adhesion": number(adhesion.work_of_adhesion),
         "range": number(adhesion.range),
@@ -69,6 +69,8 @@ pub(crate) fn identity<T: Real>(
         // a table of a wall without springs has none
         identity.insert("wall_stiffness".to_owned(), stiffness.to_string().into());
     }
+    // nor has one of a half-space a body
+    identity.extend(inputs.elastic.given().map(|(key, value)| (key.to_owned(), value.into())));
     if given.law_differs {
         identity.insert("law_values".to_owned(), fingerprint(law).to_string().into());
     }

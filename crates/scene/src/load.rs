@@ -2,14 +2,14 @@
 
 use asperity::Control;
 
-use crate::half_space::Boundary;
+use crate::boundary::Boundary;
 
 /// The load of a solve: one that is held, or one that is to be found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     /// A load that is held.
     Held(Control),
-    /// A mean pressure over the [full pressure](crate::HalfSpace::full_pressure).
+    /// A mean pressure over the [full pressure](crate::Elastic::full_pressure).
     Reduced(f64),
     /// A contact fraction, for which a load is searched.
     Fraction(f64),

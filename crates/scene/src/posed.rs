@@ -18,10 +18,11 @@ use ndarray::Array2;
 use crate::account::Inputs;
 use crate::accuracy::{Goal, planned};
 use crate::asked::Asked;
+use crate::boundary::Boundary;
 use crate::compiled::compiled;
+use crate::elastic::Elastic;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
-use crate::half_space::{Boundary, HalfSpace};
 use crate::identity::{Fields, Identity, identity};
 use crate::load::Load;
 use crate::wall::Constraint;
@@ -48,7 +49,7 @@ enum Body<T: Real> {
 pub struct Posed<T: Real> {
     body: Body<T>,
     law: Arc<dyn AdhesionLaw<T>>,
-    half_space: HalfSpace,
+    elastic: Elastic,
     solver: Solver<Constraint<T>>,
     original: Option<Original>,
 }
@@ -65,25 +66,25 @@ impl<T: Real> Posed<T> {
     pub fn new(
         surface: impl Into<Arc<Surface>>,
         law: Arc<dyn AdhesionLaw<T>>,
-        half_space: HalfSpace,
+        elastic: Elastic,
         solver: Solver<Constraint<T>>,
         original: Option<Original>,
     ) -> Self {
-        Self { body: Body::Surface(surface.into()), law, half_space, solver, original }
+        Self { body: Body::Surface(surface.into()), law, elastic, solver, original }
     }
 
     /// The solver, and the problem on the grid of the surface, which is made with its first use in the place of the
     /// surface.
     ///
     /// # Errors
-    /// Those of [`HalfSpace::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
+    /// Those of [`Elastic::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
     pub fn parts(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut AnyProblem<T>)> {
         T::call::<Parts<'_>>(self)
     }
 
     fn parts_of(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut AnyProblem<T>)> {
         if let Body::Surface(surface) = &self.body {
-            let operator = self.half_space.operator(*surface.grid())?;
+            let operator = self.elastic.operator(*surface.grid())?;
             if let Body::Surface(surface) = mem::replace(&mut self.body, Body::Spent) {
                 self.body = Body::Problem(Box::new(Problem::new(&surface, operator, self.law.clone())?));
             }
@@ -118,21 +119,17 @@ impl<T: Real> Posed<T> {
 
     /// The boundary of the half-space.
     pub fn boundary(&self) -> Boundary {
-        self.half_space.boundary
+        self.elastic.boundary
     }
 
     /// The pressure of which a reduced pressure is a part, if one is among `loads`, before the first solve.
     ///
     /// # Errors
-    /// Those of [`Load::check`] and [`HalfSpace::full_pressure`], for [`worded`](crate::worded).
+    /// Those of [`Load::check`] and [`Elastic::full_pressure`], for [`worded`](crate::worded).
     pub fn full_pressure(&self, loads: &[Load]) -> std::result::Result<f64, String> {
         loads.iter().try_for_each(|load| load.check(self.boundary(), self.original.is_some()))?;
         let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
-        if reduced {
-            self.half_space.full_pressure(self.surface().map_err(|error| error.to_string())?)
-        } else {
-            Ok(1.0)
-        }
+        if reduced { self.elastic.full_pressure(self.surface().map_err(|error| error.to_string())?) } else { Ok(1.0) }
     }
 
     /// The gap from which solves under `loads` begin, before the first of them, if it is not the default; see
@@ -153,13 +150,13 @@ impl<T: Real> Posed<T> {
     /// The plan of a solve to an accuracy, and the seconds that it is likely to take.
     ///
     /// # Errors
-    /// Those of [`HalfSpace::operator`] and [`Accuracy::plan`](asperity::accuracy::Accuracy::plan).
+    /// Those of [`Elastic::operator`] and [`Accuracy::plan`](asperity::accuracy::Accuracy::plan).
     pub fn plan(&self, control: Control, goal: Goal) -> Result<(Plan, f64)> {
         T::call::<Planned<'_>>((self, control, goal))
     }
 
     fn planned((this, control, goal): (&Self, Control, Goal)) -> Result<(Plan, f64)> {
-        planned(&goal.by(this.solver.clone(), false), this.surface()?, this.half_space, &this.law, control)
+        planned(&goal.by(this.solver.clone(), false), this.surface()?, this.elastic, &this.law, control)
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
@@ -227,9 +224,9 @@ impl<T: Real> Posed<T> {
     fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
         let (clock, surface) = (Instant::now(), self.surface()?);
         let (mut wanted, tolerance) = (goal.by(self.solver.clone(), asked.stiffness), self.tolerance(Some(goal))?);
-        let half_space = |grid| self.half_space.operator(grid);
+        let elastic = |grid| self.elastic.operator(grid);
         let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
-        let found = wanted.solve_observed(surface, half_space, &self.law, asked.control, observe)?;
+        let found = wanted.solve_observed(surface, elastic, &self.law, asked.control, observe)?;
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let reached = Reached { wanted: goal.accuracy, of: goal.of, reached, refinable, unaffordable };
@@ -253,7 +250,7 @@ impl<T: Real> Posed<T> {
             .stiffness(asked.stiffness.then_some(ContactStiffness::TOLERANCE))
             .solve_observed(
                 surface,
-                |grid| self.half_space.operator(grid),
+                |grid| self.elastic.operator(grid),
                 &self.law,
                 control,
                 |grid, state| {

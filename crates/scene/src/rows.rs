@@ -35,6 +35,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         ((_, 1), (lx, _)) => length(lx),
         (_, sides) => Some(units.sides(sides)),
     });
+    row("body", &|s| s.inputs.elastic.in_words(units));
     row("contact", &|s| share(s.contact_fraction));
     row("corrected for its edge", &|s| share(s.corrected_contact_fraction?));
     row("nodes in contact", &|s| {

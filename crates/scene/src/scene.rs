@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::account::Inputs;
 use crate::adhesion::Adhesion;
-use crate::half_space::HalfSpace;
+use crate::elastic::Elastic;
 use crate::posed::Posed;
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
@@ -17,7 +17,7 @@ use crate::posed::Posed;
 /// ```
 /// let scene: asperity_scene::Scene =
 ///     serde_json::from_str(r#"{"modulus": 2.0, "law": "exponential", "work_of_adhesion": 1e-4, "range": 4e-3}"#)?;
-/// assert_eq!((scene.half_space.modulus, scene.tolerance()), (2.0, 1e-6));
+/// assert_eq!((scene.elastic.modulus, scene.tolerance()), (2.0, 1e-6));
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,7 +25,7 @@ use crate::posed::Posed;
 pub struct Scene {
     /// The elastic body.
     #[serde(flatten)]
-    pub half_space: HalfSpace,
+    pub elastic: Elastic,
     /// The adhesion and the wall.
     #[serde(flatten)]
     pub adhesion: Adhesion,
@@ -104,7 +104,7 @@ impl Scene {
         original: Option<Original>,
     ) -> Result<Posed<T>> {
         let solver = Solver { settings: self.settings(), constraint: self.adhesion.constraint()? };
-        Ok(Posed::new(surface, law, self.half_space, solver, original))
+        Ok(Posed::new(surface, law, self.elastic, solver, original))
     }
 
     /// The inputs of a report as far as they are those of the scene, on a surface of a shape and side lengths.
@@ -119,8 +119,7 @@ impl Scene {
             length_unit: None,
             pressure_unit: None,
             given: None,
-            boundary: self.half_space.boundary,
-            modulus: self.half_space.modulus,
+            elastic: self.elastic,
             adhesion: self.adhesion.clone(),
             method: self.method,
             precision: self.precision,

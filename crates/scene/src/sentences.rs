@@ -6,8 +6,8 @@ use asperity::stability::Verdict;
 
 use crate::account::Account;
 use crate::accuracy::{GIB, Goal};
+use crate::boundary::Boundary;
 use crate::entries::{GridErrors, Reached, Search};
-use crate::half_space::Boundary;
 use crate::numbers::percent;
 use crate::scene::Precision;
 use crate::words::{Skin, worded};
@@ -31,7 +31,7 @@ pub fn shortfalls(account: &Account, skin: Skin) -> Vec<(&'static str, String)> 
 fn unconverged(account: &Account) -> String {
     let Account { status, relative_error, load_error, iterations, ref inputs, .. } = *account;
     let tolerance = inputs.tolerance;
-    let (held, path) = match inputs.boundary {
+    let (held, path) = match inputs.elastic.boundary {
         Boundary::Periodic => ("a {mean_gap}", "{cycle:mean_gaps}"),
         Boundary::Free => ("an {approach}", "{cycle:approaches}"),
     };

@@ -112,10 +112,10 @@ pub fn dimension_of_key(key: &str) -> Option<Dimension> {
 /// and words. The perimeter of contact on a line is the number of its ends.
 pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimension> {
     Some(match (name, control) {
-        ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "lengths", _) => LENGTH,
+        ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "layer" | "coating" | "lengths", _) => LENGTH,
         ("perimeter", _) if !on_line => LENGTH,
         ("mean_pressure" | "net_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => PRESSURE,
-        ("modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
+        ("modulus" | "coating_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
         ("density", _) => PER_PRESSURE,
         ("normal_force", _) => FORCE,
         ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {

@@ -4,7 +4,7 @@ use asperity::{AdhesionLaw, Real, Surface};
 use asperity_maps::Topography;
 use asperity_maps::warning::{Warning, WarningCode};
 
-use crate::half_space::HalfSpace;
+use crate::elastic::Elastic;
 use crate::quantity::{power_of_length, times_ten_to};
 use crate::told::Told;
 use crate::units::Units;
@@ -13,19 +13,20 @@ use crate::units::Units;
 /// law on the heights; in units as far as they are known. Heights may have been converted from the unit of their file.
 pub fn warnings_of_input<T: Real>(
     (surface, converted_from): (&Surface, Option<&str>),
-    half_space: HalfSpace,
+    elastic: Elastic,
     law: &dyn AdhesionLaw<T>,
     units: &Units,
 ) -> Vec<Told> {
-    let mut found = half_space.boundary.warnings(surface);
+    let mut found = elastic.boundary.warnings(surface);
     let codes = converted_from.map_or(Vec::new(), |unit| codes_in_file(surface, unit));
     if !codes.is_empty() {
         // nothing else can be told of the heights
         found.retain(|warning| warning.code == WarningCode::Cells);
     }
-    let of_modulus = Warning::of_modulus(half_space.modulus, surface.grid(), units.length.as_deref());
+    let of_modulus = Warning::of_modulus(elastic.modulus, surface.grid(), units.length.as_deref());
     found.extend(of_modulus.filter(|_| units.pressure.is_none()));
-    found.extend(Warning::of_law(&law, surface, half_space.modulus));
+    found.extend(elastic.body().ok().and_then(|body| Warning::of_body(&*body, surface.grid())));
+    found.extend(Warning::of_law(&law, surface, elastic.modulus));
     found.iter().map(|warning| units.told(warning)).chain(codes).collect()
 }
 

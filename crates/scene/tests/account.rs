@@ -7,7 +7,7 @@ use asperity::path::PathSettings;
 use asperity::{Control, Grid, Method, SelfAffine, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, Asked, Boundary, Course, Found, Goal, HalfSpace, Inputs, Posed, Precision, Scene, Skin, Way,
+    Account, Adhesion, Asked, Boundary, Course, Elastic, Found, Goal, Inputs, Posed, Precision, Scene, Skin, Way,
     check_finite, rows, shortfalls, worded,
 };
 use serde_json::{Value, json};
@@ -64,10 +64,10 @@ fn solved(asked: &Asked) -> (Found<f64>, Account) {
 
 #[test]
 fn the_inputs_of_a_report_describe_the_scene_of_its_run() {
-    let half_space = HalfSpace { boundary: Boundary::Free, modulus: 2.0 };
+    let elastic = Elastic { boundary: Boundary::Free, modulus: 2.0 };
     let (tolerance, max_iterations) = (Some(1e-3), Some(7));
     let (method, precision) = (Method::Rey2017, Precision::F32);
-    let run = Scene { half_space, method, precision, tolerance, max_iterations, ..scene() };
+    let run = Scene { elastic, method, precision, tolerance, max_iterations, ..scene() };
     assert_eq!(serde_json::from_value::<Scene>(json!(run.inputs((4, 4), (1.0, 1.0), 1))).unwrap(), run);
     assert_eq!(serde_json::from_value::<Scene>(json!(run)).unwrap(), run);
     let (settings, default) = (run.settings(), scene().settings());

@@ -26,6 +26,8 @@ pub enum WarningCode {
     Modulus,
     /// A contact pressure exceeds the contact modulus E*.
     BeyondModulus,
+    /// The stiffness of the shortest waves is not that of a half-space, as of a layer that is thinner than some nodes.
+    ThinBody,
     /// Single nodes are far out of their neighbours.
     Spikes,
     /// A value far outside the rest that stands for missing points, as −9999.
@@ -55,6 +57,7 @@ impl WarningCode {
             Self::Smooth => "smooth",
             Self::Modulus => "modulus",
             Self::BeyondModulus => "beyond-modulus",
+            Self::ThinBody => "thin-body",
             Self::Spikes => "spikes",
             Self::MissingCode => "missing-code",
             Self::Cells => "cells",

@@ -1,5 +1,4 @@
-//! An elastic operator of your own: a sphere on an elastic layer of finite thickness, from the half-space to an elastic
-//! foundation.
+//! A sphere on an elastic layer of finite thickness, from the half-space to an elastic foundation.
 //!
 //! `cargo run --release -p asperity-examples --example layer`. It takes a second.
 //!
@@ -7,14 +6,12 @@
 //! stiffness M/t (bonded) or E*/t (sliding), or, if it is incompressible, the flow of the material
 //! sideways through a narrow gap. Johnson, *Contact Mechanics* (1985), section 5.8.
 
-mod stiffness;
-
 use std::f64::consts::PI;
 
+use asperity::elastic::{Base, Layer, Material};
 use asperity::{Control, Grid, NoAdhesion, Problem, Result, Solver, Spectral, Status, Surface};
 use clap::Parser;
 use common::arguments;
-use stiffness::{bonded, confined, sliding};
 
 const MODULUS: f64 = 1.0;
 const RADIUS: f64 = 2.0;
@@ -28,7 +25,7 @@ struct Arguments {
 }
 
 fn main() -> Result<()> {
-    let Arguments { size } = arguments::read(include_str!("main.rs"));
+    let Arguments { size } = arguments::read(include_str!("layer.rs"));
     println!("peak pressure under a sphere of radius {RADIUS} L pressed with {LOAD} E*L², and its ratio to the limits");
     println!("{:>18} {:>7} {:>10} {:>8} {:>8} {:>7}", "layer", "t/L", "p₀/E*", "thick", "thin", "applic.");
     for thickness in [2.0, 0.3, 0.1, 0.03, 0.01] {
@@ -39,23 +36,18 @@ fn main() -> Result<()> {
             let a6 = 96.0 * RADIUS * thickness.powi(3) * LOAD / (PI * 0.75 * MODULUS);
             3.0 * LOAD / (PI * a6.cbrt())
         };
-        let foundation = springs(confined(MODULUS, 0.3) / thickness);
-        press(size, "bonded, ν = 0.3", thickness, bonded(MODULUS, thickness, 0.3), foundation)?;
-        press(size, "bonded, ν = 0.5", thickness, bonded(MODULUS, thickness, 0.5), flow(thickness))?;
-        press(size, "sliding", thickness, sliding(MODULUS, thickness), springs(MODULUS / thickness))?;
+        let (steel, rubber) = (Material::new(MODULUS, 0.3)?, Material::new(MODULUS, 0.5)?);
+        let foundation = springs(steel.confined_modulus() / thickness);
+        press(size, "bonded, ν = 0.3", thickness, Layer::new(steel, thickness, Base::Bonded)?, foundation)?;
+        press(size, "bonded, ν = 0.5", thickness, Layer::new(rubber, thickness, Base::Bonded)?, flow(thickness))?;
+        press(size, "sliding", thickness, Layer::new(steel, thickness, Base::Sliding)?, springs(MODULUS / thickness))?;
     }
     Ok(())
 }
 
-fn press(
-    size: usize,
-    name: &str,
-    thickness: f64,
-    symbol: impl Fn(f64) -> f64 + Send + Sync + 'static,
-    thin: f64,
-) -> Result<()> {
+fn press(size: usize, name: &str, thickness: f64, layer: Layer, thin: f64) -> Result<()> {
     let grid = Grid::square(size, 1.0)?;
-    let layer = Spectral::<f64>::isotropic(grid, MODULUS, symbol)?;
+    let layer = Spectral::<f64>::of(grid, layer)?;
     let mut problem = Problem::new(&Surface::paraboloid(grid, RADIUS)?, layer, NoAdhesion)?;
     let solution = Solver::default().solve(&mut problem, Control::MeanPressure(LOAD))?;
     assert_eq!(solution.report.status, Status::Converged);

@@ -1,12 +1,11 @@
-//! The elastic half-space, and its boundary.
+//! The boundary of the elastic body.
 
-use asperity::{Boussinesq, Control, ElasticOperator, Grid, Real, Result, Surface, Westergaard};
-use asperity_maps::io::check_memory;
+use asperity::{Control, Surface};
 use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-/// The boundary of the half-space, by the surroundings of the map.
+/// The boundary of the elastic body, by the surroundings of the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "options", derive(clap::ValueEnum))]
@@ -87,52 +86,5 @@ impl Boundary {
         }
         let (_, peak) = surface.grid().extremes((0.0, heights.fold(f64::NEG_INFINITY, |a, &b| a.max(b))));
         heights.mapv(|height| peak - height - at)
-    }
-}
-
-/// The elastic half-space; periodic, of a contact modulus of 1 by default.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct HalfSpace {
-    /// The boundary.
-    pub boundary: Boundary,
-    /// The contact modulus E*, a pressure.
-    pub modulus: f64,
-}
-
-impl Default for HalfSpace {
-    fn default() -> Self {
-        Self { boundary: Boundary::default(), modulus: 1.0 }
-    }
-}
-
-impl HalfSpace {
-    /// The operator on the nodes of `grid`, if the machine has the memory for a solve: five fields of `f64`, and four
-    /// times as many with a free boundary.
-    ///
-    /// # Errors
-    /// [`Error::Memory`](asperity::Error::Memory) if the memory is too small, and those of the operator.
-    pub fn operator<T: Real>(self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
-        if !grid.is_shared() {
-            check_memory("a solve", grid.shape(), if self.boundary == Boundary::Free { 160 } else { 40 })?;
-        }
-        Ok(match self.boundary {
-            Boundary::Periodic => Box::new(Westergaard::new(grid, self.modulus)?),
-            Boundary::Free => Box::new(Boussinesq::new(grid, self.modulus)?),
-        })
-    }
-
-    /// The pressure E* h'rms, of which a reduced pressure is a part.
-    ///
-    /// # Errors
-    /// The reason why a surface with absent nodes has none, and a remedy.
-    pub fn full_pressure(self, surface: &Surface) -> std::result::Result<f64, String> {
-        match surface.absent_nodes() {
-            0 => Ok(self.modulus * surface.statistics().rms_slope),
-            absent => Err(format!(
-                "a reduced pressure is over the rms slope, but {absent} nodes are absent, which have no slope: give a \
-                 pressure"
-            )),
-        }
     }
 }

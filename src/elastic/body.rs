@@ -1,0 +1,118 @@
+//! Elastic bodies whose properties do not change along their surface, by the stiffness of their waves.
+
+use std::sync::Arc;
+
+use crate::error::{Error, Result};
+
+mod coating;
+mod half_space;
+mod layer;
+mod series;
+
+pub use coating::Coating;
+pub use half_space::HalfSpace;
+pub use layer::{Base, Layer};
+pub use series::Series;
+
+/// An elastic body whose properties do not change along its surface: a wave of displacement û needs a pressure k û.
+///
+/// [`Spectral::of`](crate::Spectral::of) makes an operator of it. [`HalfSpace`], [`Layer`], [`Coating`] and [`Series`],
+/// two bodies that both deform, are bodies; one of your own is its stiffness and its modulus.
+///
+/// ```
+/// use asperity::elastic::{Base, Body, Layer, Material};
+/// let rubber = Material::new(2e6, 0.5)?;
+/// let layer = Layer::new(rubber, 1e-3, Base::Bonded)?;
+/// // waves that are short beside the thickness are those of the half-space
+/// assert!((layer.stiffness(1e5, 0.0) / (0.5 * 2e6 * 1e5) - 1.0).abs() < 1e-12);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub trait Body: Send + Sync {
+    /// The stiffness k of a wave, pressure per displacement, with the wave numbers in radians per length: even,
+    /// k(−q) = k(q), and positive; of no meaning for q = 0.
+    fn stiffness(&self, qx: f64, qy: f64) -> f64;
+
+    /// The contact modulus E* of the shortest waves, where k = ½E*q.
+    fn modulus(&self) -> f64;
+
+    /// The compression of the whole body under a mean pressure of one, length per pressure, held sideways; zero if that
+    /// cannot be told, as of a half-space. It does not change the gap, but the approach of the base.
+    fn mean_compliance(&self) -> f64 {
+        0.0
+    }
+}
+
+impl<B: Body + ?Sized> Body for Arc<B> {
+    fn stiffness(&self, qx: f64, qy: f64) -> f64 {
+        (**self).stiffness(qx, qy)
+    }
+
+    fn modulus(&self) -> f64 {
+        (**self).modulus()
+    }
+
+    fn mean_compliance(&self) -> f64 {
+        (**self).mean_compliance()
+    }
+}
+
+/// An isotropic elastic material: its contact modulus and its Poisson's ratio.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    modulus: f64,
+    poisson: f64,
+}
+
+impl Material {
+    /// The material of a contact modulus E* = E/(1 − ν²), a pressure, and a Poisson's ratio ν.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless E* is positive and finite, and −1 < ν ≤ ½.
+    pub fn new(modulus: f64, poisson: f64) -> Result<Self> {
+        Error::positive("contact modulus", modulus)?;
+        if !(poisson > -1.0 && poisson <= 0.5) {
+            let requirement = "greater than -1 and at most 0.5";
+            return Err(Error::Value { name: "Poisson's ratio", value: poisson, requirement });
+        }
+        Ok(Self { modulus, poisson })
+    }
+
+    /// The material of a Young's modulus E and a Poisson's ratio ν.
+    ///
+    /// ```
+    /// use asperity::elastic::Material;
+    /// let steel = Material::of_young(210e9, 0.3)?;
+    /// assert!((steel.modulus() / 230.77e9 - 1.0).abs() < 1e-5);
+    /// // of two half-spaces that both deform 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂
+    /// let both = 1.0 / (1.0 / steel.modulus() + 1.0 / steel.modulus());
+    /// assert!((both / 115.38e9 - 1.0).abs() < 1e-4);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless E is positive and finite, and −1 < ν ≤ ½.
+    pub fn of_young(young: f64, poisson: f64) -> Result<Self> {
+        Error::positive("Young's modulus", young)?;
+        Self::new(young / (1.0 - poisson * poisson), poisson)
+    }
+
+    /// The contact modulus E*.
+    pub fn modulus(&self) -> f64 {
+        self.modulus
+    }
+
+    /// Poisson's ratio ν.
+    pub fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
+    /// The shear modulus G = E*(1 − ν)/2.
+    pub fn shear_modulus(&self) -> f64 {
+        0.5 * self.modulus * (1.0 - self.poisson)
+    }
+
+    /// The modulus against compression without strain sideways, M = E*(1 − ν)²/(1 − 2ν); infinite for ν = ½.
+    pub fn confined_modulus(&self) -> f64 {
+        self.modulus * (1.0 - self.poisson).powi(2) / (1.0 - 2.0 * self.poisson)
+    }
+}

@@ -1,0 +1,71 @@
+use super::{Body, Material};
+use crate::error::{Error, Result};
+
+/// A coating of finite thickness t that is bonded to a half-space, its substrate.
+///
+/// With the coating 1 and the substrate 2, α = qt, θ = e^(−2α), m = G₁/G₂ the ratio of the shear moduli,
+/// κ = (m − 1)/(m + 3 − 4ν₁) and λ = 1 − 4(1 − ν₁)/(1 + m(3 − 4ν₂)), in plane strain and loaded without shear,
+///
+/// ```math
+/// 1/k = 2/(E₁* q) · (1 + 4ακθ − λκθ²) / (1 − (λ + κ + 4κα²)θ + λκθ²)
+/// ```
+///
+/// Burmister, J. Appl. Phys. 16 (1945); O'Sullivan and King, J. Tribol. 110 (1988). Waves that are short beside the
+/// thickness have the stiffness of a half-space of the coating, long ones that of the substrate. On a substrate that
+/// does not yield the coating is a bonded [`Layer`](super::Layer).
+///
+/// ```
+/// use asperity::elastic::{Body, Coating, Material};
+/// let (diamond, steel) = (Material::new(1e12, 0.1)?, Material::new(2e11, 0.3)?);
+/// let coated = Coating::new(diamond, 1e-6, steel)?;
+/// let over_half_space = |q: f64| coated.stiffness(q, 0.0) / (0.5 * q);
+/// assert!((over_half_space(1e9) / 1e12 - 1.0).abs() < 1e-12);
+/// assert!((over_half_space(1.0) / 2e11 - 1.0).abs() < 1e-4);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coating {
+    material: Material,
+    thickness: f64,
+    kappa: f64,
+    lambda: f64,
+}
+
+impl Coating {
+    /// The coating of a material and a thickness, a length, on a substrate.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the thickness is not positive and finite.
+    pub fn new(material: Material, thickness: f64, substrate: Material) -> Result<Self> {
+        let m = material.shear_modulus() / substrate.shear_modulus();
+        let [nu1, nu2] = [material, substrate].map(|material| material.poisson());
+        Ok(Self {
+            material,
+            thickness: Error::positive("thickness of the coating", thickness)?,
+            kappa: (m - 1.0) / (m + 3.0 - 4.0 * nu1),
+            lambda: 1.0 - 4.0 * (1.0 - nu1) / (1.0 + m * (3.0 - 4.0 * nu2)),
+        })
+    }
+}
+
+impl Body for Coating {
+    fn stiffness(&self, qx: f64, qy: f64) -> f64 {
+        let Self { kappa, lambda, .. } = *self;
+        let q = qx.hypot(qy);
+        let alpha = q * self.thickness;
+        let theta = (-2.0 * alpha).exp();
+        let far = lambda * kappa * theta * theta;
+        let softer = 1.0 + 4.0 * alpha * kappa * theta - far;
+        let stiffer = 1.0 - (lambda + kappa + 4.0 * kappa * alpha * alpha) * theta + far;
+        0.5 * self.material.modulus() * q * stiffer / softer
+    }
+
+    fn modulus(&self) -> f64 {
+        self.material.modulus()
+    }
+
+    /// The compression of the coating, over its substrate.
+    fn mean_compliance(&self) -> f64 {
+        self.thickness / self.material.confined_modulus()
+    }
+}
