@@ -3,6 +3,7 @@
 mod accuracy_tool;
 mod areas;
 mod bench;
+mod body_tool;
 mod branch_tool;
 
 #[cfg(unix)]

@@ -9,8 +9,9 @@ use super::text::Text;
 use super::{Warning, WarningCode};
 
 impl Warning {
-    /// A body whose stiffness for the shortest waves on a `grid` is more than 5 % off ½E*q, that of a half-space,
-    /// [`ThinBody`](WarningCode::ThinBody): what takes contact edges for those on a half-space does not hold.
+    /// A body whose stiffness for the shortest waves on a `grid` does not grow as their wave number to 5 %, as that of a
+    /// half-space does, [`ThinBody`](WarningCode::ThinBody): what takes contact edges for those on a half-space does not
+    /// hold.
     ///
     /// ```
     /// use asperity::Grid;
@@ -28,20 +29,19 @@ impl Warning {
             (1, _) => dy,
             _ => dx.max(dy),
         };
-        let over_half_space = |spacing: f64| {
-            let q = PI / spacing;
-            2.0 * body.stiffness(q, 0.0) / (body.modulus() * q)
-        };
-        let is_off = |finer: &f64| (over_half_space(spacing / finer) - 1.0).abs() > 0.05;
-        let (ratio, finer) =
-            (over_half_space(spacing), (0..30).map(|power| f64::from(1 << power)).find(|k| !is_off(k))?);
+        // 2 on a half-space, and 1 on springs
+        let growth = |spacing: f64| body.stiffness(PI / spacing, 0.0) / body.stiffness(0.5 * PI / spacing, 0.0);
+        let is_off = |finer: &f64| (growth(spacing / finer) - 2.0).abs() > 0.1;
+        let finer = (0..30).map(|power| f64::from(1 << power)).find(|finer| !is_off(finer))?;
         let message = format!(
-            "the shortest waves on the grid are {} times as stiff as on a half-space of the same contact modulus, as where \
-             the body is thin beside the nodes: the area corrected for its edge, its estimated error and mu_rho are \
-             those of a half-space, and do not hold; use the contact fraction, or a grid {finer} times finer",
-            Self::figure(ratio)
+            "the stiffness of the shortest waves on the grid is {} times that of waves twice as long, not 2 times as on a \
+             half-space, as where the body is thin beside the nodes: the area corrected for its edge, its estimated \
+             error and mu_rho are those of a half-space, and do not hold; use the contact fraction, or a grid {finer} \
+             times finer",
+            Self::figure(growth(spacing))
         );
-        let text = Text::default().with(message).of_severity(ratio.max(1.0 / ratio));
+        let severity = (growth(spacing) - 2.0).abs();
+        let text = Text::default().with(message).of_severity(severity);
         is_off(&1.0).then_some(Self { code: WarningCode::ThinBody, text })
     }
 }

@@ -1,0 +1,94 @@
+"""Layers and coatings in the place of the half-space."""
+
+import json
+import os
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import asperity
+
+COATING = asperity.Coating(0.1, modulus=5.0, poisson=0.2, substrate_poisson=0.3)
+
+
+@pytest.fixture(scope="module")
+def rough():
+    return asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_l=2, k_s=16, seed=1)
+
+
+def pressed(rough, **given):
+    return asperity.solve(rough, **{"modulus": 1.0, "mean_pressure": 0.02, **given})
+
+
+def test_thick_bodies_are_the_half_space_and_thin_ones_are_stiffer(rough):
+    half_space = pressed(rough)
+    thick = pressed(rough, body=asperity.Layer(4.0, 0.3))
+    # both to a certified 1e-6 in the energy norm
+    np.testing.assert_allclose(thick.gap, half_space.gap, atol=1e-5 * half_space.gap.max())
+    bonded = pressed(rough, body=asperity.Layer(0.05, poisson=0.45))
+    sliding = pressed(rough, body=asperity.Layer(0.05, poisson=0.45, base="sliding"))
+    assert bonded.contact_fraction < sliding.contact_fraction < half_space.contact_fraction
+    assert (bonded.report["layer"], bonded.report["base"], sliding.report["base"]) == (0.05, "bonded", "sliding")
+    assert "sliding layer of 0.05" in repr(sliding)
+
+
+def test_sweeps_cycles_and_stability_have_bodies(rough):
+    law = asperity.Exponential(1e-4, 4e-3)
+    sweep = asperity.sweep(rough, modulus=1.0, mean_gaps=[0.03, 0.02], body=COATING)
+    alone = pressed(rough, mean_pressure=None, mean_gap=0.02, body=COATING)
+    assert sweep.columns["mean_pressure"][1] == pytest.approx(alone.mean_pressure, rel=1e-5)
+    asperity.cycle(rough, modulus=1.0, mean_gaps=[0.03, 0.02], law=law, body=COATING, steps=3)
+    held = pressed(rough, mean_pressure=None, mean_gap=0.03, law=law, body=COATING, stability=True)
+    again = asperity.stability(held)
+    assert again.verdict == held.report["stability"]["verdict"]
+    assert again.eigenvalue == pytest.approx(held.report["stability"]["eigenvalue"], rel=1e-6)
+
+
+def test_numbers_have_units_or_none(rough):
+    in_metres = asperity.prepare(rough, unit="um")
+    body = asperity.Coating("100nm", modulus="350GPa", poisson=0.2, substrate_poisson=0.3)
+    solution = asperity.solve(in_metres, modulus="70GPa", mean_pressure="1.4GPa", body=body)
+    assert solution.report["coating"] == pytest.approx(100e-9, rel=1e-15) and solution.report["given"]["coating_modulus"] == "350GPa"
+    assert solution.contact_fraction == pressed(rough, body=COATING).contact_fraction
+    with pytest.raises(ValueError, match="coating is 0.1, without a unit, but modulus 70GPa has one"):
+        asperity.solve(in_metres, modulus="70GPa", mean_pressure="1GPa", body=COATING)
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        (lambda: asperity.Layer(-0.1, 0.3), "thickness of the layer is -0.1: it must be positive and finite"),
+        (lambda: asperity.Layer(0.1, 0.6), "Poisson's ratio is 0.6: it must be greater than -1 and at most 0.5"),
+        (lambda: asperity.Coating(0.1, 0.0, 0.2, 0.3), "contact modulus is 0: it must be positive and finite"),
+    ],
+)
+def test_bodies_that_do_not_exist_are_refused(rough, body, message):
+    with pytest.raises(ValueError, match=message):
+        pressed(rough, body=body())
+
+
+def test_a_free_boundary_has_no_layer(rough):
+    with pytest.raises(ValueError, match="layer has no free boundary"):
+        pressed(rough, mean_pressure=None, normal_force=0.01, boundary="free", body=asperity.Layer(0.1, 0.3))
+
+
+def test_a_body_that_is_thin_beside_the_nodes_is_named(rough):
+    with pytest.warns(asperity.InputWarning, match="thin-body"):
+        pressed(rough, body=asperity.Layer(2e-3, 0.3))
+
+
+def test_bodies_can_be_copied_and_compared():
+    assert pickle.loads(pickle.dumps(COATING)) == COATING != asperity.Layer(0.02, 0.3)
+
+
+@pytest.mark.skipif("ASPERITY_TOOL" not in os.environ, reason="ASPERITY_TOOL names the program")
+def test_the_program_finds_the_same(rough, tmp_path):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    options = "--mean-pressure 0.02 --coating 0.1 --coating-modulus 5 --coating-poisson 0.2 --poisson 0.3 --no-pictures --json"
+    command = [os.environ["ASPERITY_TOOL"], "solve", "--heights", "heights.npy", *options.split(), "--out", "out"]
+    report = json.loads(subprocess.run(command, cwd=tmp_path, check=True, capture_output=True).stdout)
+    ours = pressed(rough, body=COATING)
+    np.testing.assert_array_equal(np.load(tmp_path / "out" / "gap.npy"), ours.gap)
+    assert all(report[key] == ours.report[key] for key in ["coating", "mean_gap", "contact_nodes", "relative_error"])

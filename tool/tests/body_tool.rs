@@ -1,0 +1,80 @@
+//! Layers and coatings, end to end.
+
+use crate::bench::Bench;
+
+fn rough() -> Bench {
+    let bench = Bench::new();
+    bench.said("surface --size 64 --k-l 2 --k-s 16 --rms-slope 0.1 --quiet --out heights.npy");
+    bench
+}
+
+const PRESSED: &str = "solve --heights heights.npy --mean-pressure 0.02 --no-pictures";
+const COATED: &str = "--coating 0.1 --coating-modulus 5 --coating-poisson 0.2 --poisson 0.3";
+
+#[test]
+fn bodies_are_solved_reported_and_repeated() {
+    let bench = rough();
+    let contact = |arguments: &str, out: &str| {
+        let report = bench.reported(&format!("{PRESSED} {arguments} --out {out}"));
+        report["contact_fraction"].as_f64().unwrap()
+    };
+    let half_space = contact("", "half-space");
+    // thick bodies are the half-space, on the softest wave to exp(-2qt)
+    assert_eq!(contact("--layer 4 --poisson 0.3", "thick"), half_space);
+    assert_eq!(contact("--coating 1e-9 --coating-modulus 5 --coating-poisson 0.2 --poisson 0.3", "bare"), half_space);
+    // thin ones on a rigid base, and hard skins, are stiffer
+    let (bonded, sliding) = ("--layer 0.05 --poisson 0.45", "--layer 0.05 --poisson 0.45 --base sliding");
+    assert!(contact(bonded, "bonded") < contact(sliding, "sliding") && contact(sliding, "again") < half_space);
+    assert!(contact(COATED, "coated") < half_space);
+
+    let report = bench.report("coated");
+    for (key, value) in [("coating", 0.1), ("coating_modulus", 5.0), ("coating_poisson", 0.2), ("poisson", 0.3)] {
+        assert_eq!(report[key], value, "{key}");
+    }
+    assert!(report["layer"].is_null() && report["base"].is_null());
+    assert_eq!(bench.report("sliding")["base"], "sliding");
+    let said = bench.said(&format!("{PRESSED} {COATED} --out told"));
+    assert!(said.contains("coating of 0.1, contact modulus 5"), "{said}");
+
+    bench.said("run coated/scene.toml --quiet --out repeated");
+    assert_eq!(bench.bytes("repeated/gap.npy"), bench.bytes("coated/gap.npy"));
+}
+
+#[test]
+fn bodies_are_swept_cycled_and_kept_apart_in_tables() {
+    let bench = rough();
+    let table = "--heights heights.npy --mean-gaps 0.03,0.02 --quiet --out table.csv";
+    bench.said(&format!("sweep {table} --layer 0.05 --poisson 0.3"));
+    // the table of another body is not gone on with
+    bench.refused_with(&format!("sweep {table}"), &["table.csv", "layer"]);
+    bench.refused_with(&format!("sweep {table} --layer 0.06 --poisson 0.3"), &["table.csv", "layer"]);
+    let law = "--law exponential --work-of-adhesion 1e-4 --range 4e-3";
+    let gaps = "--mean-gaps 0.03,0.02,0.03 --steps 4 --quiet --out cycle.csv";
+    bench.said(&format!("cycle --heights heights.npy {law} {gaps} {COATED}"));
+}
+
+#[test]
+fn a_body_without_its_parameters_is_refused() {
+    let bench = rough();
+    for (arguments, parts) in [
+        ("--poisson 0.3", &["--poisson is 0.3", "half-space", "--modulus", "--layer", "--coating"][..]),
+        ("--layer 0.1", &["--layer needs --poisson"]),
+        ("--coating 0.1 --poisson 0.3", &["--coating needs --coating-modulus"]),
+        ("--layer 0.1 --poisson 0.3 --coating-poisson 0.2", &["--coating-poisson is 0.2", "leave it out"]),
+        ("--coating 0.1 --coating-modulus 2 --coating-poisson 0.2 --poisson 0.3 --base bonded", &["--base is bonded"]),
+        ("--layer 0.1 --poisson 0.3 --boundary free", &["--layer has no free boundary"]),
+        ("--layer 0.1 --poisson 0.6", &["--poisson", "at most 0.5"]),
+        ("--layer=-1 --poisson 0.3", &["--layer"]),
+    ] {
+        bench.refused_with(&format!("{PRESSED} {arguments} --out none"), parts);
+    }
+}
+
+#[test]
+fn a_body_that_is_thin_beside_the_nodes_is_named() {
+    let bench = rough();
+    let output = bench.run(&format!("{PRESSED} --layer 2e-3 --poisson 0.3 --quiet --out thin"));
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(error.starts_with("warning: thin-body: the stiffness of the shortest waves on the grid is "), "{error}");
+    assert_eq!(bench.report("thin")["warnings"][0]["code"], "thin-body");
+}
