@@ -64,7 +64,7 @@ fn solved(asked: &Asked) -> (Found<f64>, Account) {
 
 #[test]
 fn the_inputs_of_a_report_describe_the_scene_of_its_run() {
-    let elastic = Elastic { boundary: Boundary::Free, modulus: 2.0 };
+    let elastic = Elastic { boundary: Boundary::Free, modulus: 2.0, ..Elastic::default() };
     let (tolerance, max_iterations) = (Some(1e-3), Some(7));
     let (method, precision) = (Method::Rey2017, Precision::F32);
     let run = Scene { elastic, method, precision, tolerance, max_iterations, ..scene() };
