@@ -2,6 +2,8 @@
 //!
 //! The transforms of rustfft are generic, so the compiler makes their code in the crate that chooses them. They are
 //! two thirds of the code of asperity; here they are compiled once, and not with each change and each test of it.
+//!
+//! This crate is internal to asperity, and its interface may change in any version.
 
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Pictures: fields drawn as labelled maps ([`Map`]), and curves as charts ([`Chart`]), in PNG, SVG and PDF.
 //!
-//! Both are drawn once, as shapes in points, and written by one of three small files: pixels, SVG, or PDF. Text is in
-//! one proportional font that comes with the crate, its widths the same in all three formats.
+//! A map or a chart is drawn once, as shapes in points, and the same shapes are written in each of the formats. Text is
+//! in one proportional font that comes with the crate, its widths the same in all three formats.
 
 mod chart;
 mod colours;

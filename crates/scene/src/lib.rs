@@ -1,5 +1,7 @@
 //! The contact problem of a run, its solve and the account of it, and the surfaces that are prepared and made, by the
 //! names that the program `asperity` and the Python package share.
+//!
+//! This crate is internal to asperity, and its interface may change in any version.
 
 mod account;
 mod accuracy;
