@@ -9,7 +9,10 @@ from functools import cache
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-LOADED = re.compile(r"<(?:script|img|iframe|link)\b[^>]*?\b(?:src|href)=\"([^\"]*)\"|(?:url|@import)\(?\s*[\"']?(https?:[^\"')]*)")
+LOADED = re.compile(
+    r"<(?:script|img|iframe|link)\b[^>]*?\b(?:src|href)=\"([^\"]*)\""
+    r"|(?:url|@import)\(?\s*[\"']?(https?:[^\"')]*)"
+)
 LINK = re.compile(r"<a\b[^>]*?\bhref=\"([^\"]*)\"")
 
 

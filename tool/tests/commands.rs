@@ -184,6 +184,19 @@ fn code_of_the_pages_is_that_of_the_library() {
     assert!(tested.len() == 1 && code("README.md") == tested && code("docs/rust.md") == tested);
 }
 
+/// The links of the pages are checked where the site is built, by `.ci/site`.
+#[test]
+fn files_that_the_readme_links_to_exist() {
+    let (_, text) = texts().remove(0);
+    let after =
+        |start: &'static str, end: char| text.split(start).skip(1).filter_map(move |rest| rest.split(end).next());
+    let files: Vec<_> = after("](", ')').chain(after("src=\"", '"')).filter(|link| !link.contains("://")).collect();
+    assert!(files.len() >= 10, "{files:?}");
+    for file in files {
+        assert!(root().join(file).is_file(), "{file}");
+    }
+}
+
 fn names_no_target_or_an_existing_one(command: &str) -> bool {
     let known = ["run", "test", "bench", "build", "install", "doc"];
     known.contains(&command.split_whitespace().nth(1).unwrap_or_default())
