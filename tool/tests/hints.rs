@@ -21,7 +21,7 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
         (format!("{solve} --force -3nN"), &["'--force' takes no value", "did you mean '--normal-force'"]),
         (format!("{solve} --force=5nN"), &["'--force' takes no value", "did you mean '--normal-force'"]),
         (
-            format!("{solve} --mean-gap 1 --poisson 0.3"),
+            format!("{solve} --mean-gap 1 --nu 0.3"),
             &["did you mean '--modulus', contact modulus E*", "Poisson's ratio"],
         ),
         (format!("{solve} --mean-gap 1 -E 3"), &["did you mean '--modulus'"]),
