@@ -30,7 +30,7 @@ class Layer(Measured):
     >>> import asperity
     >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
     >>> soft = asperity.solve(rough, modulus=1.0, mean_pressure=0.02)
-    >>> thin = asperity.solve(rough, modulus=1.0, mean_pressure=0.02, body=asperity.Layer(0.02, poisson=0.5))
+    >>> thin = asperity.solve(rough, modulus=1.0, mean_pressure=0.02, body=asperity.Layer(0.1, poisson=0.5))
     >>> thin.contact_fraction < soft.contact_fraction
     True
     """

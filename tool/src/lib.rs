@@ -65,7 +65,7 @@ use crate::scene::SceneFile;
 /// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, in a periodic cell or with a
 /// free boundary, by an FFT-based boundary element method, and says how accurate they are.
 #[derive(Parser)]
-#[command(version, after_help = EXAMPLES, max_term_width = 100)]
+#[command(name = "asperity", version, after_help = EXAMPLES, max_term_width = 100)]
 struct Tool {
     #[command(subcommand)]
     command: Command,
