@@ -10,6 +10,8 @@ pub mod memory;
 pub mod authors;
 #[path = "../../tests/common/outrun.rs"]
 pub mod outrun;
+#[path = "../../tests/common/published.rs"]
+pub mod published;
 #[path = "../../tests/common/rough.rs"]
 pub mod rough;
 

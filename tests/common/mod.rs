@@ -4,6 +4,7 @@
 pub mod authors;
 pub mod dense;
 pub mod outrun;
+pub mod published;
 pub mod rough;
 pub mod scenes;
 

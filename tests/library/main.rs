@@ -25,6 +25,7 @@ mod operators;
 mod paper;
 mod path;
 mod precision;
+mod published;
 mod rough;
 mod rough_contact;
 mod search;
