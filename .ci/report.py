@@ -60,6 +60,12 @@ MAP = """(() => {
   };
 })()"""
 
+# what a map says of the place under the pointer, and of its scale
+READ = """(() => {
+  const figure = document.querySelectorAll("figure.map")[%d];
+  return { value: figure.querySelector("output").textContent, bar: figure.querySelector(".scale").innerText };
+})()"""
+
 
 class Browser:
     """A browser with one tab."""
@@ -186,8 +192,11 @@ def check_map(browser, number, told):
         view = now()["view"]
         told(near(view[2:], [share * side for side in whole[2:]]), f"{what}: {view} of {whole} is shown")
 
+    browser.mouse("mouseMoved", start["screen"])
+    told(browser.comes_true(f"({READ % number}).value"), "reads nothing under the pointer")
     browser.click(start["buttons"]["zoom in"])
     shown("zoom in", 1 / 1.5)
+    told(browser.value(f"({READ % number}).bar").endswith("m"), "has no scale bar")
     browser.key("+")
     shown("the key +", 1 / 1.5**2)
     browser.click(start["buttons"]["zoom out"])
@@ -234,7 +243,7 @@ def check(browser, path):
         told(state["warnings"] == 1, f"has {state['warnings']} warnings")
         told(all(0.75 * min(width, 600) < svg < width for svg in state["widths"]), f"{name}: {state['widths']} wide")
         told(state["beyond"] <= 0, f"{name}: {state['beyond']} pixels wider than the window")
-        told("asperity run repeats" in state["text"] and "How to cite" in state["text"], "ends early")
+        told(("asperity run repeats" in state["text"] or path.name == "study.csv.html") and "How to cite" in state["text"], "ends early")
         for number in range(state["maps"]):
             check_map(browser, number, lambda holds, what: told(holds, f"{name}, map {number}: {what}"))
         browser.picture(path.with_suffix(f".{name}.png"))

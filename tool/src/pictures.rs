@@ -104,29 +104,48 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
 }
 
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, broken where the state jumps,
-/// and for each part of a sweep in which the loads rise or fall. For its axes see [`logarithmic`].
+/// for each part of a sweep in which the loads rise or fall, and for what varies in a study. For its axes see
+/// [`logarithmic`].
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
-    let mut jumps = Vec::new();
-    let curves = legs(rows).into_iter().map(|(name, rows)| {
+    chart(rows, (x, &x.replace('_', " ")), &[("", y)], units, dpi)
+}
+
+/// The chart of columns `ys` of one dimension, under their names if they have any, over column `x`, which has a name.
+pub fn chart(
+    rows: &[Value],
+    (x, x_label): (&str, &str),
+    ys: &[(&str, &str)],
+    units: &Units,
+    dpi: f64,
+) -> Result<Picture> {
+    let (mut jumps, mut curves) = (Vec::new(), Vec::new());
+    for ((leg, parts), (name, y)) in legs(rows).into_iter().flat_map(|leg| ys.iter().map(move |y| (leg.clone(), y))) {
         let mut points: Vec<(f64, f64)> = Vec::new();
-        for row in rows {
-            let point = (value(row, x), value(row, y));
-            if let (Some(&before), true) = (points.last(), value(row, "energy_drop") > 0.0) {
-                jumps.push([before, point]);
+        for part in parts {
+            if !points.is_empty() {
                 points.push((f64::NAN, f64::NAN));
             }
-            points.push(point);
+            for row in part {
+                let point = (value(row, x), value(row, y));
+                if let (Some(&before), true) = (points.last(), value(row, "energy_drop") > 0.0) {
+                    jumps.push([before, point]);
+                    points.push((f64::NAN, f64::NAN));
+                }
+                points.push(point);
+            }
         }
-        (name, points)
-    });
-    let curves: Vec<_> = curves.collect();
+        let words: Vec<_> = [*name, leg.as_str()].into_iter().filter(|word| !word.is_empty()).collect();
+        curves.push((words.join(", "), points));
+    }
+    let y = ys[0].1;
     let [x_log, y_log] = logarithmic(rows, x, y);
-    let [x_unit, y_unit] = [x, y].map(|column| units.of_column(column, "", false));
-    let [x_label, y_label] = [x, y].map(|column| column.replace('_', " "));
+    let control = rows.first().and_then(|row| row["control"].as_str()).unwrap_or_default();
+    let [x_unit, y_unit] = [x, y].map(|column| units.of_column(column, control, false));
+    let y_label = y.replace('_', " ");
     let title = format!("{}{} over {x_label}", y_label[..1].to_uppercase(), &y_label[1..]);
     let chart = Chart {
         title: &title,
-        x_label: &x_label,
+        x_label,
         x_unit: x_unit.as_deref(),
         x_log,
         y_label: &y_label,

@@ -33,7 +33,7 @@ pub(crate) fn rounded(value: f64, digits: usize, most: f64) -> String {
 /// A number to four digits with its unit, and the prefix that makes it readable; one that is too large for any prefix
 /// has a power of ten.
 pub fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [&str; 10] = ["f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
+    const PREFIXES: [&str; 12] = ["z", "a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
     // Rounded first, so that 999.96 n is 1 µ.
     let text = format!("{value:.3e}");
     let rounded: f64 = text.parse().unwrap_or(value);
@@ -41,14 +41,14 @@ pub fn si(value: f64, unit: &str) -> String {
     if power > 4 {
         return format!("{} {unit}", scientific(text));
     }
-    let power = power.max(-5);
+    let power = power.max(-7);
     let value = rounded / 10f64.powi(3 * power);
     let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
     let digits = trimmed(format!("{value:.*}", decimals as usize));
     match digits.trim_start_matches('-') {
         // too small for any prefix
         "0" => format!("0 {unit}"),
-        _ => format!("{digits} {}{unit}", PREFIXES[(power + 5) as usize]),
+        _ => format!("{digits} {}{unit}", PREFIXES[(power + 7) as usize]),
     }
 }
 

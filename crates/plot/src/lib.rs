@@ -75,9 +75,17 @@ pub struct Picture {
     height: f64,
     dpi: f64,
     shapes: Vec<Shape>,
+    /// The colours of a map, and what each stands for.
+    key: Vec<([u8; 3], String)>,
 }
 
 impl Picture {
+    /// The colours of a map with the values that they stand for, some hundred of them along the colour bars or the
+    /// classes, by which a value can be read off the picture; none of a chart.
+    pub fn key(&self) -> &[([u8; 3], String)] {
+        &self.key
+    }
+
     /// Writes the picture to a file, which it replaces, in the format that its name asks for: `.png`, `.svg`, `.pdf`.
     ///
     /// # Errors
@@ -111,7 +119,7 @@ impl Picture {
             return Err(Error::Value { name, value: dpi, requirement });
         }
         let title = if title.is_empty() { "asperity" } else { title };
-        Ok(Self { title: printable(title), width, height, dpi, shapes: Vec::new() })
+        Ok(Self { title: printable(title), width, height, dpi, shapes: Vec::new(), key: Vec::new() })
     }
 
     fn fill(&mut self, area: Area, colour: Colour) {

@@ -9,7 +9,7 @@ use super::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, label_length, room,
 };
 use super::scale::{Axis, Part, three_digits};
-use super::shape::{Area, BLACK, Curve, GREY, HAIRLINE, Image, Shape, WHITE};
+use super::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Image, Shape, WHITE};
 use asperity::Grid;
 use asperity::{Error, Result};
 
@@ -19,6 +19,8 @@ const GAP: f64 = 15.0;
 const ARROW: f64 = 9.0;
 /// The distance between the bars of two signs.
 const SPLIT: f64 = 10.0;
+/// The steps along a colour bar in the key of a map.
+const SHADES: usize = 100;
 /// The pixels of a map to a point, for which its size is chosen.
 const PIXELS: f64 = 2.0;
 
@@ -135,7 +137,21 @@ impl<'a> Map<'a> {
             bar.draw(&mut picture, (plot.right() + GAP, plot.top), bars_room, &colours);
         }
         texts.draw(&mut picture, left, bottom);
+        picture.key = self.key(&colours);
         Ok((picture, plot))
+    }
+
+    /// The colours with their values: of classes those of the legend, else evenly along each colour bar.
+    fn key(&self, colours: &Colours) -> Vec<(Colour, String)> {
+        let classes = self.legend().into_iter().map(|entry| (entry.colour, entry.text));
+        if self.colouring == Colouring::Contact {
+            return classes.collect();
+        }
+        let along = |(low, high): (f64, f64)| {
+            let value = move |k: usize| low + (high - low) * k as f64 / SHADES as f64;
+            (0..=SHADES).map(move |k| (colours.of(value(k)), three_digits(value(k), self.unit)))
+        };
+        colours.ranges().into_iter().flat_map(along).chain(classes).collect()
     }
 
     fn is_line(&self) -> bool {

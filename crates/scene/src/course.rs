@@ -72,7 +72,7 @@ const STATE: &str = "control control_value mean_pressure mean_contact_pressure m
                      edge_traction contact_fraction corrected_contact_fraction perimeter clusters largest_cluster \
                      repulsive_fraction attractive_fraction elastic_energy adhesive_energy min_gap";
 const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
-const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
+pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
 const BALANCE: &str = "work dissipated imbalance event energy_drop";
 
 const WITHDRAWAL: &str = "withdrawal";

@@ -2,7 +2,9 @@
 
 use serde_json::Value;
 
-/// The most cases of a study that a chart names: it has as many colours.
+use crate::course::INPUTS;
+
+/// The most curves of a study that a chart names: it has as many colours.
 const MOST_NAMED: usize = 4;
 
 /// The value of a column, not a number where there is none.
@@ -52,14 +54,11 @@ impl Spread {
     }
 }
 
-/// The rows of each part of a table, with its name; a part begins with the row before it, but for the cases of a study.
-/// A single one has no name, and neither have more cases than there are colours.
-pub fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
+/// The parts of a table for one curve each, with its name: of a sweep the loads that rise or fall, of a cycle its legs,
+/// which begin with the row before them, and of a study its cases. A single curve has no name.
+pub fn legs(rows: &[Value]) -> Vec<(String, Vec<&[Value]>)> {
     if rows.first().is_some_and(|row| row["case"].is_u64()) {
-        let cases: Vec<_> = rows.chunk_by(|row, next| row["case"] == next["case"]).collect();
-        let name = |rows: &[Value]| format!("case {}", rows[0]["case"]);
-        let named = (2..=MOST_NAMED).contains(&cases.len());
-        return cases.into_iter().map(|rows| (if named { name(rows) } else { String::new() }, rows)).collect();
+        return cases(rows);
     }
     let load = |row: &Value| value(row, "control_value");
     let cycle = is_cycle(rows);
@@ -74,8 +73,63 @@ pub fn legs(rows: &[Value]) -> Vec<(String, &[Value])> {
     let ends = starts.iter().skip(1).map(|start| start + 1).chain([rows.len()]);
     let legs: Vec<_> = starts.iter().zip(ends).map(|(&start, end)| &rows[start..end]).collect();
     if legs.len() < 2 {
-        return legs.into_iter().map(|leg| (String::new(), leg)).collect();
+        return vec![(String::new(), legs)];
     }
     let number = |k: usize| if legs.len() > 2 { format!(" {}", k / 2 + 1) } else { String::new() };
-    starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), legs[k])).collect()
+    starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), vec![legs[k]])).collect()
+}
+
+/// The columns that a study varies: those between the number of the case and the load, and of the inputs those that are
+/// not the same in all rows. None of another table.
+pub fn varied(rows: &[Value]) -> Vec<&str> {
+    let Some(first) = rows.first().filter(|row| row["case"].is_u64()) else { return Vec::new() };
+    let mut keys = first.as_object().into_iter().flat_map(|row| row.keys().map(String::as_str));
+    let own =
+        keys.by_ref().skip_while(|key| *key != "case").skip(1).take_while(|key| !["leg", "control"].contains(key));
+    let mut varied: Vec<_> = own.collect();
+    let differs =
+        |key: &&str| INPUTS.split(' ').any(|input| input == *key) && rows.iter().any(|row| row[*key] != first[*key]);
+    varied.extend(keys.filter(differs));
+    varied
+}
+
+/// The cases of a study under the values that they vary; where there are more cases than colours, those together whose
+/// values agree in the columns with the fewest of them. A seed then names none: surfaces of several seeds are samples of
+/// one.
+fn cases(rows: &[Value]) -> Vec<(String, Vec<&[Value]>)> {
+    let cases: Vec<_> = rows.chunk_by(|row, next| row["case"] == next["case"]).collect();
+    let few = cases.len() <= MOST_NAMED;
+    let mut columns = varied(rows);
+    columns.retain(|column| few || *column != "seed");
+    let count = |columns: &[&str]| grouped(&cases, columns).len();
+    columns.sort_by_cached_key(|column| count(&[column]));
+    let mut naming: Vec<&str> = Vec::new();
+    for column in columns {
+        naming.push(column);
+        if count(&naming) > MOST_NAMED {
+            naming.pop();
+        }
+    }
+    grouped(&cases, &naming)
+}
+
+/// The cases by their values in some columns, which are their names.
+fn grouped<'a>(cases: &[&'a [Value]], columns: &[&str]) -> Vec<(String, Vec<&'a [Value]>)> {
+    let mut found: Vec<(String, Vec<&[Value]>)> = Vec::new();
+    for case in cases {
+        let named = |column: &&str| {
+            let value = match &case[0][*column] {
+                Value::Null => return None,
+                Value::String(text) => text.clone(),
+                other => other.to_string(),
+            };
+            Some(format!("{} {value}", column.replace('_', " ")))
+        };
+        let name = columns.iter().filter_map(named).collect::<Vec<_>>().join(", ");
+        match found.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, cases)) => cases.push(case),
+            None => found.push((name, vec![case])),
+        }
+    }
+    found
 }

@@ -233,15 +233,22 @@ fn an_axis_is_logarithmic_where_values_are_spread_so() {
 }
 
 #[test]
-fn the_cases_of_a_study_are_no_legs_of_one_sweep() {
-    let rows = |cases: &[u64]| -> Vec<Value> {
-        let row = |(k, case): (usize, &u64)| json!({ "case": case, "control_value": k % 2 });
+fn the_cases_of_a_study_are_named_by_what_varies() {
+    let rows = |cases: &[(u64, f64)]| -> Vec<Value> {
+        let row = |(k, (case, hurst)): (usize, &(u64, f64))| json!({ "case": case, "hurst": hurst, "seed": case, "control": "mean-gap", "control_value": k % 2 });
         cases.iter().enumerate().map(row).collect()
     };
-    let found = |rows: &[Value]| -> Vec<(String, usize)> {
-        legs(rows).into_iter().map(|(name, rows)| (name, rows.len())).collect()
+    let found = |rows: &[Value]| -> Vec<(String, Vec<usize>)> {
+        let count = |(name, parts): (String, Vec<&[Value]>)| (name, parts.iter().map(|rows| rows.len()).collect());
+        legs(rows).into_iter().map(count).collect()
     };
-    assert_eq!(found(&rows(&[1, 1, 2, 2])), [("case 1".to_owned(), 2), ("case 2".to_owned(), 2)]);
-    assert_eq!(found(&rows(&[1, 1])), [(String::new(), 2)]);
-    assert!(found(&rows(&[1, 2, 3, 4, 5])).iter().all(|(name, count)| name.is_empty() && *count == 1));
+    let name = |text: &str, parts: &[usize]| (text.to_owned(), parts.to_vec());
+    let two = [name("hurst 0.5, seed 1", &[2]), name("hurst 0.8, seed 2", &[2])];
+    assert_eq!(found(&rows(&[(1, 0.5), (1, 0.5), (2, 0.8), (2, 0.8)])), two);
+    assert_eq!(found(&rows(&[(1, 0.5), (1, 0.5)])), [name("", &[2])]);
+    // more than there are colours: by the columns with few values, but not by the seed
+    let many = rows(&[(1, 0.5), (2, 0.5), (3, 0.5), (4, 0.8), (5, 0.8)]);
+    assert_eq!(found(&many), [name("hurst 0.5", &[1; 3]), name("hurst 0.8", &[1; 2])]);
+    let seeds = rows(&[(1, 0.5), (2, 0.5), (3, 0.5), (4, 0.5), (5, 0.5)]);
+    assert_eq!(found(&seeds), [name("", &[1; 5])]);
 }

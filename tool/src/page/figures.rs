@@ -1,0 +1,61 @@
+//! Figures and their names as a page has them.
+
+use serde_json::Value;
+
+/// The keys of reports and the columns of tables in the order in which one asks for them, by headings. Others are of the
+/// surface and the settings.
+pub const GROUPS: [(&str, &str); 7] = [
+    (
+        "Load",
+        "case leg direction control control_value mean_pressure normal_force net_pressure spring_stiffness branch \
+         wanted_contact_fraction reached search",
+    ),
+    (
+        "Contact",
+        "contact_fraction corrected_contact_fraction contact_nodes absent_nodes perimeter clusters largest_cluster \
+         repulsive_fraction attractive_fraction patches contact_stiffness normal_stiffness",
+    ),
+    ("Gap", "mean_gap min_gap approach"),
+    ("Pressures", "mean_contact_pressure min_pressure max_pressure edge_traction"),
+    (
+        "Energies",
+        "elastic_energy adhesive_energy work dissipated imbalance event energy_drop stability departures other_branch",
+    ),
+    ("Error", "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved"),
+    ("Cost", "iterations operator_applications equivalent_applications seconds"),
+];
+
+/// The place of a key or column in the order in which one asks.
+pub fn place(name: &str) -> usize {
+    let mut all = GROUPS.iter().flat_map(|(_, names)| names.split_whitespace());
+    all.position(|known| known == name).unwrap_or(usize::MAX)
+}
+
+/// A value as people read it, with a number of a name as it is to be; none for what there is not.
+pub fn shown(name: &str, value: &Value, number: &dyn Fn(&str, f64) -> String) -> Option<String> {
+    let all = |parts: Vec<String>, between: &str| (!parts.is_empty()).then(|| parts.join(between));
+    match value {
+        Value::Null => None,
+        Value::String(word) => Some(word.clone()),
+        Value::Number(found) if found.is_f64() => found.as_f64().map(|found| number(name, found)),
+        Value::Array(values) => {
+            let between = if values.iter().any(Value::is_object) { "; " } else { " × " };
+            all(values.iter().filter_map(|value| shown(name, value, number)).collect(), between)
+        }
+        Value::Object(values) => {
+            let part = |(name, value): (&String, _)| Some(format!("{} {}", spaced(name), shown(name, value, number)?));
+            all(values.iter().filter_map(part).collect(), ", ")
+        }
+        other => Some(other.to_string()),
+    }
+}
+
+/// A name with spaces.
+pub fn spaced(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// A text without characters that mean something in HTML.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,112 @@
+//! The maps and the histograms of a solve.
+
+use std::path::Path;
+
+use asperity::Grid;
+use asperity::contact::PressureDistribution;
+use asperity_maps::io::read_field;
+use asperity_plot::{Chart, Colouring, Map};
+use ndarray::{Array2, Zip};
+use serde_json::{Value, json};
+
+use super::{FINE, Page};
+use crate::outcome::Outcome;
+use crate::pictures::{draw_pressure, draw_regions};
+use crate::units::Units;
+
+/// The finest resolution of the maps.
+const FINEST: f64 = 1200.0;
+/// The share of w/ρ from which on attraction is shown, as in the column `attractive_fraction`.
+const NOTICEABLE: f64 = 0.01;
+/// The number of classes of a histogram.
+const CLASSES: usize = 60;
+
+/// Puts the maps of a solve on a page, with histograms of gap and pressure.
+pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units) -> Outcome<()> {
+    let [gap, pressure, contact_pressure] =
+        ["gap", "pressure", "contact_pressure"].map(|name| read_field(folder.join(format!("{name}.npy"))));
+    let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
+    let side = |k: usize| report["lengths"][k].as_f64().unwrap_or(1.0);
+    let grid = Grid::new(gap.dim(), (side(0), side(1)))?;
+    if [pressure.dim(), contact_pressure.dim()] != [gap.dim(); 2] {
+        return Err("gap, pressure and contact pressure have not one shape: they are of different runs".into());
+    }
+    let (length, pressure_unit) = (units.length.as_deref(), units.pressure.as_deref());
+
+    let adhesive = report["law"].as_str() != Some("none");
+    // the traction of the law is what the contact pressure has more than the elastic one
+    let least =
+        report["work_of_adhesion"].as_f64().zip(report["range"].as_f64()).map(|(w, range)| NOTICEABLE * w / range);
+    let least = least.filter(|_| adhesive).unwrap_or(f64::INFINITY);
+    let regions = Zip::from(&gap).and(&pressure).and(&contact_pressure).map_collect(|&gap, &pressure, &contact| {
+        match contact - pressure {
+            _ if contact > 0.0 || gap <= 0.0 => 1.0,
+            _ if gap.is_nan() => f64::NAN,
+            traction if traction > least => -1.0,
+            _ => 0.0,
+        }
+    });
+    // a pixel for each node, of which those of the picture are 0.25 to 0.5 points
+    let dpi = (0.288 * gap.dim().0.max(gap.dim().1) as f64).clamp(FINE, FINEST);
+    let contact = draw_regions(grid, "Contact", units, &regions, dpi)?;
+    let drawn = if adhesive { &pressure } else { &contact_pressure };
+    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, None, dpi)?;
+    let gaps = Map {
+        title: "Gap",
+        length_unit: length,
+        label: "gap",
+        unit: length,
+        ..Map::new(gap.view(), grid, Colouring::Sequential)
+    };
+    let gaps = gaps.draw(dpi)?;
+    for map in [contact, pressures, gaps] {
+        let told = json!({ "lengths": grid.lengths(), "unit": length, "key": map.key() });
+        page.map(&map.svg()?, &told.to_string());
+    }
+    let pressures = PressureDistribution::of_fields(gap.view(), contact_pressure.view(), CLASSES)?;
+    page.figure(&gaps_apart(&gap, length)?);
+    page.figure(&distribution(&pressures, pressure_unit)?);
+    Ok(())
+}
+
+/// The chart of a distribution of the contact pressure: the nodes of each class, as a share of those in contact.
+fn distribution(found: &PressureDistribution, unit: Option<&str>) -> asperity::Result<String> {
+    let contact = found.integral();
+    let point = |(edges, density): (&[f64], &f64)| {
+        (0.5 * (edges[0] + edges[1]), 100.0 * density * (edges[1] - edges[0]) / contact)
+    };
+    let points = found.edges.windows(2).zip(&found.density).map(point);
+    let curve = if contact > 0.0 { points.collect() } else { Vec::new() };
+    let chart = Chart {
+        title: "Distribution of the contact pressure",
+        x_label: "contact pressure",
+        x_unit: unit,
+        y_label: "nodes in contact",
+        y_unit: Some("%"),
+        curves: vec![("", curve)],
+        ..Chart::default()
+    };
+    chart.draw(FINE)?.svg()
+}
+
+/// The chart of the gaps that are open: the nodes of each class, as a share of those that are apart.
+fn gaps_apart(gap: &Array2<f64>, unit: Option<&str>) -> asperity::Result<String> {
+    let open: Vec<f64> = gap.iter().copied().filter(|gap| *gap > 0.0 && gap.is_finite()).collect();
+    let width = open.iter().copied().fold(0.0, f64::max) / CLASSES as f64;
+    let mut counts = [0_usize; CLASSES];
+    for gap in &open {
+        counts[((gap / width) as usize).min(CLASSES - 1)] += 1;
+    }
+    let point = |(k, count): (usize, &usize)| ((k as f64 + 0.5) * width, 100.0 * *count as f64 / open.len() as f64);
+    let curve = if open.is_empty() { Vec::new() } else { counts.iter().enumerate().map(point).collect() };
+    let chart = Chart {
+        title: "Distribution of the gap",
+        x_label: "gap",
+        x_unit: unit,
+        y_label: "nodes apart",
+        y_unit: Some("%"),
+        curves: vec![("", curve)],
+        ..Chart::default()
+    };
+    chart.draw(FINE)?.svg()
+}

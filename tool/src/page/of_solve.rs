@@ -1,0 +1,105 @@
+//! The page of a solve.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use asperity::Error;
+use serde_json::Value;
+
+use super::Page;
+use super::figures::{GROUPS, place, shown, spaced};
+use crate::numbers::plain;
+use crate::outcome::Outcome;
+use crate::quantity::{ENERGY, ENERGY_PER_AREA};
+use crate::scene;
+use crate::units::{Units, dimension_of};
+
+/// The page of a folder of `asperity solve`.
+pub fn page(folder: &Path) -> Outcome<String> {
+    let path = folder.join("report.json");
+    let text = fs::read_to_string(&path).map_err(|_| {
+        Error::file(&path, "is not there: name the folder of a solve, or the table of a sweep or a cycle")
+    })?;
+    let report: Value =
+        serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of a solve: {e}")))?;
+    let scene = fs::read_to_string(folder.join(scene::NAME)).ok();
+    let word = |key: &str| report[key].as_str().unwrap_or_default();
+    let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let name = name.unwrap_or_else(|| "results".to_owned());
+    let status = word("status");
+    let mut page = Page::new(&name, &format!("asperity solve, version {}: {status}", word("version")));
+
+    let mut warnings: Vec<String> = Vec::new();
+    if status != "converged" {
+        warnings.push(format!("The solve has not converged, it is {status}: the answer may be wrong."));
+    }
+    let said = report["warnings"].as_array().into_iter().flatten();
+    warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
+    let units = units_of_report(&report);
+    let mut maps = Page::default();
+    if let Err(error) = super::maps::draw(&mut maps, folder, &report, &units) {
+        warnings.push(format!("There are no maps on this page: {error}"));
+        maps = Page::default();
+    }
+    page.warnings(&warnings);
+    if !maps.text.is_empty() {
+        page.heading("Maps and curves");
+        page.text.push_str(&maps.text);
+    }
+    page.heading("Figures");
+    let on_line = report["shape"][1] == 1;
+    let number = |key: &str, value| match dimension_of(key, word("control"), on_line) {
+        // a window around a tip is no area of its energy
+        Some(ENERGY_PER_AREA) if word("boundary") == "free" && key.ends_with("_energy") => {
+            let area: f64 = report["lengths"].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
+            units.number(area * value, ENERGY)
+        }
+        Some(dimension) => units.number(value, dimension),
+        None => plain(value),
+    };
+    let all: Vec<_> = report.as_object().into_iter().flatten().collect();
+    let figure = |(key, value): &(&String, &Value)| Some(((*key).clone(), shown(key, value, &number)?));
+    // the load is said once, under its own name
+    let given = word("control").replace('-', "_");
+    let once = |key: &str| match key {
+        "control" | "control_value" => !report[given.as_str()].is_f64(),
+        "absent_nodes" => report[key] != 0,
+        _ => true,
+    };
+    for (heading, keys) in GROUPS {
+        let keys = keys.split_whitespace().filter(|key| once(key));
+        let found = keys.filter_map(|key| all.iter().find(|(known, _)| *known == key));
+        let mut figures: Vec<_> = found.filter_map(figure).collect();
+        for (key, _) in figures.iter_mut().filter(|(key, _)| *key == given) {
+            key.push_str(", given");
+        }
+        if !figures.is_empty() {
+            let _ = writeln!(page.text, "<section>\n<h3>{heading}</h3>");
+            page.figures(None, &figures);
+            page.text.push_str("</section>\n");
+        }
+    }
+    let (levels, others): (Vec<_>, Vec<_>) = all
+        .iter()
+        .filter(|(key, _)| *key != "warnings" && place(key) == usize::MAX)
+        .partition(|(key, _)| *key == "levels");
+    page.figures(Some("Surface and settings"), &others.into_iter().filter_map(figure).collect::<Vec<_>>());
+    for (_, levels) in levels {
+        let level = |level: &Value| {
+            let shape = shown("shape", &level["shape"], &number)?;
+            let rest = level.as_object()?.iter().filter(|(key, _)| *key != "shape");
+            let rest = rest.filter_map(|(key, value)| Some(format!("{} {}", spaced(key), shown(key, value, &number)?)));
+            Some((shape, rest.collect::<Vec<_>>().join(", ")))
+        };
+        let levels: Vec<_> = levels.as_array().into_iter().flatten().filter_map(level).collect();
+        page.figures(Some("Levels of nested grids"), &levels);
+    }
+    Ok(page.finish(scene.as_deref()))
+}
+
+/// The units in the report of a solve.
+fn units_of_report(report: &Value) -> Units {
+    let [length, pressure] = ["length_unit", "pressure_unit"].map(|key| report[key].as_str().map(str::to_owned));
+    Units { length, pressure, force: None }
+}

@@ -1,0 +1,190 @@
+//! The page of a table of a sweep, a cycle or a study.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use asperity::Error;
+use asperity_plot::Picture;
+use asperity_scene::legs::{value, varied};
+use serde_json::Value;
+use toml::Table;
+
+use super::figures::{escaped, place, shown, spaced};
+use super::{FINE, Page};
+use crate::csv;
+use crate::numbers::plain;
+use crate::outcome::Outcome;
+use crate::pictures::{chart, chart_of_columns, chart_of_loads};
+use crate::quantity::{ENERGY, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
+use crate::scene;
+use crate::units::{Units, dimension_of};
+use crate::warnings;
+
+/// The page of a table of `asperity sweep` or `asperity cycle`.
+pub fn page(table: &Path) -> Outcome<String> {
+    let text = fs::read_to_string(table).map_err(|_| {
+        Error::file(table, "cannot be read: name the folder of a solve, or the table of a sweep or a cycle")
+    })?;
+    let (header, columns, rows) = rows(&text);
+    if rows.is_empty() || !columns.iter().any(|column| column == "control_value") {
+        return Err(Error::file(table, "is no table of a sweep or a cycle: it has no column control_value").into());
+    }
+    let scene = fs::read_to_string(scene::beside(table)).ok();
+    let units = units_of_table(&header, scene.as_deref());
+    let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let cycle = columns.iter().any(|column| column == "leg");
+    let study = columns.first().is_some_and(|column| column == "case");
+    let command = if study {
+        "study"
+    } else if cycle {
+        "cycle"
+    } else {
+        "sweep"
+    };
+    let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
+    let bad = |row: &Value| row["status"] != "converged";
+    let unconverged = rows.iter().filter(|row| bad(row)).count();
+    let count = rows.len();
+    let marked = format!("{unconverged} of {count} rows have not converged; they are marked in the table.");
+    let said = warnings::read_beside(table)?.into_iter().map(|told| told.message);
+    page.warnings(&(unconverged > 0).then_some(marked).into_iter().chain(said).collect::<Vec<_>>());
+    if cycle && !study {
+        page.figures(None, &head_of_cycle(&rows, &units));
+    }
+    page.heading("Curves");
+    for chart in charts(&rows, cycle, &units)? {
+        page.figure(&chart.svg()?);
+    }
+    page.heading("Rows");
+    // what no row has is left out, what is the same in all is folded, and the others stand as one asks for them
+    let filled =
+        header.iter().zip(&columns).filter(|(_, column)| rows.iter().any(|row| !row[column.as_str()].is_null()));
+    let varied = varied(&rows);
+    let is_setting = |(_, column): &(&String, &String)| {
+        place(column) == usize::MAX
+            && !varied.contains(&column.as_str())
+            && rows.iter().all(|row| row[column.as_str()] == rows[0][column.as_str()])
+    };
+    let (settings, mut kept): (Vec<_>, Vec<_>) = filled.partition(is_setting);
+    kept.sort_by_key(|(_, column)| if varied.contains(&column.as_str()) { 0 } else { place(column) });
+    let head: String = kept.iter().map(|(_, column)| format!("<th>{}</th>", escaped(&spaced(column)))).collect();
+    let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
+    let control = rows[0]["control"].as_str().unwrap_or_default();
+    let number = |column: &str, value| match dimension_of(column, control, false) {
+        Some(dimension) => units.number(value, dimension),
+        None => plain(value),
+    };
+    let text = |row: &Value, column: &str| shown(column, &row[column], &number).unwrap_or_default();
+    for row in &rows {
+        let cells: String =
+            kept.iter().map(|(_, column)| format!("<td>{}</td>", escaped(&text(row, column)))).collect();
+        let _ = writeln!(page.text, "<tr{}>{cells}</tr>", if bad(row) { " class=\"bad\"" } else { "" });
+    }
+    page.text.push_str("</table>\n</div>\n");
+    let same = |(_, column): (&String, &String)| (column.clone(), text(&rows[0], column));
+    page.figures(Some("The same in all rows"), &settings.into_iter().map(same).collect::<Vec<_>>());
+    Ok(page.finish(scene.as_deref()))
+}
+
+/// What one asks of a cycle first: the pull-off, the jumps, and the energy that they dissipate. Those of a body with a
+/// free boundary are forces and energies, others are over the area.
+fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
+    let free = rows.iter().any(|row| !row["approach"].is_null());
+    let load = if free { "normal_force" } else { "mean_pressure" };
+    let least = rows.iter().min_by(|a, b| value(a, load).total_cmp(&value(b, load)));
+    let mut figures = Vec::new();
+    if let Some(row) = least.filter(|row| value(row, load) < 0.0) {
+        let (name, dimension) = if free { ("pull-off force", FORCE) } else { ("pull-off pressure", PRESSURE) };
+        let (at, place) = if free { ("an approach", "approach") } else { ("a mean gap", "mean_gap") };
+        let (pull, place) = (units.number(-value(row, load), dimension), units.number(value(row, place), LENGTH));
+        figures.push((name.to_owned(), format!("{pull} at {at} of {place}")));
+    }
+    let jumps: Vec<_> = rows.iter().filter(|row| value(row, "energy_drop") > 0.0).collect();
+    let of = |direction: &str| jumps.iter().filter(|row| row["direction"] == direction).count();
+    let (approach, withdrawal) = (of("approach"), of("withdrawal"));
+    figures.push(("jumps".to_owned(), format!("{approach} in approach, {withdrawal} in withdrawal")));
+    // rows have no side lengths, but the force over the area and the force
+    let firm = rows.iter().max_by(|a, b| value(a, "mean_pressure").abs().total_cmp(&value(b, "mean_pressure").abs()));
+    let area = firm.map_or(f64::NAN, |row| value(row, "normal_force") / value(row, "mean_pressure"));
+    let energy = |value: f64| match free && area.is_finite() {
+        true => units.number(area * value, ENERGY),
+        false => units.number(value, ENERGY_PER_AREA),
+    };
+    let per_area = if free { "" } else { " per area" };
+    if let Some(last) = rows.last() {
+        figures.push((format!("dissipated energy{per_area}"), energy(value(last, "dissipated"))));
+    }
+    if let Some(most) = jumps.iter().map(|row| value(row, "energy_drop")).max_by(f64::total_cmp) {
+        figures.push((format!("greatest of a jump{per_area}"), energy(most)));
+    }
+    figures
+}
+
+/// The curves of a table, in the order in which one asks for them.
+fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Picture>> {
+    let differs = |column: &str| rows.iter().any(|row| row[column] != rows[0][column]);
+    let of = |x: &str, y: &str| chart_of_columns(rows, x, y, units, FINE);
+    let searched = !rows[0]["wanted_contact_fraction"].is_null();
+    let load = if rows[0]["control"] == "normal-force" && !searched { "normal_force" } else { "mean_pressure" };
+    let mut charts = Vec::new();
+    if cycle && rows[0]["control"] == "spring" {
+        // what is measured
+        let y = if rows.iter().any(|row| !row["approach"].is_null()) { "normal_force" } else { "mean_pressure" };
+        charts.push(chart(rows, ("control_value", "position of the spring"), &[("", y)], units, FINE)?);
+    }
+    if cycle || !differs(load) {
+        charts.push(chart_of_loads(rows, units, FINE)?);
+    } else {
+        let areas = [("counted", "contact_fraction"), ("corrected", "corrected_contact_fraction")];
+        // the curves of a study have their own names
+        let known = if rows[0]["case"].is_u64() || rows[0][areas[1].1].is_null() { 1 } else { 2 };
+        let areas = if known == 1 { [("", areas[0].1), areas[1]] } else { areas };
+        charts.push(chart(rows, (load, &spaced(load)), &areas[..known], units, FINE)?);
+        charts.push(of(load, "mean_gap")?);
+    }
+    if !rows[0]["contact_stiffness"].is_null() {
+        charts.push(of(if cycle { "mean_gap" } else { load }, "contact_stiffness")?);
+    }
+    for (x, y) in [("mean_gap", "contact_fraction"), ("mean_gap", if cycle { "dissipated" } else { "elastic_energy" })]
+    {
+        // what is the same in all rows needs no curve
+        if differs(y) && differs(x) {
+            charts.push(of(x, y)?);
+        }
+    }
+    Ok(charts)
+}
+
+/// The header, the names of the columns, and the rows of a table, of comma-separated values or of a JSON object on each
+/// line.
+fn rows(text: &str) -> (Vec<String>, Vec<String>, Vec<Value>) {
+    if text.starts_with('{') {
+        let rows: Vec<Value> = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        let columns = rows.first().and_then(Value::as_object).map(|row| row.keys().cloned().collect());
+        let columns: Vec<_> = columns.unwrap_or_default();
+        return (columns.clone(), columns, rows);
+    }
+    let mut lines = text.lines();
+    let header = csv::names(lines.next().unwrap_or_default());
+    let name = |column: &String| column.split(" [").next().unwrap_or_default().to_owned();
+    let columns: Vec<_> = header.iter().map(name).collect();
+    let rows = lines.map(|line| csv::parsed(&columns, line)).collect();
+    (header, columns, rows)
+}
+
+/// The units in the header of a table, or else those that the options in its scene name.
+fn units_of_table(header: &[String], scene: Option<&str>) -> Units {
+    let scene: Table = scene.and_then(|scene| scene.parse().ok()).unwrap_or_default();
+    let unit = |column: &str, option: &str| {
+        let start = format!("{column} [");
+        let in_header = header.iter().find_map(|name| name.strip_prefix(&start)?.strip_suffix(']'));
+        let in_scene = || scene.get("output")?.get(option)?.as_str();
+        in_header.or_else(in_scene).map(str::to_owned)
+    };
+    Units {
+        length: unit("mean_gap", "length-unit"),
+        pressure: unit("mean_pressure", "pressure-unit"),
+        force: unit("normal_force", "force-unit"),
+    }
+}
