@@ -30,7 +30,7 @@ from ._asperity import (
     Varying,
     check_law,
 )
-from ._body import Coating, Layer
+from ._body import Coating, Layer, Symbol
 from ._cycle import Cycle, Step
 from ._progress import progress
 from ._solution import ContactStatistics, PressureDistribution, Solution
@@ -73,6 +73,7 @@ __all__ = [
     "Stability",
     "Step",
     "Sweep",
+    "Symbol",
     "Tabulated",
     "Topography",
     "Uzawa",

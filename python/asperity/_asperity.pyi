@@ -215,6 +215,7 @@ class Problem:
         absent_missing: bool,
         boundary: str,
         body: dict[str, Any],
+        symbol: tuple[Callable[..., Any], str, bool] | None,
         law: Any,
         wall: str,
         wall_stiffness: float | None,

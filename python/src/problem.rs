@@ -55,7 +55,7 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, body, law, wall, wall_stiffness, precision, tolerance, max_iterations,
+        heights, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, precision, tolerance, max_iterations,
         method, branch, nested, threads, original, part, unit, source, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
@@ -66,6 +66,7 @@ impl Problem {
         absent_missing: bool,
         boundary: &str,
         body: Bound<'_, PyAny>,
+        symbol: Option<(Py<PyAny>, String, bool)>,
         law: &Bound<'_, PyAny>,
         wall: &str,
         wall_stiffness: Option<f64>,
@@ -96,7 +97,7 @@ impl Problem {
         let Law { formula, adhesion, .. } = Law::of(law)?;
         let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
         adhesion.check_wall(word).map_err(PyValueError::new_err)?;
-        let elastic = Elastic { boundary, ..keys(body)? };
+        let elastic = Elastic { boundary, symbol: symbol.map(crate::symbol::symbol), ..keys(body)? };
         elastic.check().map_err(reason)?;
         elastic.body().map_err(refusal)?;
         let scene = Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch };

@@ -256,7 +256,7 @@ pub fn state<T: Scalar>(
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let make = || {
-        let warnings = warnings_of_input((&surface, None), scene.elastic, &*law, &units);
+        let warnings = warnings_of_input((&surface, None), &scene.elastic, &*law, &units);
         let posed = scene.posed(surface, law, original)?;
         Ok(State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None })
     };

@@ -156,7 +156,7 @@ impl<T: Real> Posed<T> {
     }
 
     fn planned((this, control, goal): (&Self, Control, Goal)) -> Result<(Plan, f64)> {
-        planned(&goal.by(this.solver.clone(), false), this.surface()?, this.elastic, &this.law, control)
+        planned(&goal.by(this.solver.clone(), false), this.surface()?, &this.elastic, &this.law, control)
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
