@@ -242,6 +242,13 @@ class Problem:
         stiffness: bool,
         accuracy: tuple[float | None, str | None, float | None],
     ) -> dict[str, Any]: ...
+    def pull_off(
+        self,
+        tolerance: float,
+        preload: float | None,
+        start: str | _Field | None,
+        observe: Callable[[Iteration], object] | None,
+    ) -> dict[str, Any]: ...
     def begin(
         self,
         loads: list[tuple[str, list[float]]],

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
-use asperity::{Grid, Surface};
+use asperity::{Grid, PullOff, Surface};
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{Adhesion, Asked, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
@@ -151,6 +151,22 @@ impl Problem {
         self.begins(start.as_ref());
         let (pool, inputs, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
+    }
+
+    /// The pull-off, with the last state that holds.
+    #[pyo3(signature = (tolerance, preload, start, observe))]
+    fn pull_off<'py>(
+        &mut self,
+        py: Python<'py>,
+        tolerance: f64,
+        preload: Option<f64>,
+        start: Option<Begin<'py>>,
+        observe: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let asked = PullOff::default().tolerance(tolerance).preload(preload);
+        self.begins(start.as_ref());
+        let (pool, inputs, solves) = self.parts()?;
+        solves.pull_off(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
     }
 
     /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.

@@ -25,6 +25,7 @@ mod operators;
 mod paper;
 mod path;
 mod precision;
+mod pull_off;
 mod rough;
 mod rough_contact;
 mod search;
