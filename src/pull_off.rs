@@ -9,9 +9,7 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::setters::setters;
-use crate::solver::{
-    Begin, Branch, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall,
-};
+use crate::solver::{Begin, Branch, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall};
 
 /// The most solves of a search; a bracket is halved at least with every other one.
 const MOST: usize = 60;
@@ -36,7 +34,7 @@ const MARGIN: f64 = 0.1;
 /// | field | default | meaning | range |
 /// |---|---|---|---|
 /// | `tolerance` | 0.02 | the relative width of the bracket at which the search ends | positive, below 1 |
-/// | `preload` | none | the mean pressure to which surfaces that come from afar were pressed before; flat if none is given | finite |
+/// | `preload` | none | the mean pressure to which surfaces from afar were pressed before; flat if none is given | finite |
 ///
 /// A branch that the solver's settings name is that of the first solve, in the place of these, and so is a given
 /// [`Start`]. Where the traction of
@@ -44,6 +42,7 @@ const MARGIN: f64 = 0.1;
 /// [smoothed](crate::adhesion::Discretisation::Smooth) law, as a [`Path`](crate::path::Path) is.
 ///
 /// ```
+/// use asperity::exact::Sphere;
 /// use asperity::{Boussinesq, Exponential, Grid, Problem, PullOff, Solver, Surface, exact};
 /// let grid = Grid::square(48, 0.36)?;
 /// let sphere = Surface::paraboloid(grid, 2.0)?;
@@ -135,7 +134,8 @@ impl PullOff {
         }
         let attraction = held.solution.report.mean_contact_pressure;
         if attraction <= 0.0 {
-            let reason = "the surfaces do not attract each other under no load: give a law of a longer range, or a preload";
+            let reason =
+                "the surfaces do not attract each other under no load: give a law of a longer range, or a preload";
             return Err(Error::Control { control: "pull-off", reason });
         }
         let mut bracket = Bracket { borne: vec![Place::of(&held.solution.report)], lost: None };

@@ -108,9 +108,9 @@ class Symbol:
     function : callable
         ``function(q)`` of the wave number q = √(qx² + qy²), or ``function(qx, qy)`` of a body that differs with the
         direction; which one is told by the number of its parameters without a default. It is given arrays of float64, in
-        radians per length, 2π over the wavelength, of all waves of a grid at once, and returns the stiffnesses k > 0, a
-        pressure per length, as an array of the same shape: in the units of the call, Pa/m where it has units. A body of
-        two directions has k(−qx, −qy) = k(qx, qy). It is not asked for q = 0.
+        radians per length, 2π over the wavelength, of the waves of a grid, up to a million at once, and returns the
+        stiffnesses k > 0, a pressure per length, as an array of the same shape: in the units of the call, Pa/m where it
+        has units. A body of two directions has k(−qx, −qy) = k(qx, qy). It is not asked for q = 0.
 
     Examples
     --------
@@ -145,7 +145,11 @@ def _parameters_of(function: Any) -> int:
     """The number of parameters of a function of q, or of qx and qy."""
     if not callable(function):
         raise TypeError(f"function is {function!r}: it must be a function of q, or of qx and qy")
-    known: Iterable[inspect.Parameter] = inspect.signature(function).parameters.values()
+    try:
+        known: Iterable[inspect.Parameter] = inspect.signature(function).parameters.values()
+    except ValueError:
+        # a function of C that does not tell
+        known = ()
     count = sum(p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in known)
     if count not in (1, 2):
         raise TypeError(

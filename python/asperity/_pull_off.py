@@ -120,4 +120,5 @@ def pull_off(
     if found["shortfall"] is not None:
         warn(found["shortfall"], ConvergenceWarning)
     entries = found["pull_off"]
-    return PullOff(pressure=entries.pop("pull_off_pressure"), force=entries.pop("pull_off_force"), **entries, solution=solution)
+    pressure, force = entries.pop("pull_off_pressure"), entries.pop("pull_off_force")
+    return PullOff(pressure, force, **entries, solution=solution)

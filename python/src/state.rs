@@ -8,8 +8,8 @@ use asperity_scene::output::{check_apart, check_free, with_suffix};
 use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Skin, Table, Told,
-    Way, check_finite, warnings_of_input,
+    Account, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Skin, Table,
+    Told, Way, check_finite, warnings_of_input,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;

@@ -1,12 +1,14 @@
 //! The pull-off of spheres and of rough surfaces, beside exact solutions and paths.
 
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use asperity::exact::Sphere;
 use asperity::path::{Path, PathSettings};
 use asperity::{
     AdhesionLaw, Boussinesq, Branch, Control, Error, Exponential, Grid, MaugisDugdale, NoAdhesion, Penalty, Problem,
     PullOff, SelfAffine, Settings, Solver, Start, Status, Surface, Westergaard, exact,
 };
-use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 fn sphere<L: AdhesionLaw<f64>>(nodes: usize, side: f64, radius: f64, law: L) -> Problem<f64, Boussinesq<f64>, L> {
     let grid = Grid::square(nodes, side).unwrap();
@@ -66,25 +68,30 @@ fn a_path_bears_no_more_and_hardly_less() {
 
 #[test]
 fn what_was_before_matters_where_there_are_two_branches() {
-    // strong enough for congruent bodies to stay in full contact, which come not into it from afar
-    let problem = || rough(Exponential::new(6e-4, 4e-3).unwrap());
-    let find = |pull_off: PullOff| {
-        let found = pull_off.find(&mut Solver::default(), &mut problem()).unwrap();
+    let grid = Grid::line(128, 1.0).unwrap();
+    let wave = Surface::wave(grid, 0.02, 1).unwrap();
+    let law = Exponential::new(4e-4, 4e-3).unwrap();
+    let problem = || Problem::new(&wave, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let find = |pull_off: PullOff, branch: Option<Branch>| {
+        let mut solver = Solver::new(Settings::default().branch(branch));
+        let found = pull_off.find(&mut solver, &mut problem()).unwrap();
         assert!(found.reached);
-        (-found.solution.report.mean_pressure, found.lost.unwrap())
+        (-found.solution.report.mean_pressure, found.branch)
     };
-    let (flat, after) = (find(PullOff::default()), find(PullOff::default().preload(Some(0.0))));
-    // what is borne by surfaces that were pressed less is borne by those that were pressed flat
-    assert!(after.0 <= flat.1, "{after:?} {flat:?}");
-    let mut solver = Solver::new(Settings::default().branch(Branch::Loading));
-    let loading = PullOff::default().find(&mut solver, &mut problem()).unwrap();
-    assert_eq!((loading.branch, -loading.solution.report.mean_pressure), (Some(Branch::Loading), after.0));
-    // from a given gap
-    let held = Solver::default().solve(&mut problem(), Control::MeanPressure(0.02)).unwrap();
-    let begin = Start::From(&held.gap);
-    let found = PullOff::default().find_from(&mut Solver::default(), &mut problem(), begin, |_| ControlFlow::Continue(()));
-    let found = found.unwrap();
+    let (default, loading) = (PullOff::default(), Some(Branch::Loading));
+    // pressed flat it takes a tension to open the first gap; not pressed, or a little, there are gaps already
+    let (flat, _) = find(default, None);
+    let (touched, branch) = find(default.preload(Some(0.0)), None);
+    assert!(branch == loading && flat > 3.0 * touched, "{flat} {touched}");
+    assert_eq!(find(default, loading), (touched, loading));
+    let (pressed, _) = find(default.preload(Some(1.0)), None);
+    assert!((pressed / flat - 1.0).abs() < 0.02, "{pressed} {flat}");
+
+    let held = Solver::default().solve(&mut problem(), Control::MeanPressure(0.0)).unwrap();
+    let (begin, go_on) = (Start::From(&held.gap), |_: &_| ControlFlow::Continue(()));
+    let found = default.find_from(&mut Solver::default(), &mut problem(), begin, go_on).unwrap();
     assert!(found.reached && found.branch.is_none());
+    assert!((-found.solution.report.mean_pressure / touched - 1.0).abs() < 0.02);
 }
 
 #[test]

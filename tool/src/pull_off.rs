@@ -22,7 +22,7 @@ use crate::summary::warn;
 use crate::units::UnitOptions;
 use crate::warnings::{Strictness, Warnings};
 
-/// Find the pull-off: the greatest tension under which surfaces that adhere stay together.
+/// Find the pull-off, the greatest tension that surfaces bear.
 ///
 /// Numbers may have units, all of them or none, as in asperity solve. The surfaces were pressed flat before, or to the
 /// preload; then the tension grows until they come apart, and the pull-off is enclosed between a tension that they bear
@@ -63,10 +63,11 @@ const EXAMPLES: &str = "\
   The tension that takes a map of 1 by 1 off, of surfaces that were pressed flat:
     asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
   Of surfaces that were pressed to a mean pressure before:
-    asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3 --preload 0.01
+    asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
+      --range 4e-3 --preload 0.01
   A tip on a free half-space:
-    asperity pull-off --heights tip.npz --boundary free --modulus 2GPa --law exponential \\
-      --work-of-adhesion 50mJ/m2 --range 0.3nm";
+    asperity pull-off --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \\
+      --range 4e-3";
 
 /// Runs the command; whether the pull-off was found.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
@@ -87,8 +88,7 @@ impl Options {
         let Given { surface, adhesion, origin, part, start } = given;
         let (problem, printing, nodes) = (self.problem(), self.printing, surface.grid().nodes());
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
-        let mut warnings =
-            Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, problem, &units)?;
+        let mut warnings = Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, problem, &units)?;
         warnings.say()?;
         let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), part.wanted())?;
         let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
@@ -110,10 +110,9 @@ impl Options {
             rows.iter().for_each(|(name, text)| say(&format!("{name:width$}  {text}")));
         }
         printing.report(|| {
-            let mut report = json!(pulled_off);
-            report["command"] = "pull-off".into();
-            report["last"] = json!(last);
-            report
+            let mut outcome = json!(pulled_off);
+            outcome["last"] = json!(last);
+            report::report("pull-off", outcome, &inputs)
         });
         warn("", &last);
         if let Some(text) = pulled_off.shortfall(&last, Skin::Options) {

@@ -47,7 +47,10 @@ fn what_has_no_pull_off_is_refused_and_one_not_found_is_named() {
         ("", &["pull-off: without adhesion surfaces bear no tension"][..]),
         ("--law exponential --work-of-adhesion 1e-4 --range 4e-3 --rtol 2", &["--rtol", "between 0 and 1"]),
         ("--law exponential --work-of-adhesion 1e-4 --range 4e-3 --branch both", &["--branch both"]),
-        ("--law exponential --work-of-adhesion 1e-4 --range 4e-3 --wall penalty --wall-stiffness 9", &["springs:", "rigid wall"]),
+        (
+            "--law exponential --work-of-adhesion 1e-4 --range 4e-3 --wall penalty --wall-stiffness 9",
+            &["springs:", "rigid wall"],
+        ),
         ("--law exponential --work-of-adhesion 1e-4 --range 4e-3 --preload 1kPa", &["--preload", "unit"]),
     ] {
         bench.refused_with(&format!("pull-off --heights heights.npy {arguments}"), parts);

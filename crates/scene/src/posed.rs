@@ -10,8 +10,8 @@ use asperity::contact::Original;
 use asperity::nested::NestedSolution;
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Iteration, Nested, Problem, PullOff, Real,
-    Result, Solution, Solver, Start, Status, Surface,
+    AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Iteration, Nested, Problem, PullOff,
+    Real, Result, Solution, Solver, Start, Status, Surface,
 };
 use ndarray::Array2;
 
