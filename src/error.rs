@@ -103,6 +103,19 @@ pub enum Error {
         /// The value that the property requires.
         expected: f64,
     },
+    /// A stiffness of a wave that no elastic body has.
+    Wave {
+        /// The wave numbers (qx, qy), in radians per length.
+        wave: (f64, f64),
+        /// Its stiffness, a pressure per length.
+        stiffness: f64,
+        /// The stiffness of the same wave, (−qx, −qy), if it is another one; none if `stiffness` is not positive and
+        /// finite in the precision of the fields.
+        opposite: Option<f64>,
+    },
+    /// An error of a function that is not the library's, as of a body of one's own; it is the
+    /// [source](StdError::source).
+    Raised(Cause),
     /// A control, or what is solved for under it, that the problem does not have.
     Control {
         /// The [`Control::name`](crate::Control::name), or the name of what else was asked for.
@@ -193,7 +206,7 @@ pub enum ErrorKind {
     NotFinite,
     /// An adhesion law or springs whose functions contradict one another.
     Law,
-    /// An elastic operator without a property of its contract.
+    /// An elastic operator without a property of its contract, or a function that it is made of.
     Operator,
     /// A control that the problem does not have.
     Control,
@@ -217,7 +230,7 @@ impl Error {
             Self::Shape { .. } => ErrorKind::Shape,
             Self::NotFinite { .. } => ErrorKind::NotFinite,
             Self::Law { .. } | Self::Concave { .. } | Self::Jump { .. } | Self::AtNode { .. } => ErrorKind::Law,
-            Self::Operator { .. } => ErrorKind::Operator,
+            Self::Operator { .. } | Self::Wave { .. } | Self::Raised(_) => ErrorKind::Operator,
             Self::Control { .. } => ErrorKind::Control,
             Self::Wall { .. } => ErrorKind::Wall,
             Self::Unaffordable { .. } | Self::Memory { .. } => ErrorKind::Memory,
@@ -245,6 +258,11 @@ impl Error {
     /// A file that is of no use for `reason`, with the [source](StdError::source).
     pub fn caused(path: &Path, reason: String, cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::File { path: path.to_owned(), reason, cause: Some(Cause(Arc::new(cause))) }
+    }
+
+    /// An error of a function that is not the library's, as the [source](StdError::source).
+    pub fn raised(cause: impl StdError + Send + Sync + 'static) -> Self {
+        Self::Raised(Cause(Arc::new(cause)))
     }
 
     /// The value, if it is positive and finite.
@@ -291,7 +309,7 @@ impl Error {
 impl StdError for Error {
     fn source(&self) -> Option<&(dyn StdError + 'static)> {
         match self {
-            Self::File { cause: Some(Cause(cause)), .. } => Some(cause.as_ref()),
+            Self::File { cause: Some(Cause(cause)), .. } | Self::Raised(Cause(cause)) => Some(cause.as_ref()),
             _ => None,
         }
     }

@@ -63,7 +63,7 @@
 //! - Before it: the crate `asperity-maps` reads files of instruments, makes a [`Surface`] of a measured map with missing
 //!   points, tilt, and edges that do not meet, and names probable mistakes in heights, adhesion and a solution.
 //! - Many loads: [`Sweep`] solves under a sequence of loads, each from the last solutions. [`ContactSearch`] finds the
-//!   load of a contact fraction. [`path`] follows a branch of equilibria with adhesion and locates its jumps.
+//!   load of a contact fraction, and [`PullOff`] the greatest tension that surfaces bear. [`path`] follows a branch of equilibria with adhesion and locates its jumps.
 //! - Many grids: [`Nested`] solves on coarser grids first, and [`accuracy`] estimates and reduces the error of the grid.
 //! - After it: [`contact`] has areas, clusters and pressures of the contact, and [`stability`] tells whether an
 //!   equilibrium is stable.
@@ -97,6 +97,7 @@ pub mod nested;
 mod par;
 pub mod path;
 mod problem;
+mod pull_off;
 mod ranks;
 mod real;
 pub mod search;
@@ -123,6 +124,7 @@ pub use grid::Grid;
 #[doc(inline)]
 pub use nested::Nested;
 pub use problem::{Control, Problem};
+pub use pull_off::{FoundPullOff, PullOff};
 #[doc(hidden)]
 pub use real::Compiled;
 pub use real::Real;

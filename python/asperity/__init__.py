@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _prepare, _solve, _stability, _sweep, contact, exact, surface
+from . import _cycle, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -30,9 +30,10 @@ from ._asperity import (
     Varying,
     check_law,
 )
-from ._body import Coating, Layer
+from ._body import Coating, Layer, Symbol
 from ._cycle import Cycle, Step
 from ._progress import progress
+from ._pull_off import PullOff
 from ._solution import ContactStatistics, PressureDistribution, Solution
 from ._stability import Stability
 from ._sweep import Sweep
@@ -44,6 +45,7 @@ from ._words import checked as _checked
 
 cycle = _checked(_cycle.cycle)
 prepare = _checked(_prepare.prepare)
+pull_off = _checked(_pull_off.pull_off)
 solve = _checked(_solve.solve)
 stability = _checked(_stability.stability)
 sweep = _checked(_sweep.sweep)
@@ -68,11 +70,13 @@ __all__ = [
     "Plan",
     "PowerLaw",
     "PressureDistribution",
+    "PullOff",
     "Report",
     "Solution",
     "Stability",
     "Step",
     "Sweep",
+    "Symbol",
     "Tabulated",
     "Topography",
     "Uzawa",
@@ -86,6 +90,7 @@ __all__ = [
     "from_topography",
     "prepare",
     "progress",
+    "pull_off",
     "read",
     "solve",
     "stability",

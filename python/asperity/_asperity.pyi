@@ -215,6 +215,7 @@ class Problem:
         absent_missing: bool,
         boundary: str,
         body: dict[str, Any],
+        symbol: tuple[Callable[..., Any], str, bool] | None,
         law: Any,
         wall: str,
         wall_stiffness: float | None,
@@ -240,6 +241,13 @@ class Problem:
         leave: bool,
         stiffness: bool,
         accuracy: tuple[float | None, str | None, float | None],
+    ) -> dict[str, Any]: ...
+    def pull_off(
+        self,
+        tolerance: float,
+        preload: float | None,
+        start: str | _Field | None,
+        observe: Callable[[Iteration], object] | None,
     ) -> dict[str, Any]: ...
     def begin(
         self,

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, TypeAlias
+
+from numpy.typing import ArrayLike
 
 from ._measured import Measured
 from ._types import Quantity
@@ -91,19 +95,79 @@ class Coating(Measured):
         return {key: getattr(self, name) for name, key in self._keys.items()}
 
 
+class Symbol:
+    """An elastic body by the stiffness of its waves, a function of your own.
+
+    A wave of the displacement u cos(qx·x + qy·y) of the surface needs the pressure k u cos(qx·x + qy·y), and k is what the
+    function returns: that of the half-space is ½E*q. The function tells all, also the scale: ``modulus`` beside it is no
+    more than the pressure of which a ``reduced_pressure`` is a part, and measures of the grid take 2k/q of the shortest
+    waves. The boundary is periodic.
+
+    Parameters
+    ----------
+    function : callable
+        ``function(q)`` of the wave number q = √(qx² + qy²), or ``function(qx, qy)`` of a body that differs with the
+        direction; which one is told by the number of its parameters without a default. It is given arrays of float64, in
+        radians per length, 2π over the wavelength, of the waves of a grid, up to a million at once, and returns the
+        stiffnesses k > 0, a pressure per length, as an array of the same shape: in the units of the call, Pa/m where it
+        has units. A body of two directions has k(−qx, −qy) = k(qx, qy). It is not asked for q = 0.
+
+    Examples
+    --------
+    A half-space of the modulus 1 that is held by springs, too:
+
+    >>> import asperity
+    >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    >>> held = asperity.Symbol(lambda q: 1.0 + 0.5 * q)
+    >>> asperity.solve(rough, modulus=1.0, mean_pressure=0.02, body=held).converged
+    True
+
+    One that is stiffer along x:
+
+    >>> fibres = asperity.Symbol(lambda qx, qy: 0.5 * (4 * qx**2 + qy**2) ** 0.5)
+    >>> asperity.solve(rough, modulus=1.5, mean_pressure=0.02, body=fibres).converged
+    True
+    """
+
+    def __init__(self, function: Callable[..., ArrayLike]) -> None:
+        self.function = function
+        self._is_isotropic = _parameters_of(function) == 1
+
+    def __repr__(self) -> str:
+        return f"Symbol({self._name})"
+
+    @property
+    def _name(self) -> str:
+        return str(getattr(self.function, "__name__", type(self.function).__name__))
+
+
+def _parameters_of(function: Any) -> int:
+    """The number of parameters of a function of q, or of qx and qy."""
+    if not callable(function):
+        raise TypeError(f"function is {function!r}: it must be a function of q, or of qx and qy")
+    try:
+        known: Iterable[inspect.Parameter] = inspect.signature(function).parameters.values()
+    except ValueError:
+        # a function of C that does not tell
+        known = ()
+    count = sum(p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in known)
+    if count not in (1, 2):
+        raise TypeError(
+            f"function has {count} parameters without a default: it must have one, q, or two, qx and qy: write "
+            "lambda q: ..., or lambda qx, qy: ..."
+        )
+    return count
+
+
 #: An elastic body as functions take it; a half-space is none of these.
-Body: TypeAlias = Layer | Coating
+Body: TypeAlias = Layer | Coating | Symbol
 
 
 def parameters(body: Body | None) -> dict[str, Any]:
     """The parameters of a body by the keys of reports."""
-    return {} if body is None else body._parameters
+    return {} if body is None or isinstance(body, Symbol) else body._parameters
 
 
-def of(report: Any) -> Body | None:
-    """The body of a report."""
-    if report["layer"] is not None:
-        return Layer(report["layer"], report["poisson"], report["base"] or "bonded")
-    if report["coating"] is not None:
-        return Coating(report["coating"], report["coating_modulus"], report["coating_poisson"], report["poisson"])
-    return None
+def symbol(body: Body | None) -> tuple[Callable[..., ArrayLike], str, bool] | None:
+    """The function of a body of one's own, its name, and whether it is one of q alone."""
+    return (body.function, body._name, body._is_isotropic) if isinstance(body, Symbol) else None

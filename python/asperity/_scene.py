@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
-from ._body import Body, parameters
+from ._body import Body, parameters, symbol
 from ._control import number
 from ._solution import Solution, Start
 from ._topography import Heights, Topography, field_of, original_of, refined, sides, taken
@@ -55,6 +55,7 @@ class Scene:
             absent_missing,
             boundary,
             {"modulus": modulus, **parameters(body)},
+            symbol(body),
             law,
             *parts(wall),
             precision,
@@ -72,6 +73,7 @@ class Scene:
         )
         self.pressure_unit = None if given.get() is None else "Pa"
         self.adhesion = law
+        self.body = body
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
             warn(
@@ -99,7 +101,7 @@ class Scene:
         if "heights" in found:
             # those of an accuracy
             topography = refined(topography, found["heights"])
-        solution = Solution(topography, self.adhesion, told, found)
+        solution = Solution(topography, (self.body, self.adhesion), told, found)
         raised = found["raised"]
         if raised is not None:
             # an exception with slots has no room for it

@@ -88,6 +88,8 @@ class Solution:
         fields are unless the solve was asked for the whole. ``report["part"]`` says which it is.
     topography : Topography
         Map of the heights that were solved: with an accuracy on the grid of the answer.
+    body : Layer, Coating, Symbol or None
+        Body that deforms, unless it is a half-space.
     law : object or None
         Adhesion law.
     plan : Plan or None
@@ -111,9 +113,9 @@ class Solution:
     mode: NDArray[np.floating[Any]] | None
     plan: Plan | None
 
-    def __init__(self, topography: Topography, law: Any, told: Report, found: dict[str, Any]) -> None:
+    def __init__(self, topography: Topography, of: tuple[Any, Any], told: Report, found: dict[str, Any]) -> None:
         self.topography = topography
-        self.law = law
+        self.body, self.law = of
         self.plan = found.get("plan")
         self.whole_gap = found["gap"].reshape(topography.shape)
         self._part = tuple(slice(nodes) for nodes in told["shape"][: len(topography.shape)])

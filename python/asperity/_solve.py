@@ -99,7 +99,7 @@ def solve(
         Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
         pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it was
         ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
-    body : Layer or Coating, optional
+    body : Layer, Coating or Symbol, optional
         Body that deforms, a half-space by default; with a periodic boundary.
     boundary : {"periodic", "free"}
         What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. Free

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _body, _control
+from . import _control
 from ._scene import Scene
 from ._solution import Solution
 from ._wall import Penalty
@@ -99,7 +99,7 @@ def stability(
         absent_missing=report["absent_nodes"] > 0,
         law=solution.law,
         modulus=report["modulus"],
-        body=_body.of(report),
+        body=solution.body,
         boundary=report["boundary"],
         wall=report["wall"] if report["wall"] != "penalty" else Penalty(report["wall_stiffness"] or 0.0),
         precision=report["precision"],

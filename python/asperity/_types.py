@@ -231,6 +231,7 @@ class Report(TypedDict):
     coating: float | None
     coating_modulus: float | None
     coating_poisson: float | None
+    symbol: str | None
     law: str
     work_of_adhesion: float | None
     range: float | None

@@ -7,7 +7,7 @@ use asperity::{AdhesionLaw, Error};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::IntoPyDict;
+use pyo3::types::{IntoPyDict, PyFloat, PyTuple};
 
 use crate::numbers::Numbers;
 use crate::refusal::refusal;
@@ -71,24 +71,8 @@ impl<'py> Functions<'py> {
     /// # Errors
     /// What the method raises, and `ValueError` if it returns another number of values.
     pub fn at(&self, function: Function, gaps: &[f64]) -> PyResult<Vec<f64>> {
-        let (py, method) = (self.object.py(), function.method());
-        // what is not finite is refused by its gap
-        let quiet = py.import("numpy")?.call_method("errstate", (), Some(&[("all", "ignore")].into_py_dict(py)?))?;
-        quiet.call_method0("__enter__")?;
-        let found = self.object.call_method1(method, (PyArray1::from_slice(py, gaps),));
-        quiet.call_method1("__exit__", (py.None(), py.None(), py.None()))?;
-        let found: Numbers<'_> = found.map_err(|error| self.hinted(method, gaps, error))?.extract()?;
-        let found = found.as_array();
-        match found.len() {
-            1 => Ok(vec![found.sum(); gaps.len()]),
-            count if count == gaps.len() => Ok(found.iter().copied().collect()),
-            _ => Err(PyValueError::new_err(format!(
-                "law.{method} returned an array of shape {:?} for gaps of shape [{}]: it must return one value for \
-                 each gap",
-                found.shape(),
-                gaps.len()
-            ))),
-        }
+        let method = function.method();
+        at_arrays(&self.object.getattr(method)?, &format!("law.{method}"), "gap", &[gaps])
     }
 
     /// All functions at one gap.
@@ -97,27 +81,49 @@ impl<'py> Functions<'py> {
         Ok([energy?[0], traction?[0], slope?[0]])
     }
 
-    /// What a method has raised at gaps, or that it takes one gap alone, if it does.
-    fn hinted(&self, method: &str, gaps: &[f64], raised: PyErr) -> PyErr {
-        let py = self.object.py();
-        let about_arrays = raised.is_instance_of::<PyValueError>(py) || raised.is_instance_of::<PyTypeError>(py);
-        if !about_arrays || gaps.first().is_none_or(|&gap| self.object.call_method1(method, (gap,)).is_err()) {
-            return raised;
-        }
-        let hint = PyTypeError::new_err(format!(
-            "law.{method} takes one gap alone, and is given arrays of gaps: write numpy.where(...) in the place of if, and \
-             functions of numpy in the place of those of math ({raised})"
-        ));
-        hint.set_cause(py, Some(raised));
-        hint
-    }
-
     /// A number that the object may have as an attribute.
     pub fn number(&self, name: &str) -> PyResult<Option<f64>> {
         match self.object.getattr_opt(name)? {
             Some(value) if !value.is_none() => value.extract().map(Some),
             _ => Ok(None),
         }
+    }
+}
+
+/// A function of arrays, by its name, at many of what it is a function `of`, in one call.
+///
+/// # Errors
+/// What the function raises, and `ValueError` if it returns another number of values.
+pub fn at_arrays<'py>(function: &Bound<'py, PyAny>, name: &str, of: &str, arrays: &[&[f64]]) -> PyResult<Vec<f64>> {
+    let (py, count) = (function.py(), arrays.first().map_or(0, |array| array.len()));
+    let call = |arguments: Vec<Bound<'py, PyAny>>| function.call1(PyTuple::new(py, arguments)?);
+    // what is not finite is refused by its place
+    let quiet = py.import("numpy")?.call_method("errstate", (), Some(&[("all", "ignore")].into_py_dict(py)?))?;
+    quiet.call_method0("__enter__")?;
+    let found = call(arrays.iter().map(|array| PyArray1::from_slice(py, array).into_any()).collect());
+    quiet.call_method1("__exit__", (py.None(), py.None(), py.None()))?;
+    let hinted = |raised: PyErr| {
+        let about_arrays = raised.is_instance_of::<PyValueError>(py) || raised.is_instance_of::<PyTypeError>(py);
+        let one = || arrays.iter().filter_map(|array| array.first()).map(|&value| PyFloat::new(py, value).into_any());
+        if !about_arrays || count == 0 || call(one().collect()).is_err() {
+            return raised;
+        }
+        let hint = PyTypeError::new_err(format!(
+            "{name} takes one {of} alone, and is given arrays of {of}s: write numpy.where(...) in the place of if, and \
+             functions of numpy in the place of those of math ({raised})"
+        ));
+        hint.set_cause(py, Some(raised));
+        hint
+    };
+    let found: Numbers<'_> = found.map_err(hinted)?.extract()?;
+    let found = found.as_array();
+    match found.len() {
+        1 => Ok(vec![found.sum(); count]),
+        values if values == count => Ok(found.iter().copied().collect()),
+        _ => Err(PyValueError::new_err(format!(
+            "{name} returned an array of shape {:?} for {of}s of shape [{count}]: it must return one value for each {of}",
+            found.shape(),
+        ))),
     }
 }
 

@@ -21,6 +21,7 @@ mod running;
 mod scales;
 mod state;
 mod surface;
+mod symbol;
 mod table;
 
 /// The compiled core.

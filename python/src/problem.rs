@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
-use asperity::{Grid, Surface};
+use asperity::{Grid, PullOff, Surface};
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{Adhesion, Asked, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
@@ -55,7 +55,7 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, body, law, wall, wall_stiffness, precision, tolerance, max_iterations,
+        heights, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, precision, tolerance, max_iterations,
         method, branch, nested, threads, original, part, unit, source, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
@@ -66,6 +66,7 @@ impl Problem {
         absent_missing: bool,
         boundary: &str,
         body: Bound<'_, PyAny>,
+        symbol: Option<(Py<PyAny>, String, bool)>,
         law: &Bound<'_, PyAny>,
         wall: &str,
         wall_stiffness: Option<f64>,
@@ -96,7 +97,7 @@ impl Problem {
         let Law { formula, adhesion, .. } = Law::of(law)?;
         let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
         adhesion.check_wall(word).map_err(PyValueError::new_err)?;
-        let elastic = Elastic { boundary, ..keys(body)? };
+        let elastic = Elastic { boundary, symbol: symbol.map(crate::symbol::symbol), ..keys(body)? };
         elastic.check().map_err(reason)?;
         elastic.body().map_err(refusal)?;
         let scene = Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch };
@@ -150,6 +151,22 @@ impl Problem {
         self.begins(start.as_ref());
         let (pool, inputs, solves) = self.parts()?;
         solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
+    }
+
+    /// The pull-off, with the last state that holds.
+    #[pyo3(signature = (tolerance, preload, start, observe))]
+    fn pull_off<'py>(
+        &mut self,
+        py: Python<'py>,
+        tolerance: f64,
+        preload: Option<f64>,
+        start: Option<Begin<'py>>,
+        observe: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let asked = PullOff::default().tolerance(tolerance).preload(preload);
+        self.begins(start.as_ref());
+        let (pool, inputs, solves) = self.parts()?;
+        solves.pull_off(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
     }
 
     /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.

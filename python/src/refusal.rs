@@ -59,6 +59,9 @@ pub fn refusal_of_table(error: Box<dyn std::error::Error + Send + Sync>) -> PyEr
 }
 
 fn refused(error: Error, also: &str) -> PyErr {
+    if let Some(raised) = error.source().and_then(|cause| cause.downcast_ref::<PyErr>()) {
+        return Python::attach(|py| raised.clone_ref(py));
+    }
     let message = match &error {
         Error::Control { control, reason } => format!("{}: {reason}", control.replace('-', "_")),
         error => error.to_string(),

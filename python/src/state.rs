@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use asperity::contact::Original;
-use asperity::{Control, Status, Surface};
+use asperity::{Control, PullOff, Status, Surface};
 use asperity_scene::output::{check_apart, check_free, with_suffix};
 use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Table, Told,
-    Way, check_finite, warnings_of_input,
+    Account, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Skin, Table,
+    Told, Way, check_finite, warnings_of_input,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
@@ -53,6 +53,13 @@ type Answered<'py> = PyResult<Bound<'py, PyDict>>;
 /// What a problem does in either precision.
 pub trait Solves: Send {
     fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Option<Begin<'py>>) -> Answered<'py>;
+    fn pull_off<'py>(
+        &mut self,
+        py: Python<'py>,
+        run: Run<'_>,
+        asked: PullOff,
+        start: Option<Begin<'py>>,
+    ) -> Answered<'py>;
     fn begin<'py>(
         &mut self,
         py: Python<'py>,
@@ -138,6 +145,29 @@ impl<T: Scalar> Solves for State<T> {
         let found = answer(py, self.threads, found)?;
         found.set_item("plan", plan)?;
         Ok(found)
+    }
+
+    fn pull_off<'py>(
+        &mut self,
+        py: Python<'py>,
+        at: Run<'_>,
+        asked: PullOff,
+        start: Option<Begin<'py>>,
+    ) -> Answered<'py> {
+        let start = self.start(start, &[])?.map(|gap| gap.mapv_into_any(T::lit));
+        let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| {
+            let (found, pulled_off) = self.posed.pull_off(asked, start, &mut |_, state, _| observe(state))?;
+            let (found, last) = self.account("pull-off", at.inputs, found)?;
+            let shortfall = pulled_off.shortfall(&last, Skin::Keywords);
+            Ok(((found, last), (pulled_off, shortfall)))
+        })?;
+        let (found, pulled_off) = found.map_or_else(|error| (Err(error), None), |(found, of)| (Ok(found), Some(of)));
+        let answer = answer(py, self.threads, (found, raised))?;
+        if let Some((pulled_off, shortfall)) = pulled_off {
+            answer.set_item("pull_off", to_pyobject(py, &pulled_off)?)?;
+            answer.set_item("shortfall", shortfall)?;
+        }
+        Ok(answer)
     }
 
     fn begin<'py>(
@@ -256,7 +286,7 @@ pub fn state<T: Scalar>(
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let make = || {
-        let warnings = warnings_of_input((&surface, None), scene.elastic, &*law, &units);
+        let warnings = warnings_of_input((&surface, None), &scene.elastic, &*law, &units);
         let posed = scene.posed(surface, law, original)?;
         Ok(State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None })
     };

@@ -40,4 +40,6 @@ def test_the_code_of_the_guide_runs(tmp_path, monkeypatch):
     assert found["right"].report["accuracy"]["reached"]
     assert [event["event"] for event in found["cycle"].events] == ["jump-in", "jump-out"]
     assert -found["cycle"].columns["normal_force"].min() == pytest.approx(5.09e-9, rel=1e-3)
+    quick = found["quick"]
+    assert quick.force < 5.09e-9 < quick.force * quick.lost_pressure / quick.pressure
     assert pathlib.Path("pressed.pdf").stat().st_size > 1000

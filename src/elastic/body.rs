@@ -1,8 +1,10 @@
 //! Elastic bodies whose properties do not change along their surface, by the stiffness of their waves.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 
 mod coating;
 mod half_space;
@@ -34,6 +36,18 @@ pub trait Body: Send + Sync {
 
     /// The contact modulus E* of the shortest waves, where k = ½E*q.
     fn modulus(&self) -> f64;
+
+    /// The modulus of the shortest waves along the sides of a grid, 2k/q in the mean: the contact modulus where they are
+    /// short enough for the body.
+    fn modulus_on(&self, grid: &Grid) -> f64 {
+        let shortest = PI / grid.largest_spacing();
+        let along = |qx: f64, qy: f64| 2.0 * self.stiffness(qx * shortest, qy * shortest) / shortest;
+        match grid.shape() {
+            (_, 1) => along(1.0, 0.0),
+            (1, _) => along(0.0, 1.0),
+            _ => 0.5 * (along(1.0, 0.0) + along(0.0, 1.0)),
+        }
+    }
 
     /// The compression of the whole body under a mean pressure of one, length per pressure, held sideways; zero if that
     /// cannot be told, as of a half-space. It does not change the gap, but the approach of the base.

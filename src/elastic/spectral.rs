@@ -1,4 +1,4 @@
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -53,8 +53,9 @@ impl<T: Real> Spectral<T> {
     /// both signs is taken.
     ///
     /// # Errors
-    /// [`Error::Value`] if the modulus or the symbol at any mode is not positive and finite in the precision of T;
-    /// [`Error::Memory`] if there is too little for the stiffness.
+    /// [`Error::Value`] if the modulus is not positive and finite, or the range of the stiffness is too wide for T;
+    /// [`Error::Wave`] if the symbol at a mode is not positive and finite in T; [`Error::Memory`] if there is too little
+    /// for the stiffness.
     pub fn new(grid: Grid, modulus: f64, symbol: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         grid.slab().afford("an elastic operator", size_of::<T>())?;
@@ -68,8 +69,8 @@ impl<T: Real> Spectral<T> {
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
     }
 
-    /// The operator of a body, whose [`modulus`](ElasticOperator::modulus) is that of the shortest wave along a side,
-    /// 2k/q: that of the body where waves on the grid are short enough, and a larger one of a thin layer.
+    /// The operator of a body, whose [`modulus`](ElasticOperator::modulus) is its [`modulus_on`](Body::modulus_on) the
+    /// grid: that of the body where waves on the grid are short enough, and a larger one of a thin layer.
     ///
     /// ```
     /// use asperity::{ElasticOperator, Grid, Spectral};
@@ -83,8 +84,7 @@ impl<T: Real> Spectral<T> {
     /// # Errors
     /// As for [`Spectral::new`].
     pub fn of(grid: Grid, body: impl Body + 'static) -> Result<Self> {
-        let shortest = PI / grid.largest_spacing();
-        let modulus = 2.0 * body.stiffness(shortest, 0.0) / shortest;
+        let modulus = body.modulus_on(&grid);
         Self::new(grid, modulus, move |qx, qy| body.stiffness(qx, qy))
     }
 

@@ -63,6 +63,26 @@ impl fmt::Display for Error {
             Self::Operator { property, found, expected } => {
                 write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))
             }
+            Self::Wave { wave: (qx, qy), stiffness, opposite: None } => write!(
+                f,
+                "the stiffness of the wave (qx, qy) = ({}, {}) is {}: it must be positive and finite in the precision of \
+                 the fields",
+                Short(*qx),
+                Short(*qy),
+                Short(*stiffness)
+            ),
+            Self::Wave { wave: (qx, qy), stiffness, opposite: Some(opposite) } => write!(
+                f,
+                "the stiffness of the wave (qx, qy) = ({}, {}) is {}, and that of ({}, {}) is {}: the two are the same \
+                 wave, and have one stiffness",
+                Short(*qx),
+                Short(*qy),
+                Short(*stiffness),
+                Short(-qx),
+                Short(-qy),
+                Short(*opposite)
+            ),
+            Self::Raised(cause) => write!(f, "{}", cause.0),
             Self::Control { control, reason } => write!(f, "{control}: {reason}"),
             Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
             Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => {

@@ -26,6 +26,7 @@ mod paper;
 mod path;
 mod precision;
 mod published;
+mod pull_off;
 mod rough;
 mod rough_contact;
 mod search;

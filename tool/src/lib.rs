@@ -1,5 +1,5 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
-//! many loads, `asperity cycle` a path with jumps, and `asperity study` every combination of options; `asperity
+//! many loads, `asperity cycle` a path with jumps, `asperity pull-off` the greatest tension, and `asperity study` every combination of options; `asperity
 //! surface` makes files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them.
 //! `asperity laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does
 //! any of these by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a
@@ -15,6 +15,7 @@ mod demo;
 mod laws;
 mod page;
 mod prepare;
+mod pull_off;
 mod run;
 mod selftest;
 mod solve;
@@ -83,6 +84,7 @@ const EXAMPLES: &str = "\
   asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --out sweep.csv
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
+  asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
   asperity study study.toml --jobs 4
   asperity laws
   asperity selftest
@@ -94,6 +96,7 @@ enum Command {
     Solve(Box<solve::Options>),
     Sweep(Box<sweep::Options>),
     Cycle(Box<cycle::Options>),
+    PullOff(Box<pull_off::Options>),
     Study(study::Options),
     Run(run::Options),
     Report(page::Options),
@@ -170,6 +173,7 @@ fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: 
         Command::Solve(options) => solve::run(&options, scene, processes),
         Command::Sweep(options) => sweep::run(&options, scene, processes),
         Command::Cycle(options) => cycle::run(&options, scene, processes),
+        Command::PullOff(options) => pull_off::run(&options, scene, processes),
         Command::Study(options) => study::run(&options, Tool::command(), program),
         Command::Report(options) => page::run(&options),
         Command::Prepare(options) => prepare::run(&options, scene),

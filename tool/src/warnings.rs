@@ -84,7 +84,7 @@ impl Warnings {
     ) -> Outcome<Self> {
         let (law, surface) = (adhesion.law::<T>(), (surface, origin.converted_from.as_deref()));
         let mut warnings = Self::empty(strictness, units);
-        warnings.add(warnings_of_input(surface, options.surface.elastic(), &*law, units))?;
+        warnings.add(warnings_of_input(surface, &options.surface.elastic(), &*law, units))?;
         Ok(warnings)
     }
 

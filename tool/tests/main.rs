@@ -20,6 +20,7 @@ mod pictures;
 mod places;
 mod prepare;
 mod promised;
+mod pull_off_tool;
 mod scene_tool;
 mod selftest;
 mod study;

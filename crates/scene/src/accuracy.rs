@@ -42,7 +42,7 @@ impl Goal {
 pub(crate) fn planned<T: Real>(
     wanted: &Accuracy<Constraint<T>>,
     surface: &Surface,
-    elastic: Elastic,
+    elastic: &Elastic,
     law: &dyn AdhesionLaw<T>,
     control: Control,
 ) -> Result<(Plan, f64)> {

@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material};
-use asperity::{Boussinesq, ElasticOperator, Grid, Real, Result, Spectral, Surface, Westergaard};
+use asperity::{Boussinesq, ElasticOperator, Error, Grid, Real, Result, Spectral, Surface, Westergaard};
 use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::Boundary;
 use crate::quantity::{LENGTH, PRESSURE};
+use crate::symbol::Symbol;
 use crate::units::Units;
 
 /// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Elastic {
     /// The boundary.
@@ -31,6 +32,8 @@ pub struct Elastic {
     pub coating_modulus: Option<f64>,
     /// Poisson's ratio of a coating.
     pub coating_poisson: Option<f64>,
+    /// The body of a user's own, by the stiffness of its waves.
+    pub symbol: Option<Symbol>,
 }
 
 impl Default for Elastic {
@@ -44,6 +47,7 @@ impl Default for Elastic {
             coating: None,
             coating_modulus: None,
             coating_poisson: None,
+            symbol: None,
         }
     }
 }
@@ -61,7 +65,7 @@ struct Kind {
 }
 
 /// The kinds of elastic bodies beside the half-space.
-static BODIES: [Kind; 2] = [
+static BODIES: [Kind; 3] = [
     Kind {
         key: "layer",
         needs: &["poisson"],
@@ -79,6 +83,15 @@ static BODIES: [Kind; 2] = [
             let coating = Material::new(or_nan(elastic.coating_modulus), or_nan(elastic.coating_poisson))?;
             let substrate = Material::new(elastic.modulus, or_nan(elastic.poisson))?;
             Ok(Arc::new(Coating::new(coating, or_nan(elastic.coating), substrate)?))
+        },
+    },
+    Kind {
+        key: "symbol",
+        needs: &[],
+        takes: &[],
+        make: |elastic| match &elastic.symbol {
+            Some(symbol) => Ok(Arc::new(symbol.clone())),
+            None => Err(Error::Control { control: "symbol", reason: "give the stiffness of waves" }),
         },
     },
 ];
@@ -100,6 +113,7 @@ impl Elastic {
             ("base", base),
             ("coating_modulus", number(self.coating_modulus)),
             ("coating_poisson", number(self.coating_poisson)),
+            ("symbol", self.symbol.as_ref().map(|symbol| symbol.0.name().to_owned())),
         ];
         given.into_iter().filter_map(|(key, value)| Some((key, value?)))
     }
@@ -116,7 +130,9 @@ impl Elastic {
                 let modulus = units.number(self.coating_modulus.unwrap_or_default(), PRESSURE);
                 Some(format!("coating of {}, contact modulus {modulus}", length(thickness)))
             }
-            (None, None) => None,
+            (None, None) => {
+                self.symbol.as_ref().map(|symbol| format!("by the stiffness of its waves, {}", symbol.0.name()))
+            }
         }
     }
 
@@ -160,12 +176,12 @@ impl Elastic {
     ///
     /// # Errors
     /// [`Error::Memory`](asperity::Error::Memory) if the memory is too small, and those of the body and the operator.
-    pub fn operator<T: Real>(self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
+    pub fn operator<T: Real>(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
         if !grid.is_shared() {
             check_memory("a solve", grid.shape(), if self.boundary == Boundary::Free { 160 } else { 40 })?;
         }
         Ok(match (self.kind(), self.boundary) {
-            (Some(kind), _) => Box::new(Spectral::of(grid, (kind.make)(&self)?)?),
+            (Some(_), _) => Box::new(Spectral::of(grid, self.body_on(&grid)?)?),
             (None, Boundary::Periodic) => Box::new(Westergaard::new(grid, self.modulus)?),
             (None, Boundary::Free) => Box::new(Boussinesq::new(grid, self.modulus)?),
         })
@@ -182,11 +198,22 @@ impl Elastic {
         }
     }
 
+    /// The body for the waves of a grid.
+    ///
+    /// # Errors
+    /// Those of the body.
+    fn body_on(&self, grid: &Grid) -> Result<Arc<dyn Body>> {
+        match &self.symbol {
+            Some(symbol) => Ok(Arc::new(symbol.on(grid)?)),
+            None => self.body(),
+        }
+    }
+
     /// The pressure E* h'rms, of which a reduced pressure is a part.
     ///
     /// # Errors
     /// The reason why a surface with absent nodes has none, and a remedy.
-    pub fn full_pressure(self, surface: &Surface) -> std::result::Result<f64, String> {
+    pub fn full_pressure(&self, surface: &Surface) -> std::result::Result<f64, String> {
         match surface.absent_nodes() {
             0 => Ok(self.modulus * surface.statistics().rms_slope),
             absent => Err(format!(

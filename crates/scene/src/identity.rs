@@ -71,6 +71,9 @@ pub(crate) fn identity<T: Real>(
     }
     // nor has one of a half-space a body
     identity.extend(inputs.elastic.given().map(|(key, value)| (key.to_owned(), value.into())));
+    if let Some(symbol) = &inputs.elastic.symbol {
+        identity.insert("symbol_values".to_owned(), symbol.fingerprint(grid).to_string().into());
+    }
     if given.law_differs {
         identity.insert("law_values".to_owned(), fingerprint(law).to_string().into());
     }

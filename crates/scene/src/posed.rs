@@ -10,8 +10,8 @@ use asperity::contact::Original;
 use asperity::nested::NestedSolution;
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
 use asperity::{
-    AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Iteration, Nested, Problem, Real,
-    Result, Solution, Solver, Start, Status, Surface,
+    AdhesionLaw, Branch, ContactSearch, Control, ElasticOperator, Error, Grid, Iteration, Nested, Problem, PullOff,
+    Real, Result, Solution, Solver, Start, Status, Surface,
 };
 use ndarray::Array2;
 
@@ -25,6 +25,7 @@ use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::Found;
 use crate::identity::{Fields, Identity, identity};
 use crate::load::Load;
+use crate::pulled_off::PulledOff;
 use crate::wall::Constraint;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
@@ -57,6 +58,8 @@ pub struct Posed<T: Real> {
 compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Constraint<T>>, &'a mut AnyProblem<T>)> = Posed::parts_of);
 compiled!(Planned: (&'a Posed<T>, Control, Goal) => Result<(Plan, f64)> = Posed::planned);
 compiled!(Solved: (&'a mut Posed<T>, &'a Asked, Option<Array2<T>>, Observe<'a>) => Result<Found<T>> = Posed::solved);
+compiled!(Pulled: (&'a mut Posed<T>, PullOff, Option<Array2<T>>, Observe<'a>) => Result<(Found<T>, PulledOff)> =
+    Posed::pulled);
 compiled!(Stiff: (&'a mut Posed<T>, &'a Solution<T>) => Result<Option<ContactStiffness>> = Posed::stiff);
 compiled!(Stable: (&'a mut Posed<T>, Control, &'a Array2<T>, f64) => Result<(Steadiness, Array2<T>)> = Posed::stable);
 
@@ -156,7 +159,7 @@ impl<T: Real> Posed<T> {
     }
 
     fn planned((this, control, goal): (&Self, Control, Goal)) -> Result<(Plan, f64)> {
-        planned(&goal.by(this.solver.clone(), false), this.surface()?, this.elastic, &this.law, control)
+        planned(&goal.by(this.solver.clone(), false), this.surface()?, &this.elastic, &this.law, control)
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
@@ -219,6 +222,32 @@ impl<T: Real> Posed<T> {
         let (solver, problem) = this.parts()?;
         let found = StabilityTest::default().of_gap(problem, &solver.constraint, control, gap, error)?;
         Ok((Steadiness::of(&found), found.mode))
+    }
+
+    /// The pull-off, from a gap or the default start, with the last state that holds.
+    ///
+    /// # Errors
+    /// Those of [`PullOff::find_from`].
+    pub fn pull_off(
+        &mut self,
+        asked: PullOff,
+        start: Option<Array2<T>>,
+        observe: Observe<'_>,
+    ) -> Result<(Found<T>, PulledOff)> {
+        T::call::<Pulled<'_>>((self, asked, start, observe))
+    }
+
+    fn pulled(
+        (this, asked, start, observe): (&mut Self, PullOff, Option<Array2<T>>, Observe<'_>),
+    ) -> Result<(Found<T>, PulledOff)> {
+        let clock = Instant::now();
+        let (solver, problem) = this.parts()?;
+        let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
+        let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
+        let found = asked.find_from(solver, problem, start, |state| observe(&grid, state, tolerance))?;
+        let last = this.found(found.solution.clone(), clock)?;
+        let pulled_off = PulledOff::of(asked, &found, &last)?;
+        Ok((last, pulled_off))
     }
 
     fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {

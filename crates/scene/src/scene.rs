@@ -104,7 +104,7 @@ impl Scene {
         original: Option<Original>,
     ) -> Result<Posed<T>> {
         let solver = Solver { settings: self.settings(), constraint: self.adhesion.constraint()? };
-        Ok(Posed::new(surface, law, self.elastic, solver, original))
+        Ok(Posed::new(surface, law, self.elastic.clone(), solver, original))
     }
 
     /// The inputs of a report as far as they are those of the scene, on a surface of a shape and side lengths.
@@ -119,7 +119,7 @@ impl Scene {
             length_unit: None,
             pressure_unit: None,
             given: None,
-            elastic: self.elastic,
+            elastic: self.elastic.clone(),
             adhesion: self.adhesion.clone(),
             method: self.method,
             precision: self.precision,

@@ -116,6 +116,8 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
         ("perimeter", _) if !on_line => LENGTH,
         ("mean_pressure" | "net_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => PRESSURE,
         ("modulus" | "coating_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
+        ("pull_off_pressure" | "lost_pressure" | "preload", _) => PRESSURE,
+        ("pull_off_force", _) => FORCE,
         ("density", _) => PER_PRESSURE,
         ("normal_force", _) => FORCE,
         ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {

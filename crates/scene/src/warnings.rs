@@ -13,7 +13,7 @@ use crate::units::Units;
 /// law on the heights; in units as far as they are known. Heights may have been converted from the unit of their file.
 pub fn warnings_of_input<T: Real>(
     (surface, converted_from): (&Surface, Option<&str>),
-    elastic: Elastic,
+    elastic: &Elastic,
     law: &dyn AdhesionLaw<T>,
     units: &Units,
 ) -> Vec<Told> {
@@ -25,8 +25,10 @@ pub fn warnings_of_input<T: Real>(
     }
     let of_modulus = Warning::of_modulus(elastic.modulus, surface.grid(), units.length.as_deref());
     found.extend(of_modulus.filter(|_| units.pressure.is_none()));
-    found.extend(elastic.body().ok().and_then(|body| Warning::of_body(&*body, surface.grid())));
-    found.extend(Warning::of_law(&law, surface, elastic.modulus));
+    let body = elastic.body().ok();
+    found.extend(body.as_deref().and_then(|body| Warning::of_body(body, surface.grid())));
+    let modulus = body.map_or(elastic.modulus, |body| body.modulus_on(surface.grid()));
+    found.extend(Warning::of_law(&law, surface, modulus));
     found.iter().map(|warning| units.told(warning)).chain(codes).collect()
 }
 

@@ -109,12 +109,14 @@ pub(super) fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffnes
 pub(super) fn check_range<T: Real>(softest: f64, stiffest: f64) -> Result<()> {
     let holds = |value: f64| T::lit(value) >= T::min_positive_value() && T::lit(value).is_finite();
     match [softest, stiffest, (stiffest / softest).powi(2)].into_iter().find(|&value| !holds(value)) {
-        Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
+        Some(value) => Err(Error::Value {
+            name: "stiffness of a wave",
+            value,
+            requirement: "positive and finite in the precision of the fields",
+        }),
         None => Ok(()),
     }
 }
-
-const REPRESENTABLE: &str = "positive and finite in the precision of the fields";
 
 /// The symbol at every mode of the half spectrum, in the layout of the convolver.
 pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns<T>> {
@@ -130,15 +132,11 @@ pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns
         let value = if nyquist { 0.5 * (symbol(qx, qy) + symbol(-qx, qy)) } else { symbol(qx, qy) };
         let rounded = T::lit(value);
         if !(rounded > T::zero() && rounded.is_finite()) {
-            wrong.get_or_insert(value);
+            wrong.get_or_insert(Error::Wave { wave: (qx, qy), stiffness: value, opposite: None });
         }
         rounded
     });
-    let result = match wrong {
-        Some(value) => Err(Error::Value { name: "stiffness of a wave", value, requirement: REPRESENTABLE }),
-        None => Ok(modes),
-    };
-    grid.slab().agreed(result)
+    grid.slab().agreed(wrong.map_or(Ok(modes), Err))
 }
 
 impl<T: Real> Stiffness<T> {

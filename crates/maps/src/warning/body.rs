@@ -32,12 +32,12 @@ impl Warning {
         // 2 on a half-space, and 1 on springs
         let growth = |spacing: f64| body.stiffness(PI / spacing, 0.0) / body.stiffness(0.5 * PI / spacing, 0.0);
         let is_off = |finer: &f64| (growth(spacing / finer) - 2.0).abs() > 0.1;
-        let finer = (0..30).map(|power| f64::from(1 << power)).find(|finer| !is_off(finer))?;
+        let finer = (0..30).map(|power| f64::from(1 << power)).find(|finer| !is_off(finer));
+        let or_finer = finer.map_or(String::new(), |finer| format!(", or a grid {finer} times finer"));
         let message = format!(
             "the stiffness of the shortest waves on the grid is {} times that of waves twice as long, not 2 times as on a \
              half-space, as where the body is thin beside the nodes: the area corrected for its edge, its estimated \
-             error and mu_rho are those of a half-space, and do not hold; use the contact fraction, or a grid {finer} \
-             times finer",
+             error and mu_rho are those of a half-space, and do not hold; use the contact fraction{or_finer}",
             Self::figure(growth(spacing))
         );
         let severity = (growth(spacing) - 2.0).abs();

@@ -1,0 +1,99 @@
+//! The pull-off of a problem, with the sentences of its report.
+
+use asperity::{Branch, FoundPullOff, PullOff, Real, Status};
+use serde::Serialize;
+
+use crate::account::Account;
+use crate::found::Found;
+use crate::numbers::percent;
+use crate::quantity::{FORCE, LENGTH, PRESSURE};
+use crate::units::Units;
+use crate::words::{Skin, worded};
+
+/// The pull-off of a problem, as its report has it beside the account of the last state that holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PulledOff {
+    /// The greatest tension that was borne, a pressure over the area of the map; none if no state under a tension was
+    /// found.
+    pub pull_off_pressure: Option<f64>,
+    /// The force of that tension.
+    pub pull_off_force: Option<f64>,
+    /// The least tension under which the surfaces came apart.
+    pub lost_pressure: Option<f64>,
+    /// Whether the two are as close as the tolerance.
+    pub reached: bool,
+    /// The relative tolerance.
+    pub rtol: f64,
+    /// The mean pressure to which the surfaces were pressed before; flat, or as the branch says, if there is none.
+    pub preload: Option<f64>,
+    /// The branch of the first solve, unless its start was given.
+    pub branch: Option<Branch>,
+    /// The number of solves.
+    pub solves: usize,
+    /// The operator applications of all of them.
+    pub operator_applications: usize,
+}
+
+impl PulledOff {
+    /// The pull-off that a search found; of the last state, which is on the part of a map that results are of.
+    ///
+    /// # Errors
+    /// Those of [`Found::part`].
+    pub(crate) fn of<T: Real, S>(asked: PullOff, found: &FoundPullOff<S>, last: &Found<T>) -> asperity::Result<Self> {
+        let report = &last.part()?.report;
+        let is_borne = report.mean_pressure < 0.0;
+        Ok(Self {
+            pull_off_pressure: is_borne.then_some(-report.mean_pressure),
+            pull_off_force: is_borne.then_some(-report.normal_force),
+            lost_pressure: found.lost,
+            reached: found.reached,
+            rtol: asked.tolerance,
+            preload: asked.preload,
+            branch: found.branch,
+            solves: found.solves,
+            operator_applications: found.operator_applications,
+        })
+    }
+
+    /// The shortfall of a search that has not come to its end, with a remedy, in the words of a skin.
+    pub fn shortfall(&self, last: &Account, skin: Skin) -> Option<String> {
+        // a first state that is none says so itself
+        if self.reached || last.status != Status::Converged {
+            return None;
+        }
+        let lost = self.lost_pressure.map_or("no bound".to_owned(), |lost| lost.to_string());
+        let text = format!(
+            "the pull-off is not found to {} %: a tension of {} is borne, {lost} is not, and a solve in between has not \
+             converged: raise {{max_iterations}} or {{rtol}}",
+            percent(self.rtol),
+            self.pull_off_pressure.unwrap_or_default()
+        );
+        Some(worded(&text, skin))
+    }
+
+    /// The rows of its summary, with the last state that holds.
+    pub fn rows(&self, last: &Account, units: &Units) -> Vec<(&'static str, String)> {
+        let pressure = |value: Option<f64>| value.map_or("none".to_owned(), |value| units.number(value, PRESSURE));
+        let before = match (self.preload, self.branch) {
+            (Some(preload), _) => format!("pressed to {}", units.number(preload, PRESSURE)),
+            (None, Some(Branch::Loading)) => "together from afar".to_owned(),
+            (None, Some(Branch::Unloading)) => "pressed flat".to_owned(),
+            (None, None) => "as given".to_owned(),
+        };
+        let force = self.pull_off_force.map_or("none".to_owned(), |force| units.number(force, FORCE));
+        let place = match last.approach {
+            Some(approach) => ("approach there", units.number(approach, LENGTH)),
+            None => ("mean gap there", units.number(last.mean_gap, LENGTH)),
+        };
+        vec![
+            ("pull-off pressure", pressure(self.pull_off_pressure)),
+            ("pull-off force", force),
+            ("apart under", pressure(self.lost_pressure)),
+            ("before", before),
+            place,
+            ("contact there", format!("{} %", percent(last.contact_fraction))),
+            ("solves", self.solves.to_string()),
+            ("operator applications", self.operator_applications.to_string()),
+        ]
+    }
+}

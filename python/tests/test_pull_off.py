@@ -1,0 +1,68 @@
+"""The greatest tension under which surfaces stay together."""
+
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import asperity
+
+LAW = asperity.Exponential(1e-4, 4e-3)
+
+
+@pytest.fixture(scope="module")
+def rough():
+    return asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_l=2, k_s=8, seed=1)
+
+
+def test_a_cycle_has_the_same_greatest_tension(rough):
+    found = asperity.pull_off(rough, modulus=1.0, law=LAW, rtol=1e-3)
+    drawn = asperity.cycle(rough, modulus=1.0, law=LAW, branch="unloading", mean_gaps=[5e-4, 0.05], steps=200)
+    greatest = -drawn.columns["mean_pressure"].min()
+    # a state of the cycle is beside the greatest one
+    assert found.pressure * (1 - 1e-3) < greatest < found.lost_pressure
+    assert found.reached and found.lost_pressure - found.pressure <= 1e-3 * found.lost_pressure
+    assert found.pressure == -found.solution.mean_pressure == found.force and found.solution.converged
+    assert (found.branch, found.preload, found.rtol) == ("unloading", None, 1e-3)
+    assert found.operator_applications > found.solution.operator_applications and found.solves > 5
+
+
+def test_one_that_is_quick_is_within_its_tolerance(rough):
+    exact = asperity.pull_off(rough, modulus=1.0, law=LAW, rtol=1e-4)
+    for given in [{}, {"rtol": 0.1}, {"precision": "f32"}, {"preload": 0.05}, {"threads": 1}]:
+        found = asperity.pull_off(rough, modulus=1.0, law=LAW, **given)
+        assert found.pressure <= exact.lost_pressure and found.lost_pressure >= exact.pressure * (1 - 1e-4), given
+        assert found.preload == given.get("preload")
+
+
+def test_units_a_start_and_what_is_refused(rough):
+    in_metres = asperity.prepare(rough, unit="um")
+    law = asperity.Exponential("7uJ/m2", "4nm")
+    given = asperity.pull_off(in_metres, modulus="70GPa", law=law, preload="1MPa")
+    assert given.preload == 1e6 and given.solution.report["given"]["preload"] == "1MPa"
+    held = asperity.solve(rough, modulus=1.0, law=LAW, mean_pressure=0.02)
+    assert asperity.pull_off(rough, modulus=1.0, law=LAW, start=held).branch is None
+    with pytest.raises(ValueError, match="without adhesion surfaces bear no tension"):
+        asperity.pull_off(rough, modulus=1.0, law=None)
+    with pytest.raises(ValueError, match="springs: surfaces that sink into springs"):
+        asperity.pull_off(rough, modulus=1.0, law=LAW, wall=asperity.Penalty(100.0))
+    with pytest.raises(ValueError, match="tolerance of the pull-off is 0: it must be positive, and less than 1"):
+        asperity.pull_off(rough, modulus=1.0, law=LAW, rtol=0)
+    with pytest.raises(ValueError, match="leave out branch, or start"):
+        asperity.pull_off(rough, modulus=1.0, law=LAW, start=held, branch="loading")
+    with pytest.warns(asperity.ConvergenceWarning, match="not converged"):
+        short = asperity.pull_off(rough, modulus=1.0, law=LAW, max_iterations=2)
+    assert (short.reached, short.pressure) == (False, None)
+
+
+@pytest.mark.skipif("ASPERITY_TOOL" not in os.environ, reason="ASPERITY_TOOL names the program")
+def test_the_program_finds_the_same(rough, tmp_path):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    options = "--law exponential --work-of-adhesion 1e-4 --range 4e-3 --json"
+    command = [os.environ["ASPERITY_TOOL"], "pull-off", "--heights", "heights.npy", *options.split()]
+    report = json.loads(subprocess.run(command, cwd=tmp_path, check=True, capture_output=True).stdout)
+    ours = asperity.pull_off(rough, modulus=1.0, law=LAW)
+    assert (report["pull_off_pressure"], report["lost_pressure"]) == (ours.pressure, ours.lost_pressure)
+    assert report["last"]["mean_gap"] == ours.solution.mean_gap and report["solves"] == ours.solves

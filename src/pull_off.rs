@@ -1,0 +1,309 @@
+//! A search: the greatest tension under which surfaces that adhere stay together.
+
+use std::ops::ControlFlow;
+
+use crate::adhesion::AdhesionLaw;
+use crate::constraint::{ContactConstraint, Wall};
+use crate::elastic::{Boundary, ElasticOperator};
+use crate::error::{Error, Result};
+use crate::problem::{Control, Parts, Problem, smoothed_law};
+use crate::real::Real;
+use crate::setters::setters;
+use crate::solver::{Begin, Branch, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall};
+
+/// The most solves of a search; a bracket is halved at least with every other one.
+const MOST: usize = 60;
+
+/// The first tension, over the attraction of the surfaces under no load.
+const FIRST: f64 = 1.0 / 16.0;
+
+/// The least and the largest tension after one that is borne, over that one, as long as none is too large.
+const GROWTH: (f64, f64) = (1.2, 2.5);
+
+/// The share of a bracket that a tension leaves to both sides at least.
+const MARGIN: f64 = 0.1;
+
+/// A search for the pull-off: the greatest tension under which surfaces that adhere stay together.
+///
+/// The tension grows, each solve from the gap under the greatest one that was borne, until the surfaces come apart
+/// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is `tolerance`
+/// wide. Contacts that are lost on the way are lost under the load, as on a soft spring. Before, the surfaces are
+/// pressed flat, as on the branch of unloading ([`Branch`]), or to a `preload`. On the branch of unloading that is the
+/// largest tension that has an equilibrium at all, if the traction of the law falls with the gap.
+///
+/// | field | default | meaning | range |
+/// |---|---|---|---|
+/// | `tolerance` | 0.02 | the relative width of the bracket at which the search ends | positive, below 1 |
+/// | `preload` | none | the mean pressure to which surfaces from afar were pressed before; flat if none is given | finite |
+///
+/// A branch that the solver's settings name is that of the first solve, in the place of these, and so is a given
+/// [`Start`]. Where the traction of
+/// the law jumps, as of [`MaugisDugdale`](crate::MaugisDugdale), the search is one of the
+/// [smoothed](crate::adhesion::Discretisation::Smooth) law, as a [`Path`](crate::path::Path) is.
+///
+/// ```
+/// use asperity::exact::Sphere;
+/// use asperity::{Boussinesq, Exponential, Grid, Problem, PullOff, Solver, Surface, exact};
+/// let grid = Grid::square(48, 0.36)?;
+/// let sphere = Surface::paraboloid(grid, 2.0)?;
+/// let law = Exponential::new(2e-5, 4e-3)?;
+/// let mut problem = Problem::new(&sphere, Boussinesq::<f64>::new(grid, 1.0)?, law)?;
+/// let found = PullOff::default().find(&mut Solver::default(), &mut problem)?;
+/// assert!(found.reached);
+/// let force = -found.solution.report.normal_force;
+/// let jkr = -exact::Jkr::new(2.0, 1.0, 2e-5)?.pull_off().load();
+/// // between those of a stiff sphere, 2πRw, and of a soft one, 3πRw/2
+/// assert!(jkr < force && force < jkr * 4.0 / 3.0);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PullOff {
+    /// The relative width of the bracket at which the search ends.
+    pub tolerance: f64,
+    /// The mean pressure to which the surfaces were pressed before.
+    pub preload: Option<f64>,
+}
+
+/// The end of a search for the pull-off.
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct FoundPullOff<T> {
+    /// The state under the greatest tension that was borne; its mean pressure is minus that.
+    pub solution: Solution<T>,
+    /// The least tension under which the surfaces came apart, a pressure; none if there was no such one.
+    pub lost: Option<f64>,
+    /// Whether the bracket is as narrow as the tolerance.
+    pub reached: bool,
+    /// The branch of the first solve, unless it was from a given start.
+    pub branch: Option<Branch>,
+    /// The number of solves.
+    pub solves: usize,
+    /// The operator applications of all of them.
+    pub operator_applications: usize,
+}
+
+impl Default for PullOff {
+    fn default() -> Self {
+        Self { tolerance: 0.02, preload: None }
+    }
+}
+
+impl PullOff {
+    setters! { tolerance: f64, preload: Option<f64> }
+
+    /// The pull-off of a problem.
+    ///
+    /// # Errors
+    /// [`Error::Control`] without adhesion, and where surfaces under no load do not attract each other; [`Error::Value`]
+    /// for a tolerance or a preload out of their ranges; [`Error::Wall`] for springs; those of [`Solver::solve_with`].
+    pub fn find<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+        &self,
+        solver: &mut Solver<C>,
+        problem: &mut Problem<T, O, L>,
+    ) -> Result<FoundPullOff<T>> {
+        self.find_from(solver, problem, Start::Default, |_| ControlFlow::Continue(()))
+    }
+
+    /// The same from a start, with an observer of the iterations; where it breaks off the search ends.
+    ///
+    /// # Errors
+    /// Those of [`Self::find`].
+    pub fn find_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+        &self,
+        solver: &mut Solver<C>,
+        problem: &mut Problem<T, O, L>,
+        start: Start<'_, T>,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
+    ) -> Result<FoundPullOff<T>> {
+        let Self { tolerance, preload } = *self;
+        self.check(solver, problem)?;
+        let mut search = Search { branch: None, solves: 0, operator_applications: 0, observe: &mut observe };
+        let first = Control::MeanPressure(preload.unwrap_or(0.0));
+        let usual = if preload.is_some() { Branch::Loading } else { Branch::Unloading };
+        let branch = solver.settings.branch.unwrap_or(usual);
+        let begin = if let Start::Default = start { Begin::On(branch) } else { Begin::At(start) };
+        search.branch = begin.is_default().then_some(branch);
+        let mut held = search.solve(solver, problem, first, begin)?;
+        if preload.is_some_and(|preload| preload != 0.0) && held.is_settled() {
+            let gap = Begin::Found(held.gap().clone());
+            held = search.solve(solver, problem, Control::MeanPressure(0.0), gap)?;
+        }
+        if !held.is_settled() {
+            return Ok(search.end(held, None, false));
+        }
+        let attraction = held.solution.report.mean_contact_pressure;
+        if attraction <= 0.0 {
+            let reason =
+                "the surfaces do not attract each other under no load: give a law of a longer range, or a preload";
+            return Err(Error::Control { control: "pull-off", reason });
+        }
+        let mut bracket = Bracket { borne: vec![Place::of(&held.solution.report)], lost: None };
+        while !bracket.is_narrow(tolerance) && search.solves < MOST {
+            let tension = bracket.next(FIRST * attraction, tolerance);
+            let begin = Begin::Found(held.gap().clone());
+            let solved = search.solve(solver, problem, Control::MeanPressure(-tension), begin)?;
+            let report = &solved.solution.report;
+            if solved.is_settled() {
+                bracket.borne.push(Place { tension, ..Place::of(report) });
+                held = solved;
+            } else if report.status == Status::Detached {
+                bracket.lost = Some(tension);
+            } else {
+                break;
+            }
+        }
+        Ok(search.end(held, bracket.lost, bracket.is_narrow(tolerance)))
+    }
+
+    fn check<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+        &self,
+        solver: &Solver<C>,
+        problem: &Problem<T, O, L>,
+    ) -> Result<()> {
+        if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
+            let requirement = "positive, and less than 1";
+            return Err(Error::Value { name: "tolerance of the pull-off", value: self.tolerance, requirement });
+        }
+        if let Some(preload) = self.preload {
+            Error::finite("preload", preload)?;
+        }
+        if problem.law.hints().zero {
+            let reason = "without adhesion surfaces bear no tension: give a law";
+            return Err(Error::Control { control: "pull-off", reason });
+        }
+        if let Wall::Springs(_) = solver.constraint.wall() {
+            let reason = "surfaces that sink into springs come apart while these become hard: take a rigid wall, or none \
+                          with a law that repels";
+            return Err(Error::Wall { wall: "springs", reason });
+        }
+        check_wall(&problem.law, solver.constraint.wall())
+    }
+}
+
+/// The solves of a search.
+struct Search<'a> {
+    branch: Option<Branch>,
+    solves: usize,
+    operator_applications: usize,
+    observe: Observer<'a>,
+}
+
+impl Search<'_> {
+    fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+        &mut self,
+        solver: &mut Solver<C>,
+        problem: &mut Problem<T, O, L>,
+        control: Control,
+        begin: Begin<'_, T>,
+    ) -> Result<Solved<T>> {
+        let Parts { operator, law, flat } = problem.parts();
+        let smoothed = smoothed_law(&*operator, law);
+        let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
+        let solved = solver.run(parts, control, begin, &mut *self.observe)?;
+        self.solves += 1;
+        self.operator_applications += solved.solution.report.operator_applications;
+        Ok(solved)
+    }
+
+    fn end<T>(self, held: Solved<T>, lost: Option<f64>, reached: bool) -> FoundPullOff<T> {
+        let Self { branch, solves, operator_applications, .. } = self;
+        FoundPullOff { solution: held.solution, lost, reached, branch, solves, operator_applications }
+    }
+}
+
+/// A tension that is borne, and how far the bodies are there: the mean gap, with a free boundary minus the approach.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    distance: f64,
+    tension: f64,
+}
+
+impl Place {
+    fn of(report: &Report) -> Self {
+        let free = report.boundary != Boundary::Periodic;
+        let distance = report.approach.filter(|_| free).map_or(report.mean_gap, |approach| -approach);
+        Self { distance, tension: -report.mean_pressure }
+    }
+}
+
+/// The tensions that are borne, in their order, and the least one that is not.
+#[derive(Debug)]
+struct Bracket {
+    borne: Vec<Place>,
+    lost: Option<f64>,
+}
+
+impl Bracket {
+    fn greatest(&self) -> f64 {
+        self.borne.last().map_or(0.0, |place| place.tension)
+    }
+
+    fn is_narrow(&self, tolerance: f64) -> bool {
+        self.lost.is_some_and(|lost| lost - self.greatest() <= tolerance * lost)
+    }
+
+    /// The tension to try.
+    fn next(&self, first: f64, tolerance: f64) -> f64 {
+        let (low, peak) = (self.greatest(), self.peak());
+        let Some(lost) = self.lost else {
+            let (least, most) = GROWTH;
+            let beyond = peak.map_or(f64::INFINITY, |peak| peak * (1.0 + 0.25 * tolerance));
+            return if low > 0.0 { beyond.clamp(least * low, most * low) } else { first };
+        };
+        let inside = MARGIN * (lost - low);
+        let Some(peak) = peak.filter(|&peak| low < peak && peak < lost) else {
+            return if low > 0.0 && lost > 2.0 * low { (low * lost).sqrt() } else { 0.5 * (low + lost) };
+        };
+        // the side of the peak on which the bracket is wider
+        let side = if lost - peak > peak - low { 0.25 } else { -0.25 };
+        (peak * (1.0 + side * tolerance)).clamp(low + inside, lost - inside)
+    }
+
+    /// The largest tension of the parabola over the distance through the last three places, if it has one.
+    fn peak(&self) -> Option<f64> {
+        let [.., a, b, c] = self.borne[..] else { return None };
+        let slope = |from: Place, to: Place| (to.tension - from.tension) / (to.distance - from.distance);
+        let bend = (slope(b, c) - slope(a, b)) / (c.distance - a.distance);
+        let there = slope(b, c) + bend * (c.distance - b.distance);
+        Some(c.tension - there * there / (4.0 * bend)).filter(|peak| bend < 0.0 && peak.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_peak_of_a_parabola_is_found_and_enclosed() {
+        let curve = |x: f64| 3.0 - (x - 2.0).powi(2);
+        let places = [0.3, 0.8, 1.1].map(|distance| Place { distance, tension: curve(distance) });
+        let mut bracket = Bracket { borne: places.to_vec(), lost: None };
+        assert!((bracket.peak().unwrap() - 3.0).abs() < 1e-12);
+        let mut tries = 0;
+        while !bracket.is_narrow(0.02) {
+            let tension = bracket.next(0.1, 0.02);
+            match tension <= 3.0 {
+                true => bracket.borne.push(Place { distance: 2.0 - (3.0 - tension).sqrt(), tension }),
+                false => bracket.lost = Some(tension),
+            }
+            tries += 1;
+        }
+        assert!(tries <= 3 && bracket.greatest() <= 3.0 && bracket.lost > Some(3.0), "{tries}: {bracket:?}");
+    }
+
+    #[test]
+    fn a_curve_of_teeth_is_enclosed_by_halving() {
+        let mut bracket = Bracket { borne: vec![Place { distance: 1.0, tension: 0.0 }], lost: None };
+        let mut tries = 0;
+        while !bracket.is_narrow(1e-3) {
+            let tension = bracket.next(1e-3, 1e-3);
+            match tension <= 0.7 {
+                true => bracket.borne.push(Place { distance: 1.0 + (f64::from(tries) * 0.7).fract(), tension }),
+                false => bracket.lost = Some(tension),
+            }
+            tries += 1;
+        }
+        assert!(tries < 40 && bracket.greatest() <= 0.7 && bracket.lost > Some(0.7), "{tries}: {bracket:?}");
+    }
+}

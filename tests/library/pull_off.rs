@@ -1,0 +1,115 @@
+//! The pull-off of spheres and of rough surfaces, beside exact solutions and paths.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use asperity::exact::Sphere;
+use asperity::path::{Path, PathSettings};
+use asperity::{
+    AdhesionLaw, Boussinesq, Branch, Control, Error, Exponential, Grid, MaugisDugdale, NoAdhesion, Penalty, Problem,
+    PullOff, SelfAffine, Settings, Solver, Start, Status, Surface, Westergaard, exact,
+};
+
+fn sphere<L: AdhesionLaw<f64>>(nodes: usize, side: f64, radius: f64, law: L) -> Problem<f64, Boussinesq<f64>, L> {
+    let grid = Grid::square(nodes, side).unwrap();
+    let surface = Surface::paraboloid(grid, radius).unwrap();
+    Problem::new(&surface, Boussinesq::new(grid, 1.0).unwrap(), law).unwrap()
+}
+
+fn rough<L: AdhesionLaw<f64>>(law: L) -> Problem<f64, Westergaard<f64>, L> {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let surface = SelfAffine::default().k_l(2.0).k_s(8.0).surface(grid).unwrap();
+    Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
+}
+
+/// The force of a sphere to 0.2 %.
+fn force<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Boussinesq<f64>, L>) -> f64 {
+    let found = PullOff::default().tolerance(2e-3).find(&mut Solver::default(), problem).unwrap();
+    assert!(found.reached && found.branch == Some(Branch::Unloading) && !found.solution.report.reaches_edge);
+    -found.solution.report.normal_force
+}
+
+#[test]
+fn spheres_of_dugdale_come_off_as_maugis_says() {
+    // from soft to stiff: Maugis' parameter is 1.6, 0.8 and 0.2
+    for (range, side) in [(1e-3, 0.26), (2e-3, 0.26), (8e-3, 0.5)] {
+        let (radius, work) = (2.0, 2e-5);
+        let exact = -exact::MaugisDugdale::new(radius, 1.0, work, range).unwrap().pull_off().load();
+        let found = force(&mut sphere(96, side, radius, MaugisDugdale::new(work, range).unwrap()));
+        // the grid has 1 % of its own
+        assert!((found / exact - 1.0).abs() < 0.012, "{range}: {found} {exact}");
+    }
+}
+
+#[test]
+fn a_stiff_sphere_comes_off_as_bradley_says() {
+    // that the body hardly deforms
+    let (radius, work, range) = (2.0, 1e-7, 2e-3);
+    let found = force(&mut sphere(96, 0.7, radius, Exponential::new(work, range).unwrap()));
+    let bradley = 2.0 * PI * radius * work;
+    // Derjaguin's sum of all tractions, of which the window cuts 1e-3
+    assert!((found / bradley - 1.0).abs() < 0.02, "{found} {bradley}");
+}
+
+#[test]
+fn a_path_bears_no_more_and_hardly_less() {
+    let law = Exponential::new(1e-4, 4e-3).unwrap();
+    let found = PullOff::default().tolerance(1e-3).find(&mut Solver::default(), &mut rough(law)).unwrap();
+    let (borne, lost) = (-found.solution.report.mean_pressure, found.lost.unwrap());
+    assert!(found.reached && lost - borne <= 1e-3 * lost && found.solves <= 20, "{borne} {lost} {}", found.solves);
+    let mut solver = Solver::new(Settings::default().branch(Branch::Unloading));
+    let (mut problem, loads) = (rough(law), [5e-4, 0.03].map(Control::MeanGap));
+    let settings = PathSettings::default().steps(100);
+    let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
+    let greatest = path.map(|step| -step.unwrap().solution.report.mean_pressure).fold(0.0, f64::max);
+    assert!(greatest <= lost && greatest >= borne * (1.0 - 2e-3), "{greatest}: {borne} to {lost}");
+    assert!(found.operator_applications < 1000, "{}", found.operator_applications);
+}
+
+#[test]
+fn what_was_before_matters_where_there_are_two_branches() {
+    let grid = Grid::line(128, 1.0).unwrap();
+    let wave = Surface::wave(grid, 0.02, 1).unwrap();
+    let law = Exponential::new(4e-4, 4e-3).unwrap();
+    let problem = || Problem::new(&wave, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let find = |pull_off: PullOff, branch: Option<Branch>| {
+        let mut solver = Solver::new(Settings::default().branch(branch));
+        let found = pull_off.find(&mut solver, &mut problem()).unwrap();
+        assert!(found.reached);
+        (-found.solution.report.mean_pressure, found.branch)
+    };
+    let (default, loading) = (PullOff::default(), Some(Branch::Loading));
+    // pressed flat it takes a tension to open the first gap; not pressed, or a little, there are gaps already
+    let (flat, _) = find(default, None);
+    let (touched, branch) = find(default.preload(Some(0.0)), None);
+    assert!(branch == loading && flat > 3.0 * touched, "{flat} {touched}");
+    assert_eq!(find(default, loading), (touched, loading));
+    let (pressed, _) = find(default.preload(Some(1.0)), None);
+    assert!((pressed / flat - 1.0).abs() < 0.02, "{pressed} {flat}");
+
+    let held = Solver::default().solve(&mut problem(), Control::MeanPressure(0.0)).unwrap();
+    let (begin, go_on) = (Start::From(&held.gap), |_: &_| ControlFlow::Continue(()));
+    let found = default.find_from(&mut Solver::default(), &mut problem(), begin, go_on).unwrap();
+    assert!(found.reached && found.branch.is_none());
+    assert!((-found.solution.report.mean_pressure / touched - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn what_bears_no_tension_is_refused_and_a_search_that_is_stopped_says_so() {
+    let law = Exponential::new(1e-4, 4e-3).unwrap();
+    let default = PullOff::default();
+    let refused = default.find(&mut Solver::default(), &mut rough(NoAdhesion)).unwrap_err();
+    assert!(matches!(refused, Error::Control { control: "pull-off", .. }), "{refused}");
+    let springs = &mut Solver { settings: Settings::default(), constraint: Penalty::new(100.0).unwrap() };
+    assert!(matches!(default.find(springs, &mut rough(law)), Err(Error::Wall { wall: "springs", .. })));
+    for tolerance in [0.0, 1.0, f64::NAN] {
+        let refused = default.tolerance(tolerance).find(&mut Solver::default(), &mut rough(law));
+        assert!(matches!(refused, Err(Error::Value { name: "tolerance of the pull-off", .. })));
+    }
+    let stop = |_: &_| ControlFlow::Break(());
+    let stopped = default.find_from(&mut Solver::default(), &mut rough(law), Start::Default, stop).unwrap();
+    assert_eq!((stopped.reached, stopped.lost, stopped.solution.report.status), (false, None, Status::Stopped));
+    let mut solver = Solver::new(Settings::default().max_iterations(2_usize));
+    let short = default.find(&mut solver, &mut rough(law)).unwrap();
+    assert!(!short.reached && short.solution.report.status == Status::IterationLimit);
+}

@@ -1,0 +1,123 @@
+//! `asperity pull-off`: the greatest tension under which the surfaces stay together.
+
+use std::ops::ControlFlow;
+
+use asperity::{PullOff, Status};
+use asperity_scene::{Precision, Skin};
+use clap::Args;
+use serde_json::json;
+
+use crate::adhesion::AdhesionOptions;
+use crate::allowed::share;
+use crate::fields::check_finite;
+use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::outcome::Outcome;
+use crate::printing::{Printing, complain, say};
+use crate::processes::Processes;
+use crate::progress::Progress;
+use crate::quantity::{PRESSURE, Quantity};
+use crate::report;
+use crate::scene::SceneFile;
+use crate::summary::warn;
+use crate::units::UnitOptions;
+use crate::warnings::{Strictness, Warnings};
+
+/// Find the pull-off, the greatest tension that surfaces bear.
+///
+/// Numbers may have units, all of them or none, as in asperity solve. The surfaces were pressed flat before, or to the
+/// preload; then the tension grows until they come apart, and the pull-off is enclosed between a tension that they bear
+/// and one that they do not. Under a tension contacts are lost at once that would be lost one by one as the surfaces
+/// are drawn apart; asperity cycle shows these. Prints the pull-off as a pressure over the area of the map and as a
+/// force, and with --json all keys of the last state that holds as well. Exits with 0 if the pull-off was found, 2 if
+/// not, and 1 if the input is refused.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    #[command(flatten)]
+    surface: SurfaceOptions,
+
+    /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed flat, or
+    /// were as --branch or --initial-gap says
+    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = PRESSURE.finite(), help_heading = "Load")]
+    preload: Option<Quantity>,
+    /// Relative tolerance of the pull-off
+    #[arg(long, value_name = "T", default_value = "0.02", allow_hyphen_values = true, value_parser = share)]
+    #[arg(help_heading = "Load")]
+    rtol: f64,
+
+    #[command(flatten)]
+    adhesion: AdhesionOptions,
+    #[command(flatten)]
+    solver: SolverOptions,
+
+    #[command(flatten)]
+    units: UnitOptions,
+    #[command(flatten)]
+    strictness: Strictness,
+    #[command(flatten)]
+    printing: Printing,
+}
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mExamples:\u{1b}[0m
+  The tension that takes a map of 1 by 1 off, of surfaces that were pressed flat:
+    asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
+  Of surfaces that were pressed to a mean pressure before:
+    asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
+      --range 4e-3 --preload 0.01
+  A tip on a free half-space:
+    asperity pull-off --heights tip.npy --boundary free --law exponential --work-of-adhesion 1e-4 \\
+      --range 4e-3";
+
+/// Runs the command; whether the pull-off was found.
+pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+    options.solver.check_table()?;
+    let given = options.problem().read(scene.is_si(), processes)?;
+    match options.solver.precision {
+        Precision::F32 => options.find::<f32>(given, scene, processes),
+        Precision::F64 => options.find::<f64>(given, scene, processes),
+    }
+}
+
+impl Options {
+    fn problem(&self) -> ProblemOptions<'_> {
+        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
+    }
+
+    fn find<T: Scalar>(&self, given: Given<'_>, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+        let Given { surface, adhesion, origin, part, start } = given;
+        let (problem, printing, nodes) = (self.problem(), self.printing, surface.grid().nodes());
+        let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
+        let mut warnings = Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, problem, &units)?;
+        warnings.say()?;
+        let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), part.wanted())?;
+        let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
+        let mut progress = Progress::new("", posed.tolerance(None)?, nodes, printing.without_bars());
+        let (mut found, pulled_off) = posed.pull_off(asked, start.map(T::field), &mut |grid, state, tolerance| {
+            progress.update_on(grid, state, tolerance);
+            ControlFlow::Continue(())
+        })?;
+        drop((posed, progress));
+        check_finite(&found.solution)?;
+        warnings.look_at(&found.solution, &part)?;
+        let inputs = report::inputs(problem, &part, &units, scene);
+        let mut last = found.account("pull-off", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
+        found.sight.look_at(&mut last, &found.solution)?;
+
+        if printing.for_people() {
+            let rows = pulled_off.rows(&last, &units);
+            let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+            rows.iter().for_each(|(name, text)| say(&format!("{name:width$}  {text}")));
+        }
+        printing.report(|| {
+            let mut outcome = json!(pulled_off);
+            outcome["last"] = json!(last);
+            report::report("pull-off", outcome, &inputs)
+        });
+        warn("", &last);
+        if let Some(text) = pulled_off.shortfall(&last, Skin::Options) {
+            complain("warning", &text);
+        }
+        Ok(pulled_off.reached && last.status == Status::Converged)
+    }
+}
