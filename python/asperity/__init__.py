@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _prepare, _solve, _stability, _sweep, contact, exact, surface
+from . import _cycle, _pair, _prepare, _solve, _stability, _sweep, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -42,6 +42,7 @@ from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
+contact_modulus = _checked(_pair.contact_modulus)
 cycle = _checked(_cycle.cycle)
 prepare = _checked(_prepare.prepare)
 solve = _checked(_solve.solve)
@@ -81,6 +82,7 @@ __all__ = [
     "__version__",
     "check_law",
     "contact",
+    "contact_modulus",
     "cycle",
     "exact",
     "from_topography",
