@@ -45,10 +45,12 @@ fn the_heights_of_both_add_as_they_face_each_other() {
     for (shift, nodes) in [(7.0 * spacing(), 7), (-41.0 * spacing(), 7), (1.2 + 7.0 * spacing(), 7), (1.2, 0)] {
         assert_eq!(between((shift, -2.0)), one.heights() + &rolled(&turned(&other), nodes), "{shift}");
     }
-    // uncorrelated slopes: h'^2 is the sum, to the correlation of some hundred waves
+    // uncorrelated slopes: h'^2 is the sum, to the correlation of some thousand waves
+    let fine = |seed| SelfAffine::default().k_l(2.0).k_s(64.0).seed(seed).surface(Grid::square(160, 1.0).unwrap());
+    let (one, other) = (fine(1).unwrap(), fine(2).unwrap());
     let slope = |surface: &Surface| surface.spectrum().rms_slope().powi(2);
     let share = slope(&one.against(&other, (0.0, 0.0)).unwrap()) / (slope(&one) + slope(&other));
-    assert!((share - 1.0).abs() < 0.1, "{share}");
+    assert!((share - 1.0).abs() < 0.05, "{share}");
 }
 
 #[test]
@@ -140,7 +142,8 @@ fn two_half_spaces_are_one_and_each_moves_by_its_compliance() {
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid(), 2.0).unwrap(), NoAdhesion).unwrap();
     let single = Solver::default().solve(&mut problem, Control::MeanPressure(0.02)).unwrap();
     assert_eq!(both.report.contact_nodes, single.report.contact_nodes);
-    close(&both.gap, &single.gap, 1e-12);
+    // both to a certified 1e-6, of gaps of some 1e-2
+    close(&both.gap, &single.gap, 1e-8);
 
     let displaced = |modulus: f64| {
         let mut u = Array2::zeros(grid().shape());
