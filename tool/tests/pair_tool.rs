@@ -109,14 +109,14 @@ fn each_body_has_its_displacement() {
 
     let of_other = |out: &str| field(&bench, &format!("{out}/against_displacement.npy"));
     let elastic = format!("{PRESSED} --modulus 3 --against-modulus 6");
-    for (out, more) in [("elastic", ""), ("free", "--boundary free")] {
+    // beyond a free window the pressure vanishes to the tolerance of the solve
+    for (out, more, tolerance) in [("elastic", "", 1e-12), ("free", "--boundary free", 1e-7)] {
         let [gap, own] = solve(&format!("{elastic} {more}"), out);
         let other = of_other(out);
         close(&own, &(2.0 * &other), 1e-15);
-        // the transforms of a solve in double precision round 1e-13 of the displacements
         let both = &own + &other;
         let rest = &both - &(&gap + &sum);
-        close(&rest, &Array2::from_elem(rest.dim(), rest.mean().unwrap()), 1e-12);
+        close(&rest, &Array2::from_elem(rest.dim(), rest.mean().unwrap()), tolerance);
         let mean = other.mean().unwrap();
         assert!(if out == "free" { mean > 1e-3 } else { mean.abs() < 1e-15 }, "{out}: {mean}");
     }
