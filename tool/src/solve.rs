@@ -17,7 +17,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
 use serde_json::json;
 
-use self::beside::{BESIDE, Named};
+use self::beside::{BESIDE, Beside, Named};
 use crate::accuracy::AccuracyOptions;
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::bins;
@@ -85,10 +85,10 @@ pub struct Options {
     /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
-    /// Write the displacement of the body's surface to displacement.npy, its gap and its height as long as the other
-    /// body is rigid; if both are elastic, that of each under the pressure, the other one to against_displacement.npy
-    #[arg(long, help_heading = "Output")]
-    displacement: bool,
+    /// Fields to write beside gap and pressures: displacement.npy is gap and height as long as the other body is rigid;
+    /// if both are elastic, the displacement of the first one, and against_displacement.npy that of the other
+    #[arg(long, value_enum, value_name = "FIELD", help_heading = "Output")]
+    fields: Option<Beside>,
     /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0
     /// to the largest; its integral is the contact fraction [default: 50 if --distribution stands alone]
     #[arg(long, value_name = "BINS", num_args = 0..=1, default_missing_value = "50", help_heading = "Output")]
@@ -268,7 +268,7 @@ impl Job<'_> {
         })?;
         warnings.say()?;
         let surface = Arc::new(surface);
-        let kept = self.options.displacement.then(|| surface.clone());
+        let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
         let mut posed = self.options.problem().scene().posed::<T>(surface, adhesion.law(), self.part.wanted())?;
         let tolerance = posed.tolerance(self.asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());

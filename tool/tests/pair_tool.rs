@@ -97,7 +97,7 @@ fn a_surface_slides_over_another_in_a_study() {
 fn each_body_has_its_displacement() {
     let bench = pair();
     let solve = |more: &str, out: &str| {
-        let both = "solve --heights heights.npy --against other.npy --displacement --quiet";
+        let both = "solve --heights heights.npy --against other.npy --fields displacement --quiet";
         assert!(bench.run(&format!("{both} {more} --out {out}")).status.success());
         ["gap", "displacement"].map(|name| field(&bench, &format!("{out}/{name}.npy")))
     };
@@ -125,7 +125,7 @@ fn each_body_has_its_displacement() {
     let compression = 0.02 * 0.1 * (1.0 - 0.6) / (3.0 * 0.49);
     assert!((own.mean().unwrap() / compression - 1.0).abs() < 1e-5 && of_other("layer").mean().unwrap().abs() < 1e-15);
     // all in one file
-    bench.said(&format!("solve --heights heights.npy {elastic} --displacement --format npz --quiet --out npz"));
+    bench.said(&format!("solve --heights heights.npy {elastic} --fields displacement --format npz --quiet --out npz"));
     assert!(!bench.names("npz").contains(&"displacement.npy".to_owned()));
 }
 

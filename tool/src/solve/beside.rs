@@ -2,6 +2,7 @@
 
 use asperity::{Result, Surface};
 use asperity_scene::{Found, gap_to_write};
+use clap::ValueEnum;
 use ndarray::Array2;
 
 use super::Options;
@@ -10,14 +11,21 @@ use crate::options::Scalar;
 /// The files.
 pub const BESIDE: [&str; 3] = ["mode.npy", "displacement.npy", "against_displacement.npy"];
 
+/// A kind of field that may be asked for by its name.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Beside {
+    Displacement,
+}
+
 /// A field on the whole of the map, by its file.
 pub type Named = (&'static str, Array2<f64>);
 
 impl Options {
     /// The files of the fields that are asked for.
     pub fn beside(&self) -> impl Iterator<Item = &'static str> + use<> {
-        let both = self.displacement && self.surface.other.modulus().is_some();
-        let asked = [self.stability || self.leave, self.displacement, both];
+        let displacement = self.fields == Some(Beside::Displacement);
+        let both = displacement && self.surface.other.modulus().is_some();
+        let asked = [self.stability || self.leave, displacement, both];
         BESIDE.into_iter().zip(asked).filter_map(|(name, asked)| asked.then_some(name))
     }
 

@@ -35,8 +35,8 @@ impl Options {
 
     /// Refuses what has no form for several processes.
     pub fn check_shared(&self, processes: &Processes) -> Outcome<()> {
-        if self.displacement && self.surface.beyond.boundary == Boundary::Free {
-            processes.alone("--displacement with a free boundary")?;
+        if self.fields.is_some() && self.surface.beyond.boundary == Boundary::Free {
+            processes.alone("--fields displacement with a free boundary")?;
         }
         if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
     }
