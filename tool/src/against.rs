@@ -22,10 +22,10 @@ pub struct AgainstOptions {
     /// Contact modulus E/(1 - nu^2) of the body on the other side, an elastic half-space [default: it is rigid]
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = PRESSURE.positive())]
     against_modulus: Option<Quantity>,
-    /// Shift of the surface on the other side along x and y, any part of a node [default: 0 0]; a negative one with a
-    /// unit is written --shift=-1um
-    #[arg(long, value_names = ["X", "Y"], num_args = 1..=2, allow_negative_numbers = true, requires = "against")]
-    #[arg(value_parser = LENGTH.finite())]
+    /// Shift of the surface on the other side along x and y, any part of a node [default: 0 0]; negative ones with a
+    /// unit are written --shift=-1um,0um
+    #[arg(long, value_names = ["X", "Y"], num_args = 1..=2, value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(requires = "against", value_parser = LENGTH.finite())]
     shift: Option<Vec<Quantity>>,
 }
 

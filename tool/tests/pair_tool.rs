@@ -146,6 +146,14 @@ fn units_sides_and_missing_points_of_both_are_looked_at() {
     close(&(&gaps[0] / 20.0), &gaps[2], 1e-7);
     close(&(&gaps[1] / 20e-6), &gaps[2], 1e-7);
 
+    // negative lengths with units, also from a scene, where they lead around the cell
+    let shifted = format!("{both} --modulus 1GPa --mean-pressure 20MPa --quiet");
+    bench.said(&format!("{shifted} --shift=-5um,0um --out back"));
+    bench.said(&format!("{shifted} --shift 15um 0um --out on"));
+    bench.said("run back/scene.toml --quiet --out again");
+    assert!(["on", "again"].iter().all(|out| bench.bytes(&format!("{out}/gap.npy")) == bench.bytes("back/gap.npy")));
+    assert_eq!(bench.report("again")["given"]["shift"], json!(["-5um", "0um"]));
+
     bench.said("prepare other.npy --lengths 1 --resample 24 24 --quiet --out coarse.npy");
     bench.said("prepare other.npy --lengths 1 --mirror --quiet --out mirrored.npz");
     bench.said("prepare heights.npy --lengths 1 --mirror --quiet --out mirror.npz");
