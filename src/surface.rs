@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 
 mod fill;
+mod pair;
 mod philox;
 mod resample;
 mod self_affine;

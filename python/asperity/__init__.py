@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
+from . import _cycle, _pair, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -43,6 +43,7 @@ from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
+contact_modulus = _checked(_pair.contact_modulus)
 cycle = _checked(_cycle.cycle)
 prepare = _checked(_prepare.prepare)
 pull_off = _checked(_pull_off.pull_off)
@@ -85,6 +86,7 @@ __all__ = [
     "__version__",
     "check_law",
     "contact",
+    "contact_modulus",
     "cycle",
     "exact",
     "from_topography",

@@ -33,10 +33,12 @@ __all__ = [
     "Varying",
     "WaveContact",
     "WavyLine",
+    "between",
     "check_law",
     "closing_pressure_2d",
     "clusters",
     "command",
+    "contact_modulus",
     "has_dimension",
     "in_metres",
     "made",
@@ -195,6 +197,7 @@ class Look:
         Report,
         list[tuple[str, str]],
     ]: ...
+    def displacements(self) -> tuple[_Field, _Field] | None: ...
 
 @final
 class Original:
@@ -211,6 +214,7 @@ class Problem:
     def __new__(
         cls,
         heights: _Field,
+        against: tuple[str, tuple[float, float]] | None,
         lengths: tuple[float, float],
         absent_missing: bool,
         boundary: str,
@@ -275,6 +279,10 @@ def statistics(heights: _Field, lengths: tuple[float, float] | None) -> list[flo
 def spectrum(
     heights: _Field, lengths: tuple[float, float]
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
+def between(
+    first: _Given, second: _Given, shift: tuple[float, float], boundary: str, absent_missing: bool
+) -> _Field: ...
+def contact_modulus(bodies: list[tuple[float, float]]) -> float: ...
 def clusters(map: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(

@@ -10,6 +10,7 @@ from . import _control, _plot
 from ._asperity import Iteration
 from ._body import Body
 from ._columns import Rows
+from ._pair import Shift
 from ._scene import Scene
 from ._solution import Solution, Start
 from ._topography import Heights
@@ -114,6 +115,9 @@ def cycle(
     springs: Iterable[tuple[Quantity, Quantity]] | None = None,
     reduced_pressures: Iterable[float] | None = None,
     body: Body | None = None,
+    against: Heights | None = None,
+    against_modulus: Quantity | None = None,
+    shift: Shift | None = None,
     boundary: Boundary = "periodic",
     absent_missing: bool = False,
     law: OwnLaw | None = None,

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from ._asperity import Iteration
 from ._body import Body
 from ._control import number, only
+from ._pair import Shift
 from ._scene import Scene
 from ._solution import Solution, Start
 from ._topography import Heights
@@ -64,6 +65,9 @@ def pull_off(
     preload: Quantity | None = None,
     rtol: float = 0.02,
     body: Body | None = None,
+    against: Heights | None = None,
+    against_modulus: Quantity | None = None,
+    shift: Shift | None = None,
     boundary: Boundary = "periodic",
     absent_missing: bool = False,
     wall: Wall = "hard",

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from . import _asperity
 from ._body import Body, parameters, symbol
 from ._control import number
+from ._pair import Shift, along_both, between
 from ._solution import Solution, Start
 from ._topography import Heights, Topography, field_of, original_of, refined, sides, taken
 from ._types import AxisOrder, Boundary, Branches, Lengths, Method, OwnLaw, Precision, Quantity
@@ -31,6 +32,9 @@ class Scene:
         axes: AxisOrder | None = None,
         modulus: Quantity,
         body: Body | None = None,
+        against: Heights | None = None,
+        against_modulus: Quantity | None = None,
+        shift: Shift | None = None,
         boundary: Boundary,
         absent_missing: bool,
         law: OwnLaw | None,
@@ -46,15 +50,28 @@ class Scene:
     ) -> None:
         self.topography: Topography = taken(heights, lengths, axes)
         lengths, modulus = sides(self.topography), number("modulus", modulus)
+        elastic = {"modulus": modulus, **parameters(body)}
+        if against_modulus is not None:
+            elastic["against_modulus"] = number("against_modulus", against_modulus)
+        facing = None
+        if against is not None:
+            moved = along_both(shift)
+            self.topography, name = between(
+                self.topography, against, moved, axes=axes, boundary=boundary, absent_missing=absent_missing
+            )
+            facing = (name, moved)
+        elif shift is not None:
+            raise ValueError(f"shift is {shift!r}, but there is no surface on the other side: give against, or leave it out")
         original = original_of(self.topography)
         # with a free boundary the images belong to the body
         self.original = None if whole or boundary != "periodic" else original
         self.problem = _asperity.Problem(
             self.topography.heights,
+            facing,
             lengths,
             absent_missing,
             boundary,
-            {"modulus": modulus, **parameters(body)},
+            elastic,
             symbol(body),
             law,
             *parts(wall),

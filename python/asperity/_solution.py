@@ -136,7 +136,7 @@ class Solution:
 
     def __getstate__(self) -> dict[str, Any]:
         # a solution travels complete, and without its view of the memory of this process
-        complete = {"_looked": self._looked, "_look": None}
+        complete = {"_looked": self._looked, "_displacements": self._displacements, "_look": None}
         return {**self.__dict__, **complete}
 
     @cached_property
@@ -188,7 +188,7 @@ class Solution:
 
     @property
     def heights(self) -> NDArray[np.float64]:
-        """Heights of the surface."""
+        """Heights of the surface; between two surfaces their sum, the second as it faces the first."""
         return self.part_of(self.topography.heights)
 
     @property
@@ -197,10 +197,25 @@ class Solution:
         lx, ly = self._told["lengths"]
         return (lx, ly)
 
+    @cached_property
+    def _displacements(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+        found = None if self._look is None else self._look.displacements()
+        return None if found is None else (self.part_of(found[0]), self.part_of(found[1]))
+
     @property
     def displacement(self) -> NDArray[np.floating[Any]]:
-        """Displacement u = g + h of the half-space."""
-        return self.gap + self.heights
+        """Displacement of the body that is pressed, u = g + h as long as the other one is rigid.
+
+        If both are elastic, ``displacement + against_displacement`` is g + h but for a constant: each is û = p̂/k of its
+        own body, wave by wave. They vanish far away with a free boundary; with a periodic one their mean is zero, or
+        the compression of a layer or a coating as a whole.
+        """
+        return self.gap + self.heights if self._displacements is None else self._displacements[0]
+
+    @property
+    def against_displacement(self) -> NDArray[np.float64] | None:
+        """Displacement of the body on the other side, positive away from the contact; None if it is rigid."""
+        return None if self._displacements is None else self._displacements[1]
 
     @property
     def status(self) -> Status:

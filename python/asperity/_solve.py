@@ -9,6 +9,7 @@ from . import _control
 from ._accuracy import Plan
 from ._asperity import Iteration
 from ._body import Body
+from ._pair import Shift
 from ._scene import Scene
 from ._solution import Solution, Start
 from ._topography import Heights
@@ -40,6 +41,9 @@ def solve(
     reduced_pressure: float | None = None,
     contact_fraction: float | None = None,
     body: Body | None = None,
+    against: Heights | None = None,
+    against_modulus: Quantity | None = None,
+    shift: Shift | None = None,
     boundary: Boundary = "periodic",
     absent_missing: bool = False,
     law: OwnLaw | None = None,
@@ -101,6 +105,16 @@ def solve(
         ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
     body : Layer, Coating or Symbol, optional
         Body that deforms, a half-space by default; with a periodic boundary.
+    against : array_like, Topography, SurfaceTopography, DataArray or path of a file, optional
+        Heights of the surface on the other side, peaks up as they were measured, of the same shape, side lengths and
+        unit; flat without it. The other surface is turned over about the y axis as it faces this one, so that the
+        surface between both has the heights ``heights + against[::-1]``.
+    against_modulus : float, optional
+        Contact modulus of the body on the other side, an elastic half-space; it is rigid without it. The compliances of
+        both add.
+    shift : float or (float, float), optional
+        Lengths by which the surface on the other side is moved along x and y, with a periodic boundary: any part of a
+        node, by the phases of its waves.
     boundary : {"periodic", "free"}
         What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. Free
         needs an area, and four times the memory.

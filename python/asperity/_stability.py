@@ -100,6 +100,7 @@ def stability(
         law=solution.law,
         modulus=report["modulus"],
         body=solution.body,
+        against_modulus=report["against_modulus"],
         boundary=report["boundary"],
         wall=report["wall"] if report["wall"] != "penalty" else Penalty(report["wall_stiffness"] or 0.0),
         precision=report["precision"],

@@ -190,7 +190,7 @@ def known(topography: Topography) -> tuple[Any, Any, Any, Any]:
 
 def found(heights: Heights, axes: AxisOrder | None) -> Topography:
     """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
-    if axes is not None and (isinstance(heights, Topography | str | os.PathLike) or _is_topography(heights)):
+    if axes is not None and knows_axes(heights):
         raise ValueError(f"axes is {axes!r}, but a file or a map knows its axes: leave it out, or give an array")
     if isinstance(heights, Topography):
         return heights
@@ -202,6 +202,11 @@ def found(heights: Heights, axes: AxisOrder | None) -> Topography:
         return _from_data_array(heights, axes)
     array, is_line = array_of(heights, axes=axes)
     return Topography(array, _is_line=is_line)
+
+
+def knows_axes(heights: Heights) -> bool:
+    """Whether heights are a map or a file, whose axes are known."""
+    return isinstance(heights, Topography | str | os.PathLike) or _is_topography(heights)
 
 
 def sides(topography: Topography) -> tuple[float, float]:

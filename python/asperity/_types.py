@@ -215,6 +215,8 @@ class Report(TypedDict):
     control: Literal["mean-pressure", "mean-gap", "normal-force", "approach", "spring"]
     control_value: float
     heights: str | None
+    against: str | None
+    shift: list[float] | None
     initial_gap: str | None
     part: Literal["original", "whole"] | None
     solved_shape: list[int] | None
@@ -232,6 +234,7 @@ class Report(TypedDict):
     coating_modulus: float | None
     coating_poisson: float | None
     symbol: str | None
+    against_modulus: float | None
     law: str
     work_of_adhesion: float | None
     range: float | None

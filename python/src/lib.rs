@@ -14,6 +14,7 @@ mod law;
 mod look;
 mod numbers;
 mod original;
+mod pair;
 mod pools;
 mod problem;
 mod refusal;
@@ -46,6 +47,8 @@ mod _asperity {
     use crate::look::Look;
     #[pymodule_export]
     use crate::original::Original;
+    #[pymodule_export]
+    use crate::pair::{between, contact_modulus};
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]

@@ -15,6 +15,7 @@ use crate::refusal::refusal;
 /// A sight in either precision, with the fields.
 trait Looks: Send + Sync {
     fn look<'py>(&self, py: Python<'py>) -> PyResult<Looked<'py>>;
+    fn displacements<'py>(&self, py: Python<'py>) -> PyResult<Option<Both<'py>>>;
 }
 
 struct Seen<T: Scalar> {
@@ -45,6 +46,11 @@ impl Look {
     fn found<'py>(&self, py: Python<'py>) -> PyResult<Looked<'py>> {
         self.0.look(py)
     }
+
+    /// The displacements of both bodies on all nodes that were solved, if both are elastic.
+    fn displacements<'py>(&self, py: Python<'py>) -> PyResult<Option<Both<'py>>> {
+        self.0.displacements(py)
+    }
 }
 
 impl<T: Scalar> Looks for Seen<T> {
@@ -65,7 +71,23 @@ impl<T: Scalar> Looks for Seen<T> {
             .map(|(name, texts)| (name, texts.concat()));
         Ok((statistics_of(py, found), to_pyobject(py, &account)?, rows.collect()))
     }
+
+    fn displacements<'py>(&self, py: Python<'py>) -> PyResult<Option<Both<'py>>> {
+        let pressure = self.fields[1].bind(py).readonly();
+        let pressure = pressure.as_array();
+        let pool = Pool::of(self.threads)?;
+        let find = || {
+            let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+            let (sight, account) = &*seen;
+            pool.get().install(|| sight.displacements(&account.inputs.elastic, pressure))
+        };
+        let found = py.detach(find).map_err(refusal)?;
+        Ok(found.map(|both| both.map(|field| field.into_pyarray(py)).into()))
+    }
 }
+
+/// The displacements of the body that is pressed, and of the one on the other side.
+type Both<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
 
 /// The statistics, the report, and the name and the text of each row of the summary.
 type Looked<'py> = (Statistics<'py>, Bound<'py, PyAny>, Vec<(String, String)>);

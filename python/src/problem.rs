@@ -55,13 +55,15 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, precision, tolerance, max_iterations,
+        heights, against, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, precision, tolerance,
+        max_iterations,
         method, branch, nested, threads, original, part, unit, source, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
         py: Python<'_>,
         heights: Field<'_>,
+        against: Option<(String, (f64, f64))>,
         lengths: (f64, f64),
         absent_missing: bool,
         boundary: &str,
@@ -103,6 +105,8 @@ impl Problem {
         let scene = Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch };
         let inputs = Inputs {
             heights: source,
+            shift: against.as_ref().map(|(_, shift)| *shift),
+            against: against.map(|(name, _)| name),
             part,
             length_unit: unit,
             pressure_unit: given.as_ref().map(|_| PRESSURE.si.to_owned()),

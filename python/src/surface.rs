@@ -19,7 +19,7 @@ use crate::pools::Pool;
 use crate::refusal::refusal;
 
 /// Heights, side lengths and unit of a map, the nodes of the original of a mirrored one, and the seed of a random one.
-type Map<'py> = (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>, Option<u64>);
+type Made<'py> = (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>, Option<u64>);
 
 /// Calls a function without the interpreter's lock, on the shared pool.
 fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Send) -> PyResult<R> {
@@ -27,7 +27,7 @@ fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Se
     py.detach(|| pool.get().install(act)).map_err(refusal)
 }
 
-fn map(py: Python<'_>, topography: Topography) -> Map<'_> {
+fn map(py: Python<'_>, topography: Topography) -> Made<'_> {
     let Topography { heights, lengths, unit, original, seed, .. } = topography;
     (heights.into_pyarray(py), lengths, unit, original, seed)
 }
@@ -40,7 +40,7 @@ fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
 /// Reads a file of heights, of several channels the one of a number or title.
 #[pyfunction]
 #[pyo3(signature = (path, channel))]
-pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<Map<'_>> {
+pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<Made<'_>> {
     let read = || match &channel {
         Some(channel) => asperity_maps::io::read_channel(&path, channel),
         None => asperity_maps::io::read_topography(&path),
@@ -109,10 +109,10 @@ pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -
 }
 
 /// A map as Python has it: heights, side lengths, unit, and the nodes of the original of a mirrored one.
-type Given<'py> = (Field<'py>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>);
+pub type Map<'py> = (Field<'py>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>);
 
 /// A map of the library from one of Python.
-fn topography((heights, lengths, unit, original): Given<'_>) -> PyResult<Topography> {
+pub fn topography((heights, lengths, unit, original): Map<'_>) -> PyResult<Topography> {
     let mut map = Topography::new(heights.to_array()?);
     (map.lengths, map.unit, map.original) = (lengths, unit, original);
     Ok(map)
@@ -120,20 +120,20 @@ fn topography((heights, lengths, unit, original): Given<'_>) -> PyResult<Topogra
 
 /// A map in metres.
 #[pyfunction]
-pub fn in_metres<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Map<'py>> {
+pub fn in_metres<'py>(py: Python<'py>, given: Map<'py>) -> PyResult<Made<'py>> {
     let found = in_unit(topography(given)?, LENGTH.si);
     let refused = |text: String| PyValueError::new_err(format!("heights: {}", worded(&text, Skin::Keywords)));
     Ok(map(py, found.map_err(refused)?))
 }
 
 /// A prepared map, the lines of its log, and the warnings.
-type Prepared<'py> = (Map<'py>, Vec<String>, Bound<'py, PyAny>);
+type Prepared<'py> = (Made<'py>, Vec<String>, Bound<'py, PyAny>);
 
 /// Takes the steps from a measured map to a periodic surface, by their keys.
 #[pyfunction]
 pub fn prepare<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: Map<'py>,
     new_lengths: Option<(f64, f64)>,
     in_metres: bool,
     steps: Bound<'py, PyAny>,

@@ -160,3 +160,14 @@ def test_what_is_no_function_of_waves_is_refused(function, message):
 def test_a_free_boundary_is_refused(rough):
     with pytest.raises(ValueError, match="symbol has no free boundary"):
         pressed(rough, asperity.Symbol(half_space), mean_pressure=None, normal_force=0.01, boundary="free")
+
+
+def test_one_against_another_elastic_body_is_both_in_series(rough):
+    both = pressed(rough, modulus=3.0, against_modulus=6.0)
+    own = pressed(rough, modulus=3.0, body=asperity.Symbol(lambda q: 1.5 * q), against_modulus=6.0)
+    assert own.mean_gap == pytest.approx(both.mean_gap, rel=1e-6)
+    assert own.report["mu_rho"] == pytest.approx(both.report["mu_rho"], rel=1e-6)
+    assert own.contact_fraction == both.contact_fraction
+    assert asperity.pull_off(rough, modulus=3.0, against_modulus=6.0, law=LAW).pressure == pytest.approx(
+        asperity.pull_off(rough, modulus=2.0, law=LAW).pressure, rel=0.02
+    )

@@ -40,17 +40,25 @@ use crate::grid::Grid;
 /// # Errors
 /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;
 /// [`Error::NotFinite`] if heights are missing.
-pub fn resample(mut heights: Array2<f64>, nodes: (usize, usize)) -> Result<Array2<f64>> {
+pub fn resample(heights: Array2<f64>, nodes: (usize, usize)) -> Result<Array2<f64>> {
     Grid::new(nodes, (1.0, 1.0))?.slab().afford("a resampled map", 32)?;
     all_finite("heights", heights.view())?;
-    // about the mean, so that a large datum costs no digits
+    Ok(by_lines(heights, |lines| resampled(lines, nodes.0), |lines| resampled(lines, nodes.1)))
+}
+
+/// Heights whose lines along y and then those along x, the rows of a field each, are changed, about the mean height: a
+/// large datum costs no digits.
+pub(super) fn by_lines(
+    mut heights: Array2<f64>,
+    along_x: impl FnOnce(&Array2<f64>) -> Array2<f64>,
+    along_y: impl FnOnce(&Array2<f64>) -> Array2<f64>,
+) -> Array2<f64> {
     let mean = mean_of_finite(&heights);
     heights.mapv_inplace(|h| h - mean);
-    let along_y = resample_rows(&heights, nodes.1);
-    let along_x = resample_rows(&along_y.reversed_axes().as_standard_layout().into_owned(), nodes.0);
-    let mut heights = along_x.reversed_axes().as_standard_layout().into_owned();
+    let transposed = |field: Array2<f64>| field.reversed_axes().as_standard_layout().into_owned();
+    let mut heights = transposed(along_x(&transposed(along_y(&heights))));
     heights.mapv_inplace(|h| h + mean);
-    Ok(heights)
+    heights
 }
 
 /// Heights and their mirror images along both axes, 2Nx × 2Ny nodes: row Nx + i is a copy of row Nx − 1 − i, and columns
@@ -62,12 +70,18 @@ pub fn mirror(heights: &Array2<f64>) -> Array2<f64> {
     Array2::from_shape_fn((mx, my), |(i, j)| heights[[image(i, nx), image(j, ny)]])
 }
 
-/// Every row on `m` nodes. Two of them ride in one complex line: what interpolation multiplies their waves by is real.
-fn resample_rows(field: &Array2<f64>, m: usize) -> Array2<f64> {
+/// Every row on `m` nodes.
+fn resampled(rows: &Array2<f64>, m: usize) -> Array2<f64> {
+    if rows.ncols() == m { rows.clone() } else { changed(rows, m, spread) }
+}
+
+/// Every row on `m` nodes, by a change of its waves that keeps it real. Two rows ride in one complex line.
+pub(super) fn changed(
+    field: &Array2<f64>,
+    m: usize,
+    change: impl Fn(&[Complex<f64>], &mut [Complex<f64>]),
+) -> Array2<f64> {
     let (rows, n) = field.dim();
-    if n == m {
-        return field.clone();
-    }
     let (forward, inverse) = (asperity_fft::double(n).forward, asperity_fft::double(m).inverse);
     let mut scratch =
         vec![Complex::default(); forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())];
@@ -80,7 +94,7 @@ fn resample_rows(field: &Array2<f64>, m: usize) -> Array2<f64> {
             .and(field.row(second))
             .for_each(|z, &a, &b| *z = Complex::new(a, b));
         forward.process_with_scratch(&mut line, &mut scratch);
-        spread(&line, &mut fine);
+        change(&line, &mut fine);
         inverse.process_with_scratch(&mut fine, &mut scratch);
         for (row, part) in [(second, 1), (first, 0)] {
             let values = fine.iter().map(|z| if part == 0 { z.re } else { z.im } / n as f64);

@@ -229,6 +229,19 @@ fn two_bodies_yield_by_the_sum_of_their_compliances() {
         0.1 / material(1.0, 0.3).confined_modulus() + 0.2 / material(1.0, 0.3).confined_modulus(),
         max_relative = 1e-14
     );
+
+    // a modulus that is unknown of one of them is unknown of both
+    struct Own;
+    impl Body for Own {
+        fn stiffness(&self, qx: f64, qy: f64) -> f64 {
+            qx.hypot(qy)
+        }
+        fn modulus(&self) -> f64 {
+            f64::NAN
+        }
+    }
+    assert!(Series(Own, HalfSpace::new(1.0).unwrap()).modulus().is_nan());
+    assert!(Series(HalfSpace::new(1.0).unwrap(), Own).modulus().is_nan());
 }
 
 #[test]

@@ -22,6 +22,7 @@ mod maugis_dugdale;
 mod nested;
 mod no_wall;
 mod operators;
+mod pair;
 mod paper;
 mod path;
 mod precision;

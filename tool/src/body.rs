@@ -52,7 +52,7 @@ impl BodyOptions {
             coating: number(self.coating),
             coating_modulus: number(self.coating_modulus),
             coating_poisson: self.coating_poisson,
-            symbol: None,
+            ..Elastic::default()
         }
     }
 }

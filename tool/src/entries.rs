@@ -125,10 +125,11 @@ pub fn spelled(entry: &str, value: &Value, command: &Command, folder: &Path) -> 
         return Ok(words);
     }
     let most = option.get_num_args().map_or(1, |count| count.max_values());
-    if most > 1 {
-        if words.len() > most {
-            return Err(format!("{entry} has {} values: give {most} at most", words.len()));
-        }
+    if most > 1 && words.len() > most {
+        return Err(format!("{entry} has {} values: give {most} at most", words.len()));
+    }
+    // values with commas between them may be negative
+    if most > 1 && option.get_value_delimiter().is_none() {
         return Ok(std::iter::once(name.into()).chain(words).collect());
     }
     let mut typed = OsString::from(name + "=");

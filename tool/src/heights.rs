@@ -43,10 +43,15 @@ impl Origin {
 /// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none.
 /// Lengths that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
 pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topography, Origin)> {
-    let (mut map, unit) = in_metres_if(si, path, read_topography(path)?)?;
+    let (mut map, unit) = map_in(si, path)?;
     map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
     let origin = Origin::of(&map, unit);
     Ok((map, origin))
+}
+
+/// The map of a file, in the SI in metres, and the unit from which it was converted.
+pub fn map_in(si: bool, path: &Path) -> Outcome<(Topography, Option<String>)> {
+    in_metres_if(si, path, read_topography(path)?)
 }
 
 /// Refuses a map whose statistics, or a step of preparation, do not fit into memory: running out of it cannot be caught

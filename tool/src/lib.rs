@@ -27,6 +27,7 @@ mod sweep;
 // the parts of which commands are made
 mod accuracy;
 mod adhesion;
+mod against;
 mod body;
 mod boundary;
 mod citation;

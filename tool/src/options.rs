@@ -10,6 +10,7 @@ use clap::{Args, ValueEnum};
 use ndarray::Array2;
 
 use crate::adhesion::{Adhesion, AdhesionOptions};
+use crate::against::AgainstOptions;
 use crate::allowed::{positive, threads};
 use crate::body::BodyOptions;
 use crate::boundary::BoundaryOptions;
@@ -42,6 +43,8 @@ pub struct SurfaceOptions {
     pub beyond: BoundaryOptions,
     #[command(flatten)]
     body: BodyOptions,
+    #[command(flatten)]
+    pub other: AgainstOptions,
     /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
     /// force are those of the original
     #[arg(long, help_heading = "Surface")]
@@ -121,6 +124,8 @@ impl<'a> ProblemOptions<'a> {
             let (map, origin) = heights::map(path, lengths.as_deref(), si)?;
             (heights::surface_or_absent(path, map, beyond.absent_missing)?, origin)
         };
+        let sides = (beyond.boundary, beyond.absent_missing);
+        let surface = processes.agree(self.surface.other.between(surface, &origin, si, sides))?;
         let part = processes.agree(Part::of(&origin, *surface.grid(), beyond.boundary, whole))?;
         let adhesion = self.adhesion.read(surface.grid(), processes)?;
         let start = processes.agree(self.solver.start(&surface, &part))?;
@@ -137,7 +142,8 @@ impl SurfaceOptions {
 
     /// The elastic body.
     pub fn elastic(&self) -> Elastic {
-        self.body.elastic(self.beyond.boundary, self.modulus())
+        let body = self.body.elastic(self.beyond.boundary, self.modulus());
+        Elastic { against_modulus: self.other.modulus(), ..body }
     }
 
     /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
@@ -147,10 +153,11 @@ impl SurfaceOptions {
 }
 
 impl<'a> ProblemOptions<'a> {
-    /// The files of the problem: heights, law and works of adhesion.
+    /// The files of the problem: heights of both sides, law and works of adhesion.
     pub fn files(self) -> impl Iterator<Item = &'a Path> {
-        let adhesion = [&self.adhesion.law_table, &self.adhesion.work_of_adhesion_map];
-        std::iter::once(&*self.surface.heights).chain(adhesion.into_iter().filter_map(Option::as_deref))
+        let Self { surface, adhesion, .. } = self;
+        let others = [&surface.other.against, &adhesion.law_table, &adhesion.work_of_adhesion_map];
+        std::iter::once(&*surface.heights).chain(others.into_iter().filter_map(Option::as_deref))
     }
 
     /// The scene that the options describe.

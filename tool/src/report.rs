@@ -17,6 +17,8 @@ pub fn inputs(problem: ProblemOptions<'_>, part: &Part, units: &Units, scene: &S
     let path = |file: Option<&Path>| file.map(|path| path.to_string_lossy().into_owned());
     Inputs {
         heights: path(Some(&problem.surface.heights)),
+        against: path(problem.surface.other.against.as_deref()),
+        shift: problem.surface.other.shift(),
         initial_gap: path(problem.solver.initial_gap.as_deref()),
         part: part.name().map(str::to_owned),
         solved_shape: part.solved(),

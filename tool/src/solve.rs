@@ -1,20 +1,23 @@
 //! `asperity solve`: the equilibrium at one load.
 
+mod beside;
 mod distribution;
 mod problem;
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use asperity::contact::PressureDistribution;
 use asperity::{AdhesionLaw, Solution, Status};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use asperity_scene::{Account, Asked, Load, Precision, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::{Array2, CowArray};
+use ndarray::CowArray;
 use serde_json::json;
 
+use self::beside::{BESIDE, Beside, Named};
 use crate::accuracy::AccuracyOptions;
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::bins;
@@ -26,8 +29,7 @@ use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
-use crate::printing::in_options;
-use crate::printing::{Printing, complain, name, say};
+use crate::printing::{Printing, complain, in_options, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{PRESSURE, Quantity};
@@ -83,6 +85,10 @@ pub struct Options {
     /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
+    /// Fields to write beside gap and pressures: displacement.npy is gap and height as long as the other body is rigid;
+    /// if both are elastic, the displacement of the first one, and against_displacement.npy that of the other
+    #[arg(long, value_enum, value_name = "FIELD", help_heading = "Output")]
+    fields: Option<Beside>,
     /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0
     /// to the largest; its integral is the contact fraction [default: 50 if --distribution stands alone]
     #[arg(long, value_name = "BINS", num_args = 0..=1, default_missing_value = "50", help_heading = "Output")]
@@ -145,19 +151,20 @@ enum Format {
 }
 
 const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
-const MODE: &str = "mode.npy";
 const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
 const DISTRIBUTION: &str = "distribution.csv";
 /// All files that a solve may leave. The report stands for the run.
-pub const FILES: [&str; 15] = [
+pub const FILES: [&str; 17] = [
     REPORT,
     scene::NAME,
     FIELDS[0],
     FIELDS[1],
     FIELDS[2],
-    MODE,
+    BESIDE[0],
+    BESIDE[1],
+    BESIDE[2],
     NPZ,
     VTI,
     DISTRIBUTION,
@@ -187,13 +194,12 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
         return Err(format!("--colour-limits {} {}: {text}", plain(low), plain(high)).into());
     }
     let pictures = options.picture_format.of(PICTURES);
-    let pictures = pictures.iter().filter(|_| !options.no_pictures);
-    let mode = (options.stability || options.leave).then_some(&MODE);
-    let arrays = FIELDS.iter().chain(mode).filter(|_| options.writes(Format::Npy));
-    let archives = [(Format::Npz, &NPZ), (Format::Vti, &VTI)].into_iter().filter(|(format, _)| options.writes(*format));
+    let pictures = pictures.into_iter().filter(|_| !options.no_pictures);
+    let arrays = FIELDS.into_iter().chain(options.beside()).filter(|_| options.writes(Format::Npy));
+    let archives = [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
-    let distribution = options.distribution.map(|_| &DISTRIBUTION);
-    let names: Vec<_> = fields.chain([&REPORT, &scene::NAME]).chain(distribution).chain(pictures).copied().collect();
+    let distribution = options.distribution.map(|_| DISTRIBUTION);
+    let names: Vec<_> = fields.chain([REPORT, scene::NAME]).chain(distribution).chain(pictures).collect();
     processes.first(|| {
         scene.check(&options.out.join(scene::NAME))?;
         FILES.iter().try_for_each(|name| check_apart(&options.out.join(name), problem.files()))?;
@@ -216,11 +222,6 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 }
 
 impl Options {
-    /// Refuses what has no form for several processes.
-    fn check_shared(&self, processes: &Processes) -> Outcome<()> {
-        if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
-    }
-
     fn writes(&self, format: Format) -> bool {
         self.format.contains(&format)
     }
@@ -266,6 +267,8 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
+        let surface = Arc::new(surface);
+        let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
         let mut posed = self.options.problem().scene().posed::<T>(surface, adhesion.law(), self.part.wanted())?;
         let tolerance = posed.tolerance(self.asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
@@ -279,7 +282,8 @@ impl Job<'_> {
         })?;
         drop((posed, progress));
         check_finite(&found.solution)?;
-        if found.refined.take().is_some() {
+        let refined = found.refined.take().map(Arc::new);
+        if refined.is_some() {
             grid = found.solution.grid;
             self.part = self.part.on(grid)?;
         }
@@ -289,7 +293,9 @@ impl Job<'_> {
         let inputs = self.options.inputs(&self.part, &self.units, self.scene);
         let mut account = found.account("solve", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
         found.sight.look_at(&mut account, &found.solution)?;
-        let (solution, mut mode) = (&found.solution, found.mode.map(|mode| mode.mapv_into_any(T::widen)));
+        let surface = kept.map(|kept| refined.unwrap_or(kept));
+        let mut beside = self.options.fields_beside(&found, surface.as_deref())?;
+        let solution = &found.solution;
 
         let folder = processes.is_first().then(|| output_folder(out, &FILES, *force)).transpose();
         let folder = processes.agree(folder)?;
@@ -299,19 +305,19 @@ impl Job<'_> {
             let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
             let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
             write_fields(processes, folder.as_ref(), out, part, &named)?;
-            if let Some(mode) = &mode {
-                let mode = self.part.of_field(mode.clone())?;
-                write_fields(processes, folder.as_ref(), out, part, &[(MODE.to_owned(), &mode)])?;
+            for (name, field) in &beside {
+                let field = self.part.of_field(field.clone())?;
+                write_fields(processes, folder.as_ref(), out, part, &[((*name).to_owned(), &field)])?;
             }
         }
-        if let Some(mode) = mode.as_mut().filter(|_| fits && grid.is_shared()) {
-            *mode = grid.gathered(mode).map(CowArray::into_owned).unwrap_or_default();
+        for (_, field) in beside.iter_mut().filter(|_| fits && grid.is_shared()) {
+            *field = grid.gathered(field).map(CowArray::into_owned).unwrap_or_default();
         }
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
             let law = whole_adhesion.as_ref().map(Adhesion::law);
             let whole = whole.as_deref().zip(law.as_ref());
-            let written = self.write(&folder, whole, mode.as_ref(), &account);
+            let written = self.write(&folder, whole, &beside, &account);
             written.map_err(|error| at_destination(error, out))?;
             Ok(folder.commit()?)
         })?;
@@ -355,7 +361,7 @@ impl Job<'_> {
         &self,
         folder: &OutputFolder,
         whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
-        mode: Option<&Array2<f64>>,
+        beside: &[Named],
         account: &Account,
     ) -> asperity::Result<()> {
         let path = |name: &str| folder.path(name);
@@ -365,8 +371,9 @@ impl Job<'_> {
         let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
         let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        let mode = mode.map(|mode| self.part.of_field(mode.mapv(T::lit))).transpose()?;
-        let named = FIELDS.into_iter().zip(fields).chain(mode.as_ref().map(|mode| (MODE, mode)));
+        let beside = beside.iter().map(|(name, field)| Ok((*name, self.part.of_field(field.mapv(T::lit))?)));
+        let beside = beside.collect::<asperity::Result<Vec<_>>>()?;
+        let named = FIELDS.into_iter().zip(fields).chain(beside.iter().map(|(name, field)| (*name, field)));
         let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field.view())).collect();
         if self.options.writes(Format::Npz) {
             write_npz(path(NPZ), &shown, &named)?;

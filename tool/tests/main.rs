@@ -16,6 +16,7 @@ mod hostile;
 mod interruption;
 mod laws_tool;
 mod mirror_tool;
+mod pair_tool;
 mod pictures;
 mod places;
 mod prepare;

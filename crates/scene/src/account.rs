@@ -207,6 +207,11 @@ impl<T: Real> Sight<T> {
 pub struct Inputs {
     /// The file of the heights.
     pub heights: Option<String>,
+    /// The file of the heights on the other side, or a word for them, if there are any.
+    pub against: Option<String>,
+    /// The shift of these along both axes.
+    #[serde(serialize_with = "list")]
+    pub shift: Option<(f64, f64)>,
     /// The file of the gap from which the solve started, or a word for it.
     pub initial_gap: Option<String>,
     /// The part of a mirrored map that results are of.

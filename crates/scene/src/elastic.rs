@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material};
+use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Series};
 use asperity::{Boussinesq, ElasticOperator, Error, Grid, Real, Result, Spectral, Surface, Westergaard};
 use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
@@ -34,6 +34,8 @@ pub struct Elastic {
     pub coating_poisson: Option<f64>,
     /// The body of a user's own, by the stiffness of its waves.
     pub symbol: Option<Symbol>,
+    /// The contact modulus of the other body, an elastic half-space, a pressure; the other body is rigid without it.
+    pub against_modulus: Option<f64>,
 }
 
 impl Default for Elastic {
@@ -48,6 +50,7 @@ impl Default for Elastic {
             coating_modulus: None,
             coating_poisson: None,
             symbol: None,
+            against_modulus: None,
         }
     }
 }
@@ -104,6 +107,12 @@ fn or_nan(number: Option<f64>) -> f64 {
 impl Elastic {
     /// The parameters beside the modulus by their keys, as far as they are given.
     pub fn given(&self) -> impl Iterator<Item = (&'static str, String)> {
+        let other = self.against_modulus.map(|modulus| ("against_modulus", modulus.to_string()));
+        self.own().chain(other)
+    }
+
+    /// Those of the body itself.
+    fn own(&self) -> impl Iterator<Item = (&'static str, String)> + use<> {
         let base = self.base.map(|base| if base == Base::Bonded { "bonded" } else { "sliding" }.to_owned());
         let number = |value: Option<f64>| value.map(|value| value.to_string());
         let given = [
@@ -118,8 +127,33 @@ impl Elastic {
         given.into_iter().filter_map(|(key, value)| Some((key, value?)))
     }
 
-    /// The body in words, unless it is a half-space.
+    /// The contact modulus E* of both bodies, of one whose own is `modulus` and of the other: 1/E* = 1/E₁* + 1/E₂*.
+    pub(crate) fn with_other(&self, modulus: f64) -> f64 {
+        self.against_modulus.map_or(modulus, |other| {
+            let (softer, harder) = (modulus.min(other), modulus.max(other));
+            softer / (1.0 + softer / harder)
+        })
+    }
+
+    /// The first body alone, against a rigid one.
+    pub(crate) fn alone(&self) -> Self {
+        Self { against_modulus: None, ..self.clone() }
+    }
+
+    /// The other body, if it is elastic.
+    pub(crate) fn other(&self) -> Option<Self> {
+        self.against_modulus.map(|modulus| Self { modulus, boundary: self.boundary, ..Self::default() })
+    }
+
+    /// The body in words, and the other one, unless it is a half-space against a rigid one.
     pub(crate) fn in_words(&self, units: &Units) -> Option<String> {
+        let against = |modulus| format!("against a half-space of contact modulus {}", units.number(modulus, PRESSURE));
+        let both = [self.own_in_words(units), self.against_modulus.map(against)];
+        let both: Vec<_> = both.into_iter().flatten().collect();
+        (!both.is_empty()).then(|| both.join(" "))
+    }
+
+    fn own_in_words(&self, units: &Units) -> Option<String> {
         let length = |value| units.number(value, LENGTH);
         match (self.layer, self.coating) {
             (Some(thickness), _) => {
@@ -138,7 +172,7 @@ impl Elastic {
 
     /// The kind of the body, unless it is a half-space.
     fn kind(&self) -> Option<&'static Kind> {
-        self.given().find_map(|(given, _)| BODIES.iter().find(|kind| kind.key == given))
+        self.own().find_map(|(given, _)| BODIES.iter().find(|kind| kind.key == given))
     }
 
     /// Refuses a body without its parameters, and parameters that are not those of the body.
@@ -147,18 +181,18 @@ impl Elastic {
     /// The reason with a remedy, with keys in braces, for [`worded`](crate::worded).
     pub fn check(&self) -> std::result::Result<(), String> {
         let Some(kind) = self.kind() else {
-            return self.given().next().map_or(Ok(()), |(key, value)| {
+            return self.own().next().map_or(Ok(()), |(key, value)| {
                 Err(format!(
                     "{{{key}}} is {value}, but the body is a half-space, whose {{modulus}} is E/(1 - nu^2): leave it out, \
                      or give {{layer}} or {{coating}}, a thickness"
                 ))
             });
         };
-        if let Some(missing) = kind.needs.iter().find(|key| self.given().all(|(given, _)| given != **key)) {
+        if let Some(missing) = kind.needs.iter().find(|key| self.own().all(|(given, _)| given != **key)) {
             return Err(format!("{{{}}} needs {{{missing}}} beside it: give both", kind.key));
         }
         let foreign = |key: &str| key != kind.key && !kind.needs.contains(&key) && !kind.takes.contains(&key);
-        if let Some((key, value)) = self.given().find(|(key, _)| foreign(key)) {
+        if let Some((key, value)) = self.own().find(|(key, _)| foreign(key)) {
             return Err(format!("{{{key}}} is {value}, but a body with {{{}}} has none: leave it out", kind.key));
         }
         if self.boundary == Boundary::Free {
@@ -182,20 +216,21 @@ impl Elastic {
         }
         Ok(match (self.kind(), self.boundary) {
             (Some(_), _) => Box::new(Spectral::of(grid, self.body_on(&grid)?)?),
-            (None, Boundary::Periodic) => Box::new(Westergaard::new(grid, self.modulus)?),
-            (None, Boundary::Free) => Box::new(Boussinesq::new(grid, self.modulus)?),
+            (None, Boundary::Periodic) => Box::new(Westergaard::new(grid, self.with_other(self.modulus))?),
+            (None, Boundary::Free) => Box::new(Boussinesq::new(grid, self.with_other(self.modulus))?),
         })
     }
 
-    /// The body by the stiffness of its waves.
+    /// The body by the stiffness of its waves, with the other one if that is elastic.
     ///
     /// # Errors
     /// Those of the body.
     pub fn body(&self) -> Result<Arc<dyn Body>> {
-        match self.kind() {
-            Some(kind) => (kind.make)(self),
-            None => Ok(Arc::new(HalfSpace::new(self.modulus)?)),
-        }
+        let own = match self.kind() {
+            Some(kind) => (kind.make)(self)?,
+            None => Arc::new(HalfSpace::new(self.modulus)?),
+        };
+        self.in_series(own)
     }
 
     /// The body for the waves of a grid.
@@ -204,18 +239,25 @@ impl Elastic {
     /// Those of the body.
     fn body_on(&self, grid: &Grid) -> Result<Arc<dyn Body>> {
         match &self.symbol {
-            Some(symbol) => Ok(Arc::new(symbol.on(grid)?)),
+            Some(symbol) => self.in_series(Arc::new(symbol.on(grid)?)),
             None => self.body(),
         }
     }
 
-    /// The pressure E* h'rms, of which a reduced pressure is a part.
+    /// A body with the other one, if that is elastic.
+    fn in_series(&self, own: Arc<dyn Body>) -> Result<Arc<dyn Body>> {
+        let Some(other) = self.against_modulus else { return Ok(own) };
+        let other = HalfSpace::new(Error::positive("contact modulus of the other body", other)?)?;
+        Ok(Arc::new(Series(own, other)))
+    }
+
+    /// The pressure E* h'rms, with E* of both bodies, of which a reduced pressure is a part.
     ///
     /// # Errors
     /// The reason why a surface with absent nodes has none, and a remedy.
     pub fn full_pressure(&self, surface: &Surface) -> std::result::Result<f64, String> {
         match surface.absent_nodes() {
-            0 => Ok(self.modulus * surface.statistics().rms_slope),
+            0 => Ok(self.with_other(self.modulus) * surface.statistics().rms_slope),
             absent => Err(format!(
                 "a reduced pressure is over the rms slope, but {absent} nodes are absent, which have no slope: give a \
                  pressure"

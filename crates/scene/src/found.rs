@@ -50,9 +50,9 @@ pub struct Found<T> {
 pub struct Sight<T> {
     law: Arc<dyn AdhesionLaw<T>>,
     pub(crate) original: Option<Original>,
-    grid: Grid,
+    pub(crate) grid: Grid,
     /// The report on the whole.
-    report: Report,
+    pub(crate) report: Report,
     /// The surface and the nested grids, whose errors are estimated with the first look.
     pub(crate) open: Option<(Arc<Surface>, Vec<Level>)>,
     /// The errors that are known, and the nodes of the shortest wave.

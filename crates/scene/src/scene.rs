@@ -111,6 +111,8 @@ impl Scene {
     pub fn inputs(&self, shape: (usize, usize), lengths: (f64, f64), threads: usize) -> Inputs {
         Inputs {
             heights: None,
+            against: None,
+            shift: None,
             initial_gap: None,
             part: None,
             solved_shape: None,

@@ -1,7 +1,7 @@
 //! Names that are none: what they mean, by another word for the same thing or misspelt.
 
 /// Words for keys, with the keys that are meant, of which a command has one. A word stands for its plural as well.
-pub const SYNONYMS: [(&str, &str); 28] = [
+pub const SYNONYMS: [(&str, &str); 30] = [
     ("pressure load stress normal-pressure applied-pressure nominal-pressure p", "mean-pressure mean-pressures"),
     ("force normal-load indentation-force f", "normal-force normal-forces"),
     ("gap separation distance", "mean-gap mean-gaps"),
@@ -9,6 +9,8 @@ pub const SYNONYMS: [(&str, &str); 28] = [
     ("spring spring-stiffness cantilever machine-stiffness k", "spring-stiffness spring"),
     ("contact-area area fraction", "contact-fraction contact-fractions"),
     ("poisson poisson-ratio poissons-ratio nu young young-modulus youngs-modulus", "modulus"),
+    ("second-surface other-surface counterbody counterface", "against"),
+    ("offset translation slide", "shift"),
     ("elastic-modulus contact-modulus elasticity e e-star", "modulus"),
     ("adhesion adhesive adhesion-law potential interaction cohesive-law", "law"),
     ("surface-energy adhesion-energy energy gamma work w", "work-of-adhesion"),

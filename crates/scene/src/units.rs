@@ -104,6 +104,7 @@ impl Units {
 pub fn dimension_of_key(key: &str) -> Option<Dimension> {
     match key {
         "radius" | "amplitude" | "rms_height" | "spring_position" | "distance" => Some(LENGTH),
+        "young" | "other_young" => Some(PRESSURE),
         _ => dimension_of(key, "", false),
     }
 }
@@ -112,10 +113,12 @@ pub fn dimension_of_key(key: &str) -> Option<Dimension> {
 /// and words. The perimeter of contact on a line is the number of its ends.
 pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimension> {
     Some(match (name, control) {
-        ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "layer" | "coating" | "lengths", _) => LENGTH,
+        ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "layer" | "coating" | "lengths" | "shift", _) => {
+            LENGTH
+        }
         ("perimeter", _) if !on_line => LENGTH,
         ("mean_pressure" | "net_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => PRESSURE,
-        ("modulus" | "coating_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
+        ("modulus" | "coating_modulus" | "against_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
         ("pull_off_pressure" | "lost_pressure" | "preload", _) => PRESSURE,
         ("pull_off_force", _) => FORCE,
         ("density", _) => PER_PRESSURE,

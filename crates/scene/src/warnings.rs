@@ -23,8 +23,9 @@ pub fn warnings_of_input<T: Real>(
         // nothing else can be told of the heights
         found.retain(|warning| warning.code == WarningCode::Cells);
     }
-    let of_modulus = Warning::of_modulus(elastic.modulus, surface.grid(), units.length.as_deref());
-    found.extend(of_modulus.filter(|_| units.pressure.is_none()));
+    let moduli = [Some(elastic.modulus), elastic.against_modulus].into_iter().flatten();
+    let of_modulus = |modulus| Warning::of_modulus(modulus, surface.grid(), units.length.as_deref());
+    found.extend(moduli.filter(|_| units.pressure.is_none()).find_map(of_modulus));
     let body = elastic.body().ok();
     found.extend(body.as_deref().and_then(|body| Warning::of_body(body, surface.grid())));
     let modulus = body.map_or(elastic.modulus, |body| body.modulus_on(surface.grid()));

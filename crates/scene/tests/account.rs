@@ -21,9 +21,10 @@ const OUTCOME: &str = "\
     min_pressure max_pressure elastic_energy adhesive_energy stability contact_stiffness normal_stiffness \
     departures mu_rho mu_rho_node under_resolved warnings seconds control control_value";
 const INPUTS: &str = "\
-    heights initial_gap part solved_shape shape lengths length_unit pressure_unit given boundary modulus poisson \
-    layer base coating coating_modulus coating_poisson symbol law work_of_adhesion range exponent hamaker law_table \
-    cut_off work_of_adhesion_map wall wall_stiffness method precision tolerance max_iterations threads version";
+    heights against shift initial_gap part solved_shape shape lengths length_unit pressure_unit given boundary modulus \
+    poisson layer base coating coating_modulus coating_poisson symbol against_modulus law work_of_adhesion range exponent \
+    hamaker law_table cut_off work_of_adhesion_map wall wall_stiffness method precision tolerance max_iterations threads \
+    version";
 const OTHER_BRANCH: &str = "\
     branch status relative_error load_error operator_applications contact_fraction mean_gap mean_pressure \
     elastic_energy adhesive_energy distance same";

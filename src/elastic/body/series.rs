@@ -2,7 +2,8 @@ use super::Body;
 
 /// Two bodies that both deform where they touch: their compliances add, 1/k = 1/k₁ + 1/k₂.
 ///
-/// The surface between them has the sum of their heights, the second ones as they face the first. Under the pressure p
+/// The surface between them has the sum of their heights, the second ones as they face the first:
+/// [`Surface::against`](crate::Surface::against). Under the pressure p
 /// the wave q moves by p/k₁ and p/k₂. Two half-spaces are one with 1/E* = 1/E₁* + 1/E₂*; Johnson, *Contact Mechanics*
 /// (1985), section 4.1.
 ///
@@ -31,5 +32,6 @@ impl<A: Body, B: Body> Body for Series<A, B> {
 
 /// The stiffness of two springs, one behind the other.
 fn both(a: f64, b: f64) -> f64 {
-    a.min(b) / (1.0 + a.min(b) / a.max(b))
+    let (softer, harder) = if a < b { (a, b) } else { (b, a) };
+    softer / (1.0 + softer / harder)
 }

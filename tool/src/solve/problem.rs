@@ -1,11 +1,12 @@
 //! The problem of a solve, as its options pose it.
 
-use asperity_scene::{Asked, Branches, Inputs};
+use asperity_scene::{Asked, Boundary, Branches, Inputs};
 
 use super::Options;
 use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::printing::in_options;
+use crate::processes::Processes;
 use crate::report;
 use crate::scene::SceneFile;
 use crate::units::Units;
@@ -30,6 +31,14 @@ impl Options {
     pub fn check_asked(&self) -> Outcome<()> {
         let (adhesive, started) = (self.adhesion.adheres(), self.solver.initial_gap.is_some());
         in_options(self.asked(1.0).check(adhesive, self.solver.method.method(), started))
+    }
+
+    /// Refuses what has no form for several processes.
+    pub fn check_shared(&self, processes: &Processes) -> Outcome<()> {
+        if self.fields.is_some() && self.surface.beyond.boundary == Boundary::Free {
+            processes.alone("--fields displacement with a free boundary")?;
+        }
+        if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
     }
 
     /// The inputs of the report.

@@ -1,0 +1,47 @@
+//! Two bodies: the surface between them, and their contact modulus.
+
+use asperity::elastic::{Body, HalfSpace, Material, Series};
+use asperity::{Grid, Surface};
+use asperity_maps::Topography;
+use numpy::{IntoPyArray, PyArray2};
+use pyo3::prelude::*;
+
+use crate::inputs::named;
+use crate::pools::Pool;
+use crate::refusal::{reason, refusal, refusal_of_heights};
+use crate::surface::{Map, topography};
+
+/// The heights between a map and another one that faces it, NaN where one of them has none.
+#[pyfunction]
+pub fn between<'py>(
+    py: Python<'py>,
+    first: Map<'py>,
+    second: Map<'py>,
+    shift: (f64, f64),
+    boundary: &str,
+    absent_missing: bool,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let boundary = named("boundary", boundary, "periodic or free")?;
+    let (first, second) = (topography(first)?, topography(second)?);
+    let make = if absent_missing { Surface::with_absent } else { Surface::new };
+    let Topography { heights, lengths, unit, original, .. } = first;
+    let grid = Grid::new(heights.dim(), lengths.unwrap_or((1.0, 1.0))).map_err(refusal)?;
+    let pool = Pool::of(None)?;
+    let first = py.detach(|| pool.get().install(|| make(grid, heights))).map_err(refusal_of_heights)?;
+    let both =
+        || asperity_scene::between((&first, unit.as_deref(), original), second, shift, (boundary, absent_missing));
+    let found = py.detach(|| pool.get().install(both)).map_err(reason)?;
+    Ok(Topography::from(found).heights.into_pyarray(py))
+}
+
+/// The contact modulus of one or more bodies by Young's modulus and Poisson's ratio of each.
+#[pyfunction]
+pub fn contact_modulus(bodies: Vec<(f64, f64)>) -> PyResult<f64> {
+    let half_space = |(young, poisson)| HalfSpace::new(Material::of_young(young, poisson)?.modulus());
+    let found: asperity::Result<Vec<_>> = bodies.into_iter().map(half_space).collect();
+    Ok(match found.map_err(refusal)?[..] {
+        [one] => one.modulus(),
+        [one, other] => Series(one, other).modulus(),
+        _ => f64::NAN,
+    })
+}

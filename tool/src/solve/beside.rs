@@ -1,0 +1,45 @@
+//! The fields that a solve may leave beside gap and pressures: the softest mode, and displacements.
+
+use asperity::{Result, Surface};
+use asperity_scene::{Found, gap_to_write};
+use clap::ValueEnum;
+use ndarray::Array2;
+
+use super::Options;
+use crate::options::Scalar;
+
+/// The files.
+pub const BESIDE: [&str; 3] = ["mode.npy", "displacement.npy", "against_displacement.npy"];
+
+/// A kind of field that may be asked for by its name.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Beside {
+    Displacement,
+}
+
+/// A field on the whole of the map, by its file.
+pub type Named = (&'static str, Array2<f64>);
+
+impl Options {
+    /// The files of the fields that are asked for.
+    pub fn beside(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let displacement = self.fields == Some(Beside::Displacement);
+        let both = displacement && self.surface.other.modulus().is_some();
+        let asked = [self.stability || self.leave, displacement, both];
+        BESIDE.into_iter().zip(asked).filter_map(|(name, asked)| asked.then_some(name))
+    }
+
+    /// These fields of what was found, on its surface if displacements are asked for.
+    pub fn fields_beside<T: Scalar>(&self, found: &Found<T>, surface: Option<&Surface>) -> Result<Vec<Named>> {
+        let mode = found.mode.as_ref().map(|mode| mode.mapv(T::widen));
+        let solution = &found.solution;
+        let (own, other) = match surface {
+            None => (None, None),
+            Some(surface) => match found.sight.displacements(&self.surface.elastic(), solution.pressure.view())? {
+                Some([own, other]) => (Some(own), Some(other)),
+                None => (Some(gap_to_write(solution).mapv(T::widen) + surface.heights()), None),
+            },
+        };
+        Ok(BESIDE.into_iter().zip([mode, own, other]).filter_map(|(name, field)| Some((name, field?))).collect())
+    }
+}
