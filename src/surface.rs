@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 
 mod fill;
+mod fourier;
 mod philox;
 mod resample;
 mod self_affine;
@@ -17,6 +18,7 @@ mod spectrum;
 mod statistics;
 
 pub use fill::fill;
+pub use fourier::FourierSeries;
 pub(crate) use philox::uniform;
 pub use resample::{mirror, resample};
 pub use self_affine::{Amplitude, SelfAffine};
