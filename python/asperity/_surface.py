@@ -237,7 +237,7 @@ def fourier(
     both = _lengths(lengths, nodes)
     source = os.fspath(coefficients) if isinstance(coefficients, str | os.PathLike) else None
     rows: Any = source or np.atleast_2d(np.asarray(coefficients, dtype=np.float64))
-    heights = _asperity.fourier(rows, nodes, both, 1.0 if fourier_unit is None else fourier_unit)
+    heights = _asperity.fourier(rows, nodes, both, 1.0 if fourier_unit is None else float(fourier_unit))
     return Topography(heights, both, None if given.get() is None else "m", periodic=True, source=source)
 
 

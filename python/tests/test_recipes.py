@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -16,18 +17,20 @@ def a_coated_tip(found):
     moduli = found["read_off"]
     assert 1e9 < moduli[0] < 1.6e9 and moduli[0] < moduli[1] < moduli[2] < 10e9
     area, side = found["area"], found["side"]
-    assert side > 6 * 2 * np.sqrt(area / np.pi)
-    # a cell of twice the width has the same contact, but for the images
+    assert side > 7 * 2 * np.sqrt(area / np.pi)
+    # a cell of twice the width, a steep one, has the same contact but for the images
+    warnings.filterwarnings("ignore", "steep", asperity.InputWarning)
     tip = asperity.surface.paraboloid(512, 2 * side, radius=found["radius"])
+    assert found["pressed"].report["warnings"][0]["code"] == "ends"
     wide = asperity.solve(tip, modulus=10e9, normal_force=found["force"], body=found["coating"])
     assert wide.statistics.corrected_contact_fraction * (2 * side) ** 2 == pytest.approx(area, rel=0.02)
-    with pytest.raises(ValueError, match="periodic"):
+    with pytest.raises(ValueError, match="coating has no free boundary"):
         asperity.solve(tip, modulus=10e9, normal_force=1e-9, body=found["coating"], boundary="free")
 
 
 def a_rough_sphere(found):
     share = found["share"]
-    assert share[0] < 0.6 and (np.diff(share) > 0).all() and 0.9 < share[-1] < 1.05
+    assert share[0] < 0.5 and (np.diff(share) > 0).all() and 0.85 < share[-1] < 1.0
 
 
 def which_rms_slope_a_paper_means(found):
@@ -43,15 +46,15 @@ def which_rms_slope_a_paper_means(found):
 def how_much_of_the_area_is_noise(found):
     area = dict(zip(found["cut_offs"], found["area"]))
     true = asperity.solve(found["rough"], modulus=70e9, mean_pressure=700e6).statistics.corrected_contact_fraction
-    assert area[32] == pytest.approx(true, rel=0.05)
-    assert area[8] > area[16] > area[32] > area[64] > area[128] and area[128] < 0.9 * true
+    assert area[8] > area[16] > area[32] == pytest.approx(true, rel=0.01)
+    assert area[64] == pytest.approx(area[32], rel=0.03) and area[128] < 0.9 * true
 
 
 def penalty_uzawa_and_the_default(found):
     hard, soft, stiff, uzawa = found["found"]
     assert hard.contact_fraction < stiff.contact_fraction < soft.contact_fraction
     assert hard.report["min_gap"] == 0.0 and soft.report["min_gap"] < stiff.report["min_gap"] < 0.0
-    assert uzawa.contact_fraction == pytest.approx(hard.contact_fraction, abs=2 / 256**2)
+    assert uzawa.contact_fraction == pytest.approx(hard.contact_fraction, abs=2 / 128**2)
     assert hard.operator_applications < uzawa.operator_applications
     assert all(pressed.converged for pressed in found["found"])
 

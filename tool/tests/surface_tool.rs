@@ -250,7 +250,10 @@ fn coefficients_that_make_no_surface_are_refused_by_their_line() {
         (made("waves.dat --size 16 --lengths 1um"), vec!["coefficients have none", "--fourier-unit"]),
         (made("waves.dat --size 16 --hurst 0.5"), vec!["--hurst", "--fourier", "leave it out"]),
         (made("waves.dat --size 16 --rms-slope 0.5"), vec!["--fourier", "--rms-slope", "cannot be used with"]),
-        ("surface --size 16 --rms-slope 1 --fourier-unit 1 --out n.npz".to_owned(), vec!["--fourier-unit", "--rms-slope"]),
+        (
+            "surface --size 16 --rms-slope 1 --fourier-unit 1 --out n.npz".to_owned(),
+            vec!["--fourier-unit", "--rms-slope"],
+        ),
         ("surface --size 16 --fourier-unit 1 --out n.npz".to_owned(), vec!["--fourier <FILE>"]),
         ("surface --size 16 --fourier waves.dat --force --out waves.dat".to_owned(), vec!["waves.dat", "is read"]),
     ] {
