@@ -22,7 +22,7 @@ use crate::scene::{self, SceneFile};
 use crate::stats::{density_table, statistics, table};
 use crate::threads::use_threads;
 
-/// Make a self-affine rough surface, one of Fourier coefficients, or a simple body, and print its statistics.
+/// Make a self-affine rough surface or a simple body, and print its statistics.
 ///
 /// A body has a --form, as a sphere, whose missing parts a solve takes for absent nodes by --absent-missing;
 /// --rms-height or --rms-slope puts roughness on it. The roughness is periodic and isotropic. Its power spectral
@@ -89,7 +89,8 @@ const EXAMPLES: &str = "\
     asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --rms-height 0.2nm \\
       --k-s 32 --out rough-tip.npz
   The surface of the contact-mechanics challenge (Mueser et al. 2017), of which low values touch first:
-    asperity surface --fourier surface.Fourier.ASCII.dat --fourier-unit 0.1mm --size 2048 --lengths 0.1mm --out low.npz
+    asperity surface --fourier surface.Fourier.ASCII.dat --fourier-unit 0.1mm --size 2048 \\
+      --lengths 0.1mm --out low.npz
     asperity prepare low.npz --flip --out challenge.npz";
 
 /// Runs the command; always successful if it ends.
