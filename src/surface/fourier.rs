@@ -198,7 +198,7 @@ mod tests {
         series.add((3.0, -2.0), (1.0, 2.0)).unwrap();
         series.add((-3.0, 2.0), (1.0, -2.000001)).unwrap();
         refused(series.add((-3.0, 2.0), (1.0, -2.0)), "number of coefficients of the wave is 2");
-        refused(series.add((6.28, 0.0), (1.0, 0.0)), "along x is 6.28: it must be a whole number");
+        refused(series.add((12.5, 0.0), (1.0, 0.0)), "along x is 12.5: it must be a whole number");
         refused(series.add((0.0, f64::NAN), (1.0, 0.0)), "along y is NaN");
         refused(series.add((4.0, 0.0), (1.0, 0.0)), "along x is 4: it must be below half");
         refused(series.add((0.0, -5.0), (1.0, 0.0)), "along y is -5: it must be below half");
