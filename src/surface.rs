@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 
 mod fill;
+mod fourier;
 mod pair;
 mod philox;
 mod resample;
@@ -18,6 +19,7 @@ mod spectrum;
 mod statistics;
 
 pub use fill::fill;
+pub use fourier::FourierSeries;
 pub(crate) use philox::uniform;
 pub use resample::{mirror, resample};
 pub use self_affine::{Amplitude, SelfAffine};

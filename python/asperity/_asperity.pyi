@@ -39,6 +39,7 @@ __all__ = [
     "clusters",
     "command",
     "contact_modulus",
+    "fourier",
     "has_dimension",
     "in_metres",
     "made",
@@ -274,6 +275,9 @@ def meant(word: str, known: Sequence[str]) -> str | None: ...
 def read(path: str, channel: str | None) -> _Map: ...
 def made(
     shape: tuple[int, int], lengths: tuple[float, float], body: dict[str, Any], roughness: dict[str, Any] | None
+) -> _Field: ...
+def fourier(
+    coefficients: str | _Field, shape: tuple[int, int], lengths: tuple[float, float], unit: float
 ) -> _Field: ...
 def statistics(heights: _Field, lengths: tuple[float, float] | None) -> list[float]: ...
 def spectrum(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity
 from ._topography import Heights, Topography, _lengths, plain, sides, taken
@@ -194,6 +195,50 @@ def _made(
     heights = _asperity.made(nodes, both, plain(body), None if roughness is None else plain(roughness))
     unit = None if given.get() is None else "m"
     return Topography(heights, both, unit, periodic, seed=seed)
+
+
+def fourier(
+    coefficients: ArrayLike | str | os.PathLike[str],
+    shape: Shape,
+    lengths: Lengths,
+    *,
+    fourier_unit: Quantity | None = None,
+) -> Topography:
+    """Makes a periodic surface of its Fourier coefficients, Σ h(q) exp(2πi(qX x/Lx + qY y/Ly)).
+
+    The coefficients are as FFTW's inverse transform takes them: those of ``numpy.fft.rfft2(heights)`` over the number of
+    heights. A wave stands for its opposite too, with the complex conjugate; where both are given, they count once. The
+    file is that of the contact-mechanics challenge (Müser et al. 2017), a text of lines ``qX, qY, Re, Im``.
+
+    Parameters
+    ----------
+    coefficients : array_like of shape (n, 4), or path of a file
+        The whole numbers qX and qY of periods along the sides, of either sign, and the real and the imaginary part.
+    shape, lengths
+        Numbers of nodes and side lengths, as of `self_affine`; the grid must have more than twice as many nodes along a
+        side as a wave has periods.
+    fourier_unit : float, optional
+        Length of which the coefficients are multiples; needed beside side lengths with a unit.
+
+    Returns
+    -------
+    Topography
+
+    Examples
+    --------
+    >>> from asperity import surface
+    >>> wave = surface.fourier([[3, -1, 0.5, 0.0]], 16, 1.0)
+    >>> f"{wave.heights.max():.3f}"
+    '1.000'
+    """
+    if given.get() is not None and fourier_unit is None:
+        raise ValueError("the side lengths have a unit, but the coefficients have none: give fourier_unit, as '0.1mm'")
+    nodes = (shape, shape) if isinstance(shape, int) else shape
+    both = _lengths(lengths, nodes)
+    source = os.fspath(coefficients) if isinstance(coefficients, str | os.PathLike) else None
+    rows: Any = source or np.atleast_2d(np.asarray(coefficients, dtype=np.float64))
+    heights = _asperity.fourier(rows, nodes, both, 1.0 if fourier_unit is None else float(fourier_unit))
+    return Topography(heights, both, None if given.get() is None else "m", periodic=True, source=source)
 
 
 def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> SurfaceStatistics:

@@ -56,7 +56,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{in_metres, made, prepare, read, spectrum, statistics};
+    use crate::surface::{fourier, in_metres, made, prepare, read, spectrum, statistics};
 
     use pyo3::prelude::*;
 

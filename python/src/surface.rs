@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use asperity::surface::Psd;
+use asperity::surface::{FourierSeries, Psd};
 use asperity::{Grid, Surface};
 use asperity_maps::Topography;
-use asperity_maps::io::check_memory;
+use asperity_maps::io::{check_memory, read_fourier};
 use asperity_scene::quantity::LENGTH;
 use asperity_scene::{Body, Log, Preparation, Roughness, Skin, in_unit, worded};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -73,6 +73,41 @@ pub fn made<'py>(
         body.surface(grid, roughness).map(Topography::from)
     })?;
     Ok(drawn.heights.into_pyarray(py))
+}
+
+/// Fourier coefficients as Python passes them: a file, or rows of numbers.
+#[derive(FromPyObject)]
+pub enum Coefficients<'py> {
+    File(PathBuf),
+    Rows(Field<'py>),
+}
+
+/// The heights of a surface by its Fourier coefficients.
+#[pyfunction]
+pub fn fourier<'py>(
+    py: Python<'py>,
+    coefficients: Coefficients<'py>,
+    shape: (usize, usize),
+    lengths: (f64, f64),
+    unit: f64,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let grid = Grid::new(shape, lengths).map_err(refusal)?;
+    let found = match coefficients {
+        Coefficients::File(path) => apart(py, || read_fourier(path, grid, unit))?,
+        Coefficients::Rows(rows) => {
+            let mut series = FourierSeries::new(grid).map_err(refusal)?;
+            for (index, row) in rows.as_array().outer_iter().enumerate() {
+                let &[m, n, re, im] = &row.to_vec()[..] else {
+                    let text = "coefficients have {} columns: they must be qX, qY, and the real and the imaginary part";
+                    return Err(PyValueError::new_err(text.replace("{}", &row.len().to_string())));
+                };
+                let refused = |error| PyValueError::new_err(format!("coefficients[{index}]: {error}"));
+                series.add((m, n), (re, im)).map_err(refused)?;
+            }
+            apart(py, || series.surface(unit))?
+        }
+    };
+    Ok(Topography::from(found).heights.into_pyarray(py))
 }
 
 /// The statistics of heights, in the order of the library.

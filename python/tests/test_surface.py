@@ -38,3 +38,36 @@ def test_statistics_of_a_solution_are_those_of_its_map(rough, law):
     assert found.cluster_sizes.tolist() == contact.clusters(solution.contact).sizes.tolist()
     assert np.isclose(found.contact_fraction + found.attractive_fraction + found.apart_fraction, 1.0)
     assert np.isclose(found.repulsive_fraction, (solution.contact_pressure > 0).mean())
+
+
+def test_a_surface_comes_back_from_its_fourier_coefficients(rough, tmp_path):
+    n = rough.shape[0]
+    half = np.fft.rfft2(rough.heights) / rough.heights.size
+    half[np.abs(half) < 1e-15] = 0.0
+    qx, qy = np.meshgrid(np.fft.fftfreq(n, 1 / n), np.arange(n // 2 + 1), indexing="ij")
+    rows = np.stack([qx, qy, half.real, half.imag], axis=-1).reshape(-1, 4)
+    found = surface.fourier(rows, n, rough.lengths)
+    np.testing.assert_allclose(found.heights, rough.heights, rtol=0, atol=1e-14)
+    assert found.periodic and found.lengths == rough.lengths and found.unit is None
+    # of a file, in units of 0.1 mm, on a finer grid; its nodes are among the new ones
+    path = tmp_path / "surface.Fourier.ASCII.dat"
+    np.savetxt(path, rows[half.ravel() != 0], fmt=["%d", "%d", "%.17g", "%.17g"], delimiter=", ", header="qX, qY")
+    fine = surface.fourier(path, 2 * n, "0.1mm", fourier_unit="0.1mm")
+    assert (fine.unit, fine.lengths, fine.source) == ("m", (1e-4, 1e-4), str(path))
+    np.testing.assert_allclose(fine.heights[::2, ::2], 1e-4 * rough.heights, rtol=0, atol=1e-18)
+
+
+def test_coefficients_are_refused_by_their_row():
+    for rows, message in [
+        ([[1, 0, 1, 0], [0.5, 0, 1, 0]], r"coefficients\[1\]: number of waves along x is 0.5"),
+        ([[1, 0, 1, 0], [0, 8, 1, 0]], r"coefficients\[1\]: number of waves along y is 8: .* take more nodes"),
+        ([[1, 2, 1, 1], [-1, -2, 1, 1]], r"coefficients\[1\]: .* complex conjugate"),
+        ([[1, 0, 1]], "3 columns"),
+        ([[1, 0, 0, 0]], "other than zero is 0"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            surface.fourier(rows, 16, 1.0)
+    with pytest.raises(ValueError, match="give fourier_unit"):
+        surface.fourier([[1, 0, 1, 0]], 16, "1um")
+    with pytest.raises(FileNotFoundError):
+        surface.fourier("nothing.dat", 16, 1.0)

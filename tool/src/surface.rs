@@ -1,11 +1,12 @@
-//! `asperity surface`: a random self-affine surface, or a simple body with or without roughness.
+//! `asperity surface`: a random self-affine surface, one of given Fourier coefficients, or a simple body with or without
+//! roughness.
 
 use std::path::PathBuf;
 
-use asperity::Grid;
+use asperity::{Grid, SelfAffine};
 use asperity_maps::Topography;
 use asperity_maps::io::check_memory;
-use asperity_maps::io::{write_npy, write_topography};
+use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_scene::{Body, BodyForm, Roughness};
 use clap::{ArgGroup, Args};
 use serde_json::json;
@@ -27,7 +28,7 @@ use crate::threads::use_threads;
 /// --rms-height or --rms-slope puts roughness on it. The roughness is periodic and isotropic. Its power spectral
 /// density is constant from KL to KR, falls as k^(-2-2H) from KR to KS, on a line as k^(-1-2H), and is zero elsewhere.
 /// Wave numbers count periods along x. A seed stands for the same surface on every grid that resolves KS, with the
-/// given rms height or slope to rounding. FILE.scene.toml beside the heights makes them again by asperity run.
+/// given rms height or slope to rounding. --fourier takes the waves of the roughness from a file. FILE.scene.toml beside the heights makes them again by asperity run.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
@@ -49,6 +50,14 @@ pub struct Options {
 
     #[command(flatten)]
     roughness: Roughness,
+    /// Roughness by the Fourier coefficients of a text: lines of qX, qY, Re h(q), Im h(q), with whole numbers of periods
+    /// along the sides, as FFTW's inverse transform takes them; half of the waves is enough
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["rms_height", "rms_slope"], help_heading = "Roughness")]
+    fourier: Option<PathBuf>,
+    /// Length of which the coefficients are multiples [default: the unit of the side lengths, where that has no name]
+    #[arg(long, value_name = "LENGTH", requires = "fourier", conflicts_with_all = ["rms_height", "rms_slope"])]
+    #[arg(value_parser = LENGTH.positive(), allow_hyphen_values = true, help_heading = "Roughness")]
+    fourier_unit: Option<Quantity>,
 
     /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -78,7 +87,11 @@ const EXAMPLES: &str = "\
   A tip of 20 nm on a map of 32 nm by 32 nm, as a sphere and as a rough one:
     asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --out tip.npz
     asperity surface --form sphere --radius 20nm --size 128 --lengths 32nm --rms-height 0.2nm \\
-      --k-s 32 --out rough-tip.npz";
+      --k-s 32 --out rough-tip.npz
+  The surface of the contact-mechanics challenge (Mueser et al. 2017), of which low values touch first:
+    asperity surface --fourier surface.Fourier.ASCII.dat --fourier-unit 0.1mm --size 2048 \\
+      --lengths 0.1mm --out low.npz
+    asperity prepare low.npz --flip --out challenge.npz";
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
@@ -92,14 +105,24 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         return Err(format!("--form {form} {what} --{name}: {remedy}").into());
     }
     let rough = options.roughness.self_affine();
-    if rough.is_none() && form == BodyForm::SelfAffine {
-        return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope".into());
+    if rough.is_none() && options.fourier.is_none() && form == BodyForm::SelfAffine {
+        return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope, or --fourier".into());
     }
     let unit = scene.is_si().then_some(LENGTH.si);
     if unit.is_some() && options.lengths.is_none() {
         return Err("the numbers have units, but nothing says how large the map is: give --lengths, as 20um".into());
     }
+    if options.fourier.is_some() {
+        check_alone(&options.roughness)?;
+    }
+    if unit.is_some() && options.fourier.is_some() && options.fourier_unit.is_none() {
+        let text = "the numbers have units, but the coefficients have none: give --fourier-unit, as 0.1mm";
+        return Err(text.into());
+    }
     let grid = Grid::new(shape, both_sides(shape, options.lengths.as_deref().unwrap_or_default()))?;
+    for written in [Some(&options.out), options.psd.as_ref()].into_iter().flatten() {
+        check_apart(written, options.fourier.as_deref())?;
+    }
     let heights = OutputFile::create(&options.out, options.force)?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     let others = [options.out.clone(), scene::beside(&options.out)];
@@ -112,7 +135,10 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     if rough.is_some() {
         check_memory("a random surface", shape, 32)?;
     }
-    let roughness = rough.map(|rough| rough.surface(grid)).transpose()?;
+    let roughness = match &options.fourier {
+        Some(path) => Some(read_fourier(path, grid, options.fourier_unit.map_or(1.0, |unit| unit.value))?),
+        None => rough.map(|rough| rough.surface(grid)).transpose()?,
+    };
     let surface = options.body.surface(grid, roughness)?;
     let absent = surface.absent_nodes();
     if psd.is_some() && absent > 0 {
@@ -158,9 +184,29 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             "k_s": rough.map(|rough| rough.k_s),
             "random_phase": rough.map(|rough| rough.random_phase),
             "seed": rough.map(|rough| rough.seed),
+            "fourier": options.fourier.as_deref().map(|path| path.to_string_lossy()),
             "version": env!("CARGO_PKG_VERSION"),
         });
         report::report("surface", figures, &made)
     });
     Ok(true)
+}
+
+/// Refuses parameters of self-affine roughness beside coefficients, which are all of it.
+fn check_alone(roughness: &Roughness) -> Outcome<()> {
+    let usual = SelfAffine::default();
+    let changed = [
+        ("hurst", roughness.hurst != usual.hurst),
+        ("k-l", roughness.k_l != usual.k_l),
+        ("k-r", roughness.k_r.is_some()),
+        ("k-s", roughness.k_s != usual.k_s),
+        ("random-phase", roughness.random_phase),
+        ("seed", roughness.seed != usual.seed),
+    ];
+    match changed.into_iter().find(|(_, changed)| *changed) {
+        Some((name, _)) => {
+            Err(format!("--{name} is of random roughness, which --fourier replaces: leave it out").into())
+        }
+        None => Ok(()),
+    }
 }

@@ -49,7 +49,9 @@ impl Reader {
             if !(reads && ours) {
                 continue;
             }
-            if let Some((_, "txt" | "gsf" | "gwy")) = word.rsplit_once('.') {
+            if word.ends_with(".dat") {
+                fs::write(self.folder.path().join(word), "# qX, qY, Re, Im\n3, -1, 1e-3, 0\n").unwrap();
+            } else if let Some((_, "txt" | "gsf" | "gwy")) = word.rsplit_once('.') {
                 // the content and not the ending decides
                 fs::write(self.folder.path().join(word), measured(!word.ends_with(".txt"))).unwrap();
             } else if word.ends_with(".npy") {

@@ -15,7 +15,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use asperity_maps::io::read_field;
+use asperity::Grid;
+use asperity_maps::io::{read_field, read_fourier};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -162,7 +163,11 @@ fn mutated(random: &mut ChaCha8Rng, corpus: &[(String, Vec<u8>)]) -> Vec<u8> {
 fn wrong(path: &Path, bytes: &[u8]) -> Option<String> {
     fs::write(path, bytes).unwrap();
     let mut result = None;
-    let memory = allocation_counter::measure(|| result = catch_unwind(AssertUnwindSafe(|| read_field(path))).ok());
+    let read = || match path.ends_with("waves") {
+        true => read_fourier(path, Grid::square(8, 1.0)?, 1.0).map(|surface| surface.heights().clone()),
+        false => read_field(path),
+    };
+    let memory = allocation_counter::measure(|| result = catch_unwind(AssertUnwindSafe(read)).ok());
     let Some(result) = result else { return Some("panic".into()) };
     let values = match &result {
         Ok(field) => field.len(),
@@ -185,12 +190,17 @@ fn wrong(path: &Path, bytes: &[u8]) -> Option<String> {
 fn attack(seeds: impl Iterator<Item = u64>, until: impl Fn() -> bool) -> u64 {
     let (corpus, folder) = (corpus(), tempfile::tempdir().unwrap());
     assert!(corpus.len() >= 10);
-    let (path, points) = (folder.path().join("heights"), folder.path().join("heights.xyz"));
+    let [path, points, waves] = ["heights", "heights.xyz", "waves"].map(|name| folder.path().join(name));
     let (mut count, mut found) = (0, Vec::new());
     for seed in seeds {
         let bytes = mutated(&mut ChaCha8Rng::seed_from_u64(seed), &corpus);
-        // the only format that goes by the name of the file
-        if let Some(wrong) = wrong(if seed % 4 == 0 { &points } else { &path }, &bytes) {
+        // the formats that go by the name of the file
+        let path = match seed % 8 {
+            0 | 4 => &points,
+            1 => &waves,
+            _ => &path,
+        };
+        if let Some(wrong) = wrong(path, &bytes) {
             found.push(format!("seed {seed}: {wrong}"));
         }
         count += 1;
@@ -233,7 +243,7 @@ mod tool {
     use std::process::{Command, Output, Stdio};
     use std::thread::sleep;
 
-    use asperity::{Grid, Surface};
+    use asperity::Surface;
     use asperity_maps::io::write_npy;
 
     use super::*;

@@ -44,6 +44,7 @@ fn bench() -> Bench {
     bench.said("surface --form sphere --radius 1 --size 32 --quiet --out tip.npz");
     bench.said("prepare heights.npy --mirror --quiet --out mirrored.npz");
     bench.write("works.txt", &("1e-4 ".repeat(16) + &"2e-4 ".repeat(16) + "\n").repeat(32));
+    bench.write("waves.dat", "2, 1, 0.01, 0\n");
     bench.write("table.csv", "0,2e-2\n5e-3,1e-2\n1e-2,0\n");
     let study = "command = \"sweep\"\nheights = \"heights.npy\"\nmean-gaps = [0.02]\nout = \"study.csv\"\n";
     bench.write("study.toml", &format!("{study}[vary]\nmodulus = [1, 2]\n"));

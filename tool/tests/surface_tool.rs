@@ -5,7 +5,7 @@ use std::fs;
 
 use crate::bench::{Bench, text};
 use asperity::{Amplitude, Grid, SelfAffine, Surface};
-use asperity_maps::io::{read_field, write_npy};
+use asperity_maps::io::{read_field, read_topography, write_npy};
 
 /// The columns of a comma-separated file, with its header.
 fn csv(bench: &Bench, name: &str) -> (String, Vec<Vec<f64>>) {
@@ -203,6 +203,64 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
         assert_eq!(bench.names(""), ["old.npy", "wave.txt"], "{arguments}");
     }
     assert_eq!(bench.bytes("old.npy"), b"old");
+}
+
+/// The coefficients of a wave of amplitude 0.02 with 3 periods along x and -1 along y, and of one of half of it.
+const WAVES: &str = "# qX, qY, Re, Im\n3, -1, 0.01, 0\n0, 2, 0, 0.005\n";
+
+#[test]
+fn fourier_coefficients_make_a_surface() {
+    let bench = Bench::new();
+    bench.write("waves.dat", WAVES);
+    let said = bench.said("surface --fourier waves.dat --size 16 --out waves.npy --psd psd.csv");
+    let found = read_field(bench.path("waves.npy")).unwrap();
+    for ((i, j), h) in found.indexed_iter() {
+        let (x, y) = (i as f64 / 16.0, j as f64 / 16.0);
+        let expected = 0.02 * (TAU * (3.0 * x - y)).cos() - 0.01 * (TAU * 2.0 * y).sin();
+        assert!((h - expected).abs() < 1e-16, "{h} {expected}");
+    }
+    let slope = TAU * (0.5 * (0.02_f64.powi(2) * 10.0 + 0.01_f64.powi(2) * 4.0)).sqrt();
+    assert!((numbers(&said, "rms slope")[0] - slope).abs() < 1e-5, "{said}");
+    assert_eq!(csv(&bench, "psd.csv").0, "wave_number,density,waves");
+    assert_eq!(bench.reported("surface --fourier waves.dat --size 16 --out report.npy")["fourier"], "waves.dat");
+    // with units, and repeated from the scene
+    bench.said("surface --fourier waves.dat --fourier-unit 0.1mm --size 16 --lengths 0.1mm --quiet --out si.npz");
+    let metres = read_topography(bench.path("si.npz")).unwrap();
+    assert_eq!((metres.lengths, metres.unit.as_deref()), (Some((1e-4, 1e-4)), Some("m")));
+    assert!(metres.heights.iter().zip(&found).all(|(h, one)| (h - 1e-4 * one).abs() < 1e-20));
+    bench.said("run si.npz.scene.toml --quiet --force");
+    assert_eq!(read_topography(bench.path("si.npz")).unwrap(), metres);
+    // as roughness of a body
+    bench.said("surface --fourier waves.dat --form paraboloid --radius 1 --size 16 --quiet --out body.npy");
+    bench.said("surface --form paraboloid --radius 1 --size 16 --quiet --out smooth.npy");
+    let [body, smooth] = ["body.npy", "smooth.npy"].map(|name| read_field(bench.path(name)).unwrap());
+    assert!((&body - &smooth).iter().zip(&found).all(|(h, rough)| (h - rough).abs() < 1e-15));
+}
+
+#[test]
+fn coefficients_that_make_no_surface_are_refused_by_their_line() {
+    let bench = Bench::new();
+    bench.write("waves.dat", WAVES);
+    bench.write("twice.dat", "1 0 1 0\n1 0 1 0\n");
+    let made = |rest: &str| format!("surface --fourier {rest} --out n.npz");
+    for (command, parts) in [
+        (made("waves.dat --size 6"), vec!["waves.dat", "line 2", "along x is 3", "below half", "take more nodes"]),
+        (made("twice.dat --size 8"), vec!["twice.dat", "line 2", "number of coefficients of the wave is 2"]),
+        (made("nothing.dat --size 8"), vec!["nothing.dat", "does not exist"]),
+        (made("waves.dat --size 16 --lengths 1um"), vec!["coefficients have none", "--fourier-unit"]),
+        (made("waves.dat --size 16 --hurst 0.5"), vec!["--hurst", "--fourier", "leave it out"]),
+        (made("waves.dat --size 16 --rms-slope 0.5"), vec!["--fourier", "--rms-slope", "cannot be used with"]),
+        (
+            "surface --size 16 --rms-slope 1 --fourier-unit 1 --out n.npz".to_owned(),
+            vec!["--fourier-unit", "--rms-slope"],
+        ),
+        ("surface --size 16 --fourier-unit 1 --out n.npz".to_owned(), vec!["--fourier <FILE>"]),
+        ("surface --size 16 --fourier waves.dat --force --out waves.dat".to_owned(), vec!["waves.dat", "is read"]),
+    ] {
+        bench.refused_with(&command, &parts);
+        assert_eq!(bench.names(""), ["twice.dat", "waves.dat"], "{command}");
+    }
+    assert_eq!(bench.read("waves.dat"), WAVES);
 }
 
 #[test]

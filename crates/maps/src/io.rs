@@ -2,11 +2,12 @@
 //!
 //! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`,
 //! `.xyz` and text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone,
-//! and [`read_channel`] one of several channels. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all
+//! [`read_channel`] one of several channels, and [`read_fourier`] Fourier coefficients. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all
 //! fields of a solution into one file, for numpy and for ParaView. [`OutputFolder`] collects the files of one run and
 //! shows them only once all of them are complete.
 
 mod foreign;
+mod fourier;
 mod gsf;
 mod gwy;
 mod memory;
@@ -29,6 +30,7 @@ use ndarray_npy::WritableElement;
 
 use crate::Topography;
 use asperity::{Error, Result};
+pub use fourier::read_fourier;
 use gsf::{GSF, read_gsf, write_gsf};
 use gwy::{GWY, read_gwy};
 pub use memory::{available_memory, check_memory};
@@ -294,15 +296,20 @@ pub fn write_npy<'a, T: WritableElement + 'a>(path: impl AsRef<Path>, field: imp
     ndarray_npy::write_npy(&path, &field.into()).map_err(|e| Error::unwritable(path, e))
 }
 
-fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
+/// A file and its size; `kinds` are those that can be read.
+fn opened(path: &Path, kinds: &str) -> Parsed<(BufReader<File>, u64)> {
     // Before opening, which would wait for ever on a named pipe.
     let metadata = fs::metadata(path).map_err(unreadable)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "not a regular file" };
-        return refuse(format!("is {kind}: name a .npy, .npz, .gwy, .gsf, .xyz or text file"));
+        return refuse(format!("is {kind}: name {kinds}"));
     }
-    let (ending, size) = (ending(path), metadata.len());
-    let mut reader = BufReader::new(File::open(path).map_err(unreadable)?);
+    Ok((BufReader::new(File::open(path).map_err(unreadable)?), metadata.len()))
+}
+
+fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
+    let ending = ending(path);
+    let (mut reader, size) = opened(path, "a .npy, .npz, .gwy, .gsf, .xyz or text file")?;
     let start = reader.fill_buf().map_err(unreadable)?;
     let map = if start.starts_with(GWY) {
         read_gwy(&mut reader, size, channel)

@@ -8,7 +8,7 @@ use super::units::in_one_unit;
 use super::{Parsed, quoted, refuse, reserve, unreadable};
 use crate::Topography;
 
-const NUMBERS: &str =
+pub(super) const NUMBERS: &str =
     "expected a .npy, .npz, .gwy or .gsf file, or rows of numbers with decimal points (comments behind # or %)";
 
 /// Reads a matrix, one row of nodes along y per line; with the header of Gwyddion's text export, one row along x, from
@@ -18,6 +18,7 @@ pub(super) fn read_text(reader: impl BufRead) -> Parsed<Topography> {
     let mut header = Header::default();
     for_each_line(
         reader,
+        NUMBERS,
         |comment| header.read(comment),
         |number, row| {
             if rows == 0 {
@@ -81,9 +82,11 @@ fn length(text: &str) -> Parsed<(f64, &str)> {
     Ok((number, unit.trim()))
 }
 
-/// Hands on comments, of lines that hold nothing else, and rows of numbers with the number of their line.
+/// Hands on comments, of lines that hold nothing else, and rows of numbers with the number of their line; refuses what
+/// is no number, by what is `expected`.
 pub(super) fn for_each_line(
     mut reader: impl BufRead,
+    expected: &str,
     mut comment: impl FnMut(&str),
     mut row: impl FnMut(usize, &[f64]) -> Parsed<()>,
 ) -> Parsed<()> {
@@ -110,7 +113,7 @@ pub(super) fn for_each_line(
         let text = separator.and_then(|c| text.strip_suffix(c)).unwrap_or(text);
         let mut take = |word: &str| -> Parsed<()> {
             let value: f64 =
-                word.parse().map_err(|_| format!("line {number}: {} is not a number: {NUMBERS}", quoted(word)))?;
+                word.parse().map_err(|_| format!("line {number}: {} is not a number: {expected}", quoted(word)))?;
             reserve(&mut values, 1)?;
             values.push(value);
             Ok(())
@@ -123,7 +126,7 @@ pub(super) fn for_each_line(
         values.clear();
         rows += 1;
     }
-    if rows == 0 { refuse(format!("holds no numbers: {NUMBERS}")) } else { Ok(()) }
+    if rows == 0 { refuse(format!("holds no numbers: {expected}")) } else { Ok(()) }
 }
 
 /// Reads on to the end of a line, or of the file.

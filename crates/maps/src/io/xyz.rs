@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use ndarray::Array2;
 
-use super::text::for_each_line;
+use super::text::{NUMBERS, for_each_line};
 use super::{Parsed, check_room, quoted, refuse, reserve};
 use crate::Topography;
 
@@ -18,6 +18,7 @@ pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
     let mut points: Vec<[f64; 3]> = Vec::new();
     for_each_line(
         reader,
+        NUMBERS,
         |_| {},
         |number, words| {
             let &[x, y, z] = words else {

@@ -1,0 +1,70 @@
+"""The recipes run as they stand, and what their page says of each holds."""
+
+import pathlib
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import asperity
+
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python" / "recipes.md"
+RECIPES = dict(re.findall(r"^### (.*?)\n.*?^```python\n(.*?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL))
+
+
+def a_coated_tip(found):
+    moduli = found["read_off"]
+    assert [f"{modulus / 1e9:.2f}" for modulus in moduli] == ["1.05", "1.17", "1.43"]
+    area, side = found["area"], found["side"]
+    assert side > 7 * 2 * np.sqrt(area / np.pi)
+    # a cell of twice the width, a steep one, has the same contact but for the images
+    warnings.filterwarnings("ignore", "steep", asperity.InputWarning)
+    tip = asperity.surface.paraboloid(512, 2 * side, radius=found["radius"])
+    assert found["pressed"].report["warnings"][0]["code"] == "ends"
+    wide = asperity.solve(tip, modulus=10e9, normal_force=found["force"], body=found["coating"])
+    assert wide.statistics.corrected_contact_fraction * (2 * side) ** 2 == pytest.approx(area, rel=0.02)
+    with pytest.raises(ValueError, match="coating has no free boundary"):
+        asperity.solve(tip, modulus=10e9, normal_force=1e-9, body=found["coating"], boundary="free")
+
+
+def a_rough_sphere(found):
+    share = found["share"]
+    assert [f"{found:.2f}" for found in share] == ["0.21", "0.68", "0.93"]
+
+
+def which_rms_slope_a_paper_means(found):
+    slope, along_x = found["found"].rms_slope, found["along_x"]
+    # an isotropic map, but for what one map has of it
+    assert np.sqrt(2) * along_x == pytest.approx(slope, rel=0.15)
+    assert found["found"].rms_slope_differences < slope
+    ratio = found["area"] / found["persson"]
+    assert ratio.max() == pytest.approx(1.5, abs=0.01) and ratio[-1] == pytest.approx(1.0, abs=0.05)
+    assert pathlib.Path("persson.pdf").stat().st_size > 1000
+
+
+def how_much_of_the_area_is_noise(found):
+    area = dict(zip(found["cut_offs"], found["area"]))
+    true = asperity.solve(found["rough"], modulus=70e9, mean_pressure=700e6).statistics.corrected_contact_fraction
+    assert area[8] > area[16] > area[32] == pytest.approx(true, rel=0.01)
+    assert area[64] == pytest.approx(area[32], rel=0.03) and area[128] < 0.9 * true
+
+
+def penalty_uzawa_and_the_default(found):
+    hard, soft, stiff, uzawa = found["found"]
+    assert [f"{100 * one.contact_fraction:.1f}" for one in (soft, stiff, hard)] == ["14.5", "12.4", "12.0"]
+    assert hard.report["min_gap"] == 0.0 and soft.report["min_gap"] < stiff.report["min_gap"] < 0.0
+    assert uzawa.contact_fraction == pytest.approx(hard.contact_fraction, abs=2 / 128**2)
+    assert hard.operator_applications < uzawa.operator_applications
+    assert all(pressed.converged for pressed in found["found"])
+
+
+@pytest.mark.parametrize("title", RECIPES)
+def test_the_recipe_runs(title, tmp_path, monkeypatch):
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(tmp_path)
+    rough = asperity.surface.self_affine(96, 2e-6, rms_height=6e-9, k_l=2, k_s=12, seed=2)
+    np.savez("measured.npz", heights=rough.heights, lengths=rough.lengths, unit="m")
+    found = {}
+    exec(RECIPES[title], found)
+    globals()[re.sub(r"\W+", "_", title).lower()](found)
