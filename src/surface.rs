@@ -9,6 +9,8 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 
 mod fill;
+mod knee;
+mod low_pass;
 mod philox;
 mod resample;
 mod self_affine;
@@ -17,6 +19,7 @@ mod spectrum;
 mod statistics;
 
 pub use fill::fill;
+pub use low_pass::low_pass;
 pub(crate) use philox::uniform;
 pub use resample::{mirror, resample};
 pub use self_affine::{Amplitude, SelfAffine};

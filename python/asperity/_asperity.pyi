@@ -35,10 +35,12 @@ __all__ = [
     "WavyLine",
     "check_law",
     "closing_pressure_2d",
+    "cluster_colours",
     "clusters",
     "command",
     "has_dimension",
     "in_metres",
+    "load_scale",
     "made",
     "meant",
     "prepare",
@@ -267,7 +269,9 @@ def statistics(heights: _Field, lengths: tuple[float, float] | None) -> list[flo
 def spectrum(
     heights: _Field, lengths: tuple[float, float]
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
-def clusters(map: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+def clusters(map: NDArray[np.bool_], periodic: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+def cluster_colours(labels: NDArray[np.int64]) -> NDArray[np.uint8]: ...
+def load_scale(pressure: _Field, end: float | None) -> tuple[float, float, float]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(
     given: _Given,

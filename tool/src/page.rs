@@ -19,8 +19,9 @@ use crate::journal::state_path;
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, with_suffix, write_text};
-use crate::pictures::{chart_of_columns, chart_of_loads, draw_pressure, draw_regions};
+use crate::pictures::{MapColours, chart_of_columns, chart_of_loads, draw_clusters, draw_pressure, draw_regions};
 use crate::printing::{name, say};
+use crate::quantity::PRESSURE;
 use crate::scene;
 use crate::solve;
 use crate::units::{Units, dimension_of};
@@ -44,6 +45,8 @@ pub struct Options {
     /// Replace a page that is there
     #[arg(long, help_heading = "Output")]
     force: bool,
+    #[command(flatten)]
+    colours: MapColours,
 }
 
 const EXAMPLES: &str = "\
@@ -64,6 +67,11 @@ const CLASSES: usize = 60;
 pub fn run(options: &Options) -> Outcome<bool> {
     let results = &options.results;
     let folder = results.is_dir();
+    options.colours.check()?;
+    if !folder && (options.colours.limits().is_some() || options.colours.colour_clusters) {
+        let text = "has no maps, of which --colour-limits and --colour-clusters are: name the folder of a solve";
+        return Err(Error::file(results, text).into());
+    }
     let default = if folder { results.join("report.html") } else { with_suffix(results, ".html") };
     let out = options.out.as_ref().unwrap_or(&default);
     let read: Vec<_> = match folder {
@@ -72,7 +80,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     };
     check_apart(out, read.iter().map(PathBuf::as_path))?;
     let file = OutputFile::create(out, options.force)?;
-    let page = if folder { page_of_solve(results)? } else { page_of_table(results)? };
+    let page = if folder { page_of_solve(results, &options.colours)? } else { page_of_table(results)? };
     file.write(|path| write_text(path, &page))?;
     file.commit()?;
     say(&format!("page in {}", name(out)));
@@ -133,7 +141,7 @@ impl Page {
 }
 
 /// The page of a folder of `asperity solve`.
-fn page_of_solve(folder: &Path) -> Outcome<String> {
+fn page_of_solve(folder: &Path, colours: &MapColours) -> Outcome<String> {
     let path = folder.join("report.json");
     let text = fs::read_to_string(&path).map_err(|_| {
         Error::file(&path, "is not there: name the folder of a solve, or the table of a sweep or a cycle")
@@ -154,7 +162,10 @@ fn page_of_solve(folder: &Path) -> Outcome<String> {
     let said = report["warnings"].as_array().into_iter().flatten();
     warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
     let units = units_of_report(&report);
-    let maps = maps_of_solve(folder, &report, &units);
+    if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
+        return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
+    }
+    let maps = maps_of_solve(folder, &report, &units, colours);
     if let Err(error) = &maps {
         warnings.push(format!("There are no maps on this page: {error}"));
     }
@@ -180,7 +191,12 @@ fn page_of_solve(folder: &Path) -> Outcome<String> {
 }
 
 /// The maps and the curve of a solve, each with its kind.
-fn maps_of_solve(folder: &Path, report: &Value, units: &Units) -> Outcome<Vec<(&'static str, String)>> {
+fn maps_of_solve(
+    folder: &Path,
+    report: &Value,
+    units: &Units,
+    colours: &MapColours,
+) -> Outcome<Vec<(&'static str, String)>> {
     let [gap, pressure, contact_pressure] =
         ["gap", "pressure", "contact_pressure"].map(|name| read_field(folder.join(format!("{name}.npy"))));
     let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
@@ -204,9 +220,14 @@ fn maps_of_solve(folder: &Path, report: &Value, units: &Units) -> Outcome<Vec<(&
             _ => 0.0,
         }
     });
-    let contact = draw_regions(grid, "Contact", units, &regions, FINE)?;
+    // the sides of an original do not meet
+    let sides_meet = report["boundary"] != "free" && !report["solved_shape"].is_array();
+    let contact = match colours.colour_clusters {
+        true => draw_clusters(grid, "Contact", units, (&regions, sides_meet), FINE)?,
+        false => draw_regions(grid, "Contact", units, &regions, FINE)?,
+    };
     let drawn = if adhesive { &pressure } else { &contact_pressure };
-    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, None, FINE)?;
+    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, colours.limits(), FINE)?;
     let gaps = Map {
         title: "Gap",
         length_unit: length,
