@@ -23,11 +23,14 @@ class SurfaceStatistics(NamedTuple):
     skewness, kurtosis : float
         0 and 3 for Gaussian heights; NaN for a flat surface.
     rms_slope, rms_curvature : float
-        √⟨|∇h|²⟩, and the root mean square of ½∇²h (on a line of h''), from the spectrum.
+        √⟨|∇h|²⟩, and the root mean square of ½∇²h (on a line of h''), spectral: of the waves through the nodes.
     rms_slope_differences, rms_curvature_differences : float
         The same from differences between neighbours.
     nayak : float
         Nayak's parameter m₀m₄/m₂².
+    knee_wavelength : float or None
+        Wavelength at which the spectrum flattens to a floor of noise; None if it does not. ``prepare`` leaves out shorter
+        waves by ``cut_off_wavelength``.
 
     Slopes, curvatures and Nayak's parameter are NaN where the side lengths are unknown.
     """
@@ -43,6 +46,7 @@ class SurfaceStatistics(NamedTuple):
     rms_curvature: float
     rms_curvature_differences: float
     nayak: float
+    knee_wavelength: float | None = None
 
 
 class PowerSpectralDensity(NamedTuple):
@@ -213,7 +217,8 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
     SurfaceStatistics
     """
     given = taken(heights, lengths, axes)
-    return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths))
+    numbers, knee = _asperity.statistics(given.heights, given.lengths)
+    return SurfaceStatistics(*numbers, knee)
 
 
 def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> PowerSpectralDensity:

@@ -75,13 +75,17 @@ pub fn made<'py>(
     Ok(drawn.heights.into_pyarray(py))
 }
 
-/// The statistics of heights, in the order of the library.
+/// The statistics of heights, in the order of the library, and the knee of the spectrum.
 #[pyfunction]
-pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)>) -> PyResult<[f64; 11]> {
+pub fn statistics(
+    py: Python<'_>,
+    heights: Field<'_>,
+    lengths: Option<(f64, f64)>,
+) -> PyResult<([f64; 11], Option<f64>)> {
     let mut map = Topography::new(heights.to_array()?);
     map.lengths = lengths;
     let found = apart(py, || map.statistics())?;
-    Ok([
+    let numbers = [
         found.mean,
         found.lowest,
         found.highest,
@@ -93,7 +97,8 @@ pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)
         found.rms_curvature,
         found.rms_curvature_differences,
         found.nayak,
-    ])
+    ];
+    Ok((numbers, found.knee_wavelength))
 }
 
 /// Wave numbers, densities, numbers of waves, and the area of one wave.
@@ -131,19 +136,22 @@ type Prepared<'py> = (Map<'py>, Vec<String>, Bound<'py, PyAny>);
 
 /// Takes the steps from a measured map to a periodic surface, by their keys.
 #[pyfunction]
+#[pyo3(signature = (given, new_lengths, cut_off_wavelength, in_metres, steps))]
 pub fn prepare<'py>(
     py: Python<'py>,
     given: Given<'py>,
     new_lengths: Option<(f64, f64)>,
+    cut_off_wavelength: Option<f64>,
     in_metres: bool,
     steps: Bound<'py, PyAny>,
 ) -> PyResult<Prepared<'py>> {
     let mut steps: Preparation = keys(steps)?;
     let measured = topography(given)?;
-    if let Some(lengths) = new_lengths {
-        let found = steps.set_lengths(lengths, in_metres, measured.unit.as_deref());
-        found.map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
-    }
+    let unit = measured.unit.as_deref();
+    let lengths = new_lengths.map_or(Ok(()), |lengths| steps.set_lengths(lengths, in_metres, unit));
+    let cut_off =
+        |()| cut_off_wavelength.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, in_metres, unit));
+    lengths.and_then(cut_off).map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
     let mut log = Log::default();
     let prepared = apart(py, || steps.run(measured, &mut log))?;
     let lines = log.lines.iter().map(|(step, what)| format!("{step}: {what}")).collect();

@@ -37,7 +37,7 @@ def test_a_scale_ends_where_most_of_the_load_is_carried(rough):
     heights = np.array(rough)
     highest = np.unravel_index(heights.argmax(), heights.shape)
     scarred = heights.copy()
-    scarred[:12, (highest[1] + heights.shape[1] // 2) % heights.shape[1]] = 1.2 * heights.max()
+    scarred[:12, (highest[1] + heights.shape[1] // 2) % heights.shape[1]] = 1.5 * heights.max()
     solution = asperity.solve(scarred, 1.0, modulus=1.0, mean_pressure=0.01)
     pressure = solution.contact_pressure
     figure = solution.plot(pressure_unit="Pa")
@@ -45,7 +45,7 @@ def test_a_scale_ends_where_most_of_the_load_is_carried(rough):
     end = image.get_clim()[1]
     factor = image.get_array().max() / pressure.max()
     share = pressure[pressure * factor > end].sum() / pressure.sum()
-    assert end < 0.7 * factor * pressure.max() and 0.01 < share < 0.75
+    assert end < 0.75 * factor * pressure.max() and 0.01 < share < 0.75
     assert f"{100 * share:.2g} % of the load above, up to" in bar.get_ylabel()
     # all of it on demand
     figure = solution.plot(colour_limits=(0.0, 2 * pressure.max()))

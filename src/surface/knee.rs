@@ -6,9 +6,11 @@ use super::spectrum::{Psd, Spectrum};
 
 /// The classes of wave numbers to an octave.
 const CLASSES: f64 = 8.0;
-/// The least number of independent waves in the last octave: of fewer the slope of the spectrum there is not known to
-/// 0.25, which is half of what tells a floor from a surface.
-const LEAST_WAVES: f64 = 500.0;
+/// The classes before the shortest waves of a grid that are flat where there is a floor: half an octave.
+const LAST: usize = 4;
+/// The least number of independent waves in these: of fewer the slope of the spectrum there is not known to 0.25, which
+/// is half of what tells a floor from a surface.
+const LEAST_WAVES: f64 = 1600.0;
 /// The slope of the logarithm of the density up to which it is flat. That of a self-affine profile is −1 − 2H, and that
 /// of a surface −2 − 2H.
 const FLAT: f64 = 0.5;
@@ -33,13 +35,13 @@ impl Spectrum {
     /// floor.
     ///
     /// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
-    /// short waves. There is a floor if the density of the last octave before the shortest waves of the grid falls with
-    /// less than the square root of the wave number, and the waves of the floor make more than 1e-6 of the rms height.
+    /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid changes
+    /// by less than the square root of the wave number, and the waves of the floor make more than 1e-6 of the rms height.
     /// The knee is where the surface has the density of the floor, and the spectrum that of twice the floor. Waves that
     /// are shorter tell of the noise: [`low_pass`](super::low_pass) leaves them out.
     ///
-    /// The densities are means over eighths of an octave. Fewer than 500 independent waves in the last octave, as on
-    /// 32 × 32 nodes, are too few to tell.
+    /// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as
+    /// on 90 × 90 nodes or a profile of 10 000, are too few to tell.
     ///
     /// ```
     /// use asperity::{Grid, SelfAffine, Surface};
@@ -49,10 +51,10 @@ impl Spectrum {
     /// let mut state = 1_u64;
     /// let noisy = rough.heights().mapv(|height| {
     ///     state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-    ///     height + 0.02 * rough.rms_height() * ((state >> 40) as f64 / 2_f64.powi(24) - 0.5)
+    ///     height + rough.rms_height() * ((state >> 40) as f64 / 2_f64.powi(24) - 0.5)
     /// });
     /// let knee = Surface::new(grid, noisy)?.spectrum().knee_wavelength().unwrap();
-    /// assert!(knee > 2.0 / 128.0 && knee < 0.1);
+    /// assert!(knee > 2.0 / 128.0 && knee < 0.2);
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn knee_wavelength(&self) -> Option<f64> {
@@ -64,7 +66,7 @@ impl Spectrum {
         };
         let psd = self.radial_psd();
         let classes = classes(&psd, PI / spacing);
-        let last = classes.get(..CLASSES as usize)?;
+        let last = classes.get(..LAST)?;
         let waves: f64 = last.iter().map(|class| class.waves).sum();
         let floor = last.iter().map(|class| class.waves * class.density).sum::<f64>() / waves;
         let all: usize = psd.waves.iter().sum();
@@ -145,7 +147,7 @@ mod tests {
 
     #[test]
     fn the_knee_is_where_noise_and_surface_have_one_density() {
-        for (n, hurst, noise) in [(256, 0.8, 0.03), (256, 0.3, 0.2), (512, 0.5, 0.02), (128, 0.8, 0.1)] {
+        for (n, hurst, noise) in [(256, 0.8, 0.4), (256, 0.5, 0.8), (512, 0.5, 0.5), (512, 0.8, 0.25)] {
             let grid = Grid::square(n, 2.0).unwrap();
             let clean = rough(grid, hurst, 2.0);
             assert_eq!(clean.spectrum().knee_wavelength(), None, "{n} {hurst}");
@@ -154,8 +156,8 @@ mod tests {
             // the density of the surface falls through that of the noise, σ² Δx Δy/4π²
             let floor = (noise * grid.spacing().0 / TAU).powi(2);
             let psd = clean.spectrum().radial_psd();
-            let below = psd.densities.iter().position(|density| *density < floor).unwrap();
-            let expected = TAU / psd.wave_numbers[below];
+            let last = psd.densities.iter().rposition(|density| *density > floor).unwrap();
+            let expected = TAU / psd.wave_numbers[last];
             assert!((found / expected).log2().abs() < 0.125, "{n} {hurst}: {found} for {expected}");
         }
     }
@@ -177,15 +179,15 @@ mod tests {
 
     #[test]
     fn profiles_have_a_knee_of_many_nodes() {
-        let grid = Grid::line(8192, 1.0).unwrap();
+        let grid = Grid::line(16384, 1.0).unwrap();
         let clean = rough(grid, 0.8, 4.0);
         assert_eq!(clean.spectrum().knee_wavelength(), None);
-        let noise = 0.01;
+        let noise = 0.03;
         let noisy = Surface::new(grid, clean.heights() + noise * white(grid.shape())).unwrap();
         let psd = clean.spectrum().radial_psd();
         let floor = noise * noise * grid.spacing().0 / TAU;
-        let below = psd.densities.iter().position(|density| *density < floor).unwrap();
-        let (found, expected) = (noisy.spectrum().knee_wavelength().unwrap(), TAU / psd.wave_numbers[below]);
+        let last = psd.densities.iter().rposition(|density| *density > floor).unwrap();
+        let (found, expected) = (noisy.spectrum().knee_wavelength().unwrap(), TAU / psd.wave_numbers[last]);
         // single waves of noise scatter by their mean: a class of 40 by a sixth
         assert!((found / expected).log2().abs() < 0.25, "{found} for {expected}");
     }

@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn exactly_the_waves_that_are_shorter_go() {
-        for (shape, lengths) in [((64, 48), (2.0, 1.5)), ((45, 64), (1.0, 2.0)), ((63, 1), (3.0, 3.0))] {
+        for (shape, lengths) in [((64, 48), (2.0, 1.5)), ((45, 64), (1.0, 1.3)), ((63, 1), (3.0, 3.0))] {
             let grid = Grid::new(shape, lengths).unwrap();
             let rough = SelfAffine::default().k_l(1.0).k_r(1.0).k_s(20.0).seed(5).surface(grid).unwrap();
             let cut_off = lengths.0 / 9.0;
@@ -74,7 +74,7 @@ mod tests {
             }
             // nothing more goes the second time, and nothing at all below the shortest waves
             let again = low_pass(left.heights().clone(), lengths, cut_off).unwrap();
-            assert!(again.iter().zip(left.heights()).all(|(a, b)| (a - b).abs() < 1e-12 * rough.rms_height()));
+            assert!(again.iter().zip(left.heights()).all(|(a, b)| (a - b).abs() < 1e-12));
         }
     }
 

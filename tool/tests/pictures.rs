@@ -24,7 +24,7 @@ fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
     let bench = bench();
     let solve = format!("solve --heights heights.npy --mean-pressure 0.01 {LAW} --quiet");
     bench.said(&format!("{solve} --out png"));
-    bench.said(&format!("{solve} --dpi 288 --colour-limits -1e-3 0.02 --out fine"));
+    bench.said(&format!("{solve} --dpi 288 --colour-limits -1 1 --out fine"));
     for name in ["contact.png", "pressure.png"] {
         let [usual, fine] = ["png", "fine"].map(|folder| sides(&bench.bytes(&format!("{folder}/{name}"))));
         assert!(usual[0] > 600, "{usual:?}");
@@ -55,13 +55,13 @@ fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
     let bench = bench();
     let mut heights = read_field(bench.path("heights.npy")).unwrap();
     // high enough to press far harder than the contact beside it
-    (4..12).for_each(|i| heights[[i, 20]] = 0.028);
+    (4..12).for_each(|i| heights[[i, 20]] = 0.04);
     write_npy(bench.path("scarred.npy"), &heights).unwrap();
     let solve = "solve --heights scarred.npy --mean-pressure 0.02 --pressure-unit Pa --picture-format svg --quiet";
     bench.said(&format!("{solve} --out plain"));
     let pressures = read_field(bench.path("plain/contact_pressure.npy")).unwrap();
     let scale = LoadScale::of(&pressures, None);
-    assert!(scale.end < 0.5 * scale.greatest && scale.beyond > 0.05, "{scale:?}");
+    assert!(scale.end < 0.7 * scale.greatest && scale.beyond > 0.05, "{scale:?}");
     let caption = format!("{:.0} % of the load above", 100.0 * scale.beyond);
     bench.said("report plain");
     for picture in ["plain/pressure.svg", "plain/report.html"] {

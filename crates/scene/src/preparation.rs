@@ -23,6 +23,7 @@ use described::{changed, described, described_form, holes, quantity, removed, rm
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "options", derive(clap::Args))]
+#[cfg_attr(feature = "options", command(group(clap::ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true))))]
 pub struct Preparation {
     /// The side lengths, with the unit of the map from then on.
     #[cfg_attr(feature = "options", arg(skip))]
@@ -50,10 +51,16 @@ pub struct Preparation {
     #[cfg_attr(feature = "options", arg(long, value_name = "METHOD"))]
     #[serde(deserialize_with = "align_rows")]
     pub align_rows: Option<RowAlignment>,
-    /// Direction of the scan lines of --align-rows [default: x]
-    #[cfg_attr(feature = "options", arg(long, requires = "align_rows", value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
+    /// Direction of the scan lines of --align-rows and --remove-scars [default: x]
+    #[cfg_attr(feature = "options", arg(long, requires = "scan_lines", value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
     #[serde(deserialize_with = "scan_axis")]
     pub scan_axis: Option<ScanAxis>,
+    /// Replace scars, by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all
+    /// higher, or all lower, than both lines beside them, by more than this many rms differences of neighbouring lines
+    /// [default: 0.667 if --remove-scars stands alone]
+    #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
+    #[cfg_attr(feature = "options", arg(default_missing_value = "0.667", allow_negative_numbers = true))]
+    pub remove_scars: Option<f64>,
     /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust
     /// standard deviations of all nodes [default: 10 if --despike stands alone]
     #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
@@ -82,6 +89,9 @@ pub struct Preparation {
     /// its original, of which solve has results then
     #[cfg_attr(feature = "options", arg(long))]
     pub mirror: bool,
+    /// The cut-off wavelength, in the unit of the map.
+    #[cfg_attr(feature = "options", arg(skip))]
+    pub cut_off_wavelength: Option<f64>,
     /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
     #[cfg_attr(feature = "options", arg(long, value_names = ["NX", "NY"], num_args = 2, value_parser = nodes))]
     #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
@@ -123,12 +133,33 @@ impl Preparation {
             self.lengths = Some(((lx, ly), of_map.map(str::to_owned)));
             return Ok(());
         }
+        let (unit, power) = self.unit_of_lengths("{lengths} have", of_map)?;
+        self.lengths = Some(((times_ten_to(-power, lx), times_ten_to(-power, ly)), Some(unit)));
+        Ok(())
+    }
+
+    /// Gives the map a cut-off wavelength; one in metres is brought to the unit that the map will have.
+    ///
+    /// # Errors
+    /// A text if that is no unit of length, for [`worded`](crate::worded).
+    pub fn set_cut_off_wavelength(
+        &mut self,
+        cut_off: f64,
+        in_metres: bool,
+        of_map: Option<&str>,
+    ) -> std::result::Result<(), String> {
+        let power = if in_metres { self.unit_of_lengths("{cut_off_wavelength} has", of_map)?.1 } else { 0 };
+        self.cut_off_wavelength = Some(times_ten_to(-power, cut_off));
+        Ok(())
+    }
+
+    /// The unit that the map will have, which is of length, and its power of ten, for what `has` a unit.
+    fn unit_of_lengths(&self, has: &str, of_map: Option<&str>) -> std::result::Result<(String, i32), String> {
         let unit = self.unit.as_deref().or(of_map).unwrap_or(LENGTH.si);
         let power = power_of_length(unit).ok_or_else(|| {
-            format!("{{lengths}} have a unit, but the map is in {unit}, which is none of length: give {{unit}}, as nm")
+            format!("{has} a unit, but the map is in {unit}, which is none of length: give {{unit}}, as nm")
         })?;
-        self.lengths = Some(((times_ten_to(-power, lx), times_ten_to(-power, ly)), Some(unit.to_owned())));
-        Ok(())
+        Ok((unit.to_owned(), power))
     }
 
     /// The prepared map, with a line in the log for each step; the log has those before an error, too.
@@ -170,14 +201,29 @@ impl Preparation {
             map = map.flip();
             log.tell("flip", "peaks are valleys now".to_owned());
         }
+        let along = self.scan_axis.unwrap_or(ScanAxis::X);
+        let axis = if along == ScanAxis::X { "x" } else { "y" };
         if let Some(alignment) = self.align_rows {
-            let (before, heights, along) = (rms(&map), map.heights.clone(), self.scan_axis.unwrap_or(ScanAxis::X));
+            let (before, heights) = (rms(&map), map.heights.clone());
             log.warn(Warning::of_lines(&map, along), &map);
             map = map.align_rows(alignment, along)?;
             let (nx, ny) = map.heights.dim();
-            let (axis, lines) = if along == ScanAxis::X { ("x", ny) } else { ("y", nx) };
+            let lines = if along == ScanAxis::X { ny } else { nx };
             let by = changed(&heights, &map);
             log.tell("align-rows", format!("{lines} lines along {axis} {by}: rms height {} from {before}", rms(&map)));
+        }
+        if let Some(threshold) = self.remove_scars {
+            let (scars, before, nodes) = (map.scars(threshold, along)?, rms(&map), map.heights.len());
+            let (count, points) = (scars.count, scars.map.iter().filter(|&&on_scar| on_scar).count());
+            let limit = quantity(scars.limit, &map);
+            map = map.without(&scars)?;
+            let what = match count {
+                0 => format!("no scars along {axis} beyond {limit} from the lines beside them"),
+                1 => format!("1 scar along {axis} beyond {limit} from the lines beside it"),
+                _ => format!("{count} scars along {axis} beyond {limit} from the lines beside them"),
+            };
+            let replaced = if count > 0 { format!(", {points} of {nodes} points replaced") } else { String::new() };
+            log.tell("remove-scars", format!("{what}{replaced}: rms height {} from {before}", rms(&map)));
         }
         if let Some(threshold) = self.despike {
             let (spikes, before, nodes) = (map.spikes(threshold)?, rms(&map), map.heights.len());
@@ -226,6 +272,22 @@ impl Preparation {
             check_memory("a mirrored map", (2 * nx, 2 * ny), 8)?;
             map = map.mirror();
             log.tell("mirror", described(&map));
+        }
+        if let Some(cut_off) = self.cut_off_wavelength {
+            let before = map.clone();
+            map = map.low_pass(cut_off)?;
+            let slopes = [&map, &before].map(|map| plain(map.rms_slope().unwrap_or(f64::NAN)));
+            let what = format!("waves shorter than {} left out, which may be noise", quantity(cut_off, &map));
+            log.tell(
+                "cut-off-wavelength",
+                format!(
+                    "{what}: rms height {} from {}, rms slope by differences {} from {}",
+                    rms(&map),
+                    rms(&before),
+                    slopes[0],
+                    slopes[1]
+                ),
+            );
         }
         if let Some(&[nx, ny]) = self.resample.as_deref() {
             let before = rms(&map);

@@ -103,7 +103,7 @@ impl Units {
 /// The dimension of the numbers of a key of a scene; none for shares, numbers and words.
 pub fn dimension_of_key(key: &str) -> Option<Dimension> {
     match key {
-        "radius" | "amplitude" | "rms_height" | "spring_position" | "distance" => Some(LENGTH),
+        "radius" | "amplitude" | "rms_height" | "spring_position" | "distance" | "cut_off_wavelength" => Some(LENGTH),
         _ => dimension_of(key, "", false),
     }
 }
