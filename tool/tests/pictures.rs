@@ -58,7 +58,8 @@ fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
     (4..12).for_each(|i| heights[[i, 20]] = 0.04);
     write_npy(bench.path("scarred.npy"), &heights).unwrap();
     let solve = "solve --heights scarred.npy --mean-pressure 0.02 --pressure-unit Pa --picture-format svg --quiet";
-    bench.said(&format!("{solve} --out plain"));
+    let warned = |arguments: &str| assert_eq!(bench.run(arguments).status.code(), Some(0), "{arguments}");
+    warned(&format!("{solve} --out plain"));
     let pressures = read_field(bench.path("plain/contact_pressure.npy")).unwrap();
     let scale = LoadScale::of(&pressures, None);
     assert!(scale.end < 0.7 * scale.greatest && scale.beyond > 0.05, "{scale:?}");
@@ -71,7 +72,7 @@ fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
     // all of it on demand, and clusters in the number of the table
     let clusters = Clusters::of(pressures.mapv(|pressure| pressure > 0.0).view()).sizes.len();
     let caption = format!("in {clusters} clusters, the largest with ");
-    bench.said(&format!("{solve} --colour-limits 0 10 --colour-clusters --out limited"));
+    warned(&format!("{solve} --colour-limits 0 10 --colour-clusters --out limited"));
     bench.said("report plain --colour-limits 0 10 --colour-clusters --force");
     assert!(bench.read("limited/contact.svg").contains(&caption));
     let page = bench.read("plain/report.html");

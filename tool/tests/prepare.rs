@@ -296,7 +296,7 @@ fn scars_and_noise_are_found_told_and_left_out() {
         (from..to).for_each(|i| map.heights[[i, line]] += 20e-9);
     }
     write_topography(bench.path("scan.npz"), &map).unwrap();
-    let solve = "--modulus 70GPa --mean-pressure 100MPa --no-pictures --quiet --force --out r";
+    let solve = "--modulus 10GPa --mean-pressure 100MPa --no-pictures --quiet --force --out r";
     let warned = |heights: &str| text(&bench.run(&format!("solve --heights {heights} {solve}")).stderr);
     assert_eq!(warned("clean.npz"), "");
     let told = warned("scan.npz");
@@ -304,8 +304,10 @@ fn scars_and_noise_are_found_told_and_left_out() {
 
     let said = bench.said("prepare scan.npz --remove-scars --out removed.npz");
     let on_scars: usize = scars.iter().map(|(from, to, _)| to - from).sum();
-    let expected = format!("5 scars along x beyond ");
-    assert!(said.contains(&expected) && said.contains(&format!("{on_scars} of 16384 points replaced")), "{said}");
+    assert!(
+        said.contains("5 scars along x beyond ") && said.contains(&format!("{on_scars} of 16384 points replaced")),
+        "{said}"
+    );
     let removed = read_topography(bench.path("removed.npz")).unwrap().heights;
     let square = |heights: &Array2<f64>| heights.iter().zip(&clean).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
     // what the membrane has not is the roughness within a spacing, a tenth of the rms height, on one node in 90

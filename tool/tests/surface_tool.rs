@@ -133,7 +133,7 @@ fn statistics_of_text_and_of_flat_maps() {
     .unwrap();
     let said = bench.said("stats flat.npy --lengths 1 --psd flat.csv");
     assert_eq!(numbers(&said, "rms height"), [0.0]);
-    assert!(said.contains("Nayak's parameter  -"), "{said}");
+    assert!(said.contains("Nayak's parameter        -"), "{said}");
     assert!(csv(&bench, "flat.csv").1.iter().all(|row| row[1] == 0.0));
 }
 

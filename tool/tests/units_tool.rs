@@ -196,7 +196,7 @@ fn maps_have_their_unit_and_come_into_the_si() {
     assert!(said.contains("5000 nm x 4000 nm, before unknown"), "{said}");
     let map = read_topography(bench.path("map.npz")).unwrap();
     assert_eq!((map.lengths, map.unit.as_deref()), (Some((10000.0, 8000.0)), Some("nm")));
-    assert!(bench.said("stats map.npz").contains("side lengths       10000 nm x 8000 nm"));
+    assert!(bench.said("stats map.npz").contains("side lengths             10000 nm x 8000 nm"));
     let solved = bench.reported("solve --heights map.npz --modulus 1GPa --mean-pressure 1MPa --no-pictures --out si");
     assert_eq!((&solved["lengths"], &solved["length_unit"]), (&serde_json::json!([5e-6, 4e-6]), &"m".into()));
     let mut metres = map.clone();

@@ -8,60 +8,96 @@ use super::{Warning, WarningCode};
 /// How many times harder a node presses than both nodes beside it, along an axis, to stand alone: pressures change
 /// little from node to node in a contact that the nodes resolve, but for its edge, where one side is harder.
 const ALONE: f64 = 3.0;
+/// The least number of nodes of a piece of a line, all of which are alone across it: contacts of a rough surface are
+/// rounder.
+const LENGTH: usize = 8;
 /// The share of the load from which it is much: on rough surfaces with four nodes to the shortest wave, at one per cent
 /// of contact, some 3 % stand on single nodes.
 const MUCH: f64 = 0.2;
 /// Fewer nodes in contact tell nothing: they may be alone by chance.
 const LEAST_NODES: usize = 100;
 
+/// Nodes that stand alone: their number, their load, and the greatest pressure.
+#[derive(Clone, Copy, Default)]
+struct Nodes {
+    count: usize,
+    load: f64,
+    greatest: f64,
+}
+
+impl Nodes {
+    fn add(&mut self, other: Self) {
+        self.count += other.count;
+        self.load += other.load;
+        self.greatest = self.greatest.max(other.greatest);
+    }
+
+    /// Goes on along a line with a node that is alone across it, or ends there, and counts if it was long.
+    fn go_on(&mut self, node: Option<Self>, counted: &mut Self) {
+        match node {
+            Some(node) => self.add(node),
+            None if self.count > 0 => {
+                if self.count >= LENGTH {
+                    counted.add(*self);
+                }
+                *self = Self::default();
+            }
+            None => {}
+        }
+    }
+}
+
 /// The warning that much of the load stands on lines along one axis, or on single nodes, by one pass over the pressure.
 pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
     let pressures = &solution.contact_pressure;
-    let ((nx, ny), mut nodes) = (pressures.dim(), 0);
-    // alone along y but not along x, along x but not along y, and along both: the load, and the greatest pressure
-    let (mut all, mut found) = (0.0, [(0.0, 0.0_f64); 3]);
-    for ((i, j), pressure) in pressures.indexed_iter().filter(|(_, pressure)| **pressure > T::zero()) {
-        let pressure = pressure.widen();
-        let alone = |before: [usize; 2], after: [usize; 2]| {
-            pressure > ALONE * pressures[before].widen().max(pressures[after].widen())
-        };
-        let along_x = alone([(i + nx - 1) % nx, j], [(i + 1) % nx, j]);
-        let along_y = alone([i, (j + ny - 1) % ny], [i, (j + 1) % ny]);
-        (all, nodes) = (all + pressure, nodes + 1);
-        let class = match (along_x, along_y) {
-            (false, false) => continue,
-            (false, true) => 0,
-            (true, false) => 1,
-            (true, true) => 2,
-        };
-        found[class] = (found[class].0 + pressure, found[class].1.max(pressure));
+    let (nx, ny) = pressures.dim();
+    let [mut all, mut along_x, mut along_y, mut single] = [Nodes::default(); 4];
+    let mut lines_along_x = vec![Nodes::default(); ny];
+    for i in 0..nx {
+        let mut line_along_y = Nodes::default();
+        for (j, line_along_x) in lines_along_x.iter_mut().enumerate() {
+            let pressure = pressures[[i, j]].widen();
+            let node = Nodes { count: 1, load: pressure, greatest: pressure };
+            let alone = |before: [usize; 2], after: [usize; 2]| {
+                let beside = pressures[before].widen().max(pressures[after].widen());
+                (pressure > ALONE * beside).then_some(node)
+            };
+            let (mut on_line_along_x, mut on_line_along_y) = (None, None);
+            if pressure > 0.0 {
+                on_line_along_x = alone([i, (j + ny - 1) % ny], [i, (j + 1) % ny]);
+                on_line_along_y = alone([(i + nx - 1) % nx, j], [(i + 1) % nx, j]);
+                all.add(node);
+                on_line_along_x.and(on_line_along_y).into_iter().for_each(|node| single.add(node));
+            }
+            line_along_x.go_on(on_line_along_x, &mut along_x);
+            line_along_y.go_on(on_line_along_y, &mut along_y);
+        }
+        line_along_y.go_on(None, &mut along_y);
     }
-    let much = |(load, _): (f64, f64)| nodes >= LEAST_NODES && load > MUCH * all;
-    let class = (0..3).filter(|&class| much(found[class])).max_by(|&a, &b| found[a].0.total_cmp(&found[b].0))?;
-    let (share, mut text) = (found[class].0 / all, Text::default());
-    let percent = Warning::figure(100.0 * share);
-    let greatest = text.pressure(found[class].1);
-    let press = format!("that press more than {ALONE} times as hard as");
-    let (code, message) = match class {
-        2 => (
-            WarningCode::Noise,
+    lines_along_x.iter_mut().for_each(|line| line.go_on(None, &mut along_x));
+    let kinds = [(along_x, Some("x")), (along_y, Some("y")), (single, None)];
+    let much = |(nodes, _): &(Nodes, _)| all.count >= LEAST_NODES && nodes.load > MUCH * all.load;
+    let (nodes, axis) = kinds.into_iter().filter(much).max_by(|a, b| a.0.load.total_cmp(&b.0.load))?;
+    let (share, mut text) = (nodes.load / all.load, Text::default());
+    let (percent, greatest) = (Warning::figure(100.0 * share), text.pressure(nodes.greatest));
+    let (code, message) = match axis {
+        Some(axis) => (
+            WarningCode::Scars,
             format!(
-                "{percent} % of the load stands on single nodes, {press} all beside them, with up to {greatest}: noise of a \
-                 measurement, or waves that the nodes do not resolve; leave out short waves (prepare \
-                 --cut-off-wavelength), give spikes the median around them (despike), or refine the map"
+                "{percent} % of the load stands on single lines along {axis}, on nodes that press more than {ALONE} times \
+                 as hard as those of both lines beside them, with up to {greatest}: scars, if {axis} is the scan axis of a \
+                 measurement; remove them (prepare --remove-scars --scan-axis {axis})"
             ),
         ),
-        _ => {
-            let axis = ["x", "y"][class];
-            (
-                WarningCode::Scars,
-                format!(
-                    "{percent} % of the load stands on single lines along {axis}, on nodes {press} those of both lines \
-                     beside them, with up to {greatest}: scars, if {axis} is the scan axis of a measurement; remove them \
-                     (prepare --remove-scars --scan-axis {axis})"
-                ),
-            )
-        }
+        None => (
+            WarningCode::Noise,
+            format!(
+                "{percent} % of the load stands on single nodes, which press more than {ALONE} times as hard as all beside \
+                 them, with up to {greatest}: noise of a measurement, or waves that the nodes do not resolve; leave out \
+                 short waves (prepare --cut-off-wavelength), give spikes the median around them (despike), or refine the \
+                 map"
+            ),
+        ),
     };
     Some(Warning { code, text: text.with(message).of_severity(share) })
 }
