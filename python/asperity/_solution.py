@@ -336,8 +336,8 @@ class Solution:
         length_unit, pressure_unit : str, optional
             Units for the axes and the scales. ``"m"`` and ``"Pa"`` get prefixes.
         colour_limits : (float, float), optional
-            Pressures at the ends of the scales, as for figures that are to be compared: that of the largest tension, zero
-            or negative, and that of the largest compression.
+            Pressures at the ends of the scales, as for figures that are to be compared: that of the largest tension,
+            zero or negative, and that of the largest compression.
         colour_clusters : bool
             Each cluster of contact gets a colour of its own, nine in turn, the largest clusters first.
 
@@ -353,7 +353,7 @@ class Solution:
         pressure_unit = pressure_unit or self.report["pressure_unit"]
         if colour_limits is not None and not (colour_limits[0] <= 0.0 < colour_limits[1]):
             raise ValueError(
-                f"colour_limits are {colour_limits!r}: they must be (low, high), with low zero or negative, and high positive"
+                f"colour_limits are {colour_limits!r}: they must be (low, high), low zero or negative, and high positive"
             )
         if self.gap.ndim == 1:
             return _plot.profiles(

@@ -29,8 +29,8 @@ class SurfaceStatistics(NamedTuple):
     nayak : float
         Nayak's parameter m₀m₄/m₂².
     knee_wavelength : float or None
-        Wavelength at which the spectrum flattens to a floor of noise; None if it does not. ``prepare`` leaves out shorter
-        waves by ``cut_off_wavelength``.
+        Wavelength at which the spectrum flattens to a floor of noise; None if it does not. ``prepare`` leaves out
+        shorter waves by ``cut_off_wavelength``.
 
     Slopes, curvatures and Nayak's parameter are NaN where the side lengths are unknown.
     """

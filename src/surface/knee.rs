@@ -35,10 +35,10 @@ impl Spectrum {
     /// floor.
     ///
     /// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
-    /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid changes
-    /// by less than the square root of the wave number, and the waves of the floor make more than 1e-6 of the rms height.
-    /// The knee is where the surface has the density of the floor, and the spectrum that of twice the floor. Waves that
-    /// are shorter tell of the noise: [`low_pass`](super::low_pass) leaves them out.
+    /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid
+    /// changes by less than the square root of the wave number, and the waves of the floor make more than 1e-6 of the
+    /// rms height. The knee is where the surface has the density of the floor, and the spectrum that of twice the
+    /// floor. Waves that are shorter tell of the noise: [`low_pass`](super::low_pass) leaves them out.
     ///
     /// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as
     /// on 90 × 90 nodes or a profile of 10 000, are too few to tell.

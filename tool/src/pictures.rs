@@ -200,8 +200,8 @@ pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64
     map.draw(dpi)
 }
 
-/// Draws the clusters of contact, of nodes as numbers as [`draw_regions`] has them, on a map whose opposite sides meet or
-/// do not.
+/// Draws the clusters of contact, of nodes as numbers as [`draw_regions`] has them, on a map whose opposite sides meet
+/// or do not.
 pub fn draw_clusters(
     grid: Grid,
     title: &str,

@@ -190,7 +190,12 @@ fn tables_name_the_units_of_their_columns() {
 fn maps_have_their_unit_and_come_into_the_si() {
     let bench = Bench::new();
     // 5 by 4 micrometres, and heights in nanometres
-    let row = |i: usize| (0..24).map(|j| (30.0 * ((i * j) as f64).sin()).to_string()).collect::<Vec<_>>().join(" ");
+    let row = |i: usize| {
+        (0..24)
+            .map(|j| (30.0 * (0.7 * i as f64).sin() * (0.6 * j as f64).cos()).to_string())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
     bench.write("heights.txt", &(0..30).map(row).collect::<Vec<_>>().join("\n"));
     let said = bench.said("prepare heights.txt --lengths 5um 4um --unit nm --mirror --out map.npz");
     assert!(said.contains("5000 nm x 4000 nm, before unknown"), "{said}");

@@ -28,11 +28,12 @@ pub use trend::{Fit, Trend};
 ///
 /// A surface is periodic and complete; a measurement is neither. Each step between the two is a method of its own, and
 /// nothing is done unasked: take codes for [`missing`](Self::declare_missing) points, [`align_rows`](Self::align_rows)
-/// of a scan, [`remove_scars`](Self::remove_scars), [`despike`](Self::despike), [`remove_form`](Self::remove_form), [`detrend`](Self::detrend),
-/// [`fill`](Self::fill) missing points, make the map periodic by
-/// [`window`](Self::window) or [`mirror`](Self::mirror), leave out short waves by [`low_pass`](Self::low_pass),
-/// [`crop`](Self::crop) it, [`flip`](Self::flip) it, and [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all methods leave them missing, and
-/// out of their sums, but for `fill`, which gives them values, and `window`, `low_pass` and `resample`, which refuse them.
+/// of a scan, [`remove_scars`](Self::remove_scars), [`despike`](Self::despike), [`remove_form`](Self::remove_form),
+/// [`detrend`](Self::detrend), [`fill`](Self::fill) missing points, make the map periodic by [`window`](Self::window)
+/// or [`mirror`](Self::mirror), leave out short waves by [`low_pass`](Self::low_pass), [`crop`](Self::crop) it,
+/// [`flip`](Self::flip) it, and [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all
+/// methods leave them missing, and out of their sums, but for `fill`, which gives them values, and `window`, `low_pass`
+/// and `resample`, which refuse them.
 ///
 /// ```
 /// use asperity_maps::{Topography, Trend};
@@ -242,9 +243,9 @@ impl Topography {
 
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation: [`resample`].
     ///
-    /// Edges that do not meet make it ring: use [`window`](Self::window) or [`mirror`](Self::mirror) first. The original
-    /// of a mirrored map has the new nodes that are on it; its mirror lines may now pass through nodes, so that images
-    /// are met to a node.
+    /// Edges that do not meet make it ring: use [`window`](Self::window) or [`mirror`](Self::mirror) first. The
+    /// original of a mirrored map has the new nodes that are on it; its mirror lines may now pass through nodes, so
+    /// that images are met to a node.
     ///
     /// # Errors
     /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;

@@ -39,9 +39,9 @@ pub enum Colouring {
     ///
     /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
     Contact,
-    /// Clusters of contact, by the labels of [`Clusters`](asperity::contact::Clusters): nine colours in turn, those of the
-    /// largest clusters first, white where the label is 0, and grey where it is not finite. Pixels are mixed as those of
-    /// contact.
+    /// Clusters of contact, by the labels of [`Clusters`](asperity::contact::Clusters): nine colours in turn, those of
+    /// the largest clusters first, white where the label is 0, and grey where it is not finite. Pixels are mixed as
+    /// those of contact.
     Clusters,
 }
 

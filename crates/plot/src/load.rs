@@ -16,9 +16,9 @@ const MOST: usize = 1_000_000;
 /// the load that is carried beyond.
 ///
 /// A quarter of the load stands on pressures below its lower quartile, whatever the number of nodes that carry little.
-/// The scale ends at the greatest of the pressures up to four times this quartile, or at the greatest of all where that is
-/// no more than a third above. So scan lines or nodes that press many times harder than the contact do not hide it, as
-/// long as it carries a quarter of the load.
+/// The scale ends at the greatest of the pressures up to four times this quartile, or at the greatest of all where that
+/// is no more than a third above. So scan lines or nodes that press many times harder than the contact do not hide it,
+/// as long as it carries a quarter of the load.
 ///
 /// ```
 /// use asperity_plot::LoadScale;

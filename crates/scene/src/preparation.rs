@@ -23,7 +23,10 @@ use described::{changed, described, described_form, holes, quantity, removed, rm
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "options", derive(clap::Args))]
-#[cfg_attr(feature = "options", command(group(clap::ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true))))]
+#[cfg_attr(
+    feature = "options",
+    command(group(clap::ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true)))
+)]
 pub struct Preparation {
     /// The side lengths, with the unit of the map from then on.
     #[cfg_attr(feature = "options", arg(skip))]
@@ -52,7 +55,8 @@ pub struct Preparation {
     #[serde(deserialize_with = "align_rows")]
     pub align_rows: Option<RowAlignment>,
     /// Direction of the scan lines of --align-rows and --remove-scars [default: x]
-    #[cfg_attr(feature = "options", arg(long, requires = "scan_lines", value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
+    #[cfg_attr(feature = "options", arg(long, requires = "scan_lines"))]
+    #[cfg_attr(feature = "options", arg(value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
     #[serde(deserialize_with = "scan_axis")]
     pub scan_axis: Option<ScanAxis>,
     /// Replace scars, by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all

@@ -84,18 +84,18 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
         Some(axis) => (
             WarningCode::Scars,
             format!(
-                "{percent} % of the load stands on single lines along {axis}, on nodes that press more than {ALONE} times \
-                 as hard as those of both lines beside them, with up to {greatest}: scars, if {axis} is the scan axis of a \
-                 measurement; remove them (prepare --remove-scars --scan-axis {axis})"
+                "{percent} % of the load stands on single lines along {axis}, on nodes that press more than {ALONE} \
+                 times as hard as those of both lines beside them, with up to {greatest}: scars, if {axis} is the \
+                 scan axis of a measurement; remove them (prepare --remove-scars --scan-axis {axis})"
             ),
         ),
         None => (
             WarningCode::Noise,
             format!(
-                "{percent} % of the load stands on single nodes, which press more than {ALONE} times as hard as all beside \
-                 them, with up to {greatest}: noise of a measurement, or waves that the nodes do not resolve; leave out \
-                 short waves (prepare --cut-off-wavelength), give spikes the median around them (despike), or refine the \
-                 map"
+                "{percent} % of the load stands on single nodes, which press more than {ALONE} times as hard as all \
+                 beside them, with up to {greatest}: noise of a measurement, or waves that the nodes do not resolve; \
+                 leave out short waves (prepare --cut-off-wavelength), give spikes the median around them (despike), \
+                 or refine the map"
             ),
         ),
     };
