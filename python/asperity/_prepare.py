@@ -83,8 +83,8 @@ def prepare(
         Continues the map by its mirror images: twice as many nodes along both axes. The map remembers its ``original``,
         and a solution has results of that part alone, unless it is asked for the ``whole``.
     cut_off_wavelength : float or str, optional
-        Leaves out the waves shorter than this, as where they are noise: `surface.statistics` has the wavelength of the
-        knee of the spectrum. The map should be periodic by then.
+        Leaves out the waves shorter than this, as where they are noise: `surface.knee_wavelength` tells from where on.
+        The map should be periodic by then.
     resample : (int, int), optional
         Numbers of nodes of the grid on which it is interpolated.
 

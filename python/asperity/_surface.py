@@ -28,9 +28,6 @@ class SurfaceStatistics(NamedTuple):
         The same from differences between neighbours.
     nayak : float
         Nayak's parameter m₀m₄/m₂².
-    knee_wavelength : float or None
-        Wavelength at which the spectrum flattens to a floor of noise; None if it does not. ``prepare`` leaves out
-        shorter waves by ``cut_off_wavelength``.
 
     Slopes, curvatures and Nayak's parameter are NaN where the side lengths are unknown.
     """
@@ -46,7 +43,6 @@ class SurfaceStatistics(NamedTuple):
     rms_curvature: float
     rms_curvature_differences: float
     nayak: float
-    knee_wavelength: float | None = None
 
 
 class PowerSpectralDensity(NamedTuple):
@@ -217,8 +213,7 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
     SurfaceStatistics
     """
     given = taken(heights, lengths, axes)
-    numbers, knee = _asperity.statistics(given.heights, given.lengths)
-    return SurfaceStatistics(*numbers, knee)
+    return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths))
 
 
 def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> PowerSpectralDensity:
@@ -244,3 +239,34 @@ def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrde
     """
     given = taken(heights, lengths, axes)
     return PowerSpectralDensity(*_asperity.spectrum(given.heights, sides(given)))
+
+
+def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> float | None:
+    """The wavelength at which the power spectral density flattens to a floor of noise.
+
+    Noise and surface have one density there, and shorter waves tell of the noise: `asperity.prepare` leaves them out by
+    ``cut_off_wavelength``.
+
+    Parameters
+    ----------
+    heights, lengths, axes
+        Those of `statistics`; the side lengths are needed, unless the heights bring them.
+
+    Returns
+    -------
+    float or None
+        None where there is no floor, or less than some 90 x 90 nodes.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from asperity import surface
+    >>> rough = surface.self_affine(128, 1.0, rms_height=0.01, k_l=2, k_s=60)
+    >>> surface.knee_wavelength(rough) is None
+    True
+    >>> noisy = rough.heights + np.random.default_rng(0).normal(scale=0.004, size=rough.shape)
+    >>> 2 / 128 < surface.knee_wavelength(noisy, 1.0) < 0.1
+    True
+    """
+    given = taken(heights, lengths, axes)
+    return _asperity.knee_wavelength(given.heights, sides(given))

@@ -52,7 +52,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{in_metres, made, prepare, read, spectrum, statistics};
+    use crate::surface::{in_metres, knee_wavelength, made, prepare, read, spectrum, statistics};
 
     use pyo3::prelude::*;
 

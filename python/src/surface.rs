@@ -75,17 +75,13 @@ pub fn made<'py>(
     Ok(drawn.heights.into_pyarray(py))
 }
 
-/// The statistics of heights, in the order of the library, and the knee of the spectrum.
+/// The statistics of heights, in the order of the library.
 #[pyfunction]
-pub fn statistics(
-    py: Python<'_>,
-    heights: Field<'_>,
-    lengths: Option<(f64, f64)>,
-) -> PyResult<([f64; 11], Option<f64>)> {
+pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)>) -> PyResult<[f64; 11]> {
     let mut map = Topography::new(heights.to_array()?);
     map.lengths = lengths;
     let found = apart(py, || map.statistics())?;
-    let numbers = [
+    Ok([
         found.mean,
         found.lowest,
         found.highest,
@@ -97,8 +93,14 @@ pub fn statistics(
         found.rms_curvature,
         found.rms_curvature_differences,
         found.nayak,
-    ];
-    Ok((numbers, found.knee_wavelength))
+    ])
+}
+
+/// The wavelength of the knee of the spectrum of heights, if it has one.
+#[pyfunction]
+pub fn knee_wavelength(py: Python<'_>, heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Option<f64>> {
+    let surface = surface(heights, lengths)?;
+    apart(py, || Ok(surface.spectrum().knee_wavelength()))
 }
 
 /// Wave numbers, densities, numbers of waves, and the area of one wave.
