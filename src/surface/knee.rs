@@ -2,18 +2,17 @@
 
 use std::f64::consts::PI;
 
-use super::spectrum::{Psd, Spectrum};
+use super::spectrum::{Psd, Spectrum, is_line};
 
 /// The classes of wave numbers to an octave.
 const CLASSES: f64 = 8.0;
 /// The classes before the shortest waves of a grid that are flat where there is a floor: half an octave.
 const LAST: usize = 4;
-/// The least number of independent waves in these: of fewer the slope of the spectrum there is not known to 0.25, which
-/// is half of what tells a floor from a surface.
+/// The least number of independent waves in these: of fewer the slope of the spectrum there is not known to 0.25.
 const LEAST_WAVES: f64 = 1600.0;
-/// The slope of the logarithm of the density up to which it is flat. That of a self-affine profile is −1 − 2H, and that
-/// of a surface −2 − 2H.
-const FLAT: f64 = 0.5;
+/// The slopes of the logarithm of the density up to which a profile and a surface are flat: half of those of self-affine
+/// ones, −1 − 2H and −2 − 2H, at a Hurst exponent H of 0.
+const FLAT: [f64; 2] = [0.5, 1.0];
 /// The least rms of the noise over that of the heights: rounding to `f32` makes some 1e-7.
 const LEAST: f64 = 1e-6;
 /// The density at the knee over that of the floor, where noise and surface have one density.
@@ -35,10 +34,11 @@ impl Spectrum {
     /// floor.
     ///
     /// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
-    /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid
-    /// changes by less than the square root of the wave number, and the waves of the floor make more than 1e-6 of the
-    /// rms height. The knee is where the surface has the density of the floor, and the spectrum that of twice the
-    /// floor. Waves that are shorter tell of the noise: [`low_pass`](super::low_pass) leaves them out.
+    /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid falls
+    /// with less than the wave number, or its square root of a profile, half of what it does for a self-affine surface
+    /// of a Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. The knee is where the
+    /// surface has the density of the floor, and the spectrum that of twice the floor. Waves that are shorter tell of
+    /// the noise: [`low_pass`](super::low_pass) leaves them out.
     ///
     /// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as
     /// on 90 × 90 nodes or a profile of 10 000, are too few to tell.
@@ -71,7 +71,10 @@ impl Spectrum {
         let floor = last.iter().map(|class| class.waves * class.density).sum::<f64>() / waves;
         let all: usize = psd.waves.iter().sum();
         let noise = (floor * psd.cell * all as f64).sqrt();
-        if waves < LEAST_WAVES || slope(last).abs() > FLAT || noise <= LEAST * self.rms_height() {
+        if waves < LEAST_WAVES
+            || slope(last).abs() > FLAT[usize::from(!is_line(self.grid()))]
+            || noise <= LEAST * self.rms_height()
+        {
             return None;
         }
         let rest = &classes[last.len()..];
