@@ -223,7 +223,7 @@ fn maps_have_their_unit_and_come_into_the_si() {
     assert!(
         bench
             .said("surface --size 16 --lengths 2um --k-s 6 --rms-height 5nm --out made.npz")
-            .contains("rms height         5 nm")
+            .contains("rms height               5 nm")
     );
     assert_eq!(read_topography(bench.path("made.npz")).unwrap().unit.as_deref(), Some("m"));
     bench.refused_with("surface --size 16 --k-s 6 --rms-height 5nm --out no.npz", &["how large", "--lengths"]);

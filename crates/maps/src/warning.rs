@@ -275,8 +275,8 @@ impl Warning {
 
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
     /// is positive, [`WindowEdge`](WarningCode::WindowEdge) with a free boundary, and [`Scars`](WarningCode::Scars) or
-    /// [`Noise`](WarningCode::Noise) where more than 20 % of the load of at least 100 nodes stands on nodes that press
-    /// three times as hard as those beside them.
+    /// [`Noise`](WarningCode::Noise) where more than 20 % of the load of at least 100 nodes stands on lines, or 33 % on
+    /// single nodes, that press three times as hard as those beside them.
     pub fn of_solution<T: Real>(solution: &Solution<T>) -> Vec<Self> {
         let modulus = solution.report.modulus;
         let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());

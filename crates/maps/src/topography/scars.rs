@@ -30,6 +30,9 @@ impl Topography {
     /// higher, or all lower, than both lines beside the piece, each node by more than `threshold` rms differences of
     /// neighbouring lines.
     ///
+    /// On average the piece stands out by more than the two lines beside it differ from the next, taken together: a wave
+    /// along the scan lines is steeper beside its crest.
+    ///
     /// The tip of a microscope makes them where it sticks, or loses the surface, within a line. The rms is that by the
     /// median of the magnitudes, 1.4826 median \|Δh\| about the median of Δh, which no scar carries. Rough surfaces,
     /// even rounded ones, have no such pieces at a threshold of ⅔, which is Gwyddion's: a crest that follows a scan
@@ -100,23 +103,33 @@ impl Topography {
     }
 }
 
-/// Marks the pieces of so many neighbouring lines that stand out by more than a limit, upwards or downwards.
+/// Marks the pieces of so many neighbouring lines that stand out by more than a limit, upwards or downwards, and whose
+/// steps are greater than those of the lines beyond them.
 fn mark(on_scar: &mut Array2<bool>, lines: ArrayView2<'_, f64>, (width, sign): (usize, f64), limit: f64) {
     let (nodes, count) = lines.dim();
     for first in 1..count.saturating_sub(width) {
-        let stands_out = |i: usize| {
+        let (before, after) = (first - 1, first + width);
+        // how far the lowest of the lines is above both beside them; not a number where one is missing
+        let above = |i: usize| {
             let height = |j: usize| sign * lines[[i, j]];
-            let beside = height(first - 1).max(height(first + width));
-            let known = (height(first - 1) + height(first + width)).is_finite();
-            known && (first..first + width).all(|j| height(j) - beside > limit && height(j).is_finite())
+            if !(before..=after).all(|j| lines[[i, j]].is_finite()) {
+                return f64::NAN;
+            }
+            (first..after).map(height).fold(f64::INFINITY, f64::min) - height(before).max(height(after))
+        };
+        let beyond = |i: usize| {
+            let step = |from: usize, to: usize| (to < count).then(|| (lines[[i, to]] - lines[[i, from]]).abs());
+            let steps = [before.checked_sub(1).and_then(|to| step(before, to)), step(after, after + 1)];
+            steps.into_iter().flatten().filter(|step| step.is_finite()).sum::<f64>()
         };
         let mut start = None;
         for i in 0..=nodes {
-            match (start, i < nodes && stands_out(i)) {
+            match (start, i < nodes && above(i) > limit) {
                 (None, true) => start = Some(i),
                 (Some(from), false) => {
-                    if i - from >= LENGTH {
-                        (from..i).for_each(|i| (first..first + width).for_each(|j| on_scar[[i, j]] = true));
+                    let sum = |of: &dyn Fn(usize) -> f64| (from..i).map(of).sum::<f64>();
+                    if i - from >= LENGTH && sum(&above) > sum(&beyond) {
+                        (from..i).for_each(|i| (first..after).for_each(|j| on_scar[[i, j]] = true));
                     }
                     start = None;
                 }

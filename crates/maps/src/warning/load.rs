@@ -11,9 +11,9 @@ const ALONE: f64 = 3.0;
 /// The least number of nodes of a piece of a line, all of which are alone across it: contacts of a rough surface are
 /// rounder.
 const LENGTH: usize = 8;
-/// The share of the load from which it is much: on rough surfaces with four nodes to the shortest wave, at one per cent
-/// of contact, some 3 % stand on single nodes.
-const MUCH: f64 = 0.2;
+/// The shares of the load from which it is much, on lines and on single nodes: where a contact of some hundred nodes has
+/// a few to each of its pieces, a quarter may stand on single ones.
+const MUCH: [f64; 2] = [0.2, 1.0 / 3.0];
 /// Fewer nodes in contact tell nothing: they may be alone by chance.
 const LEAST_NODES: usize = 100;
 
@@ -76,7 +76,9 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
     }
     lines_along_x.iter_mut().for_each(|line| line.go_on(None, &mut along_x));
     let kinds = [(along_x, Some("x")), (along_y, Some("y")), (single, None)];
-    let much = |(nodes, _): &(Nodes, _)| all.count >= LEAST_NODES && nodes.load > MUCH * all.load;
+    let much = |(nodes, axis): &(Nodes, Option<_>)| {
+        all.count >= LEAST_NODES && nodes.load > MUCH[usize::from(axis.is_none())] * all.load
+    };
     let (nodes, axis) = kinds.into_iter().filter(much).max_by(|a, b| a.0.load.total_cmp(&b.0.load))?;
     let (share, mut text) = (nodes.load / all.load, Text::default());
     let (percent, greatest) = (Warning::figure(100.0 * share), text.pressure(nodes.greatest));
@@ -93,7 +95,7 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
             WarningCode::Noise,
             format!(
                 "{percent} % of the load stands on single nodes, which press more than {ALONE} times as hard as all \
-                 beside them, with up to {greatest}: noise of a measurement, or waves that the nodes do not resolve; \
+                 beside them, with up to {greatest}: noise of a measurement, or contacts that the nodes do not resolve; \
                  leave out short waves (prepare --cut-off-wavelength), give spikes the median around them (despike), \
                  or refine the map"
             ),
