@@ -46,12 +46,12 @@ impl Spectrum {
     /// ```
     /// use asperity::{Grid, SelfAffine, Surface};
     /// let grid = Grid::square(128, 1.0)?;
-    /// let rough = SelfAffine::default().k_s(64.0).surface(grid)?;
+    /// let rough = SelfAffine::default().k_s(60.0).surface(grid)?;
     /// assert_eq!(rough.spectrum().knee_wavelength(), None);
     /// let mut state = 1_u64;
     /// let noisy = rough.heights().mapv(|height| {
     ///     state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-    ///     height + rough.rms_height() * ((state >> 40) as f64 / 2_f64.powi(24) - 0.5)
+    ///     height + 2.0 * rough.rms_height() * ((state >> 40) as f64 / 2_f64.powi(24) - 0.5)
     /// });
     /// let knee = Surface::new(grid, noisy)?.spectrum().knee_wavelength().unwrap();
     /// assert!(knee > 2.0 / 128.0 && knee < 0.2);
