@@ -19,7 +19,7 @@ mod layout;
 mod pack;
 mod shared;
 
-pub(crate) use analysis::{even_modes, powers, synthesise};
+pub(crate) use analysis::{even_modes, filtered, powers, synthesise};
 use columns::ColumnsOf;
 pub(crate) use layout::Layout;
 use layout::Twiddles;

@@ -10,6 +10,8 @@ use crate::grid::Grid;
 
 mod fill;
 mod fourier;
+mod knee;
+mod low_pass;
 mod pair;
 mod philox;
 mod resample;
@@ -20,6 +22,7 @@ mod statistics;
 
 pub use fill::fill;
 pub use fourier::FourierSeries;
+pub use low_pass::low_pass;
 pub(crate) use philox::uniform;
 pub use resample::{mirror, resample};
 pub use self_affine::{Amplitude, SelfAffine};

@@ -36,12 +36,15 @@ __all__ = [
     "between",
     "check_law",
     "closing_pressure_2d",
+    "cluster_colours",
     "clusters",
     "command",
     "contact_modulus",
     "fourier",
     "has_dimension",
     "in_metres",
+    "knee_wavelength",
+    "load_scale",
     "made",
     "meant",
     "prepare",
@@ -280,6 +283,7 @@ def fourier(
     coefficients: str | _Field, shape: tuple[int, int], lengths: tuple[float, float], unit: float
 ) -> _Field: ...
 def statistics(heights: _Field, lengths: tuple[float, float] | None) -> list[float]: ...
+def knee_wavelength(heights: _Field, lengths: tuple[float, float]) -> float | None: ...
 def spectrum(
     heights: _Field, lengths: tuple[float, float]
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
@@ -287,11 +291,14 @@ def between(
     first: _Given, second: _Given, shift: tuple[float, float], boundary: str, absent_missing: bool
 ) -> _Field: ...
 def contact_modulus(bodies: list[tuple[float, float]]) -> float: ...
-def clusters(map: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+def clusters(map: NDArray[np.bool_], periodic: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+def cluster_colours(labels: NDArray[np.int64]) -> NDArray[np.uint8]: ...
+def load_scale(pressure: _Field, end: float | None) -> tuple[float, float, float]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def prepare(
     given: _Given,
     new_lengths: tuple[float, float] | None,
+    cut_off_wavelength: float | None,
     in_metres: bool,
     steps: dict[str, Any],
 ) -> tuple[_Map, list[str], list[dict[str, str]]]: ...

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _asperity
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -54,11 +56,11 @@ def _edges(nodes: int, length: float) -> tuple[float, float]:
 
 
 def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, **options: Any) -> Any:
-    """A field with x to the right and y up."""
+    """A field, of numbers or of colours, with x to the right and y up."""
     factor, unit = _scaled(lengths, length_unit)
     options.setdefault("interpolation", "nearest")
     (left, right), (bottom, top) = (_edges(nodes, factor * length) for nodes, length in zip(field.shape, lengths))
-    image = ax.imshow(field.T, origin="lower", extent=(left, right, bottom, top), **options)
+    image = ax.imshow(np.swapaxes(field, 0, 1), origin="lower", extent=(left, right, bottom, top), **options)
     ax.set_xlabel(_label("x", unit))
     ax.set_ylabel(_label("y", unit))
     return image
@@ -100,31 +102,42 @@ def contact_and_pressure(
     pressure: NDArray[Any],
     lengths: tuple[float, float],
     adhesive: bool,
-    contact_fraction: float,
+    title: str,
+    clusters: NDArray[np.int64] | None,
+    limits: tuple[float, float] | None,
     length_unit: str | None,
     pressure_unit: str | None,
 ) -> Figure:
-    """Contact and pressure of a solution, side by side."""
+    """Contact, or its clusters, and pressure of a solution, side by side."""
     plt = _pyplot()
     figure, (left, right) = plt.subplots(
         1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed"
     )
-    _map(left, contact.astype(float), lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
-    left.set_title(f"contact {100 * contact_fraction:.3g} %")
+    if clusters is None:
+        _map(left, contact.astype(float), lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
+    else:
+        _map(left, _asperity.cluster_colours(clusters), lengths, length_unit)
+    left.set_title(title)
     # compression and tension differ by orders of magnitude: each has a scale of its own
-    sides = [(pressure, "compression" if adhesive else "pressure", _from_white("YlOrRd"))]
-    if adhesive:
-        sides.append((-pressure, "tension", _from_white("Blues")))
+    low, high = limits or (None, None)
+    sides = [(pressure, "compression" if adhesive else "pressure", high, _from_white("YlOrRd"))]
+    if adhesive and low != 0.0:
+        sides.append((-pressure, "tension", None if low is None else -low, _from_white("Blues")))
     bars = []
-    for side, name, colours in sides:
-        positive = np.ma.masked_less_equal(side, 0.0)
-        factor, unit = _scaled(positive.filled(0.0), pressure_unit)
-        largest = factor * float(positive.max()) if positive.count() else 1.0
-        image = _map(right, factor * positive, lengths, length_unit, cmap=colours, vmin=0.0, vmax=largest)
-        bars.append((image, _label(name, unit)))
+    for side, name, end, colours in sides:
+        end, greatest, beyond = _asperity.load_scale(side, end)
+        factor, unit = _scaled(end, pressure_unit)
+        positive = np.ma.masked_less_equal(factor * side, 0.0)
+        image = _map(right, positive, lengths, length_unit, cmap=colours, vmin=0.0, vmax=factor * end or 1.0)
+        label = _label(name, unit)
+        if beyond > 0.0:
+            load = "the load" if len(sides) == 1 else name
+            above = f"{100 * beyond:.2g} % of {load}" if beyond > 1e-3 else f"less than 0.1 % of {load}"
+            label += f"\n{above} above, up to {factor * greatest:.3g}"
+        bars.append((image, label, "max" if beyond > 0.0 else "neither"))
     # the last bar is drawn next to the map
-    for image, label in reversed(bars):
-        figure.colorbar(image, ax=right, label=label, pad=0.03)
+    for image, label, extend in reversed(bars):
+        figure.colorbar(image, ax=right, label=label, pad=0.03, extend=extend)
     right.set_title("elastic pressure" if adhesive else "contact pressure")
     right.set_ylabel("")
     return figure  # type: ignore[no-any-return]

@@ -5,10 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from . import _asperity
+from ._control import number
 from ._topography import Heights, Topography, _lengths, found, known, plain
-from ._types import AxisOrder, Lengths, RemovedForm, RowAlignment, ScanAxis, Trend
+from ._types import AxisOrder, Lengths, Quantity, RemovedForm, RowAlignment, ScanAxis, Trend
 from ._units import given as units
 from ._warnings import warn_of_input
+
+#: The threshold of scars, that of Gwyddion.
+_SCARS = 0.667
 
 
 def prepare(
@@ -23,12 +27,14 @@ def prepare(
     flip: bool = False,
     align_rows: RowAlignment | int | None = None,
     scan_axis: ScanAxis = "x",
+    remove_scars: bool | float = False,
     despike: float | None = None,
     remove_form: RemovedForm | None = None,
     detrend: Trend | int | None = None,
     fill: bool = False,
     window: float | None = None,
     mirror: bool = False,
+    cut_off_wavelength: Quantity | None = None,
     resample: tuple[int, int] | None = None,
 ) -> Topography:
     """Makes a periodic surface of a measured map, in the order of the parameters; nothing is done unasked.
@@ -58,6 +64,10 @@ def prepare(
     scan_axis : {"x", "y"}
         Direction of the scan lines. Where lines along the other one have by far the larger offsets, an `InputWarning`
         says so. The rows of an image are along x if ``axes`` is "yx", and along y if it is not.
+    remove_scars : bool or float
+        Replaces scars by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all
+        higher, or all lower, than both lines beside them, by more than this many rms differences of neighbouring lines.
+        True is 0.667, at which rough surfaces have none.
     despike : float, optional
         Threshold, in robust standard deviations of all nodes: a node that is farther than this from the median of the
         5 x 5 nodes around it is a spike, and gets that median. 10 leaves the features of most surfaces.
@@ -72,6 +82,9 @@ def prepare(
     mirror : bool
         Continues the map by its mirror images: twice as many nodes along both axes. The map remembers its ``original``,
         and a solution has results of that part alone, unless it is asked for the ``whole``.
+    cut_off_wavelength : float or str, optional
+        Leaves out the waves shorter than this, as where they are noise: `surface.knee_wavelength` tells from where on.
+        The map should be periodic by then.
     resample : (int, int), optional
         Numbers of nodes of the grid on which it is interpolated.
 
@@ -101,6 +114,7 @@ def prepare(
         "flip": flip,
         "align_rows": align_rows if align_rows is None or isinstance(align_rows, str) else f"polynomial:{align_rows}",
         "scan_axis": scan_axis,
+        "remove_scars": _SCARS if remove_scars is True else remove_scars or None,
         "despike": despike,
         "remove_form": remove_form,
         "detrend": detrend if detrend is None else str(detrend),
@@ -110,7 +124,8 @@ def prepare(
         "resample": resample,
     }
     both = None if lengths is None else _lengths(lengths, given.heights.shape)
-    prepared = _asperity.prepare(known(given), both, units.get() is not None, plain(keys))
+    cut_off = None if cut_off_wavelength is None else number("cut_off_wavelength", cut_off_wavelength)
+    prepared = _asperity.prepare(known(given), both, cut_off, units.get() is not None, plain(keys))
     (made, both, name, original, _), log, warnings = prepared
     for warning in warnings:
         warn_of_input(warning)

@@ -335,15 +335,28 @@ class Solution:
             "<figcaption>contact, x to the right, y up</figcaption></figure></div>"
         )
 
-    def plot(self, *, length_unit: str | None = None, pressure_unit: str | None = None) -> Figure:
+    def plot(
+        self,
+        *,
+        length_unit: str | None = None,
+        pressure_unit: str | None = None,
+        colour_limits: tuple[float, float] | None = None,
+        colour_clusters: bool = False,
+    ) -> Figure:
         """Draws contact and pressure side by side; needs matplotlib.
 
-        With adhesion, compression and tension have a scale each.
+        With adhesion, compression and tension have a scale each. A scale ends where most of the load is carried: where
+        a few nodes press far harder its bar has an arrow, and says how much of the load stands on them.
 
         Parameters
         ----------
         length_unit, pressure_unit : str, optional
             Units for the axes and the scales. ``"m"`` and ``"Pa"`` get prefixes.
+        colour_limits : (float, float), optional
+            Pressures at the ends of the scales, as for figures that are to be compared: that of the largest tension,
+            zero or negative, and that of the largest compression.
+        colour_clusters : bool
+            Each cluster of contact gets a colour of its own, nine in turn, the largest clusters first.
 
         Returns
         -------
@@ -355,12 +368,30 @@ class Solution:
         pressure = np.asarray(self.pressure if adhesive else self.contact_pressure, dtype=float)
         length_unit = length_unit or self.report["length_unit"]
         pressure_unit = pressure_unit or self.report["pressure_unit"]
+        if colour_limits is not None and not (colour_limits[0] <= 0.0 < colour_limits[1]):
+            raise ValueError(
+                f"colour_limits are {colour_limits!r}: they must be (low, high), low zero or negative, and high positive"
+            )
         if self.gap.ndim == 1:
             return _plot.profiles(
                 (self.heights, self.displacement), pressure, self.lengths[0], length_unit, pressure_unit
             )
+        title, clusters = f"contact {100 * self.contact_fraction:.3g} %", None
+        if colour_clusters:
+            # the sides of the original of a mirrored map do not meet
+            periodic = self.boundary == "periodic" and self._told["solved_shape"] is None
+            sizes, clusters = _asperity.clusters(self.contact, periodic)
+            title += f", {len(sizes)} cluster{'' if len(sizes) == 1 else 's'}"
         return _plot.contact_and_pressure(
-            self.contact, pressure, self.lengths, adhesive, self.contact_fraction, length_unit, pressure_unit
+            self.contact,
+            pressure,
+            self.lengths,
+            adhesive,
+            title,
+            clusters,
+            colour_limits,
+            length_unit,
+            pressure_unit,
         )
 
 

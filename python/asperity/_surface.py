@@ -24,7 +24,7 @@ class SurfaceStatistics(NamedTuple):
     skewness, kurtosis : float
         0 and 3 for Gaussian heights; NaN for a flat surface.
     rms_slope, rms_curvature : float
-        √⟨|∇h|²⟩, and the root mean square of ½∇²h (on a line of h''), from the spectrum.
+        √⟨|∇h|²⟩, and the root mean square of ½∇²h (on a line of h''), spectral: of the waves through the nodes.
     rms_slope_differences, rms_curvature_differences : float
         The same from differences between neighbours.
     nayak : float
@@ -284,3 +284,34 @@ def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrde
     """
     given = taken(heights, lengths, axes)
     return PowerSpectralDensity(*_asperity.spectrum(given.heights, sides(given)))
+
+
+def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> float | None:
+    """The wavelength at which the power spectral density flattens to a floor of noise.
+
+    Noise and surface have one density there, and shorter waves tell of the noise: `asperity.prepare` leaves them out by
+    ``cut_off_wavelength``.
+
+    Parameters
+    ----------
+    heights, lengths, axes
+        Those of `statistics`; the side lengths are needed, unless the heights bring them.
+
+    Returns
+    -------
+    float or None
+        None where there is no floor, or less than some 90 x 90 nodes.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from asperity import surface
+    >>> rough = surface.self_affine(128, 1.0, rms_height=0.01, k_l=2, k_s=60)
+    >>> surface.knee_wavelength(rough) is None
+    True
+    >>> noisy = rough.heights + np.random.default_rng(0).normal(scale=0.004, size=rough.shape)
+    >>> 2 / 128 < surface.knee_wavelength(noisy, 1.0) < 0.2
+    True
+    """
+    given = taken(heights, lengths, axes)
+    return _asperity.knee_wavelength(given.heights, sides(given))

@@ -49,5 +49,5 @@ def clusters(contact: Any) -> Clusters:
     given = np.asarray(contact)
     if given.ndim not in (1, 2):
         raise ValueError(f"contact has shape {given.shape}: it must be (Nx, Ny), or (N,) on a line")
-    sizes, labels = _asperity.clusters(given.astype(bool).reshape(given.shape[0], -1))
+    sizes, labels = _asperity.clusters(given.astype(bool).reshape(given.shape[0], -1), True)
     return Clusters(sizes, labels.reshape(given.shape))

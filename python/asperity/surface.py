@@ -20,6 +20,7 @@ __all__ = [
     "cone",
     "flat_punch",
     "fourier",
+    "knee_wavelength",
     "paraboloid",
     "self_affine",
     "spectrum",
@@ -31,6 +32,7 @@ __all__ = [
 cone = checked(_surface.cone, __name__)
 flat_punch = checked(_surface.flat_punch, __name__)
 fourier = checked(_surface.fourier, __name__)
+knee_wavelength = checked(_surface.knee_wavelength, __name__)
 paraboloid = checked(_surface.paraboloid, __name__)
 self_affine = checked(_surface.self_affine, __name__)
 spectrum = checked(_surface.spectrum, __name__)

@@ -1,7 +1,9 @@
-//! The contact of a solution: the clusters of a map, and the distribution of its pressure.
+//! The contact of a solution: the clusters of a map, the distribution of its pressure, and the colours of both.
 
 use asperity::contact::{Clusters, PressureDistribution};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
+use asperity_plot::{LoadScale, cluster_colour};
+use numpy::ndarray::Array3;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::numbers::Field;
@@ -10,13 +12,31 @@ use crate::refusal::refusal;
 /// Sizes and labels of clusters.
 type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
 
-/// The clusters of a map.
+/// The clusters of a map, whose opposite sides meet if it is periodic.
 #[pyfunction]
-pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>) -> PyResult<Found<'py>> {
+pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> PyResult<Found<'py>> {
     let map = map.as_array();
-    let Clusters { sizes, labels, .. } = py.detach(|| Clusters::of(map));
+    let found = py.detach(|| if periodic { Clusters::of(map) } else { Clusters::of_part(map) });
+    let Clusters { sizes, labels, .. } = found;
     let sizes: Vec<i64> = sizes.into_iter().map(|size| size as i64).collect();
     Ok((sizes.into_pyarray(py), labels.mapv(|label| label as i64).into_pyarray(py)))
+}
+
+/// The colours of the clusters of labels: red, green and blue along the last axis.
+#[pyfunction]
+pub fn cluster_colours<'py>(py: Python<'py>, labels: PyReadonlyArray2<'_, i64>) -> Bound<'py, PyArray3<u8>> {
+    let labels = labels.as_array();
+    let (nx, ny) = labels.dim();
+    let colour = |(i, j, part)| cluster_colour(usize::try_from(labels[[i, j]]).unwrap_or(0))[part];
+    Array3::from_shape_fn((nx, ny, 3), colour).into_pyarray(py)
+}
+
+/// The end of the scale of the positive pressures, the greatest of them, and the share of their load beyond the end.
+#[pyfunction]
+#[pyo3(signature = (pressure, end))]
+pub fn load_scale(pressure: Field<'_>, end: Option<f64>) -> (f64, f64, f64) {
+    let LoadScale { end, greatest, beyond, .. } = LoadScale::of(&pressure.as_array(), end);
+    (end, greatest, beyond)
 }
 
 /// Density and edges of a distribution.

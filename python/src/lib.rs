@@ -34,7 +34,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::command::command;
     #[pymodule_export]
-    use crate::contact::{clusters, pressure_distribution};
+    use crate::contact::{cluster_colours, clusters, load_scale, pressure_distribution};
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
@@ -56,7 +56,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{fourier, in_metres, made, prepare, read, spectrum, statistics};
+    use crate::surface::{fourier, in_metres, knee_wavelength, made, prepare, read, spectrum, statistics};
 
     use pyo3::prelude::*;
 

@@ -131,6 +131,13 @@ pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)
     ])
 }
 
+/// The wavelength of the knee of the spectrum of heights, if it has one.
+#[pyfunction]
+pub fn knee_wavelength(py: Python<'_>, heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Option<f64>> {
+    let surface = surface(heights, lengths)?;
+    apart(py, || Ok(surface.spectrum().knee_wavelength()))
+}
+
 /// Wave numbers, densities, numbers of waves, and the area of one wave.
 type Density<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i64>>, f64);
 
@@ -166,19 +173,22 @@ type Prepared<'py> = (Made<'py>, Vec<String>, Bound<'py, PyAny>);
 
 /// Takes the steps from a measured map to a periodic surface, by their keys.
 #[pyfunction]
+#[pyo3(signature = (given, new_lengths, cut_off_wavelength, in_metres, steps))]
 pub fn prepare<'py>(
     py: Python<'py>,
     given: Map<'py>,
     new_lengths: Option<(f64, f64)>,
+    cut_off_wavelength: Option<f64>,
     in_metres: bool,
     steps: Bound<'py, PyAny>,
 ) -> PyResult<Prepared<'py>> {
     let mut steps: Preparation = keys(steps)?;
     let measured = topography(given)?;
-    if let Some(lengths) = new_lengths {
-        let found = steps.set_lengths(lengths, in_metres, measured.unit.as_deref());
-        found.map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
-    }
+    let unit = measured.unit.as_deref();
+    let lengths = new_lengths.map_or(Ok(()), |lengths| steps.set_lengths(lengths, in_metres, unit));
+    let cut_off =
+        |()| cut_off_wavelength.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, in_metres, unit));
+    lengths.and_then(cut_off).map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
     let mut log = Log::default();
     let prepared = apart(py, || steps.run(measured, &mut log))?;
     let lines = log.lines.iter().map(|(step, what)| format!("{step}: {what}")).collect();

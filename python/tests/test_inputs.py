@@ -220,8 +220,11 @@ def test_prepare_takes_the_steps_of_the_tool():
     made = asperity.prepare(coded, missing=-9999, align_rows="median", despike=10, detrend=3)
     assert made.missing == 1 and np.nanmax(np.abs(made.heights)) < 20
     assert np.nanstd(asperity.prepare(coded, missing=[-9999, 1e4], align_rows=1).heights) < 2
+    assert asperity.prepare(tilted, remove_scars=1.5).log[1].startswith("remove-scars: no scars along x beyond ")
+    with pytest.raises(ValueError, match="threshold of scars"):
+        asperity.prepare(tilted, remove_scars=-1.0)
     x, y = np.meshgrid(np.arange(40) - 20, np.arange(30) - 15, indexing="ij")
-    with pytest.warns(asperity.InputWarning, match="smooth: the rms slope is"):
+    with pytest.warns(asperity.InputWarning, match="smooth: the rms slope by differences is"):
         ball = asperity.prepare(np.sqrt(90.0**2 - x**2 - y**2), (40.0, 30.0), remove_form="sphere")
     assert np.abs(ball.heights).max() < 1e-9
     for wrong in [{"align_rows": "mode"}, {"scan_axis": "z"}, {"remove_form": "cone"}, {"detrend": 13}]:
@@ -393,3 +396,24 @@ def test_functions_of_the_package_travel_to_other_processes():
     for function in (asperity.solve, asperity.sweep, asperity.cycle, asperity.prepare, asperity.stability):
         assert pickle.loads(pickle.dumps(function)) is function
         assert "Parameters" in function.__doc__ and "kwargs" not in inspect.signature(function).parameters
+
+
+def test_scars_and_noise_are_left_out():
+    rough = asperity.surface.self_affine(128, 1.0, rms_height=0.01, k_l=2, k_s=60, seed=2)
+    clean = np.array(rough)
+    assert asperity.surface.knee_wavelength(rough) is None
+    scan = clean.copy()
+    scan[20:60, 40] += 0.04
+    scan[70:120, 90] -= 0.04
+    made = asperity.prepare(scan, 1.0, remove_scars=True)
+    assert made.log[-1].startswith("remove-scars: 2 scars along x") and "90 of 16384 points" in made.log[-1]
+    assert ((made.heights - clean) ** 2).sum() < 1e-2 * ((scan - clean) ** 2).sum()
+    noisy = clean + 4e-3 * np.random.default_rng(3).normal(size=clean.shape)
+    knee = asperity.surface.knee_wavelength(noisy, 1.0)
+    assert 2 / 128 < knee < 0.5
+    smooth = asperity.prepare(noisy, 1.0, cut_off_wavelength=knee)
+    assert ((smooth.heights - clean) ** 2).sum() < 0.5 * ((noisy - clean) ** 2).sum()
+    metres = asperity.prepare(1e-6 * noisy, "1um", unit="um", scale=1e6, cut_off_wavelength=f"{knee}um")
+    assert np.allclose(metres.heights, smooth.heights, rtol=0, atol=1e-12)
+    with pytest.raises(ValueError, match="cut_off_wavelength"):
+        asperity.prepare(noisy, "1um", cut_off_wavelength=0.1)

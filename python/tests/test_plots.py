@@ -33,6 +33,38 @@ def test_without_adhesion_there_is_no_scale_of_tension(rough):
     assert [axes.get_ylabel() for axes in figure.axes] == ["y", "", "pressure"]
 
 
+def test_a_scale_ends_where_most_of_the_load_is_carried(rough):
+    heights = np.array(rough)
+    highest = np.unravel_index(heights.argmax(), heights.shape)
+    scarred = heights.copy()
+    scarred[:12, (highest[1] + heights.shape[1] // 2) % heights.shape[1]] = 1.5 * heights.max()
+    solution = asperity.solve(scarred, 1.0, modulus=1.0, mean_pressure=0.01)
+    pressure = solution.contact_pressure
+    figure = solution.plot(pressure_unit="Pa")
+    image, bar = figure.axes[1].images[0], figure.axes[2]
+    end = image.get_clim()[1]
+    factor = image.get_array().max() / pressure.max()
+    share = pressure[pressure * factor > end].sum() / pressure.sum()
+    assert end < 0.75 * factor * pressure.max() and 0.01 < share < 0.75
+    assert f"{100 * share:.2g} % of the load above, up to" in bar.get_ylabel()
+    # all of it on demand
+    figure = solution.plot(colour_limits=(0.0, 2 * pressure.max()))
+    assert figure.axes[1].images[0].get_clim() == (0.0, 2 * pressure.max())
+    assert figure.axes[2].get_ylabel() == "pressure"
+    with pytest.raises(ValueError, match=r"colour_limits are \(1.0, 2.0\)"):
+        solution.plot(colour_limits=(1.0, 2.0))
+
+
+def test_clusters_have_colours(rough):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    figure = solution.plot(colour_clusters=True)
+    colours = figure.axes[0].images[0].get_array()
+    labels = asperity.contact.clusters(solution.contact).labels.T
+    assert (colours[labels == 0] == 255).all() and len(np.unique(colours[labels == 1], axis=0)) == 1
+    assert (colours[labels == 1][0] != colours[labels == 2][0]).any()
+    assert f"{labels.max()} clusters" in figure.axes[0].get_title()
+
+
 def test_a_line_a_sweep_a_cycle_and_a_map_are_drawn(rough):
     wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
     law = asperity.Exponential(1e-3, 8e-3)

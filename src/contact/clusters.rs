@@ -40,6 +40,11 @@ impl Clusters {
         Self::meeting(map, [periodic; 2])
     }
 
+    /// The clusters as [`Clusters::of`], on a part of a surface, whose opposite sides do not meet.
+    pub fn of_part(map: ArrayView2<'_, bool>) -> Self {
+        Self::meeting(map, [false; 2])
+    }
+
     /// The clusters on a map of which opposite sides along x, and along y, meet or do not.
     pub(super) fn meeting(map: ArrayView2<'_, bool>, [meets_x, meets_y]: [bool; 2]) -> Self {
         let (nx, ny) = map.dim();

@@ -166,7 +166,7 @@ impl Original {
         Ok(ContactStatistics {
             contact_nodes: number(&contact),
             perimeter: self.share() * whole.perimeter,
-            cluster_sizes: Clusters::meeting(contact.view(), [false; 2]).sizes,
+            cluster_sizes: Clusters::of_part(contact.view()).sizes,
             ..whole
         })
     }

@@ -6,6 +6,7 @@ use ndarray::{Array2, ArrayView2};
 use super::Convolver;
 use super::columns::ColumnsOf;
 use super::layout::Layout;
+use crate::error::Result;
 use crate::field::flat_mut;
 use crate::par::{self, Parts};
 use crate::slab::Slab;
@@ -25,6 +26,22 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
         power.iter_mut().zip(z).for_each(|(power, z)| *power = norm * z.norm_sqr());
     });
     powers
+}
+
+/// The field of those modes of another that are kept, by their indices along the first and the second axis, the second
+/// in the half spectrum.
+pub(crate) fn filtered(
+    field: ArrayView2<'_, f64>,
+    keeps: impl Fn(usize, usize) -> bool + Sync + Send,
+) -> Result<Array2<f64>> {
+    let mut convolver = Convolver::with(Slab::whole(field.dim()), Layout::plain(field.dim()));
+    let mut left = Array2::zeros(field.dim());
+    convolver.convolve(field, left.view_mut(), |k1, column| {
+        let gone = column.iter_mut().enumerate().filter(|(k0, _)| !keeps(*k0, k1));
+        gone.for_each(|(_, z)| *z = Complex::default());
+        [0.0; 3]
+    })?;
+    Ok(left)
 }
 
 /// The modes, real and even, of a plane that is even along both axes: of each column of the half spectrum that this

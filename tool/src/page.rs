@@ -3,12 +3,14 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
+use asperity::Error;
 use clap::Args;
 
 use crate::citation::{PAPER, PROGRAM};
 use crate::journal::state_path;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, with_suffix, write_text};
+use crate::pictures::MapColours;
 use crate::printing::{name, say};
 use crate::scene;
 use crate::solve;
@@ -39,6 +41,8 @@ pub struct Options {
     /// Replace a page that is there
     #[arg(long, help_heading = "Output")]
     force: bool,
+    #[command(flatten)]
+    colours: MapColours,
 }
 
 const EXAMPLES: &str = "\
@@ -55,6 +59,11 @@ const FINE: f64 = 288.0;
 pub fn run(options: &Options) -> Outcome<bool> {
     let results = &options.results;
     let folder = results.is_dir();
+    options.colours.check()?;
+    if !folder && (options.colours.limits().is_some() || options.colours.colour_clusters) {
+        let text = "has no maps, of which --colour-limits and --colour-clusters are: name the folder of a solve";
+        return Err(Error::file(results, text).into());
+    }
     let default = if folder { results.join("report.html") } else { with_suffix(results, ".html") };
     let out = options.out.as_ref().unwrap_or(&default);
     let read: Vec<_> = match folder {
@@ -63,7 +72,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     };
     check_apart(out, read.iter().map(PathBuf::as_path))?;
     let file = OutputFile::create(out, options.force)?;
-    let page = if folder { of_solve::page(results)? } else { of_table::page(results)? };
+    let page = if folder { of_solve::page(results, &options.colours)? } else { of_table::page(results)? };
     file.write(|path| write_text(path, &page))?;
     file.commit()?;
     say(&format!("page in {}", name(out)));

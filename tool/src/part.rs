@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use asperity::contact::Original;
-use asperity::{Control, Grid, Real, Result, Solution};
+use asperity::{Control, Grid, Real, Result, Solution, elastic};
 use asperity_scene::{Boundary, Load};
 use ndarray::Array2;
 
@@ -78,6 +78,11 @@ impl Part {
         // a part of a mirrored map is one of a periodic surface
         let check = |_| in_options(Load::Held(control).check(Boundary::Periodic, true));
         self.wanted().map_or(Ok(()), check)
+    }
+
+    /// Whether opposite sides of the part meet: those of an original do not.
+    pub fn sides_meet<T: Real>(&self, solution: &Solution<T>) -> bool {
+        self.wanted().is_none() && solution.report.boundary == elastic::Boundary::Periodic
     }
 
     /// The solution on the part.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use asperity::contact::Clusters;
 use asperity::{Grid, Result, Solution};
 use asperity_plot::{Chart, Colouring, DPI, Format, Map, Picture};
 use asperity_scene::legs::{legs, logarithmic, value};
@@ -10,10 +11,11 @@ use ndarray::Array2;
 use serde_json::Value;
 
 use crate::allowed::resolution;
-use crate::numbers::percent;
+use crate::numbers::{percent, plain};
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_free};
+use crate::quantity::{PRESSURE, Quantity};
 use crate::units::Units;
 
 /// The format of pictures of which the tool chooses the names.
@@ -46,6 +48,44 @@ pub struct Resolution {
     #[arg(long, value_name = "N", default_value_t = DPI, allow_hyphen_values = true, value_parser = resolution)]
     #[arg(help_heading = "Output")]
     pub dpi: f64,
+}
+
+/// The colours of the maps of contact and pressure.
+#[derive(Args, Clone)]
+pub struct MapColours {
+    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the
+    /// largest tension, negative, and that of the largest compression [default: as far as most of the load is carried]
+    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
+    #[arg(value_parser = PRESSURE.finite(), help_heading = "Output")]
+    colour_limits: Option<Vec<Quantity>>,
+    /// Give each cluster of contact a colour of its own, nine in turn, the largest clusters first
+    #[arg(long, help_heading = "Output")]
+    pub colour_clusters: bool,
+}
+
+impl MapColours {
+    /// The pressures at the ends of the colour bar, where they are given.
+    pub fn limits(&self) -> Option<(f64, f64)> {
+        self.colour_limits.as_deref().map(|limits| (limits[0].value, limits[1].value))
+    }
+
+    /// Whether the limits have a unit, and are in the SI.
+    pub fn has_unit(&self) -> bool {
+        self.colour_limits.iter().flatten().any(|limit| limit.has_unit)
+    }
+
+    /// Refuses limits that are no ends of a scale of pressures.
+    pub fn check(&self) -> Outcome<()> {
+        let Some((low, high)) = self.limits() else { return Ok(()) };
+        let mistake = match () {
+            () if low >= high => "the lower one must come first",
+            () if low > 0.0 || high < 0.0 => {
+                "the scale of pressures always has zero: give one at or below it, and one at or above it"
+            }
+            () => return Ok(()),
+        };
+        Err(format!("--colour-limits {} {}: {mistake}", plain(low), plain(high)).into())
+    }
 }
 
 /// The chart of a table.
@@ -175,6 +215,43 @@ pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64
         caption: &caption,
         length_unit: units.length.as_deref(),
         ..Map::new(regions.view(), grid, Colouring::Contact)
+    };
+    map.draw(dpi)
+}
+
+/// Draws the clusters of contact, of nodes as numbers as [`draw_regions`] has them, on a map whose opposite sides meet
+/// or do not.
+pub fn draw_clusters(
+    grid: Grid,
+    title: &str,
+    units: &Units,
+    (regions, sides_meet): (&Array2<f64>, bool),
+    dpi: f64,
+) -> Result<Picture> {
+    let contact = regions.mapv(|region| region > 0.0);
+    let found = if sides_meet { Clusters::of(contact.view()) } else { Clusters::of_part(contact.view()) };
+    let Clusters { sizes, labels, .. } = found;
+    let mut values = labels.mapv(|label| label as f64);
+    values.zip_mut_with(regions, |value, region| *value = if region.is_nan() { f64::NAN } else { *value });
+    let contact: usize = sizes.iter().sum();
+    let facing = regions.iter().filter(|region| !region.is_nan()).count();
+    let share = |part: usize, whole: usize| percent(part as f64 / whole.max(1) as f64);
+    let caption = match (sizes.first(), sizes.len()) {
+        (Some(_), 1) => format!("{} % contact, in one cluster", share(contact, facing)),
+        (Some(&largest), count) => {
+            format!(
+                "{} % contact, in {count} clusters, the largest with {} % of it",
+                share(contact, facing),
+                share(largest, contact)
+            )
+        }
+        _ => "no contact".to_owned(),
+    };
+    let map = Map {
+        title,
+        caption: &caption,
+        length_unit: units.length.as_deref(),
+        ..Map::new(values.view(), grid, Colouring::Clusters)
     };
     map.draw(dpi)
 }

@@ -21,7 +21,8 @@ use crate::scene::SceneFile;
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
 /// periodic. Nothing is done that is not asked for, and each step prints a line; FILE.scene.toml beside the result
 /// repeats the steps. Whatever the order of the options, the steps are: --lengths, --missing, --scale, --unit, --crop,
-/// --flip, --align-rows, --despike, --remove-form, --detrend, --fill, --window or --mirror, --resample.
+/// --flip, --align-rows, --remove-scars, --despike, --remove-form, --detrend, --fill, --window or --mirror,
+/// --cut-off-wavelength, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -40,6 +41,10 @@ pub struct Options {
     lengths: Option<Vec<Quantity>>,
     #[command(flatten)]
     steps: Preparation,
+    /// Leave out the waves shorter than this, as where they are noise: stats has the wavelength of the knee of the
+    /// spectrum, from which on it is flat. The map should be periodic by then
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = LENGTH.positive())]
+    cut_off_wavelength: Option<Quantity>,
 
     /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights
     /// alone)
@@ -57,9 +62,9 @@ const EXAMPLES: &str = "\
   A measured map, tilted and with missing points, pressed against a half-space of 1 GPa:
     asperity prepare measured.gsf --detrend plane --fill --mirror --out surface.npz
     asperity solve --heights surface.npz --modulus 1GPa --mean-pressure 1MPa --out results
-  An AFM map with offsets between its lines, and spikes:
-    asperity prepare afm.gwy --align-rows median --despike --detrend plane --mirror \\
-      --out scan.npz
+  An AFM map with offsets between its lines, scars and spikes:
+    asperity prepare afm.gwy --align-rows median --remove-scars --despike --detrend plane \\
+      --mirror --out scan.npz
   Heights in nm of a map of 5 by 4 micrometres, a sphere subtracted, on a finer grid:
     asperity prepare heights.txt --unit nm --lengths 5um 4um --detrend quadric --window 0.05 \\
       --resample 1024 1024 --out fine.npz";
@@ -118,6 +123,10 @@ fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
         found.map_err(|text| worded(&text, Skin::Options))?;
     } else {
         warn_of_unread(&options.input, &map, "stay unknown");
+    }
+    if let Some(cut_off) = options.cut_off_wavelength {
+        let found = steps.set_cut_off_wavelength(cut_off.value, si, map.unit.as_deref());
+        found.map_err(|text| worded(&text, Skin::Options))?;
     }
     let map = steps.run(map, log);
     log.warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));

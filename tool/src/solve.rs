@@ -23,16 +23,14 @@ use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::fields::check_finite;
-use crate::numbers::plain;
 use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, output_folder, write_text};
 use crate::part::Part;
-use crate::pictures::{self, PictureFormat, Resolution};
+use crate::pictures::{self, MapColours, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, in_options, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
-use crate::quantity::{PRESSURE, Quantity};
 use crate::scene::{self, SceneFile};
 use crate::summary::{table, warn};
 use crate::units::{UnitOptions, Units};
@@ -117,11 +115,8 @@ pub struct Options {
     picture_format: PictureFormat,
     #[command(flatten)]
     resolution: Resolution,
-    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the
-    /// largest tension, negative, and that of the largest compression
-    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
-    #[arg(value_parser = PRESSURE.finite(), help_heading = "Output")]
-    colour_limits: Option<Vec<Quantity>>,
+    #[command(flatten)]
+    colours: MapColours,
     #[command(flatten)]
     units: UnitOptions,
 }
@@ -185,14 +180,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     problem.adhesion.check()?;
     options.check_asked()?;
     in_options(options.load.load().check(problem.surface.beyond.boundary, false))?;
-    let limits = options.colour_limits();
-    if let Some((low, high)) = limits.filter(|(low, high)| low >= high) {
-        return Err(format!("--colour-limits {} {}: the lower one must come first", plain(low), plain(high)).into());
-    }
-    if let Some((low, high)) = limits.filter(|&(low, high)| low > 0.0 || high < 0.0) {
-        let text = "the scale of pressures always has zero: give one at or below it, and one at or above it";
-        return Err(format!("--colour-limits {} {}: {text}", plain(low), plain(high)).into());
-    }
+    options.colours.check()?;
     let pictures = options.picture_format.of(PICTURES);
     let pictures = pictures.into_iter().filter(|_| !options.no_pictures);
     let arrays = FIELDS.into_iter().chain(options.beside()).filter(|_| options.writes(Format::Npy));
@@ -224,10 +212,6 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 impl Options {
     fn writes(&self, format: Format) -> bool {
         self.format.contains(&format)
-    }
-
-    fn colour_limits(&self) -> Option<(f64, f64)> {
-        self.colour_limits.as_deref().map(|limits| (limits[0].value, limits[1].value))
     }
 
     /// The problem.
@@ -389,9 +373,15 @@ impl Job<'_> {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
             let regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
-            pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?.write(path(contact_name))?;
+            let contact = match self.options.colours.colour_clusters {
+                true => {
+                    pictures::draw_clusters(shown, "Contact", units, (&regions, self.part.sides_meet(whole)), *dpi)?
+                }
+                false => pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?,
+            };
+            contact.write(path(contact_name))?;
             let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.adheres());
-            let limits = self.options.colour_limits();
+            let limits = self.options.colours.limits();
             let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
             picture.write(path(pressure_name))?;
         }

@@ -24,8 +24,9 @@ use crate::units::Units;
 ///
 /// Heights, slopes, curvatures and Nayak's parameter, of the surface as it stands, continued periodically: a tilt, or
 /// edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier spectrum and from
-/// differences between neighbours; if they differ much, the map does not resolve the surface. Where the side lengths
-/// are unknown, there are none, and no Nayak's parameter.
+/// differences between neighbours; if they differ much, the map does not resolve the surface. Where the spectrum
+/// flattens to a floor of noise, its knee is told. Where the side lengths are unknown, there is none of these, and no
+/// Nayak's parameter.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -101,6 +102,7 @@ pub fn statistics(map: &Topography, found: &SurfaceStatistics, heights: &Path) -
         "rms_curvature": found.rms_curvature,
         "rms_curvature_differences": found.rms_curvature_differences,
         "nayak": found.nayak,
+        "knee_wavelength": found.knee_wavelength,
     })
 }
 
@@ -131,13 +133,17 @@ pub fn table(map: &Topography, found: &SurfaceStatistics) -> String {
         ("rms height", found.rms_height, Some(LENGTH)),
         ("skewness", found.skewness, None),
         ("kurtosis", found.kurtosis, None),
-        ("rms slope", found.rms_slope, None),
+        ("rms slope, spectral", found.rms_slope, None),
         ("  by differences", found.rms_slope_differences, None),
-        ("rms curvature", found.rms_curvature, Some(PER_LENGTH)),
+        ("rms curvature, spectral", found.rms_curvature, Some(PER_LENGTH)),
         ("  by differences", found.rms_curvature_differences, Some(PER_LENGTH)),
         ("Nayak's parameter", found.nayak, None),
     ] {
         rows.push((name, number(value, dimension)));
+    }
+    if let Some(knee) = found.knee_wavelength {
+        let remedy = "shorter waves are noise, which prepare --cut-off-wavelength leaves out";
+        rows.push(("knee of the spectrum", format!("{}: {remedy}", units.number(knee, LENGTH))));
     }
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     let lines = rows.iter().map(|(name, value)| format!("{name:width$}  {value}"));

@@ -29,7 +29,7 @@ fn from_a_seed_to_areas_the_tool_finds_what_the_library_finds() {
     };
     said("surface --size 160 --rms-slope 0.1 --seed 3 --out rough.npy");
     let statistics = said("stats rough.npy --lengths 1");
-    let slope = statistics.lines().find_map(|line| line.strip_prefix("rms slope")).unwrap();
+    let slope = statistics.lines().find_map(|line| line.strip_prefix("rms slope, spectral")).unwrap();
     assert!((slope.trim().parse::<f64>().unwrap() - 0.1).abs() < 1e-7, "{statistics}");
 
     let law = "--law exponential --work-of-adhesion 2e-6 --range 4e-4";

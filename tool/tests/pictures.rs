@@ -1,5 +1,9 @@
 //! Pictures in their formats, and the page of `asperity report`.
 
+use asperity::contact::Clusters;
+use asperity_maps::io::{read_field, write_npy};
+use asperity_plot::LoadScale;
+
 use crate::bench::{Bench, text};
 
 const LAW: &str = "--law exponential --work-of-adhesion 1e-4 --range 8e-3";
@@ -20,7 +24,7 @@ fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
     let bench = bench();
     let solve = format!("solve --heights heights.npy --mean-pressure 0.01 {LAW} --quiet");
     bench.said(&format!("{solve} --out png"));
-    bench.said(&format!("{solve} --dpi 288 --colour-limits -1e-3 0.02 --out fine"));
+    bench.said(&format!("{solve} --dpi 288 --colour-limits -1 1 --out fine"));
     for name in ["contact.png", "pressure.png"] {
         let [usual, fine] = ["png", "fine"].map(|folder| sides(&bench.bytes(&format!("{folder}/{name}"))));
         assert!(usual[0] > 600, "{usual:?}");
@@ -44,6 +48,42 @@ fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
     bench.refused_with(&format!("{solve} --out no --colour-limits 1 2"), &["--colour-limits 1 2", "zero"]);
     bench.refused_with(&format!("{solve} --out no --dpi 10"), &["--dpi", "from 36 to 1200"]);
     assert!(!bench.path("no").exists());
+}
+
+#[test]
+fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
+    let bench = bench();
+    let mut heights = read_field(bench.path("heights.npy")).unwrap();
+    // high enough to press far harder than the contact beside it
+    (4..12).for_each(|i| heights[[i, 20]] = 0.04);
+    write_npy(bench.path("scarred.npy"), &heights).unwrap();
+    let solve = "solve --heights scarred.npy --mean-pressure 0.02 --pressure-unit Pa --picture-format svg --quiet";
+    let warned = |arguments: &str| assert_eq!(bench.run(arguments).status.code(), Some(0), "{arguments}");
+    warned(&format!("{solve} --out plain"));
+    let pressures = read_field(bench.path("plain/contact_pressure.npy")).unwrap();
+    let scale = LoadScale::of(&pressures, None);
+    assert!(scale.end < 0.7 * scale.greatest && scale.beyond > 0.05, "{scale:?}");
+    let caption = format!("{:.0} % of the load above", 100.0 * scale.beyond);
+    bench.said("report plain");
+    for picture in ["plain/pressure.svg", "plain/report.html"] {
+        assert!(bench.read(picture).contains(&caption), "{picture}: {caption}");
+    }
+    assert!(bench.read("plain/pressure.svg").contains(">max "));
+    // all of it on demand, and clusters in the number of the table
+    let clusters = Clusters::of(pressures.mapv(|pressure| pressure > 0.0).view()).sizes.len();
+    let caption = format!("in {clusters} clusters, the largest with ");
+    warned(&format!("{solve} --colour-limits 0 10 --colour-clusters --out limited"));
+    bench.said("report plain --colour-limits 0 10 --colour-clusters --force");
+    assert!(bench.read("limited/contact.svg").contains(&caption));
+    let page = bench.read("plain/report.html");
+    assert!(page.contains(&caption) && !page.contains("of the load above"));
+    assert!(!bench.read("limited/pressure.svg").contains(">max "));
+
+    bench.refused_with("report plain --colour-limits 2 1 --force", &["--colour-limits", "first"]);
+    bench.said("sweep --heights heights.npy --mean-pressures 0.01 --quiet --out area.csv");
+    bench.refused_with("report area.csv --colour-clusters", &["area.csv", "no maps", "--colour-clusters"]);
+    bench.said("solve --heights heights.npy --mean-pressure 0.01 --no-pictures --quiet --out bare");
+    bench.refused_with("report bare --colour-limits 0 1GPa", &["--colour-limits", "not in Pa"]);
 }
 
 #[test]

@@ -269,12 +269,79 @@ fn lengths_of_files_and_of_options() {
     }
     // the file has a unit, in which these are metres
     let output = bench.run("prepare g.txt --lengths 2 1 --out g.npz");
-    assert!(text(&output.stderr).starts_with("warning: smooth: the rms slope is "), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).starts_with("warning: smooth: the rms slope by differences is "),
+        "{}",
+        text(&output.stderr)
+    );
     assert_eq!(sides("stats g.npz"), "2 m x 1 m");
     // sweeps take the lengths and the unit too
     let output = bench.run("sweep --mean-gaps 1e-9 --heights g.txt --json --out s.csv");
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&report["lengths"], &report["length_unit"]), (&serde_json::json!([2e-9, 1e-9]), &"m".into()));
+}
+
+#[test]
+fn scars_and_noise_are_found_told_and_left_out() {
+    let bench = Bench::new();
+    let grid = Grid::square(128, 1e-6).unwrap();
+    let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(60.0).amplitude(Amplitude::RmsHeight(5e-9)).seed(9);
+    let mut map = Topography::from(rough.surface(grid).unwrap());
+    map.unit = Some("m".to_owned());
+    write_topography(bench.path("clean.npz"), &map).unwrap();
+    let clean = map.heights.clone();
+    // pieces of single lines far above their neighbours
+    let scars = [(10, 30, 40), (60, 100, 7), (20, 60, 90), (80, 110, 64), (5, 40, 120)];
+    for (from, to, line) in scars {
+        (from..to).for_each(|i| map.heights[[i, line]] += 20e-9);
+    }
+    write_topography(bench.path("scan.npz"), &map).unwrap();
+    let solve = "--modulus 10GPa --mean-pressure 100MPa --no-pictures --quiet --force --out r";
+    let warned = |heights: &str| text(&bench.run(&format!("solve --heights {heights} {solve}")).stderr);
+    assert_eq!(warned("clean.npz"), "");
+    let told = warned("scan.npz");
+    assert!(told.contains("warning: scars: ") && told.contains("along x") && told.contains(" GPa"), "{told}");
+
+    let said = bench.said("prepare scan.npz --remove-scars --out removed.npz");
+    let on_scars: usize = scars.iter().map(|(from, to, _)| to - from).sum();
+    assert!(
+        said.contains("5 scars along x beyond ") && said.contains(&format!("{on_scars} of 16384 points replaced")),
+        "{said}"
+    );
+    let removed = read_topography(bench.path("removed.npz")).unwrap().heights;
+    let square = |heights: &Array2<f64>| heights.iter().zip(&clean).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+    // what the membrane has not is the roughness within a spacing, a tenth of the rms height, on one node in 90
+    assert!(square(&removed) < 1e-3 * square(&map.heights), "{} of {}", square(&removed), square(&map.heights));
+    assert_eq!(warned("removed.npz"), "");
+    let said = bench.said("prepare clean.npz --remove-scars 1 --scan-axis y --out same.npz");
+    assert!(said.contains("no scars along y beyond "), "{said}");
+    assert_eq!(read_topography(bench.path("same.npz")).unwrap().heights, clean);
+    bench.said("run removed.npz.scene.toml --out again.npz");
+    assert_eq!(read_topography(bench.path("again.npz")).unwrap().heights, removed);
+
+    // white noise has a knee, at which it is cut off
+    assert!(bench.reported("stats clean.npz")["knee_wavelength"].is_null());
+    let mut state = 1_u64;
+    map.heights = clean.mapv(|height| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        height + 8e-9 * ((state >> 40) as f64 / 2_f64.powi(24) - 0.5)
+    });
+    write_topography(bench.path("noisy.npz"), &map).unwrap();
+    let knee = bench.reported("stats noisy.npz")["knee_wavelength"].as_f64().unwrap();
+    assert!(knee > 16e-9 && knee < 500e-9, "{knee}");
+    assert!(bench.said("stats noisy.npz").contains("knee of the spectrum"));
+    assert!(warned("noisy.npz").contains("warning: noise: "), "{}", warned("noisy.npz"));
+    let prepare = format!("prepare noisy.npz --cut-off-wavelength {:.1}nm", 1e9 * knee);
+    let said = bench.said(&format!("{prepare} --out smooth.npz"));
+    assert!(said.contains("waves shorter than ") && said.contains("rms slope by differences "), "{said}");
+    let smooth = read_topography(bench.path("smooth.npz")).unwrap().heights;
+    assert!(square(&smooth) < 0.5 * square(&map.heights) && warned("smooth.npz").is_empty());
+    assert!(bench.reported("stats smooth.npz")["knee_wavelength"].is_null());
+
+    bench.said("prepare clean.npz --out bare.npy --quiet");
+    bench.refused_with("prepare bare.npy --cut-off-wavelength 0.1 --out n.npz", &["side length Lx", "known"]);
+    bench.refused_with("prepare clean.npz --cut-off-wavelength 0 --out n.npz", &["--cut-off-wavelength", "positive"]);
+    bench.refused_with("prepare clean.npz --remove-scars -1 --out n.npz", &["--remove-scars", "positive"]);
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use asperity_maps::io::write_npy;
+use ndarray::Array2;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -43,6 +45,10 @@ fn bench() -> Bench {
     bench.said("surface --size 32 --lengths 20um --k-l 2 --k-s 10 --rms-height 0.1um --quiet --out metres.npz");
     bench.said("surface --form sphere --radius 1 --size 32 --quiet --out tip.npz");
     bench.said("prepare heights.npy --mirror --quiet --out mirrored.npz");
+    // a wave, with noise by the digits of sines
+    let wave = |i: usize| (i as f64 * std::f64::consts::TAU / 128.0).sin();
+    let noisy = |i: usize, j: usize| wave(i) + ((i * 128 + j) as f64).sin() * 1e5 % 0.01;
+    write_npy(bench.path("noisy.npy"), &Array2::from_shape_fn((128, 128), |(i, j)| noisy(i, j))).unwrap();
     bench.write("works.txt", &("1e-4 ".repeat(16) + &"2e-4 ".repeat(16) + "\n").repeat(32));
     bench.write("waves.dat", "2, 1, 0.01, 0\n");
     bench.write("table.csv", "0,2e-2\n5e-3,1e-2\n1e-2,0\n");

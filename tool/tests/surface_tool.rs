@@ -45,8 +45,8 @@ fn a_surface_is_the_librarys_and_is_measured_alike() {
         ("rms height", vec![1e-8]),
         ("lowest", vec![expected.lowest]),
         ("highest", vec![expected.highest]),
-        ("rms slope", vec![expected.rms_slope]),
-        ("rms curvature", vec![expected.rms_curvature]),
+        ("rms slope, spectral", vec![expected.rms_slope]),
+        ("rms curvature, spectral", vec![expected.rms_curvature]),
         ("  by differences", vec![expected.rms_slope_differences, expected.rms_curvature_differences]),
         ("Nayak's parameter", vec![expected.nayak]),
         ("kurtosis", vec![expected.kurtosis]),
@@ -110,7 +110,9 @@ fn sizes_seeds_phases_and_threads() {
 
     let line = bench.said("surface --rms-slope 0.1 --shape 4096 1 --lengths 5 --k-s 1000 --out line.npy");
     assert!(
-        line.contains("4096 x 1") && numbers(&line, "side lengths") == [5.0] && numbers(&line, "rms slope") == [0.1]
+        line.contains("4096 x 1")
+            && numbers(&line, "side lengths") == [5.0]
+            && numbers(&line, "rms slope, spectral") == [0.1]
     );
     assert_eq!(bench.said("stats line.npy --lengths 5"), line[..line.find("heights in").unwrap()]);
     // a surface can be solved as it comes
@@ -122,7 +124,7 @@ fn statistics_of_text_and_of_flat_maps() {
     let bench = Bench::new();
     fs::write(bench.0.path().join("wave.txt"), "0 1 0 -1\n".repeat(3)).unwrap();
     let said = bench.said("stats wave.txt --lengths 3 4");
-    assert!((numbers(&said, "rms slope")[0] - 0.5_f64.sqrt() * TAU / 4.0).abs() < 1e-6, "{said}");
+    assert!((numbers(&said, "rms slope, spectral")[0] - 0.5_f64.sqrt() * TAU / 4.0).abs() < 1e-6, "{said}");
     assert_eq!((numbers(&said, "  by differences")[0], numbers(&said, "mean height")[0]), (1.0, 0.0), "{said}");
     write_npy(
         bench.0.path().join("flat.npy"),
@@ -131,7 +133,7 @@ fn statistics_of_text_and_of_flat_maps() {
     .unwrap();
     let said = bench.said("stats flat.npy --lengths 1 --psd flat.csv");
     assert_eq!(numbers(&said, "rms height"), [0.0]);
-    assert!(said.contains("Nayak's parameter  -"), "{said}");
+    assert!(said.contains("Nayak's parameter        -"), "{said}");
     assert!(csv(&bench, "flat.csv").1.iter().all(|row| row[1] == 0.0));
 }
 
@@ -142,7 +144,10 @@ fn slopes_of_a_map_without_side_lengths_are_not_told() {
     let said = bench.said("stats wave.txt");
     let row = |name: &str| said.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
     assert!(row("side lengths").unwrap().starts_with("unknown: give --lengths"), "{said}");
-    assert_eq!((row("rms slope"), row("rms curvature"), row("Nayak's parameter")), (Some("-"), Some("-"), Some("-")));
+    assert_eq!(
+        (row("rms slope, spectral"), row("rms curvature, spectral"), row("Nayak's parameter")),
+        (Some("-"), Some("-"), Some("-"))
+    );
     assert_eq!((numbers(&said, "highest"), numbers(&said, "kurtosis")), (vec![1.0], vec![2.0]));
     let (unknown, known) = (bench.reported("stats wave.txt"), bench.reported("stats wave.txt --lengths 3 4"));
     for key in ["lengths", "rms_slope", "rms_slope_differences", "rms_curvature", "rms_curvature_differences", "nayak"]

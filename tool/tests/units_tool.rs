@@ -190,13 +190,18 @@ fn tables_name_the_units_of_their_columns() {
 fn maps_have_their_unit_and_come_into_the_si() {
     let bench = Bench::new();
     // 5 by 4 micrometres, and heights in nanometres
-    let row = |i: usize| (0..24).map(|j| (30.0 * ((i * j) as f64).sin()).to_string()).collect::<Vec<_>>().join(" ");
+    let row = |i: usize| {
+        (0..24)
+            .map(|j| (30.0 * (0.7 * i as f64).sin() * (0.6 * j as f64).cos()).to_string())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
     bench.write("heights.txt", &(0..30).map(row).collect::<Vec<_>>().join("\n"));
     let said = bench.said("prepare heights.txt --lengths 5um 4um --unit nm --mirror --out map.npz");
     assert!(said.contains("5000 nm x 4000 nm, before unknown"), "{said}");
     let map = read_topography(bench.path("map.npz")).unwrap();
     assert_eq!((map.lengths, map.unit.as_deref()), (Some((10000.0, 8000.0)), Some("nm")));
-    assert!(bench.said("stats map.npz").contains("side lengths       10000 nm x 8000 nm"));
+    assert!(bench.said("stats map.npz").contains("side lengths             10000 nm x 8000 nm"));
     let solved = bench.reported("solve --heights map.npz --modulus 1GPa --mean-pressure 1MPa --no-pictures --out si");
     assert_eq!((&solved["lengths"], &solved["length_unit"]), (&serde_json::json!([5e-6, 4e-6]), &"m".into()));
     let mut metres = map.clone();
@@ -218,7 +223,7 @@ fn maps_have_their_unit_and_come_into_the_si() {
     assert!(
         bench
             .said("surface --size 16 --lengths 2um --k-s 6 --rms-height 5nm --out made.npz")
-            .contains("rms height         5 nm")
+            .contains("rms height               5 nm")
     );
     assert_eq!(read_topography(bench.path("made.npz")).unwrap().unit.as_deref(), Some("m"));
     bench.refused_with("surface --size 16 --k-s 6 --rms-height 5nm --out no.npz", &["how large", "--lengths"]);

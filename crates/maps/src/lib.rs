@@ -12,7 +12,7 @@ pub mod numbers;
 mod topography;
 pub mod warning;
 
-pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Spikes, Topography, Trend};
+pub use topography::{Fit, Form, FormFit, RowAlignment, ScanAxis, Scars, Spikes, Topography, Trend};
 
 /// Runs the code of the README as a test.
 #[cfg(doctest)]

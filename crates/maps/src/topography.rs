@@ -5,13 +5,14 @@ use std::ops::Range;
 
 use ndarray::{Array2, Axis};
 
-use asperity::surface::{SurfaceStatistics, fill, mean_of_finite, mirror, resample, rms_slope};
+use asperity::surface::{SurfaceStatistics, fill, low_pass, mean_of_finite, mirror, resample, rms_slope};
 use asperity::{Error, Grid, Result, Surface};
 
 mod despike;
 mod form;
 mod missing;
 mod rows;
+mod scars;
 #[cfg(test)]
 mod tests;
 mod trend;
@@ -20,17 +21,19 @@ pub use despike::Spikes;
 pub use form::{Form, FormFit};
 pub(crate) use rows::LineSteps;
 pub use rows::{RowAlignment, ScanAxis};
+pub use scars::Scars;
 pub use trend::{Fit, Trend};
 
 /// A measured map of heights on its way to a [`Surface`]: points may be missing, side lengths and unit unknown.
 ///
 /// A surface is periodic and complete; a measurement is neither. Each step between the two is a method of its own, and
 /// nothing is done unasked: take codes for [`missing`](Self::declare_missing) points, [`align_rows`](Self::align_rows)
-/// of a scan, [`despike`](Self::despike), [`remove_form`](Self::remove_form), [`detrend`](Self::detrend),
-/// [`fill`](Self::fill) missing points, make the map periodic by
-/// [`window`](Self::window) or [`mirror`](Self::mirror), [`crop`](Self::crop) it, [`flip`](Self::flip) it, and
-/// [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all methods leave them missing, and
-/// out of their sums, but for `fill`, which gives them values, and `window` and `resample`, which refuse them.
+/// of a scan, [`remove_scars`](Self::remove_scars), [`despike`](Self::despike), [`remove_form`](Self::remove_form),
+/// [`detrend`](Self::detrend), [`fill`](Self::fill) missing points, make the map periodic by [`window`](Self::window)
+/// or [`mirror`](Self::mirror), leave out short waves by [`low_pass`](Self::low_pass), [`crop`](Self::crop) it,
+/// [`flip`](Self::flip) it, and [`resample`](Self::resample) it. Heights that are NaN or infinite are missing: all
+/// methods leave them missing, and out of their sums, but for `fill`, which gives them values, and `window`, `low_pass`
+/// and `resample`, which refuse them.
 ///
 /// ```
 /// use asperity_maps::{Topography, Trend};
@@ -225,11 +228,24 @@ impl Topography {
         Ok(self)
     }
 
+    /// The map without the waves shorter than a `cut_off`, a length, which may be noise alone: [`low_pass`].
+    ///
+    /// Edges that do not meet ring: use [`window`](Self::window) or [`mirror`](Self::mirror) first.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the side lengths are unknown or no lengths, or the cut-off is not positive;
+    /// [`Error::Memory`] if the waves take more memory than there is; [`Error::NotFinite`] if heights are missing.
+    pub fn low_pass(mut self, cut_off: f64) -> Result<Self> {
+        let lengths = self.grid()?.lengths();
+        self.heights = low_pass(self.heights, lengths, cut_off)?;
+        Ok(self)
+    }
+
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation: [`resample`].
     ///
-    /// Edges that do not meet make it ring: use [`window`](Self::window) or [`mirror`](Self::mirror) first. The original
-    /// of a mirrored map has the new nodes that are on it; its mirror lines may now pass through nodes, so that images
-    /// are met to a node.
+    /// Edges that do not meet make it ring: use [`window`](Self::window) or [`mirror`](Self::mirror) first. The
+    /// original of a mirrored map has the new nodes that are on it; its mirror lines may now pass through nodes, so
+    /// that images are met to a node.
     ///
     /// # Errors
     /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;
@@ -243,7 +259,7 @@ impl Topography {
     }
 
     /// The statistics of the map as a surface, periodic as it stands; slopes, curvatures and Nayak's parameter are NaN
-    /// where the side lengths are unknown.
+    /// where the side lengths are unknown, and no knee of the spectrum is.
     ///
     /// # Errors
     /// [`Error::NotFinite`] if heights are missing, [`Error::Value`] if the side lengths are no lengths.
@@ -264,6 +280,7 @@ impl Topography {
         ] {
             *unknown = f64::NAN;
         }
+        found.knee_wavelength = None;
         Ok(found)
     }
 

@@ -18,6 +18,7 @@ mod code;
 mod extremes;
 mod heights;
 mod lines;
+mod load;
 mod relief;
 mod spikes;
 mod text;
@@ -273,7 +274,9 @@ impl Warning {
     }
 
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
-    /// is positive, and [`WindowEdge`](WarningCode::WindowEdge) with a free boundary.
+    /// is positive, [`WindowEdge`](WarningCode::WindowEdge) with a free boundary, and [`Scars`](WarningCode::Scars) or
+    /// [`Noise`](WarningCode::Noise) where more than 20 % of the load of at least 100 nodes stands on lines, or 33 % on
+    /// single nodes, that press three times as hard as those beside them.
     pub fn of_solution<T: Real>(solution: &Solution<T>) -> Vec<Self> {
         let modulus = solution.report.modulus;
         let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
@@ -281,6 +284,7 @@ impl Warning {
         let greatest = pressures().fold(f64::NEG_INFINITY, f64::max);
         let mut found = Vec::new();
         found.extend(window_edge(solution));
+        found.extend(load::of_load(solution));
         if count == 0 || modulus <= 0.0 {
             return found;
         }

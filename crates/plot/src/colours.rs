@@ -1,10 +1,11 @@
 //! Colours: from the values of a field to pixels.
 
-use colorous::{RED_BLUE, VIRIDIS};
+use colorous::{RED_BLUE, TABLEAU10, VIRIDIS};
 use ndarray::ArrayView2;
 
-use super::scale::TINY;
-use super::shape::{BLACK, Colour, WHITE};
+use super::load::LoadScale;
+use super::scale::{TINY, three_digits};
+use super::shape::{BLACK, Colour, GREY, WHITE};
 
 /// The colour of values that are not finite, which is on none of the colour maps.
 pub(super) const MISSING: Colour = [201, 120, 199];
@@ -29,15 +30,42 @@ pub enum Colouring {
     /// 5 GPa; [`Map::signs`](crate::Map::signs) has the names of the two. Only a
     /// sign that nowhere reaches 1e-6 of the other, mere rounding, is drawn as zero.
     ///
-    /// A scale ends at the greatest magnitude, unless a few nodes reach more than twice as far as all others
-    /// (a singular peak). It then ends where the others do, and the colour bar has an arrow and the extreme
-    /// value at this end.
+    /// A scale ends at the greatest magnitude, unless some nodes press far harder than those that carry most of the
+    /// load, as a [`LoadScale`] has it. The colour bar then has an arrow and the extreme value at this end, and the
+    /// caption the share of the load that is carried beyond it.
     Diverging,
     /// Classes of contact: black where the value is positive (contact), blue where it is negative (attractive), and
     /// white where it is zero (apart), with a legend; [`Solution::regions`](asperity::Solution::regions) has them.
     ///
     /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
     Contact,
+    /// Clusters of contact, by the labels of [`Clusters`](asperity::contact::Clusters): nine colours in turn, those of
+    /// the largest clusters first, white where the label is 0, and grey where it is not finite. Pixels are mixed as
+    /// those of contact.
+    Clusters,
+}
+
+impl Colouring {
+    /// Whether the values are classes, without a scale.
+    pub(super) fn is_of_classes(self) -> bool {
+        matches!(self, Self::Contact | Self::Clusters)
+    }
+}
+
+/// The colour of the cluster of a label, counted from 1; white for 0, which is none. The same nine colours in turn.
+///
+/// ```
+/// use asperity_plot::cluster_colour;
+/// assert_eq!(cluster_colour(0), [255; 3]);
+/// assert!(cluster_colour(1) != cluster_colour(2) && cluster_colour(1) == cluster_colour(10));
+/// ```
+pub fn cluster_colour(label: usize) -> [u8; 3] {
+    // the last of the ten is grey
+    let colours = &TABLEAU10[..9];
+    label.checked_sub(1).map_or(WHITE, |cluster| {
+        let colour = colours[cluster % colours.len()];
+        [colour.r, colour.g, colour.b]
+    })
 }
 
 /// The colours of a field: its colouring, and the range of values that the colours cover.
@@ -49,6 +77,8 @@ pub(super) struct Colours {
     pub(super) limits: (f64, f64),
     /// Whether these were given.
     given: bool,
+    /// The shares of the sum of the negative values, and of the positive ones, that are beyond these ends.
+    shares: (f64, f64),
 }
 
 impl Colours {
@@ -60,22 +90,28 @@ impl Colours {
         });
         let (low, high) = extremes.unwrap_or((0.0, 0.0));
         let given = limits.is_some();
+        let mut shares = (0.0, 0.0);
         let limits = match (colouring, limits) {
             (Colouring::Sequential, Some(limits)) => limits,
-            // each end is that of its sign
-            (Colouring::Diverging, Some((low, high))) => (low.min(0.0), high.max(0.0)),
             (Colouring::Sequential, None) => widened(low, high),
-            (Colouring::Diverging, None) => {
+            (Colouring::Diverging, limits) => {
                 let noise = NOISE * high.max(-low);
-                let end = |sign, largest| if largest > noise.max(TINY) { limit(values, sign, largest) } else { 0.0 };
-                match (-end(-1.0, -low), end(1.0, high)) {
-                    (0.0, 0.0) => (0.0, 1.0),
+                // each end is that of its sign
+                let scale = |sign, largest, end: Option<f64>| match largest > noise.max(TINY) {
+                    true => LoadScale::of_sign(&values, sign, end),
+                    false => LoadScale { end: end.unwrap_or(0.0), ..LoadScale::default() },
+                };
+                let tension = scale(-1.0, -low, limits.map(|(low, _)| (-low).max(0.0)));
+                let compression = scale(1.0, high, limits.map(|(_, high)| high.max(0.0)));
+                shares = (tension.beyond, compression.beyond);
+                match (-tension.end, compression.end) {
+                    (0.0, 0.0) if !given => (0.0, 1.0),
                     limits => limits,
                 }
             }
-            (Colouring::Contact, _) => (0.0, 1.0),
+            (Colouring::Contact | Colouring::Clusters, _) => (0.0, 1.0),
         };
-        Self { colouring, extremes: (low, high), limits, given }
+        Self { colouring, extremes: (low, high), limits, given, shares }
     }
 
     /// A value, or NaN if it cannot be drawn.
@@ -86,7 +122,9 @@ impl Colours {
     pub(super) fn of(&self, value: f64) -> Colour {
         let (low, high) = self.limits;
         let colour = match self.colouring {
+            Colouring::Clusters if value.is_nan() => return GREY,
             _ if value.is_nan() => return MISSING,
+            Colouring::Clusters => return cluster_colour(value as usize),
             Colouring::Contact => {
                 return match value {
                     0.0 => WHITE,
@@ -107,7 +145,7 @@ impl Colours {
     /// The colour of a block of nodes: that of the mean of their values, or for classes the mean of their colours.
     pub(super) fn of_block(&self, values: impl Iterator<Item = f64> + Clone) -> Colour {
         let count = values.clone().count() as f64;
-        if self.colouring != Colouring::Contact {
+        if !self.colouring.is_of_classes() {
             return self.of(values.map(|value| self.shown(value)).sum::<f64>() / count);
         }
         let mut sums = [0.0; 3];
@@ -121,6 +159,19 @@ impl Colours {
     pub(super) fn beyond(&self) -> (bool, bool) {
         let ((min, max), (low, high)) = (self.extremes, self.limits);
         ((self.given || low != 0.0) && min < low, (self.given || high != 0.0) && max > high)
+    }
+
+    /// The shares of the load that are carried beyond the ends of the colour bar, with the names of the two signs.
+    pub(super) fn load_beyond(&self, signs: [&str; 2], unit: Option<&str>) -> Option<String> {
+        let ((below, above), both) = (self.beyond(), self.ranges().len() == 2);
+        let ends = [(below, self.shares.0, "below", self.limits.0), (above, self.shares.1, "above", self.limits.1)];
+        let told =
+            ends.into_iter().zip(signs).filter(|((there, share, _, end), _)| *there && *share > 0.0 && *end != 0.0);
+        let told = told.map(|((_, share, side, end), sign)| {
+            let of = if both && !sign.is_empty() { sign } else { "load" };
+            format!("{} of the {of} {side} {}", percent(share), three_digits(end, unit))
+        });
+        Some(told.collect::<Vec<_>>().join(", ")).filter(|text| !text.is_empty())
     }
 
     /// The ranges of values that share the colour bar equally.
@@ -161,22 +212,13 @@ fn widened(low: f64, high: f64) -> (f64, f64) {
     }
 }
 
-/// The end of the scale of the values of one sign, as a magnitude; their greatest magnitude is `largest`.
-///
-/// The few nodes that may be left out are those that make 1 % of the sum of the roots of the magnitudes. A
-/// share of the number of nodes would leave out a small contact among many nodes with rounding noise, and a
-/// share of the sum itself would not leave out a peak that carries much of the load.
-fn limit(values: ArrayView2<'_, f64>, sign: f64, largest: f64) -> f64 {
-    // A million nodes tell enough of the distribution; the odd step avoids always the same columns.
-    let some = values.iter().step_by((values.len() / 1_000_000) | 1).map(|v| sign * v);
-    let mut magnitudes: Vec<f64> = some.filter(|v| *v > 0.0 && drawable(*v)).collect();
-    magnitudes.sort_unstable_by(|a, b| b.total_cmp(a));
-    let (total, mut stronger) = (magnitudes.iter().map(|v| v.sqrt()).sum::<f64>(), 0.0);
-    let end_of_others = magnitudes.into_iter().find(|v| {
-        stronger += v.sqrt();
-        stronger > 0.01 * total
-    });
-    end_of_others.filter(|end| largest > 2.0 * end).unwrap_or(largest)
+/// A share in per cent, to two digits or a tenth.
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        share if share < 0.1 => "less than 0.1 %".to_owned(),
+        share if share < 10.0 => format!("{share:.1} %"),
+        share => format!("{share:.0} %"),
+    }
 }
 
 #[cfg(test)]
@@ -197,17 +239,44 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_peak_is_cut_and_a_tail_of_noise_is_not() {
+    fn a_scale_ends_by_the_load_and_says_what_is_carried_beyond() {
         let mut values = Array2::from_elem((100, 100), 1.0);
         values[[3, 4]] = 50.0;
-        let colours = Colours::new(values.view(), Colouring::Diverging, None);
+        let diverging = |values: &Array2<f64>, limits| Colours::new(values.view(), Colouring::Diverging, limits);
+        let colours = diverging(&values, None);
         assert_eq!((colours.limits, colours.beyond()), ((0.0, 1.0), (false, true)));
-        // Of 10 000 nodes, 5 are in contact: these, and not the noise, are the scale.
+        assert_eq!(colours.load_beyond([""; 2], Some("Pa")).unwrap(), "0.5 % of the load above 1.00 Pa");
+        // scars that carry less than half of the load, on nodes that are hardly any, do not hide the rest
+        values.row_mut(50).fill(90.0);
+        let colours = diverging(&values, None);
+        assert_eq!((colours.limits, colours.beyond()), ((0.0, 1.0), (false, true)));
+        let share = (9000.0 + 50.0) / (9899.0 + 9050.0);
+        assert!((colours.shares.1 - share).abs() < 1e-12, "{}", colours.shares.1);
+        // of 10 000 nodes, 5 are in contact: these, and not the noise, are the scale
         let mut values = Array2::from_elem((100, 100), -1e-9);
         values.iter_mut().step_by(2).for_each(|v| *v = 1e-9);
         values.iter_mut().take(5).for_each(|v| *v = 3.0);
-        let colours = Colours::new(values.view(), Colouring::Diverging, None);
+        let colours = diverging(&values, None);
         assert_eq!((colours.limits, colours.beyond()), ((0.0, 3.0), (false, false)));
-        assert_eq!(colours.of(-1e-9), colours.of(0.0));
+        assert_eq!((colours.of(-1e-9), colours.load_beyond([""; 2], None)), (colours.of(0.0), None));
+        // at limits that are given it is said, too, of each sign
+        let values = ndarray::array![[-2.0, -6.0, 3.0, 1.0]];
+        let found = diverging(&values, Some((-4.0, 2.0))).load_beyond(["tension", "compression"], None);
+        assert_eq!(found.unwrap(), "75 % of the tension below −4.00, 75 % of the compression above 2.00");
+    }
+
+    #[test]
+    fn smooth_contacts_are_shown_to_their_greatest_pressure() {
+        // Hertz: p = √(1 − r²); and the pressures of a rough contact, of which the density is p exp(−p²/2)
+        let hertz = Array2::from_shape_fn((200, 200), |(i, j)| {
+            f64::max(1.0 - 1.5e-4 * ((i as f64 - 99.5).powi(2) + (j as f64 - 99.5).powi(2)), 0.0).sqrt()
+        });
+        let rough = Array2::from_shape_fn((200, 200), |(i, j)| {
+            (-2.0 * ((200 * i + j) as f64 / 40_000.0 + 0.5 / 40_000.0).ln()).sqrt()
+        });
+        for values in [hertz, rough] {
+            let colours = Colours::new(values.view(), Colouring::Diverging, None);
+            assert_eq!((colours.limits.1, colours.beyond()), (values.fold(0.0_f64, |a, b| a.max(*b)), (false, false)));
+        }
     }
 }

@@ -7,6 +7,7 @@ mod chart;
 mod colours;
 mod font;
 mod frame;
+mod load;
 mod map;
 mod pdf;
 mod png;
@@ -19,7 +20,8 @@ use std::fs;
 use std::path::Path;
 
 pub use chart::Chart;
-pub use colours::Colouring;
+pub use colours::{Colouring, cluster_colour};
+pub use load::LoadScale;
 pub use map::Map;
 
 use asperity::{Error, Result};

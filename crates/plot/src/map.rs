@@ -30,7 +30,7 @@ const PIXELS: f64 = 2.0;
 /// At [`DPI`](super::DPI) each node is a cell of one or more pixels; more than 1000 nodes to a side, or more than there
 /// are pixels, are averaged in blocks. A value that is not finite has a colour of its own. The picture keeps the aspect
 /// ratio of the rectangle up to 5 : 1. A line (`Nx = 1` or `Ny = 1`) is drawn as a curve, on one linear scale whatever
-/// the colouring, or as a strip if that is [`Colouring::Contact`].
+/// the colouring, or as a strip if that is of classes, as [`Colouring::Contact`].
 ///
 /// Units such as "m", "Pa" or "N/m" get the SI prefix that makes the numbers readable; others, and pure
 /// numbers (`None`), a power of ten where they are very large or small: "gap (10⁻⁶)".
@@ -113,7 +113,11 @@ impl<'a> Map<'a> {
         let (width, height) = self.size();
         let (x, y, bars) = self.axes(&colours, width, height);
         let bars_height = bars.iter().map(|bar| bar.place.1).fold(0.0, f64::max);
-        let texts = Texts { title: self.title, caption: self.caption, legend: self.legend() };
+        let beyond = if self.is_line() { None } else { colours.load_beyond(self.signs, self.unit) };
+        let caption: Vec<_> =
+            [self.caption].into_iter().chain(beyond.as_deref()).filter(|text| !text.is_empty()).collect();
+        let caption = caption.join("; ");
+        let texts = Texts { title: self.title, caption: &caption, legend: self.legend() };
 
         let left = 2.0 * MARGIN + y.as_ref().map_or(0.0, room);
         let bars_room = bars.iter().map(|bar| room(&bar.axis)).fold(0.0, f64::max);
@@ -144,7 +148,7 @@ impl<'a> Map<'a> {
     /// The colours with their values: of classes those of the legend, else evenly along each colour bar.
     fn key(&self, colours: &Colours) -> Vec<(Colour, String)> {
         let classes = self.legend().into_iter().map(|entry| (entry.colour, entry.text));
-        if self.colouring == Colouring::Contact {
+        if self.colouring.is_of_classes() {
             return classes.collect();
         }
         let along = |(low, high): (f64, f64)| {
@@ -161,8 +165,8 @@ impl<'a> Map<'a> {
 
     /// The width and height of the map or curve.
     fn size(&self) -> (f64, f64) {
-        match (self.is_line(), self.colouring) {
-            (true, Colouring::Contact) => (360.0, 30.0),
+        match (self.is_line(), self.colouring.is_of_classes()) {
+            (true, true) => (360.0, 30.0),
             (true, _) => (360.0, label_length(self.label).max(180.0)),
             _ => {
                 let (width, height) = map_size(self.grid.shape(), self.grid.lengths());
@@ -178,7 +182,7 @@ impl<'a> Map<'a> {
         let across = |length: f64, longest: f64, name: &str| {
             Axis::new(&Part::side(length, longest, self.length_unit), name, steps_below)
         };
-        let classes = self.colouring == Colouring::Contact;
+        let classes = self.colouring.is_of_classes();
         if self.is_line() {
             let (length, name) = if self.grid.is_line() { (lx, "x") } else { (ly, "y") };
             let (low, high) = colours.range_of_curve();
@@ -221,8 +225,7 @@ impl<'a> Map<'a> {
     fn legend(&self) -> Vec<Entry> {
         let mut legend = Vec::new();
         let mut entry = |colour, text: &str| legend.push(Entry { colour, line: false, text: text.to_owned() });
-        let classes = self.colouring == Colouring::Contact;
-        if classes {
+        if self.colouring == Colouring::Contact {
             entry(BLACK, "contact");
             if self.values.iter().any(|v| *v < 0.0) {
                 entry(ATTRACTIVE, "attractive");
@@ -230,7 +233,11 @@ impl<'a> Map<'a> {
             entry(WHITE, "apart");
         }
         if self.values.iter().any(|v| !drawable(*v)) {
-            entry(MISSING, if classes { "no surface" } else { "not finite" });
+            match self.colouring {
+                Colouring::Clusters => entry(GREY, "no surface"),
+                Colouring::Contact => entry(MISSING, "no surface"),
+                _ => entry(MISSING, "not finite"),
+            }
         }
         legend
     }

@@ -80,7 +80,7 @@ fn degenerate_fields_are_drawn() {
         for shape in [(1, 1), (1, 5), (2, 3)] {
             let mut values = Array2::from_elem(shape, value);
             values[[0, 0]] = first;
-            for colouring in [Colouring::Sequential, Colouring::Diverging, Colouring::Contact] {
+            for colouring in [Colouring::Sequential, Colouring::Diverging, Colouring::Contact, Colouring::Clusters] {
                 // Flat, for a small picture.
                 let map = Map::new(values.view(), Grid::new(shape, (1e300, 1e-300)).unwrap(), colouring);
                 let map = Map { label: "µ\n−🦀", unit: Some("m"), length_unit: Some("m"), ..map };
@@ -170,6 +170,16 @@ fn contact_attraction_and_what_is_apart_have_a_colour_each() {
         pixels[(y + 9) * width + x + 9],
         colours::ATTRACTIVE.map(|part| (255.0 / 2.0 + f64::from(part) / 2.0).round() as u8)
     );
+}
+
+#[test]
+fn clusters_have_colours_in_turn() {
+    let values = ndarray::array![[1.0, 2.0], [0.0, f64::NAN]];
+    let map = Map::new(values.view(), Grid::square(2, 1.0).unwrap(), Colouring::Clusters);
+    let (width, _, pixels, [x, y, w, h]) = drawn(&map, "clusters");
+    let at = |ix: usize, iy: usize| pixels[(y + h - 1 - h * iy / 2 - 10) * width + x + w * ix / 2 + 10];
+    assert_eq!([at(0, 0), at(0, 1), at(1, 0), at(1, 1)], [cluster_colour(1), cluster_colour(2), [255; 3], shape::GREY]);
+    assert!(texts(&map.draw(DPI).unwrap()).iter().any(|text| text == "no surface"));
 }
 
 /// A map with a title that SVG and PDF have to escape, and a chart of a broken curve, each drawn.

@@ -1,26 +1,32 @@
 //! The preparation of a measured map: its steps, their order, and the log of them.
 
+mod described;
+
 use std::fmt::Display;
 use std::str::FromStr;
 
 use asperity::Result;
 use asperity_maps::io::check_memory;
 use asperity_maps::warning::{Warning, WarningCode};
-use asperity_maps::{Form, FormFit, RowAlignment, ScanAxis, Topography, Trend};
-use ndarray::Array2;
+use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
 use serde::{Deserialize, Deserializer, de};
 
 #[cfg(feature = "options")]
 use crate::allowed::{by_name, finite, nodes, positive, unit};
 use crate::numbers::plain;
-use crate::quantity::{LENGTH, PER_LENGTH, power_of_length, times_ten_to};
+use crate::quantity::{LENGTH, power_of_length, times_ten_to};
 use crate::told::Told;
 use crate::units::Units;
+use described::{changed, described, described_form, holes, quantity, removed, rms, sides};
 
 /// The steps that make a surface of a measured map, in the order of the fields; no step by default.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "options", derive(clap::Args))]
+#[cfg_attr(
+    feature = "options",
+    command(group(clap::ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true)))
+)]
 pub struct Preparation {
     /// The side lengths, with the unit of the map from then on.
     #[cfg_attr(feature = "options", arg(skip))]
@@ -48,10 +54,17 @@ pub struct Preparation {
     #[cfg_attr(feature = "options", arg(long, value_name = "METHOD"))]
     #[serde(deserialize_with = "align_rows")]
     pub align_rows: Option<RowAlignment>,
-    /// Direction of the scan lines of --align-rows [default: x]
-    #[cfg_attr(feature = "options", arg(long, requires = "align_rows", value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
+    /// Direction of the scan lines of --align-rows and --remove-scars [default: x]
+    #[cfg_attr(feature = "options", arg(long, requires = "scan_lines"))]
+    #[cfg_attr(feature = "options", arg(value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
     #[serde(deserialize_with = "scan_axis")]
     pub scan_axis: Option<ScanAxis>,
+    /// Replace scars, by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all
+    /// higher, or all lower, than both lines beside them, by more than this many rms differences of neighbouring lines
+    /// [default: 0.667 if --remove-scars stands alone]
+    #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
+    #[cfg_attr(feature = "options", arg(default_missing_value = "0.667", allow_negative_numbers = true))]
+    pub remove_scars: Option<f64>,
     /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust
     /// standard deviations of all nodes [default: 10 if --despike stands alone]
     #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
@@ -80,6 +93,9 @@ pub struct Preparation {
     /// its original, of which solve has results then
     #[cfg_attr(feature = "options", arg(long))]
     pub mirror: bool,
+    /// The cut-off wavelength, in the unit of the map.
+    #[cfg_attr(feature = "options", arg(skip))]
+    pub cut_off_wavelength: Option<f64>,
     /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
     #[cfg_attr(feature = "options", arg(long, value_names = ["NX", "NY"], num_args = 2, value_parser = nodes))]
     #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
@@ -121,12 +137,33 @@ impl Preparation {
             self.lengths = Some(((lx, ly), of_map.map(str::to_owned)));
             return Ok(());
         }
+        let (unit, power) = self.unit_of_lengths("{lengths} have", of_map)?;
+        self.lengths = Some(((times_ten_to(-power, lx), times_ten_to(-power, ly)), Some(unit)));
+        Ok(())
+    }
+
+    /// Gives the map a cut-off wavelength; one in metres is brought to the unit that the map will have.
+    ///
+    /// # Errors
+    /// A text if that is no unit of length, for [`worded`](crate::worded).
+    pub fn set_cut_off_wavelength(
+        &mut self,
+        cut_off: f64,
+        in_metres: bool,
+        of_map: Option<&str>,
+    ) -> std::result::Result<(), String> {
+        let power = if in_metres { self.unit_of_lengths("{cut_off_wavelength} has", of_map)?.1 } else { 0 };
+        self.cut_off_wavelength = Some(times_ten_to(-power, cut_off));
+        Ok(())
+    }
+
+    /// The unit that the map will have, which is of length, and its power of ten, for what `has` a unit.
+    fn unit_of_lengths(&self, has: &str, of_map: Option<&str>) -> std::result::Result<(String, i32), String> {
         let unit = self.unit.as_deref().or(of_map).unwrap_or(LENGTH.si);
         let power = power_of_length(unit).ok_or_else(|| {
-            format!("{{lengths}} have a unit, but the map is in {unit}, which is none of length: give {{unit}}, as nm")
+            format!("{has} a unit, but the map is in {unit}, which is none of length: give {{unit}}, as nm")
         })?;
-        self.lengths = Some(((times_ten_to(-power, lx), times_ten_to(-power, ly)), Some(unit.to_owned())));
-        Ok(())
+        Ok((unit.to_owned(), power))
     }
 
     /// The prepared map, with a line in the log for each step; the log has those before an error, too.
@@ -168,14 +205,29 @@ impl Preparation {
             map = map.flip();
             log.tell("flip", "peaks are valleys now".to_owned());
         }
+        let along = self.scan_axis.unwrap_or(ScanAxis::X);
+        let axis = if along == ScanAxis::X { "x" } else { "y" };
         if let Some(alignment) = self.align_rows {
-            let (before, heights, along) = (rms(&map), map.heights.clone(), self.scan_axis.unwrap_or(ScanAxis::X));
+            let (before, heights) = (rms(&map), map.heights.clone());
             log.warn(Warning::of_lines(&map, along), &map);
             map = map.align_rows(alignment, along)?;
             let (nx, ny) = map.heights.dim();
-            let (axis, lines) = if along == ScanAxis::X { ("x", ny) } else { ("y", nx) };
+            let lines = if along == ScanAxis::X { ny } else { nx };
             let by = changed(&heights, &map);
             log.tell("align-rows", format!("{lines} lines along {axis} {by}: rms height {} from {before}", rms(&map)));
+        }
+        if let Some(threshold) = self.remove_scars {
+            let (scars, before, nodes) = (map.scars(threshold, along)?, rms(&map), map.heights.len());
+            let (count, points) = (scars.count, scars.map.iter().filter(|&&on_scar| on_scar).count());
+            let limit = quantity(scars.limit, &map);
+            map = map.without(&scars)?;
+            let what = match count {
+                0 => format!("no scars along {axis} beyond {limit} from the lines beside them"),
+                1 => format!("1 scar along {axis} beyond {limit} from the lines beside it"),
+                _ => format!("{count} scars along {axis} beyond {limit} from the lines beside them"),
+            };
+            let replaced = if count > 0 { format!(", {points} of {nodes} points replaced") } else { String::new() };
+            log.tell("remove-scars", format!("{what}{replaced}: rms height {} from {before}", rms(&map)));
         }
         if let Some(threshold) = self.despike {
             let (spikes, before, nodes) = (map.spikes(threshold)?, rms(&map), map.heights.len());
@@ -224,6 +276,22 @@ impl Preparation {
             check_memory("a mirrored map", (2 * nx, 2 * ny), 8)?;
             map = map.mirror();
             log.tell("mirror", described(&map));
+        }
+        if let Some(cut_off) = self.cut_off_wavelength {
+            let before = map.clone();
+            map = map.low_pass(cut_off)?;
+            let slopes = [&map, &before].map(|map| plain(map.rms_slope().unwrap_or(f64::NAN)));
+            let what = format!("waves shorter than {} left out, which may be noise", quantity(cut_off, &map));
+            log.tell(
+                "cut-off-wavelength",
+                format!(
+                    "{what}: rms height {} from {}, rms slope by differences {} from {}",
+                    rms(&map),
+                    rms(&before),
+                    slopes[0],
+                    slopes[1]
+                ),
+            );
         }
         if let Some(&[nx, ny]) = self.resample.as_deref() {
             let before = rms(&map);
@@ -285,79 +353,4 @@ fn remove_form<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option
 
 fn detrend<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<Trend>, D::Error> {
     named("detrend", from)
-}
-
-/// A sphere, or a cylinder and its direction.
-fn described_form(fit: &FormFit, map: &Topography) -> String {
-    let (radius, side) = (quantity(fit.radius.abs(), map), if fit.radius > 0.0 { "upwards" } else { "downwards" });
-    match fit.axis {
-        None => format!("sphere of radius {radius}, bulging {side},"),
-        Some(axis) => {
-            let degrees = plain(axis.to_degrees());
-            format!("cylinder of radius {radius}, bulging {side}, its axis at {degrees} degrees from x,")
-        }
-    }
-}
-
-/// What a trend takes away.
-fn removed(trend: Trend, before: &Topography, after: &Topography) -> Result<String> {
-    if let Trend::Polynomial(order @ 3..) = trend {
-        return Ok(format!("polynomial of order {order} removed, heights {}", changed(&before.heights, after)));
-    }
-    let fit = before.fit(trend)?;
-    let per = if before.lengths.is_some() { "" } else { " per spacing" };
-    let (x, y) = fit.slopes;
-    let tilt = format!("tilt {}{per} along x, {}{per} along y", plain(x), plain(y));
-    Ok(match trend {
-        Trend::Mean | Trend::Polynomial(0) => format!("mean {} removed", quantity(fit.height, before)),
-        Trend::Plane | Trend::Polynomial(1) => format!("{tilt} removed"),
-        _ => {
-            let (xx, xy, yy) = fit.curvatures;
-            let units = Units::of_map(before.unit.as_deref().filter(|_| before.lengths.is_some()));
-            let [xx, xy, yy] = [xx, xy, yy].map(|curvature| units.number(curvature, PER_LENGTH));
-            format!("{tilt} removed, curvatures xx {xx}, xy {xy}, yy {yy}")
-        }
-    })
-}
-
-/// By how much measured heights have changed.
-fn changed(before: &Array2<f64>, after: &Topography) -> String {
-    let changes = before.iter().zip(&after.heights).map(|(before, after)| after - before);
-    let (mut squares, mut most, mut count) = (0.0, 0.0, 0.0);
-    for change in changes.filter(|change| change.is_finite()) {
-        (squares, most, count) = (squares + change * change, f64::max(most, change.abs()), count + 1.0);
-    }
-    let rms = f64::sqrt(squares / f64::max(count, 1.0));
-    format!("changed by {} rms, by {} at most", quantity(rms, after), quantity(most, after))
-}
-
-/// Nodes, missing points, side lengths and rms height of a map.
-fn described(map: &Topography) -> String {
-    let (nx, ny) = map.heights.dim();
-    let lengths = map.lengths.map_or("unknown side lengths".to_owned(), |l| sides(l, map.unit.as_deref()));
-    let missing = holes(map).unwrap_or("none missing".to_owned());
-    format!("{nx} x {ny} heights, {missing}, {lengths}, rms height {}", rms(map))
-}
-
-/// The numbers of missing and of infinite heights, if there are any.
-fn holes(map: &Topography) -> Option<String> {
-    let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
-    match (map.missing() - infinite, infinite) {
-        (0, 0) => None,
-        (missing, 0) => Some(format!("{missing} missing")),
-        (0, infinite) => Some(format!("{infinite} infinite")),
-        (missing, infinite) => Some(format!("{missing} missing, {infinite} infinite")),
-    }
-}
-
-fn sides(lengths: (f64, f64), unit: Option<&str>) -> String {
-    Units::of_map(unit).sides(lengths)
-}
-
-fn rms(map: &Topography) -> String {
-    quantity(map.rms_height(), map)
-}
-
-fn quantity(value: f64, map: &Topography) -> String {
-    Units::of_map(map.unit.as_deref()).number(value, LENGTH)
 }

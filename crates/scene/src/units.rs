@@ -103,7 +103,8 @@ impl Units {
 /// The dimension of the numbers of a key of a scene; none for shares, numbers and words.
 pub fn dimension_of_key(key: &str) -> Option<Dimension> {
     match key {
-        "radius" | "amplitude" | "rms_height" | "fourier_unit" | "spring_position" | "distance" => Some(LENGTH),
+        "radius" | "amplitude" | "rms_height" | "fourier_unit" | "cut_off_wavelength" => Some(LENGTH),
+        "spring_position" | "distance" => Some(LENGTH),
         "young" | "other_young" => Some(PRESSURE),
         _ => dimension_of(key, "", false),
     }

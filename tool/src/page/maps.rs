@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::{FINE, Page};
 use crate::outcome::Outcome;
-use crate::pictures::{draw_pressure, draw_regions};
+use crate::pictures::{MapColours, draw_clusters, draw_pressure, draw_regions};
 use crate::units::Units;
 
 /// The finest resolution of the maps.
@@ -22,7 +22,7 @@ const NOTICEABLE: f64 = 0.01;
 const CLASSES: usize = 60;
 
 /// Puts the maps of a solve on a page, with histograms of gap and pressure.
-pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units) -> Outcome<()> {
+pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colours: &MapColours) -> Outcome<()> {
     let [gap, pressure, contact_pressure] =
         ["gap", "pressure", "contact_pressure"].map(|name| read_field(folder.join(format!("{name}.npy"))));
     let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
@@ -48,9 +48,14 @@ pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units) -> Ou
     });
     // a pixel for each node, of which those of the picture are 0.25 to 0.5 points
     let dpi = (0.288 * gap.dim().0.max(gap.dim().1) as f64).clamp(FINE, FINEST);
-    let contact = draw_regions(grid, "Contact", units, &regions, dpi)?;
+    // the sides of an original do not meet
+    let sides_meet = report["boundary"] != "free" && !report["solved_shape"].is_array();
+    let contact = match colours.colour_clusters {
+        true => draw_clusters(grid, "Contact", units, (&regions, sides_meet), dpi)?,
+        false => draw_regions(grid, "Contact", units, &regions, dpi)?,
+    };
     let drawn = if adhesive { &pressure } else { &contact_pressure };
-    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, None, dpi)?;
+    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, colours.limits(), dpi)?;
     let gaps = Map {
         title: "Gap",
         length_unit: length,

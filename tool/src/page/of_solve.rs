@@ -11,12 +11,13 @@ use super::Page;
 use super::figures::{GROUPS, place, shown, spaced};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
-use crate::quantity::{ENERGY, ENERGY_PER_AREA};
+use crate::pictures::MapColours;
+use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
 use crate::scene;
 use crate::units::{Units, dimension_of};
 
 /// The page of a folder of `asperity solve`.
-pub fn page(folder: &Path) -> Outcome<String> {
+pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     let path = folder.join("report.json");
     let text = fs::read_to_string(&path).map_err(|_| {
         Error::file(&path, "is not there: name the folder of a solve, or the table of a sweep or a cycle")
@@ -37,8 +38,11 @@ pub fn page(folder: &Path) -> Outcome<String> {
     let said = report["warnings"].as_array().into_iter().flatten();
     warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
     let units = units_of_report(&report);
+    if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
+        return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
+    }
     let mut maps = Page::default();
-    if let Err(error) = super::maps::draw(&mut maps, folder, &report, &units) {
+    if let Err(error) = super::maps::draw(&mut maps, folder, &report, &units, colours) {
         warnings.push(format!("There are no maps on this page: {error}"));
         maps = Page::default();
     }

@@ -8,7 +8,7 @@ const REACH: isize = 2;
 /// The least pairs of opposite neighbours, as there are along an edge.
 const PAIRS: usize = 2;
 /// The standard deviation of Gaussian noise in medians of its magnitude, 1/Φ⁻¹(¾).
-const PER_MEDIAN: f64 = 1.482_602_218_505_602;
+pub(super) const PER_MEDIAN: f64 = 1.482_602_218_505_602;
 /// The same in means of its magnitude, √(π/2).
 const PER_MEAN: f64 = 1.253_314_137_315_500_3;
 

@@ -44,6 +44,10 @@ pub enum WarningCode {
     Images,
     /// The lines across the scan lines that are to be brought to one height have by far the larger offsets.
     ScanAxis,
+    /// Much of the load stands on single lines, as on scars of a measurement.
+    Scars,
+    /// Much of the load stands on single nodes, as on noise.
+    Noise,
 }
 
 impl WarningCode {
@@ -66,6 +70,8 @@ impl WarningCode {
             Self::WindowEdge => "window-edge",
             Self::Images => "images",
             Self::ScanAxis => "scan-axis",
+            Self::Scars => "scars",
+            Self::Noise => "noise",
         }
     }
 }

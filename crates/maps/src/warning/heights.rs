@@ -218,8 +218,8 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
         _ => return None,
     };
     let message = format!(
-        "the rms slope is {}, {than}: are heights and lengths in one unit? scale the heights, or correct the side \
-         lengths",
+        "the rms slope by differences is {}, {than}: are heights and lengths in one unit? scale the heights, or correct \
+         the side lengths",
         Warning::figure(slope)
     );
     Some(Warning { code, text: Text::default().with(message).of_severity(severity) })

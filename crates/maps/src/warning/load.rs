@@ -1,0 +1,105 @@
+//! What is told of the load: that much of it stands on single scan lines, or on single nodes.
+
+use asperity::{Real, Solution};
+
+use super::text::Text;
+use super::{Warning, WarningCode};
+
+/// How many times harder a node presses than both nodes beside it, along an axis, to stand alone: pressures change
+/// little from node to node in a contact that the nodes resolve, but for its edge, where one side is harder.
+const ALONE: f64 = 3.0;
+/// The least number of nodes of a piece of a line, all of which are alone across it: contacts of a rough surface are
+/// rounder.
+const LENGTH: usize = 8;
+/// The shares of the load from which it is much, on lines and on single nodes: where a contact of some hundred nodes has
+/// a few to each of its pieces, a quarter may stand on single ones.
+const MUCH: [f64; 2] = [0.2, 1.0 / 3.0];
+/// Fewer nodes in contact tell nothing: they may be alone by chance.
+const LEAST_NODES: usize = 100;
+
+/// Nodes that stand alone: their number, their load, and the greatest pressure.
+#[derive(Clone, Copy, Default)]
+struct Nodes {
+    count: usize,
+    load: f64,
+    greatest: f64,
+}
+
+impl Nodes {
+    fn add(&mut self, other: Self) {
+        self.count += other.count;
+        self.load += other.load;
+        self.greatest = self.greatest.max(other.greatest);
+    }
+
+    /// Goes on along a line with a node that is alone across it, or ends there, and counts if it was long.
+    fn go_on(&mut self, node: Option<Self>, counted: &mut Self) {
+        match node {
+            Some(node) => self.add(node),
+            None if self.count > 0 => {
+                if self.count >= LENGTH {
+                    counted.add(*self);
+                }
+                *self = Self::default();
+            }
+            None => {}
+        }
+    }
+}
+
+/// The warning that much of the load stands on lines along one axis, or on single nodes, by one pass over the pressure.
+pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
+    let pressures = &solution.contact_pressure;
+    let (nx, ny) = pressures.dim();
+    let [mut all, mut along_x, mut along_y, mut single] = [Nodes::default(); 4];
+    let mut lines_along_x = vec![Nodes::default(); ny];
+    for i in 0..nx {
+        let mut line_along_y = Nodes::default();
+        for (j, line_along_x) in lines_along_x.iter_mut().enumerate() {
+            let pressure = pressures[[i, j]].widen();
+            let node = Nodes { count: 1, load: pressure, greatest: pressure };
+            let alone = |before: [usize; 2], after: [usize; 2]| {
+                let beside = pressures[before].widen().max(pressures[after].widen());
+                (pressure > ALONE * beside).then_some(node)
+            };
+            let (mut on_line_along_x, mut on_line_along_y) = (None, None);
+            if pressure > 0.0 {
+                on_line_along_x = alone([i, (j + ny - 1) % ny], [i, (j + 1) % ny]);
+                on_line_along_y = alone([(i + nx - 1) % nx, j], [(i + 1) % nx, j]);
+                all.add(node);
+                on_line_along_x.and(on_line_along_y).into_iter().for_each(|node| single.add(node));
+            }
+            line_along_x.go_on(on_line_along_x, &mut along_x);
+            line_along_y.go_on(on_line_along_y, &mut along_y);
+        }
+        line_along_y.go_on(None, &mut along_y);
+    }
+    lines_along_x.iter_mut().for_each(|line| line.go_on(None, &mut along_x));
+    let kinds = [(along_x, Some("x")), (along_y, Some("y")), (single, None)];
+    let much = |(nodes, axis): &(Nodes, Option<_>)| {
+        all.count >= LEAST_NODES && nodes.load > MUCH[usize::from(axis.is_none())] * all.load
+    };
+    let (nodes, axis) = kinds.into_iter().filter(much).max_by(|a, b| a.0.load.total_cmp(&b.0.load))?;
+    let (share, mut text) = (nodes.load / all.load, Text::default());
+    let (percent, greatest) = (Warning::figure(100.0 * share), text.pressure(nodes.greatest));
+    let (code, message) = match axis {
+        Some(axis) => (
+            WarningCode::Scars,
+            format!(
+                "{percent} % of the load stands on single lines along {axis}, on nodes that press more than {ALONE} \
+                 times as hard as those of both lines beside them, with up to {greatest}: scars, if {axis} is the \
+                 scan axis of a measurement; remove them (prepare --remove-scars --scan-axis {axis})"
+            ),
+        ),
+        None => (
+            WarningCode::Noise,
+            format!(
+                "{percent} % of the load stands on single nodes, which press more than {ALONE} times as hard as all \
+                 beside them, with up to {greatest}: noise of a measurement, or contacts that the nodes do not resolve; \
+                 leave out short waves (prepare --cut-off-wavelength), give spikes the median around them (despike), \
+                 or refine the map"
+            ),
+        ),
+    };
+    Some(Warning { code, text: text.with(message).of_severity(share) })
+}
