@@ -28,7 +28,8 @@ use crate::threads::use_threads;
 /// --rms-height or --rms-slope puts roughness on it. The roughness is periodic and isotropic. Its power spectral
 /// density is constant from KL to KR, falls as k^(-2-2H) from KR to KS, on a line as k^(-1-2H), and is zero elsewhere.
 /// Wave numbers count periods along x. A seed stands for the same surface on every grid that resolves KS, with the
-/// given rms height or slope to rounding. --fourier takes the waves of the roughness from a file. FILE.scene.toml beside the heights makes them again by asperity run.
+/// given rms height or slope to rounding. --fourier takes the waves of the roughness from a file. FILE.scene.toml beside
+/// the heights makes them again by asperity run.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]

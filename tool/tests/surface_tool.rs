@@ -225,7 +225,7 @@ fn fourier_coefficients_make_a_surface() {
         assert!((h - expected).abs() < 1e-16, "{h} {expected}");
     }
     let slope = TAU * (0.5 * (0.02_f64.powi(2) * 10.0 + 0.01_f64.powi(2) * 4.0)).sqrt();
-    assert!((numbers(&said, "rms slope")[0] - slope).abs() < 1e-5, "{said}");
+    assert!((numbers(&said, "rms slope, spectral")[0] - slope).abs() < 1e-5, "{said}");
     assert_eq!(csv(&bench, "psd.csv").0, "wave_number,density,waves");
     assert_eq!(bench.reported("surface --fourier waves.dat --size 16 --out report.npy")["fourier"], "waves.dat");
     // with units, and repeated from the scene

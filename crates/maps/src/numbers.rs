@@ -43,7 +43,7 @@ pub fn si(value: f64, unit: &str) -> String {
     }
     let power = power.max(-7);
     let value = rounded / 10f64.powi(3 * power);
-    let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 6.0) };
+    let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 3.0) };
     let digits = trimmed(format!("{value:.*}", decimals as usize));
     match digits.trim_start_matches('-') {
         // too small for any prefix

@@ -110,7 +110,11 @@ fn cases(rows: &[Value]) -> Vec<(String, Vec<&[Value]>)> {
             naming.pop();
         }
     }
-    grouped(&cases, &naming)
+    let mut found = grouped(&cases, &naming);
+    if let [(name, _)] = &mut *found {
+        name.clear();
+    }
+    found
 }
 
 /// The cases by their values in some columns, which are their names.
