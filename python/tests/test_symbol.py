@@ -31,6 +31,8 @@ def bonded(q, thickness=0.05, nu=0.3):
     return 0.5 * q * (a * np.cosh(2 * x) + 2 * x**2 + 5 - 12 * nu + 8 * nu**2) / (a * np.sinh(2 * x) - 2 * x)
 
 
+# of white noise, which has all waves
+@pytest.mark.filterwarnings("ignore:noise")
 @pytest.mark.parametrize("function", [half_space, half_space_of_both])
 @pytest.mark.parametrize("shape", [(64, 64), (48, 30), (35, 33), (128,)])
 def test_that_of_the_half_space_is_the_default(function, shape):
