@@ -38,7 +38,7 @@ impl Spectrum {
     /// with less than the wave number, or its square root of a profile, half of what it does for a self-affine surface
     /// of a Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. The knee is where the
     /// surface has the density of the floor, and the spectrum that of twice the floor. Waves that are shorter tell of
-    /// the noise: [`low_pass`](super::low_pass) leaves them out.
+    /// the noise: [`low_pass`](fn@super::low_pass) leaves them out.
     ///
     /// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as
     /// on 90 × 90 nodes or a profile of 10 000, are too few to tell.
