@@ -209,7 +209,7 @@ impl Elastic {
     /// times as many with a free boundary.
     ///
     /// # Errors
-    /// [`Error::Memory`](asperity::Error::Memory) if the memory is too small, and those of the body and the operator.
+    /// [`Error::Memory`] if the memory is too small, and those of the body and the operator.
     pub fn operator<T: Real>(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
         if !grid.is_shared() {
             check_memory("a solve", grid.shape(), if self.boundary == Boundary::Free { 160 } else { 40 })?;
