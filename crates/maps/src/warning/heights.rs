@@ -188,8 +188,9 @@ pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warnin
 
 fn ends_as(seen: String, text: Text) -> Warning {
     let message = format!(
-        "{seen}: in a periodic cell a body stands among images of itself; give it a free boundary (boundary free), or, \
-         if its roughness alone is wanted, remove its form (remove-form)"
+        "{seen}: in a periodic cell a body stands among images of itself; give the half-space a free boundary (boundary \
+         free), make the map wider around the body on a layer or coating, or, if the roughness alone is wanted, remove \
+         the form (remove-form)"
     );
     Warning { code: WarningCode::Ends, text: text.with(message) }
 }
