@@ -4,7 +4,7 @@ use ndarray::ArrayView2;
 
 use super::Picture;
 use super::chart::{COLOURS, WIDTH, pieces};
-use super::colours::{ATTRACTIVE, Colouring, Colours, MISSING, drawable};
+use super::colours::{ATTRACTIVE, Colouring, Colours, MISSING, cluster_colour, drawable};
 use super::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, label_length, room,
 };
@@ -145,11 +145,18 @@ impl<'a> Map<'a> {
         Ok((picture, plot))
     }
 
-    /// The colours with their values: of classes those of the legend, else evenly along each colour bar.
+    /// The colours with their values: of contact those of the legend, of clusters all, else evenly along each colour bar.
     fn key(&self, colours: &Colours) -> Vec<(Colour, String)> {
         let classes = self.legend().into_iter().map(|entry| (entry.colour, entry.text));
-        if self.colouring.is_of_classes() {
-            return classes.collect();
+        match self.colouring {
+            Colouring::Contact => return classes.collect(),
+            Colouring::Clusters => {
+                // each colour once
+                let most = self.values.iter().copied().filter(|label| *label < 10.0).fold(0.0, f64::max) as usize;
+                let of = |label| (cluster_colour(label), if label == 0 { "apart" } else { "contact" }.to_owned());
+                return (0..=most).map(of).chain(classes).collect();
+            }
+            _ => {}
         }
         let along = |(low, high): (f64, f64)| {
             let value = move |k: usize| low + (high - low) * k as f64 / SHADES as f64;

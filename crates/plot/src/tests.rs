@@ -179,7 +179,10 @@ fn clusters_have_colours_in_turn() {
     let (width, _, pixels, [x, y, w, h]) = drawn(&map, "clusters");
     let at = |ix: usize, iy: usize| pixels[(y + h - 1 - h * iy / 2 - 10) * width + x + w * ix / 2 + 10];
     assert_eq!([at(0, 0), at(0, 1), at(1, 0), at(1, 1)], [cluster_colour(1), cluster_colour(2), [255; 3], shape::GREY]);
-    assert!(texts(&map.draw(DPI).unwrap()).iter().any(|text| text == "no surface"));
+    let picture = map.draw(DPI).unwrap();
+    assert!(texts(&picture).iter().any(|text| text == "no surface"));
+    let key: Vec<_> = picture.key().iter().map(|(_, told)| told.as_str()).collect();
+    assert_eq!(key, ["apart", "contact", "contact", "no surface"]);
 }
 
 /// A map with a title that SVG and PDF have to escape, and a chart of a broken curve, each drawn.
