@@ -25,6 +25,10 @@ pub const GROUPS: [(&str, &str); 7] = [
     ("Cost", "iterations operator_applications equivalent_applications seconds"),
 ];
 
+/// The keys of attraction, which say nothing of surfaces that do not adhere.
+pub const OF_ADHESION: &str = "net_pressure min_pressure repulsive_fraction attractive_fraction adhesive_energy mu_rho \
+                               mu_rho_node under_resolved";
+
 /// The place of a key or column in the order in which one asks.
 pub fn place(name: &str) -> usize {
     let mut all = GROUPS.iter().flat_map(|(_, names)| names.split_whitespace());
@@ -43,7 +47,10 @@ pub fn shown(name: &str, value: &Value, number: &dyn Fn(&str, f64) -> String) ->
             all(values.iter().filter_map(|value| shown(name, value, number)).collect(), between)
         }
         Value::Object(values) => {
-            let part = |(name, value): (&String, _)| Some(format!("{} {}", spaced(name), shown(name, value, number)?));
+            let part = |(name, value): (&String, &Value)| match value {
+                Value::Bool(is_so) => is_so.then(|| spaced(name)),
+                _ => Some(format!("{} {}", spaced(name), shown(name, value, number)?)),
+            };
             all(values.iter().filter_map(part).collect(), ", ")
         }
         other => Some(other.to_string()),

@@ -8,7 +8,7 @@ use asperity::Error;
 use serde_json::Value;
 
 use super::Page;
-use super::figures::{GROUPS, place, shown, spaced};
+use super::figures::{GROUPS, OF_ADHESION, place, shown, spaced};
 use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::pictures::MapColours;
@@ -69,6 +69,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     let once = |key: &str| match key {
         "control" | "control_value" => !report[given.as_str()].is_f64(),
         "absent_nodes" => report[key] != 0,
+        _ if word("law") == "none" => !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key),
         _ => true,
     };
     for (heading, keys) in GROUPS {
