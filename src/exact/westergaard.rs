@@ -94,8 +94,8 @@ pub(super) fn share(body: &Body, half_width: f64) -> Result<f64> {
     Err(Error::Value { name: "half-width", value: half_width, requirement: "from 0 to half the wavelength" })
 }
 
-/// The mean pressure √2πE*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion: full contact is under
-/// p̄ + √2πE*h₀/λ cos cos.
+/// The mean pressure √2πE\*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion: full contact is under
+/// p̄ + √2πE\*h₀/λ cos cos.
 ///
 /// # Errors
 /// [`Error::Value`] if a number is not positive and finite.
