@@ -65,6 +65,10 @@ impl<B: Body + ?Sized> Body for Arc<B> {
         (**self).modulus()
     }
 
+    fn modulus_on(&self, grid: &Grid) -> f64 {
+        (**self).modulus_on(grid)
+    }
+
     fn mean_compliance(&self) -> f64 {
         (**self).mean_compliance()
     }
