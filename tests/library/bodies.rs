@@ -218,6 +218,19 @@ fn a_coating_has_four_limits() {
 }
 
 #[test]
+fn a_coating_much_softer_or_harder_than_its_substrate_keeps_its_digits() {
+    for x in [1e-4, 1e-2, 1.0, 30.0] {
+        let rubber = Coating::new(material(1.0, 0.5), x, material(1e30, 0.3)).unwrap();
+        assert_relative_eq!(stiffness(&rubber, 1.0), stiffness(&bonded(x, 0.5), 1.0), max_relative = 1e-14);
+    }
+    // a plate on a half-space that does not move sideways under a pressure: ½E₂*q + E₁*t³q⁴/12, but for terms in (qt)²
+    for (x, modulus) in [(1e-4, 1e9), (1e-4, 1e12), (1e-3, 1e12)] {
+        let film = Coating::new(material(modulus, 0.3), x, material(1.0, 0.5)).unwrap();
+        assert_relative_eq!(stiffness(&film, 1.0), 0.5 + modulus * x.powi(3) / 12.0, max_relative = 10.0 * x * x);
+    }
+}
+
+#[test]
 fn two_bodies_yield_by_the_sum_of_their_compliances() {
     let both = Series(HalfSpace::new(3.0).unwrap(), HalfSpace::new(1.5).unwrap());
     assert_relative_eq!(stiffness(&both, 7.0), stiffness(&HalfSpace::new(1.0).unwrap(), 7.0), max_relative = 1e-15);

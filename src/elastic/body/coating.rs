@@ -1,3 +1,4 @@
+use super::layer::{THICK, sinh_beyond};
 use super::{Body, Material};
 use crate::error::{Error, Result};
 
@@ -27,8 +28,14 @@ use crate::error::{Error, Result};
 pub struct Coating {
     material: Material,
     thickness: f64,
-    kappa: f64,
-    lambda: f64,
+    /// 1 − λκ
+    far: f64,
+    /// (1 − κ)(1 − λ)
+    thin: f64,
+    /// 1 − 2κ + λκ, zero if the substrate is nothing beside the coating
+    bends: f64,
+    /// 1 + 2κ + λκ, zero if the substrate is rigid and the coating incompressible
+    flows: f64,
 }
 
 impl Coating {
@@ -38,25 +45,31 @@ impl Coating {
     /// [`Error::Value`] if the thickness is not positive and finite.
     pub fn new(material: Material, thickness: f64, substrate: Material) -> Result<Self> {
         let m = material.shear_modulus() / substrate.shear_modulus();
-        let [nu1, nu2] = [material, substrate].map(|material| material.poisson());
+        let [c1, c2] = [material, substrate].map(|material| 2.0 - 4.0 * material.poisson());
+        let (b1, b2) = (1.0 + c1, 1.0 + c2);
+        // κ = (m − 1)/u and λ = (m b₂ − b₁)/v, of which the differences lose their digits where m is large or small
+        let (u, v) = (m + b1, 1.0 + m * b2);
         Ok(Self {
             material,
             thickness: Error::positive("thickness of the coating", thickness)?,
-            kappa: (m - 1.0) / (m + 3.0 - 4.0 * nu1),
-            lambda: 1.0 - 4.0 * (1.0 - nu1) / (1.0 + m * (3.0 - 4.0 * nu2)),
+            far: m * (1.0 + b1) * (1.0 + b2) / (u * v),
+            thin: (1.0 + b1).powi(2) / (u * v),
+            bends: (1.0 + b1) / u * (1.0 - (m - 1.0) / v),
+            flows: ((2.0 * m + c1) * v + (m - 1.0) * (2.0 * m * b2 - c1)) / (u * v),
         })
     }
 }
 
 impl Body for Coating {
     fn stiffness(&self, qx: f64, qy: f64) -> f64 {
-        let Self { kappa, lambda, .. } = *self;
+        let Self { far, thin, bends, flows, .. } = *self;
         let q = qx.hypot(qy);
-        let alpha = q * self.thickness;
-        let theta = (-2.0 * alpha).exp();
-        let far = lambda * kappa * theta * theta;
-        let softer = 1.0 + 4.0 * alpha * kappa * theta - far;
-        let stiffer = 1.0 - (lambda + kappa + 4.0 * kappa * alpha * alpha) * theta + far;
+        let alpha = (q * self.thickness).min(THICK);
+        // numerator and denominator over θ, without the loss of digits for small α
+        let (sinh, double) = (alpha.sinh(), 2.0 * alpha);
+        let bent = 2.0 * (2.0 - far) * sinh_beyond(alpha) * (sinh + alpha) + 2.0 * bends * alpha * alpha;
+        let stiffer = bent + thin + far * double.sinh();
+        let softer = far * double.cosh() + (2.0 - far) * sinh_beyond(double) + flows * double;
         0.5 * self.material.modulus() * q * stiffer / softer
     }
 

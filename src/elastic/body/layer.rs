@@ -40,7 +40,7 @@ pub enum Base {
 }
 
 /// The α beyond which the stiffness is that of the half-space to the last digit.
-const THICK: f64 = 25.0;
+pub(super) const THICK: f64 = 25.0;
 
 impl Layer {
     /// The layer of a material and a thickness, a length.
@@ -77,7 +77,7 @@ impl Body for Layer {
 }
 
 /// sinh x − x, without the loss of digits for small x.
-fn sinh_beyond(x: f64) -> f64 {
+pub(super) fn sinh_beyond(x: f64) -> f64 {
     if x > 1.0 {
         return x.sinh() - x;
     }
