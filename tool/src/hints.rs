@@ -1,10 +1,12 @@
 //! Hints beside the mistakes in arguments: what may have been meant.
 
+use std::any::TypeId;
 use std::ffi::OsString;
 
 use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Arg, ArgAction, Command};
 
+use crate::loads::Loads;
 use crate::scene::key;
 use crate::synonyms::{is_same, meant};
 
@@ -53,6 +55,10 @@ fn of_option(tool: &Command, command: &Command, word: &str) -> Vec<String> {
     let has = |command: &&Command| find(command, name).is_some();
     let others: Vec<_> = tool.get_subcommands().filter(has).map(Command::get_name).collect();
     let positional = command.get_positionals().find(|option| option.get_id() == name);
+    let one = command.get_arguments().filter_map(Arg::get_long).find(|one| is_plural(name, one));
+    if let Some(one) = one.filter(|_| others.is_empty()) {
+        return of_study(command, one);
+    }
     let mut hints: Vec<_> = meant_by(command, name, "--").into_iter().collect();
     hints.extend(positional.map(|option| format!("{} is given without a name", option)));
     hints.extend((!others.is_empty()).then(|| format!("'{word}' is an option of {}", listed(&others))));
@@ -82,16 +88,24 @@ fn of_several(tool: &Command, command: &Command, word: &str, value: &str) -> Vec
     if value.contains(',') && find(command, name).is_some_and(several) {
         return vec![format!("give its values with spaces between, '{word} {}'", value.replace(',', " "))];
     }
-    let list = |option: &&Arg| option.get_long().is_some_and(|long| long != name && is_same(long, name));
+    let list = |option: &&Arg| option.get_long().is_some_and(|long| is_plural(long, name));
     let has = |command: &&Command| command.get_arguments().any(|option| list(&option));
     let lists: Vec<_> = tool.get_subcommands().filter(has).map(Command::get_name).collect();
     let option = tool.get_subcommands().flat_map(Command::get_arguments).find(list).and_then(Arg::get_long);
     match option {
-        Some(option) if value.contains([',', ':']) => {
-            vec![format!("a list is for {}, by '--{option}'", listed(&lists))]
-        }
-        _ => Vec::new(),
+        _ if !value.contains([',', ':']) => Vec::new(),
+        Some(option) => vec![format!("a list is for {}, by '--{option}'", listed(&lists))],
+        None => of_study(command, name),
     }
+}
+
+/// For several values of an option of a solve that is no list.
+fn of_study(command: &Command, name: &str) -> Vec<String> {
+    let is_single = |option: &Arg| option.get_value_parser().type_id() != TypeId::of::<Loads>();
+    let has_cases = find(command, "heights").is_some() && find(command, name).is_some_and(is_single);
+    let hint =
+        || format!("several values are for 'asperity study', by {name} = \"FROM:TO:COUNT\" in its section [vary]");
+    has_cases.then(hint).into_iter().collect()
 }
 
 fn of_scene(file: &str) -> String {
@@ -106,6 +120,11 @@ fn find<'a>(command: &'a Command, name: &str) -> Option<&'a Arg> {
 fn before<'a>(arguments: &'a [OsString], word: &str) -> &'a str {
     let pair = arguments.windows(2).find(|pair| pair[1].to_str().is_some_and(|next| next.starts_with(word)));
     pair.and_then(|pair| pair[0].to_str()).unwrap_or_default()
+}
+
+/// Whether a name is that of several of what another one names.
+fn is_plural(name: &str, one: &str) -> bool {
+    name.len() > one.len() && is_same(name, one)
 }
 
 fn is_option(word: &str) -> bool {

@@ -35,6 +35,15 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
         ),
         (format!("{solve} --mean-pressure 1,2"), &["a list is for sweep and cycle, by '--mean-pressures'"]),
         (format!("{sweep} --mean-pressure 1"), &["did you mean '--mean-pressures',", "is an option of solve"]),
+        // a list of one load that is wrong is no list for another command
+        (format!("{sweep} --mean-pressures 1:2"), &["FROM:TO:COUNT or FROM:TO:COUNT:log; see --help"]),
+        // several positions, or of what else a solve has one, are a study
+        (
+            format!("{sweep} --mean-pressures 1 --against h.npy --shifts 0:1:8"),
+            &["'--shifts'", "'asperity study'", "by shift = \"FROM:TO:COUNT\" in its section [vary]"],
+        ),
+        (format!("{solve} --mean-pressure 1 --against h.npy --shift 0:1um:8"), &["'asperity study', by shift ="]),
+        (format!("{solve} --mean-pressure 1 --poisson 0.3 --layer 1,2"), &["'asperity study', by layer ="]),
         (format!("{sweep} --approach 1"), &["did you mean '--approaches',"]),
         (format!("{sweep} --mean-pressures 1MPa-100MPa"), &["a range is FROM:TO:COUNT, as 1MPa:100MPa:10 or"]),
         (format!("{solve} --mean-gap 1 --plot a.png"), &["'--plot' is an option of sweep, cycle and laws"]),

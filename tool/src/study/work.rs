@@ -1,6 +1,6 @@
 //! The work on a study: its cases, each by a process of its own that keeps its rows in a folder.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 #[cfg(unix)]
@@ -86,7 +86,10 @@ fn checksum(of_rows: Hash, rows: &Path) -> String {
     format!("{of_rows} {}\n", Hash::NEW.of(&warnings))
 }
 
-/// Solves the cases with these numbers that are not done, some at a time; how many were refused.
+/// Solves the cases with these numbers that are not done, some at a time.
+///
+/// # Errors
+/// How many cases were refused, each reason having been said with the first case of it.
 pub fn solve(
     study: &Study,
     folder: &Folder,
@@ -94,7 +97,7 @@ pub fn solve(
     program: &[OsString],
     jobs: usize,
     printing: Printing,
-) -> Outcome<usize> {
+) -> Outcome<()> {
     fs::create_dir_all(&folder.path).map_err(|e| Error::unwritable(&folder.path, e))?;
     let jobs = jobs.min(chosen.len().max(1));
     let threads = (threads::count() / jobs).max(1);
@@ -108,7 +111,8 @@ pub fn solve(
         is_new && !is_done
     };
     let left: Vec<_> = chosen.iter().copied().filter(is_left).collect();
-    let [next, done, refused] = [(); 3].map(|()| AtomicUsize::new(0));
+    let [next, done] = [(); 2].map(|()| AtomicUsize::new(0));
+    let refusals = Mutex::new(HashMap::new());
     let told = |number: usize| format!("case {}: {}", number + 1, study.told(&study.cases[number]));
     let stand = |done: usize| {
         let (done, all) = (before + done, before + left.len());
@@ -128,8 +132,12 @@ pub fn solve(
                 printing.say(&format!("{done:>width$}/{}  {name}", left.len()));
             }
             Err(error) => {
-                refused.fetch_add(1, Relaxed);
-                complain("warning", &format!("{} is refused: {error}", told(number)));
+                let mut refusals = refusals.lock().unwrap_or_else(PoisonError::into_inner);
+                let (_, count) = refusals.entry(error.clone()).or_insert((number, 0));
+                *count += 1;
+                if *count == 1 {
+                    complain("warning", &format!("{} is refused: {error}", told(number)));
+                }
             }
         }
         true
@@ -153,7 +161,23 @@ pub fn solve(
             scope.spawn(work);
         }
     });
-    Ok(refused.into_inner())
+    refused(refusals.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect(), chosen.len())
+}
+
+/// Refuses a study of which some of all cases were refused: by each reason a first case, and how many in all.
+fn refused(mut reasons: Vec<(usize, usize)>, of: usize) -> Outcome<()> {
+    let count: usize = reasons.iter().map(|(_, count)| count).sum();
+    if count == 0 {
+        return Ok(());
+    }
+    reasons.retain(|(_, count)| *count > 1);
+    reasons.sort_unstable();
+    let alike = reasons.iter().map(|&(first, alike)| {
+        let alike = if alike == count { "all".to_owned() } else { alike.to_string() };
+        format!(", {alike} as case {}", first + 1)
+    });
+    let alike: String = alike.collect();
+    Err(format!("{count} of {of} cases were refused{alike}: mend the study, and run it again").into())
 }
 
 /// Solves a case that no other run has solved by then; the warnings of its runs, or the line by which one was refused.
