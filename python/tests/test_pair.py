@@ -35,6 +35,17 @@ def test_two_surfaces_are_the_one_between_them(pair):
     np.testing.assert_allclose(part, expected, atol=1e-15)
 
 
+@pytest.mark.filterwarnings("ignore:flat")
+def test_congruent_surfaces_close_without_a_load(pair):
+    one = pair[0]
+    fits = -np.asarray(one)[::-1]
+    # the second one elastic or rigid
+    for given in ({}, {"against_modulus": 2.0}):
+        closed = pressed(one, against=fits, mean_pressure=0.0, **given)
+        assert (closed.contact_fraction, closed.mean_gap) == (1.0, 0.0)
+    assert pressed(one, against=fits, shift=1 / 32, mean_pressure=1e-6).contact_fraction < 0.1
+
+
 def test_arrays_of_images_files_and_lines_face_each_other(pair, tmp_path):
     one, other = (np.asarray(surface) for surface in pair)
     both = pressed(one, lengths=1.0, against=other)

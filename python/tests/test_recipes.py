@@ -13,6 +13,23 @@ PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python" / "recipe
 RECIPES = dict(re.findall(r"^### (.*?)\n.*?^```python\n(.*?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL))
 
 
+def two_elastic_rough_bodies(found):
+    both, steel, brass = found["both"], found["steel"], found["brass"]
+    assert f"{found['slope']:.2f}" == "0.14" and f"{found['share']:.2f}" == "0.67"
+    assert found["share"] == pytest.approx(steel / (steel + brass), rel=1e-9)
+    # as one body has it
+    heights = np.asarray(found["one"]) + np.asarray(found["other"])[::-1]
+    one = asperity.solve(heights, 20e-6, modulus=found["modulus"], mean_pressure=500e6)
+    assert one.contact_fraction == both.contact_fraction
+
+
+def sliding_one_over_the_other(found):
+    area, still = found["area"], found["still"]
+    assert still[0] == 1.0 and still == sorted(still, reverse=True)
+    assert [f"{share:.2f}" for share in still[-3::2]] == ["0.53", "0.19"]
+    assert min(area) > 0.85 * max(area)
+
+
 def a_coated_tip(found):
     moduli = found["read_off"]
     assert [f"{modulus / 1e9:.2f}" for modulus in moduli] == ["1.05", "1.17", "1.43"]

@@ -82,6 +82,15 @@ const EXAMPLES: &str = "\
     work-of-adhesion = 1e-4
     range = 1e-2
 
+\u{1b}[1;4mOne surface slides over another, in eight steps:\u{1b}[0m
+    command = \"sweep\"
+    out = \"sliding.csv\"
+    heights = \"heights.npy\"
+    against = \"other.npy\"
+    mean-pressures = 0.02
+    [vary]
+    shift = \"0:0.1:9\"
+
 \u{1b}[1;4mExamples:\u{1b}[0m
   All cases on this machine, or a slice of them on each of sixteen, and then the table:
     asperity study study.toml
