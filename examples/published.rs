@@ -36,7 +36,8 @@ fn main() -> Outcome<()> {
     let heights = surface(size)?;
     println!("theirs, ours by the same springs, and ours by a hard wall; digits of theirs that differ are named");
     println!(
-        "| thickness | pressure | contact | mean gap | energy | time | of a hard wall: contact | gap, theirs | time |"
+        "| thickness | pressure | contact | mean gap | energy | time, theirs and ours | by a hard wall: contact | \
+         mean gap, their converged gap | time |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut agree = 0;
