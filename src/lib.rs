@@ -79,7 +79,7 @@
 //! | `serde` | settings, reports, statistics and controls as data, with the names of the reports |
 //!
 //! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
-#![doc = include_str!("equations.html")]
+#![doc = include_str!("pages.html")]
 
 pub mod accuracy;
 pub mod adhesion;
