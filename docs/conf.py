@@ -39,6 +39,7 @@ autodoc_member_order = "bysource"
 
 html_theme = "pydata_sphinx_theme"
 html_title = "asperity"
+templates_path = ["_templates"]
 html_static_path = ["_static"]
 html_css_files = ["asperity.css"]
 html_copy_source = False

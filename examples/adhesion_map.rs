@@ -101,19 +101,20 @@ fn main() -> Outcome<()> {
         std::fs::create_dir_all(folder)?;
     }
     println!("sphere by Lennard-Jones, free half-space, {size}²: pull-off force over πwR");
-    println!("{:>5} {:>5} {:>8} {:>14} {:>13}", "μ", "μ_ρ", "found", "Maugis-Dugdale", "applications");
+    println!("\n| μ | μ_ρ | Lennard-Jones | Maugis–Dugdale, exact | applications |\n|---|---|---|---|---|");
     let mut found = Vec::new();
     for tabor in TABOR {
         let Some(withdrawal) = withdraw(tabor, size)? else {
-            println!("{tabor:>5}  not resolved");
+            println!("| {tabor} | not resolved | | | |");
             continue;
         };
         let (force, theirs) = (withdrawal.pull_off(), maugis_dugdale(tabor)?);
-        println!("{tabor:>5} {:>5.2} {force:>8.4} {theirs:>14.4} {:>13}", withdrawal.mu_rho, withdrawal.applications);
+        let Withdrawal { mu_rho, applications, .. } = withdrawal;
+        println!("| {tabor} | {mu_rho:.2} | {force:.3} | {theirs:.3} | {applications} |");
         found.push((tabor, force));
     }
     draw(&out, size, &found)?;
-    println!("drawn in {}", out.display());
+    println!("\ndrawn in {}", out.display());
     Ok(())
 }
 

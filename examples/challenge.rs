@@ -74,9 +74,22 @@ fn main() -> Outcome<()> {
             rows.push(Row::of(&surface, law, pressure, Some(Branch::Unloading))?);
         }
     }
+    areas(size, &rows);
     distribution("contact pressure over E* that a share of the contact is below", 4, &rows, |row| &row.pressures);
     distribution("gap in nm that a share of the nodes apart is below", 1, &rows, |row| &row.gaps);
     Ok(())
+}
+
+/// Prints the contact areas as a table in Markdown.
+fn areas(size: usize, rows: &[Row]) {
+    let branches: Vec<_> = rows.iter().filter(|row| row.pressure == PRESSURES[0]).map(|row| row.branch).collect();
+    let name = |branch: &Option<Branch>| format!(" {}, {size}² |", branch.map_or("no adhesion", Branch::name));
+    println!("\ncontact area, %\n\n| p/E* |{}", branches.iter().map(name).collect::<String>());
+    println!("|---|{}", "---|".repeat(branches.len()));
+    for of_pressure in rows.chunks(branches.len()) {
+        let area = |row: &Row| format!(" {:.*} |", (2.0 - row.area.log10().floor()).clamp(0.0, 9.0) as usize, row.area);
+        println!("| {} |{}", of_pressure[0].pressure, of_pressure.iter().map(area).collect::<String>());
+    }
 }
 
 /// Prints the values that shares of all are below.
@@ -105,6 +118,10 @@ fn drawn(size: usize) -> Outcome<Surface> {
 /// The answer under a load.
 struct Row {
     name: String,
+    pressure: f64,
+    branch: Option<Branch>,
+    /// In %, corrected for its edge.
+    area: f64,
     pressures: Vec<f64>,
     gaps: Vec<f64>,
 }
@@ -125,12 +142,12 @@ impl Row {
             let rough = |error: GridError| if error.rough { "~" } else { "" };
             error.map_or("-".to_owned(), |error| format!("{}{:.1} %", rough(error), 100.0 * error.relative))
         };
-        let area = found.levels.last().map_or(f64::NAN, |level| level.area.corrected_contact_fraction);
+        let area = 100.0 * found.levels.last().map_or(f64::NAN, |level| level.area.corrected_contact_fraction);
         let adhesion = if report.branch.is_some() { "with" } else { "none" };
         let name = format!("{pressure:>7} {adhesion:>8} {:>9}", report.branch.map_or("-", Branch::name));
         println!(
             "{name} {:>8.4} {:>7} {:>9.3} {:>7} {:>8.1e} {:>6.2} {applications:>7.0} {:>7.1}{}",
-            100.0 * area,
+            area,
             error(Quantity::Area),
             1e9 * report.mean_gap,
             error(Quantity::Gap),
@@ -147,6 +164,9 @@ impl Row {
         };
         Ok(Self {
             name,
+            pressure,
+            branch: report.branch,
+            area,
             pressures: of(true, &solution.contact_pressure, MODULUS),
             gaps: of(false, &solution.gap, 1e-9),
         })

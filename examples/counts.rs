@@ -2,9 +2,11 @@
 //!
 //! `cargo run --release -p asperity-examples --example counts`
 
+use std::collections::BTreeMap;
+
 use asperity::{
-    AdhesionLaw, Control, Criterion, Grid, MaugisDugdale, NoAdhesion, Problem, Result, Settings, Solver, Surface,
-    Westergaard,
+    AdhesionLaw, Control, Criterion, Grid, MaugisDugdale, NoAdhesion, Problem, Report, Result, Settings, Solver,
+    Status, Surface, Westergaard,
 };
 use clap::Parser;
 use common::arguments;
@@ -15,48 +17,58 @@ struct Arguments {
     /// The largest grid, in nodes along a side
     #[arg(default_value_t = 512, value_parser = arguments::nodes::<128>)]
     largest: usize,
+    /// The largest grid of Algorithm 3, whose applications grow with the grid
+    #[arg(long, value_name = "N", default_value_t = 512)]
+    algorithm_3: usize,
 }
 
 fn main() -> Result<()> {
-    let Arguments { largest } = arguments::read(include_str!("counts.rs"));
+    let Arguments { largest, algorithm_3 } = arguments::read(include_str!("counts.rs"));
     println!("Applications of the operator until the certified error is below 1e-6 (default), and until");
-    println!("the paper's eps is below 1e-9 (Algorithm 3), with the one that constructs the problem.\n");
-    println!("{:<37} {:>5} {:>8} {:>11} {:>9}  contact nodes", "case", "n", "default", "Algorithm 3", "ratio");
-    for n in [128, 256, 512, 1024, 2048].into_iter().filter(|&n| n <= largest) {
+    println!("the paper's eps is below 1e-9 (Algorithm 3), with the one that constructs the problem.");
+    let sizes: Vec<_> = [128, 256, 512, 1024, 2048].into_iter().filter(|&n| n <= largest).collect();
+    let mut counts: BTreeMap<_, String> = BTreeMap::new();
+    for &n in &sizes {
+        println!("\n| {n}² | default | Algorithm 3 | ratio | contact nodes |\n|---|---|---|---|---|");
+        let mut compare = |name: &'static str, surface: &Surface, law: &dyn AdhesionLaw<f64>, control| {
+            let mut problem = Problem::new(surface, Westergaard::new(*surface.grid(), 1.0)?, law)?;
+            let ours = Solver::default().solve(&mut problem, control)?.report;
+            let (mut theirs, mut ratio, mut nodes) = Default::default();
+            if n <= algorithm_3 {
+                let settings = Settings::rey2017().criterion(Criterion::Complementarity).max_iterations(5000);
+                let report = Solver::new(settings).solve(&mut problem, control)?.report;
+                (theirs, ratio) = (count(&report), format!("{:.1}", applications(&report) / applications(&ours)));
+                nodes = format!(" / {}", report.contact_nodes);
+            }
+            println!("| {name} | {} | {theirs} | {ratio} | {}{nodes} |", count(&ours), ours.contact_nodes);
+            *counts.entry(name).or_default() += &format!(" {} |", count(&ours));
+            Result::Ok(ours.mean_gap)
+        };
         let grid = Grid::square(n, 1.0)?;
         let sphere = Surface::paraboloid(grid, 2.0)?;
-        compare("Hertz, mean gap 0.0398", &sphere, NoAdhesion, Control::MeanGap(0.0398))?;
+        compare("Hertz, mean gap", &sphere, &NoAdhesion, Control::MeanGap(0.0398))?;
         let law = MaugisDugdale::new(1e-4, 2e-3)?;
-        compare("Maugis-Dugdale, mean gap 0.0429", &sphere, law, Control::MeanGap(0.0429))?;
+        compare("Maugis–Dugdale, mean gap", &sphere, &law, Control::MeanGap(0.0429))?;
         let surface = rough(grid, if n < 256 { 63 } else { 64 }, 1);
-        for (share, pressure) in [(3, 0.0125), (40, 0.205)] {
-            let name = format!("rough, {share} % contact, mean pressure");
-            let gap = compare(&name, &surface, NoAdhesion, Control::MeanPressure(pressure))?;
-            let name = format!("rough, {share} % contact, mean gap");
-            compare(&name, &surface, NoAdhesion, Control::MeanGap(gap))?;
+        for (by_pressure, by_gap, pressure) in [
+            ("rough, 3 % contact, mean pressure", "rough, 3 % contact, mean gap", 0.0125),
+            ("rough, 40 % contact, mean pressure", "rough, 40 % contact, mean gap", 0.205),
+        ] {
+            let gap = compare(by_pressure, &surface, &NoAdhesion, Control::MeanPressure(pressure))?;
+            compare(by_gap, &surface, &NoAdhesion, Control::MeanGap(gap))?;
         }
     }
+    println!("\n| default |{}", sizes.iter().map(|n| format!(" {n}² |")).collect::<String>());
+    println!("|---|{}", "---|".repeat(sizes.len()));
+    counts.iter().for_each(|(name, row)| println!("| {name} |{row}"));
     Ok(())
 }
 
-/// Prints the counts of both methods, and returns the mean gap.
-fn compare<L: AdhesionLaw<f64>>(name: &str, surface: &Surface, law: L, control: Control) -> Result<f64> {
-    let grid = *surface.grid();
-    let mut problem = Problem::new(surface, Westergaard::new(grid, 1.0)?, law)?;
-    let default = Solver::default().solve(&mut problem, control)?.report;
-    let paper = Solver::new(Settings::rey2017().criterion(Criterion::Complementarity).max_iterations(5000))
-        .solve(&mut problem, control)?
-        .report;
-    let (ours, theirs) = (default.operator_applications + 1, paper.operator_applications + 1);
-    let ended = |status: asperity::Status| if status == asperity::Status::Converged { "" } else { "!" };
-    println!(
-        "{name:<37} {:>5} {:>8} {:>11} {:>9.1}  {} / {}",
-        grid.shape().0,
-        format!("{ours}{}", ended(default.status)),
-        format!("{theirs}{}", ended(paper.status)),
-        theirs as f64 / ours as f64,
-        default.contact_nodes,
-        paper.contact_nodes,
-    );
-    Ok(default.mean_gap)
+fn applications(report: &Report) -> f64 {
+    (report.operator_applications + 1) as f64
+}
+
+/// The applications of a solve, with a mark if it has not converged.
+fn count(report: &Report) -> String {
+    format!("{}{}", applications(report), if report.status == Status::Converged { "" } else { "!" })
 }

@@ -213,7 +213,7 @@ fn rough(size: usize, path: &File) -> Outcome<()> {
             found.dissipated / work,
             found.says()
         );
-        curves.push((format!("w = {work:e}, ρ = {range:e}"), colour, true, found.withdrawal.clone()));
+        curves.push((format!("w = {work:e} E*L, ρ = {range:e} L"), colour, true, found.withdrawal.clone()));
         curves.push((String::new(), light(colour), true, found.approach));
     }
     let title = format!("Rough surface, exponential law, {size}²: withdrawal dark, approach light");

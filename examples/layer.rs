@@ -2,9 +2,9 @@
 //!
 //! `cargo run --release -p asperity-examples --example layer`. It takes a second.
 //!
-//! Each line ends with the ratio to the limit of the layer: where it is thick Hertz, and where it is thin springs of
-//! stiffness M/t (bonded) or E*/t (sliding), or, if it is incompressible, the flow of the material
-//! sideways through a narrow gap. Johnson, *Contact Mechanics* (1985), section 5.8.
+//! The peak pressure is that over the limit of a thick layer, Hertz, and that over the limit of a thin one: springs of
+//! stiffness M/t (bonded) or E*/t (sliding), or for an incompressible layer the flow of the material sideways through
+//! a narrow gap. Johnson, *Contact Mechanics* (1985), section 5.8.
 
 use std::f64::consts::PI;
 
@@ -26,8 +26,10 @@ struct Arguments {
 
 fn main() -> Result<()> {
     let Arguments { size } = arguments::read(include_str!("layer.rs"));
-    println!("peak pressure under a sphere of radius {RADIUS} L pressed with {LOAD} E*L², and its ratio to the limits");
-    println!("{:>18} {:>7} {:>10} {:>8} {:>8} {:>7}", "layer", "t/L", "p₀/E*", "thick", "thin", "applic.");
+    println!("peak pressure under a sphere of radius {RADIUS} L pressed with {LOAD} E*L², over that of the limits\n");
+    let kinds = ["bonded, ν = 0.3", "bonded, ν = ½", "sliding"];
+    println!("| t/L |{} applications |", kinds.map(|kind| format!(" {kind}, thick | {kind}, thin |")).concat());
+    println!("|---|{}", "---|".repeat(2 * kinds.len() + 1));
     for thickness in [2.0, 0.3, 0.1, 0.03, 0.01] {
         // p = (M/t)(a² − r²)/2R
         let springs = |stiffness: f64| 2.0 * LOAD / PI / (4.0 * LOAD * RADIUS / (PI * stiffness)).sqrt();
@@ -37,15 +39,25 @@ fn main() -> Result<()> {
             3.0 * LOAD / (PI * a6.cbrt())
         };
         let (steel, rubber) = (Material::new(MODULUS, 0.3)?, Material::new(MODULUS, 0.5)?);
-        let foundation = springs(steel.confined_modulus() / thickness);
-        press(size, "bonded, ν = 0.3", thickness, Layer::new(steel, thickness, Base::Bonded)?, foundation)?;
-        press(size, "bonded, ν = 0.5", thickness, Layer::new(rubber, thickness, Base::Bonded)?, flow(thickness))?;
-        press(size, "sliding", thickness, Layer::new(steel, thickness, Base::Sliding)?, springs(MODULUS / thickness))?;
+        let pressed = [
+            (Layer::new(steel, thickness, Base::Bonded)?, springs(steel.confined_modulus() / thickness)),
+            (Layer::new(rubber, thickness, Base::Bonded)?, flow(thickness)),
+            (Layer::new(steel, thickness, Base::Sliding)?, springs(MODULUS / thickness)),
+        ]
+        .map(|(layer, thin)| press(size, layer, thin));
+        let (mut ratios, mut applications) = (String::new(), Vec::new());
+        for found in pressed {
+            let (thick, thin, taken) = found?;
+            ratios += &format!(" {thick:.3} | {thin:.3} |");
+            applications.push(taken.to_string());
+        }
+        println!("| {thickness} |{ratios} {} |", applications.join(", "));
     }
     Ok(())
 }
 
-fn press(size: usize, name: &str, thickness: f64, layer: Layer, thin: f64) -> Result<()> {
+/// The peak pressure over those of the thick and the thin limit, and the operator applications of the solve.
+fn press(size: usize, layer: Layer, thin: f64) -> Result<(f64, f64, usize)> {
     let grid = Grid::square(size, 1.0)?;
     let layer = Spectral::<f64>::of(grid, layer)?;
     let mut problem = Problem::new(&Surface::paraboloid(grid, RADIUS)?, layer, NoAdhesion)?;
@@ -53,7 +65,5 @@ fn press(size: usize, name: &str, thickness: f64, layer: Layer, thin: f64) -> Re
     assert_eq!(solution.report.status, Status::Converged);
     let peak = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
     let hertz = (6.0 * LOAD * MODULUS.powi(2) / (PI.powi(3) * RADIUS.powi(2))).cbrt();
-    let applications = solution.report.operator_applications;
-    println!("{name:>18} {thickness:>7} {peak:>10.5} {:>8.3} {:>8.3} {applications:>7}", peak / hertz, peak / thin);
-    Ok(())
+    Ok((peak / hertz, peak / thin, solution.report.operator_applications))
 }

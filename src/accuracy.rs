@@ -1,4 +1,4 @@
-//! The accuracy that is wanted: how wrong the grid is, and a solve that refines it until it is right enough.
+//! The accuracy of a solve: the error of the grid, and a solve that refines the grid until this error is small enough.
 //!
 //! [`GridError`] estimates the error of the grid, beside that of the solver; [`Accuracy`] chooses grid and tolerance.
 

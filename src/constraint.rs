@@ -60,7 +60,7 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     /// length. Where processes share the grid, this one has the rows [`Grid::rows`].
     ///
     /// # Errors
-    /// Whatever cannot be used on that grid.
+    /// The reason, if the constraint cannot be used on that grid.
     fn start(&mut self, _grid: &Grid, _stiffest: f64, _tolerance: f64) -> Result<()> {
         Ok(())
     }

@@ -124,7 +124,7 @@ pub enum Boundary {
     /// The body and the surface repeat: the surface is on the operator's grid.
     #[default]
     Periodic,
-    /// Nothing repeats: the surface is on the first nodes of the operator's grid along both axes, and nothing faces the
+    /// A free boundary: the surface is on the first nodes of the operator's grid along both axes, and nothing faces the
     /// body on the others.
     Free {
         /// The grid of the surface, with the spacing of the operator's.

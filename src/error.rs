@@ -54,7 +54,8 @@ pub enum Error {
         /// The value at that node.
         value: f64,
     },
-    /// A function of an adhesion law or of springs that is not finite, or not the derivative of the one before it.
+    /// A function of an adhesion law or of springs that is not finite, or differs from the derivative of the function
+    /// before it.
     Law {
         /// The function.
         function: &'static str,
@@ -65,7 +66,7 @@ pub enum Error {
         /// The value that agrees with the function before; none if `value` is not finite.
         expected: Option<f64>,
     },
-    /// An adhesion law that is not [concave](crate::adhesion::Hints::concave), as it says: its traction rises.
+    /// An adhesion law whose traction rises, although it is declared as [concave](crate::adhesion::Hints::concave).
     Concave {
         /// The gap before which the traction rises.
         gap: f64,
@@ -113,12 +114,11 @@ pub enum Error {
         /// finite in the precision of the fields.
         opposite: Option<f64>,
     },
-    /// An error of a function that is not the library's, as of a body of one's own; it is the
-    /// [source](StdError::source).
+    /// An error of a user's function, for example of a body; it is the [source](StdError::source).
     Raised(Cause),
-    /// A control, or what is solved for under it, that the problem does not have.
+    /// A control, or a quantity that is solved for under it, that the problem does not have.
     Control {
-        /// The [`Control::name`](crate::Control::name), or the name of what else was asked for.
+        /// The [`Control::name`](crate::Control::name), or the name of the quantity.
         control: &'static str,
         /// The reason, and a remedy.
         reason: &'static str,
@@ -130,7 +130,7 @@ pub enum Error {
         /// The reason, and a remedy.
         reason: &'static str,
     },
-    /// An accuracy that takes a grid that does not fit into memory.
+    /// An accuracy whose grid does not fit into memory.
     Unaffordable {
         /// The [`Quantity::name`](crate::accuracy::Quantity::name).
         quantity: &'static str,
@@ -140,14 +140,14 @@ pub enum Error {
         shape: (usize, usize),
         /// The memory that the grid takes, in bytes.
         bytes: f64,
-        /// The memory that there is, in bytes.
+        /// The available memory, in bytes.
         available: f64,
         /// The accuracy that the finest affordable grid is likely to reach; infinite without resolved adhesion.
         affordable: f64,
     },
-    /// Memory that the process does not get.
+    /// Memory that is not available.
     Memory {
-        /// What takes it, with its number of nodes or its file.
+        /// The object that needs the memory, with its number of nodes or its file.
         what: String,
         /// The memory that it takes, in bytes.
         bytes: f64,
@@ -161,9 +161,9 @@ pub enum Error {
         /// The grid's shape, `(Nx, Ny)`.
         shape: (usize, usize),
     },
-    /// A grid that several processes share, where that is not implemented.
+    /// A grid that several processes share, for a quantity or a solve without an implementation for it.
     Shared {
-        /// The quantity, the solve, or the part of it, that was asked for.
+        /// The quantity, the solve, or the part of a solve.
         what: &'static str,
         /// The reason, and a remedy.
         reason: &'static str,
@@ -206,13 +206,13 @@ pub enum ErrorKind {
     NotFinite,
     /// An adhesion law or springs whose functions contradict one another.
     Law,
-    /// An elastic operator without a property of its contract, or a function that it is made of.
+    /// An elastic operator that lacks a property of its contract, or an error of a function of its body.
     Operator,
     /// A control that the problem does not have.
     Control,
     /// A wall that does not fit the law.
     Wall,
-    /// Memory that there is not.
+    /// Memory that is not available.
     Memory,
     /// A grid that is too coarse for a surface.
     Resolution,
@@ -260,7 +260,7 @@ impl Error {
         Self::File { path: path.to_owned(), reason, cause: Some(Cause(Arc::new(cause))) }
     }
 
-    /// An error of a function that is not the library's, as the [source](StdError::source).
+    /// An error of a user's function, as the [source](StdError::source).
     pub fn raised(cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::Raised(Cause(Arc::new(cause)))
     }

@@ -1,4 +1,4 @@
-//! Exact solutions: what a solve should come to.
+//! Exact solutions, to compare solves with.
 //!
 //! | contact | solution | adhesion |
 //! |---|---|---|

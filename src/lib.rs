@@ -1,16 +1,16 @@
 //! How rough surfaces touch and stick: frictionless normal contact of an elastic half-space with a rigid rough
 //! surface, with adhesion, by an FFT-based boundary element method.
 //!
-//! A half-space, periodic or free, with normal displacement u faces a rigid surface of heights h. The gap g = u − h ≥ 0
-//! at equilibrium minimises the energy per area
+//! A half-space, periodic or free, with normal displacement u faces a rigid surface of heights h. At equilibrium the gap
+//! g = u − h ≥ 0 minimises the energy per area
 //!
 //! ```math
 //! e(g) = ½ ⟨u, K⁻¹u⟩ + ⟨φ(g)⟩ ,   u = g + h ,   K⁻¹u = ½ E* |q| û  for each wave q ,
 //! ```
 //!
-//! with ⟨·⟩ the mean over the surface, E* the contact modulus and φ(g) ≤ 0 the adhesive energy, either at a given mean
-//! gap or at a given mean pressure p̄, of which the work p̄⟨g⟩ is added. With p = K⁻¹u the elastic pressure, the
-//! contact pressure λ = p + p̄ + φ'(g) is the multiplier of g ≥ 0:
+//! with ⟨·⟩ the mean over the surface, E* the contact modulus and φ(g) ≤ 0 the adhesive energy. The mean gap is given, or
+//! the mean pressure p̄, whose work p̄⟨g⟩ is then added. With p = K⁻¹u the elastic pressure, the contact pressure
+//! λ = p + p̄ + φ'(g) is the multiplier of g ≥ 0:
 //!
 //! ```math
 //! λ ≥ 0 ,   g ≥ 0 ,   λ g = 0 .
@@ -46,7 +46,7 @@
 //!
 //! # Conventions
 //!
-//! Any consistent units will do; results are in the same ones. Fields are [`ndarray`] arrays of shape (Nx, Ny).
+//! Input is in any consistent units, and results are in the same units. Fields are [`ndarray`] arrays of shape (Nx, Ny).
 //! Compression is positive. The report has two mean pressures: the external one p̄, and the mean contact pressure ⟨λ⟩ =
 //! p̄ + ⟨φ'⟩. Everything is generic over `f32` and `f64`; sums accumulate in `f64`.
 //!
@@ -63,7 +63,8 @@
 //! - Before it: the crate `asperity-maps` reads files of instruments, makes a [`Surface`] of a measured map with missing
 //!   points, tilt, and edges that do not meet, and names probable mistakes in heights, adhesion and a solution.
 //! - Many loads: [`Sweep`] solves under a sequence of loads, each from the last solutions. [`ContactSearch`] finds the
-//!   load of a contact fraction, and [`PullOff`] the greatest tension that surfaces bear. [`path`] follows a branch of equilibria with adhesion and locates its jumps.
+//!   load of a contact fraction, and [`PullOff`] the greatest tension that surfaces bear. [`path`] follows a branch of
+//!   equilibria with adhesion and locates its jumps.
 //! - Many grids: [`Nested`] solves on coarser grids first, and [`accuracy`] estimates and reduces the error of the grid.
 //! - After it: [`contact`] has areas, clusters and pressures of the contact, and [`stability`] tells whether an
 //!   equilibrium is stable.
@@ -79,7 +80,7 @@
 //! | `serde` | settings, reports, statistics and controls as data, with the names of the reports |
 //!
 //! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
-#![doc = include_str!("equations.html")]
+#![doc = include_str!("pages.html")]
 
 pub mod accuracy;
 pub mod adhesion;

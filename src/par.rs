@@ -4,10 +4,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use ndarray::{ArrayView2, ArrayViewMut2, Axis};
 
-/// The pieces that a loop is divided into for each worker, so that one that comes late has less to do.
+/// The pieces of a loop for each worker. There are several, so that a worker that starts late gets fewer of them.
 const PIECES: usize = 8;
 
-/// The nodes that a worker takes at once, at least: fewer are done sooner than another worker hears of them.
+/// The least number of nodes that a worker takes at once. Fewer nodes take less time than waking another worker.
 const WORTH: usize = 4096;
 
 /// One workspace per worker, made once: the hot loop never allocates.
@@ -255,7 +255,7 @@ fn most<P: Parts>(parts: &P) -> usize {
     }
 }
 
-/// Runs `f` on the parts, the first of which has the index `first`: one after the other if there are not too many.
+/// Runs `f` on the parts, the first of which has the index `first`. A few parts run one after the other.
 fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(impl Fn(usize, P::Part) + Sync)) {
     let count = parts.count();
     if count > most {
@@ -281,13 +281,14 @@ fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(impl Fn(usize, 
     }
 }
 
-/// Runs work of many loops on one of the workers, where each loop starts at once; another thread has to wake a worker.
+/// Runs work of many loops on one of the workers, where each loop starts at once. From another thread each loop would
+/// have to wake a worker first.
 #[cfg(feature = "parallel")]
 pub(crate) fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     rayon::scope(|_| work())
 }
 
-/// Runs both, side by side if a worker is idle. Rayon's part is compiled once, as the types of the closures end here.
+/// Runs both, side by side if a worker is idle. Rayon's part is compiled once, since it sees no types of closures.
 #[cfg(feature = "parallel")]
 #[inline(never)]
 fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {

@@ -1,4 +1,4 @@
-//! The slab of a grid that a process holds: consecutive rows of nodes, all of them where one process is alone.
+//! The slab of a grid that a process holds: consecutive rows of nodes. A single process holds all rows.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -8,22 +8,25 @@ use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayView2, CowArray, Ix2};
 use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Sent, Shares};
 
-/// The nodes of a chunk, summed one by one: rounding of sums of sums grows with the length of a run, not of the field.
+/// The nodes of a chunk, which are summed one by one. The rounding of a sum of such sums grows with the length of a
+/// chunk, and not with that of the field.
 pub(crate) const CHUNK: usize = 256;
 
 /// Rows that are transformed together.
 pub(crate) const TILE: usize = 32;
 
-/// The memory that any program may take, in bytes: 64 MiB. Less is not asked for first.
+/// The memory below which no request is made before an allocation, in bytes: 64 MiB.
 pub(crate) const SMALL: f64 = 67_108_864.0;
 
-/// The nodes of a band at least, and the most bands of a grid.
+/// The least number of nodes of a band, and the largest number of bands of a grid.
 const BAND: usize = CHUNK * CHUNK;
 const BANDS: usize = 1024;
 
-/// The slab of a grid that this process holds, and those of the others: whole bands, or none.
-/// A band is rows of whole tiles of the transform and whole chunks of the sums, whatever the number of processes. Sums
-/// go band by band, in their order: so they are the same, bit for bit, however the bands are shared.
+/// The slab of a grid that this process holds, and the slabs of the others. A slab consists of whole bands, or is empty.
+///
+/// A band consists of whole tiles of the transform and whole chunks of the sums. It does not depend on the number of
+/// processes. Sums go band by band, in the order of the bands. They are therefore the same, bit for bit, for any
+/// distribution of the bands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slab {
     /// of the whole grid
@@ -60,7 +63,7 @@ impl Slab {
         Self::of_window(shape, shape.1, ranks)
     }
 
-    /// The slab of a grid with a window of this width, of which bands are whole chunks, too.
+    /// The slab of a grid with a window of this width. Its bands are whole chunks of the window as well.
     fn of_window(shape: (usize, usize), width: usize, ranks: Ranks) -> Self {
         let (nx, ny) = shape;
         let band = if ny < 2 {
@@ -79,17 +82,17 @@ impl Slab {
         Self::new(shape, Ranks::ALONE)
     }
 
-    /// The slab of this process of another grid.
+    /// The slab of another grid that this process holds.
     pub(crate) fn of(&self, shape: (usize, usize)) -> Self {
         Self::new(shape, self.ranks)
     }
 
-    /// The slab of this process of a larger grid, of which this one is to be a [`window`](Self::window).
+    /// The slab of a larger grid that this process holds, for which this grid is a [`window`](Self::window).
     pub(crate) fn around(&self, shape: (usize, usize)) -> Self {
         Self::of_window(shape, self.shape.1, self.ranks)
     }
 
-    /// The slab of a window on the first nodes along both sides, which has the rows of this one.
+    /// The slab of a window on the first nodes along both sides, with the rows of this slab.
     pub(crate) fn window(&self, shape: (usize, usize)) -> Self {
         Self { shape, ..*self }
     }
@@ -110,8 +113,8 @@ impl Slab {
         self.ranks.count() > 1
     }
 
-    /// The result of this process; where one before it has an error, or it has none itself and another has, an error
-    /// that names that one. All processes have to call it.
+    /// The result of this process, or an error that names another process. The latter is returned if a process of a
+    /// smaller number has an error, or if this process has none and another one has. All processes have to call it.
     pub(crate) fn agreed<T>(&self, result: Result<T>) -> Result<T> {
         if !self.is_shared() {
             return result;
@@ -129,8 +132,8 @@ impl Slab {
         if self.is_shared() { Err(Error::Shared { what, reason }) } else { Ok(()) }
     }
 
-    /// Refuses what takes more memory than this process gets for its rows. It is asked for as a whole and given back,
-    /// before an allocation of a part fails and ends the process.
+    /// Refuses a solve that takes more memory than this process gets for its rows. The memory is requested as a whole and
+    /// given back, since a failed allocation of a part would end the process.
     pub(crate) fn afford(&self, what: &str, bytes_per_node: usize) -> Result<()> {
         let ((nx, ny), (rows, _)) = (self.shape, self.held());
         let bytes = rows as f64 * ny as f64 * bytes_per_node as f64;
@@ -157,7 +160,7 @@ impl Slab {
         (0..self.ranks.count()).map(|rank| self.rows_of(rank).len()).max().unwrap_or_default()
     }
 
-    /// The share of `count` things, as the columns of a spectrum, that a process has: as large as that of the bands.
+    /// The share of a process of `count` objects, such as the columns of a spectrum, in proportion to its bands.
     pub(crate) fn share_of(&self, count: usize, rank: usize) -> Range<usize> {
         let (Range { start, end }, bands) = (self.bands_of(rank), self.bands());
         count * start / bands..count * end / bands
@@ -168,7 +171,7 @@ impl Slab {
         self.rows().start * self.shape.1
     }
 
-    /// The rows of a field that the rows of another slab need, by `needs` for each row. All processes have to ask.
+    /// The rows of a field that the rows of another slab need, by `needs` for each row. All processes have to call it.
     pub(crate) fn rows_for<'a, A: Sent, I: IntoIterator<Item = usize>>(
         &self,
         held: impl Into<CowArray<'a, A, Ix2>>,
@@ -192,7 +195,7 @@ impl Slab {
         Rows { held, first, others: needed.swap_remove(self.ranks.rank()), fetched }
     }
 
-    /// Rows of a field, of which `held` are those of this slab: those `wanted` of each process, none of its own.
+    /// The rows of a field that are `wanted` of each process, none of its own; `held` are the rows of this slab.
     fn fetch<A: Sent>(&self, held: ArrayView2<'_, A>, wanted: &[Vec<usize>]) -> Array2<A> {
         let (own, ranks) = (self.ranks.rank(), 0..self.ranks.count());
         // the rows of one process that another needs, in the order in which it needs them
@@ -216,7 +219,7 @@ impl Slab {
         rows
     }
 
-    /// A field in the rows of another slab of the same grid. All processes have to ask.
+    /// A field in the rows of another slab of the same grid. All processes have to call it.
     pub(crate) fn moved<'a, A: Sent>(&self, field: CowArray<'a, A, Ix2>, to: &Self) -> CowArray<'a, A, Ix2> {
         if !self.is_shared() || self == to {
             return field;
@@ -227,7 +230,7 @@ impl Slab {
         Array2::from_shape_vec((to.rows().len(), width), moved).unwrap_or_default().into()
     }
 
-    /// The field of all slabs, of which `held` is that of this one, on every process, or on the first alone.
+    /// The field of all slabs, on every process or on the first one alone; `held` is the field of this slab.
     pub(crate) fn whole_of<A: Sent>(&self, held: &ArrayRef2<A>, everywhere: bool) -> Option<Array2<A>> {
         let (own, ny) = (self.ranks.rank(), self.shape.1);
         let gets = everywhere || own == 0;
@@ -279,7 +282,7 @@ impl Slab {
         }
     }
 
-    /// Whether something is so in one of the slabs.
+    /// Whether a condition holds in at least one of the slabs.
     pub(crate) fn has(&self, own: bool) -> bool {
         if self.is_shared() { self.ranks.each(u8::from(own)).contains(&1) } else { own }
     }
@@ -289,7 +292,7 @@ impl Slab {
         (rank * bands).div_ceil(count)..((rank + 1) * bands).div_ceil(count)
     }
 
-    /// The number of bands that the processes share: those of the grid, or of the one on which it is a window.
+    /// The number of bands that the processes share: the bands of the grid, or for a window those of the larger grid.
     pub(crate) fn bands(&self) -> usize {
         self.bands
     }
@@ -302,7 +305,7 @@ impl Slab {
         self.shares(|rank| width * self.bands_of(rank).len())
     }
 
-    /// The parts of a buffer, of which a rank has so many numbers.
+    /// The parts of a buffer, one for each rank, by their lengths.
     pub(crate) fn shares(&self, of: impl Fn(usize) -> usize) -> Shares {
         Shares::new((0..self.ranks.count()).map(of))
     }

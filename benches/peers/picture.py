@@ -2,38 +2,57 @@
 """Draws the time of a solve to a certified 1e-6 against the nodes, from the tables of the README beside this file.
 
     benches/peers/picture.py [OUT.png]        (default: examples/pictures/peers.png; needs matplotlib)
+    benches/peers/picture.py --table          prints the time of the other programs over that of asperity
 """
 
 import re
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
 HERE = Path(__file__).resolve().parent
-ROW = re.compile(r"\| (\d+)² \| f64 \| (\w+) \| certified 1e-6 \| ([\d.e+-]+) s [^|]*\| ([\d.e+-]+) s ")
+ROW = re.compile(
+    r"\| (\d+)² \| (f64|force|approach) \| (\w+) \| certified 1e-6 "
+    r"\| ([\d.e+-]+) s [^|]*\| ([\d.e+-]+) s [^|]*\| \*\*([\d.]+)\*\*"
+)
 
 
-def lines(text):
-    """Of each kind of contact, in the order of the tables: the line of each program, as {nodes: seconds}."""
-    kinds = {}
-    for part in text.split("### ")[1:]:
-        programs = {}
-        for side, peer, ours, theirs in ROW.findall(part):
-            nodes = int(side) ** 2
-            programs.setdefault("asperity", {}).setdefault(nodes, float(ours))
-            programs.setdefault(peer, {})[nodes] = float(theirs)
-        if programs:
-            kinds[part.split(",")[0]] = programs
-    return kinds
+def rows(text):
+    """Of each kind of contact, in the order of the tables, the rows to a certified 1e-6."""
+    parts = ((part.split(",")[0], ROW.findall(part)) for part in text.split("### ")[1:])
+    return {kind: found for kind, found in parts if found}
 
 
-def main():
-    out = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE.parent.parent / "examples/pictures/peers.png"
-    kinds = lines((HERE / "README.md").read_text())
+def table(kinds):
+    """The time of the other programs over that of asperity, in Markdown."""
+    ratios = {}
+    for kind, found in kinds.items():
+        for side, given, peer, _, _, ratio in found:
+            name = f"{peer}, {kind.lower()}" + ("" if given == "f64" else f", given {given}")
+            ratios.setdefault(name, {})[int(side)] = f"{float(ratio):.{1 if float(ratio) < 10 else 0}f}"
+    sides = sorted({side for row in ratios.values() for side in row})
+    yield f"| program and problem | {' | '.join(f'{side}²' for side in sides)} |"
+    yield "|---" * (len(sides) + 1) + "|"
+    for name, row in ratios.items():
+        yield f"| {name} | {' | '.join(row.get(side, '') for side in sides)} |"
+
+
+def lines(found):
+    """Of each program of a kind of contact its line, as {nodes: seconds}."""
+    programs = {}
+    for side, given, peer, ours, theirs, _ in found:
+        if given == "f64":
+            programs.setdefault("asperity", {}).setdefault(int(side) ** 2, float(ours))
+            programs.setdefault(peer, {})[int(side) ** 2] = float(theirs)
+    return programs
+
+
+def draw(kinds, out):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    kinds = {kind: programs for kind, found in kinds.items() if (programs := lines(found))}
     colours = {"asperity": "#0a288c", "aspher": "#c81e14", "Tamaas": "#3c3c3c"}
     figure, axes = plt.subplots(1, len(kinds), figsize=(4.2 * len(kinds), 3.6), sharey=True, squeeze=False)
     for axis, (kind, programs) in zip(axes[0], kinds.items()):
@@ -51,6 +70,15 @@ def main():
     axes[0][0].set_ylabel("seconds, one thread, to 1e-6")
     figure.tight_layout()
     figure.savefig(out, dpi=110)
+
+
+def main():
+    kinds = rows((HERE / "README.md").read_text())
+    out = sys.argv[1] if len(sys.argv) > 1 else HERE.parent.parent / "examples/pictures/peers.png"
+    if out == "--table":
+        print(*table(kinds), sep="\n")
+    else:
+        draw(kinds, out)
 
 
 if __name__ == "__main__":

@@ -60,15 +60,15 @@ pub fn chart(n: usize) -> Outcome<Chart> {
         }
         light.retain(|point| point.1 > 0.7);
         series.push(Series { name: format!("h' = {slope}"), colour, style: Style::Dots, points });
-        series.push(Series { name: String::new(), colour, style: Style::Thin, points: light });
+        series.push(Series { name: format!("one asperity, h' = {slope}"), colour, style: Style::Thin, points: light });
     }
     let ratio = (range.1 / range.0).powf(0.01);
     let points = (0..=100).map(|i| range.0 * ratio.powi(i)).map(|x| (x, formula(x))).collect();
     let name = "Pastewka and Robbins".to_owned();
     series.push(Series { name, colour: BLACK, style: Style::Thin, points });
     Ok(Chart {
-        title: format!("Rough sphere, {n}²: one asperity, linear, Hertz"),
-        axes: ["F / (A₀ p_rms)", "A p_rms / F"],
+        title: format!("Rough sphere, {n}²: contact area over force"),
+        axes: ["F / (A₀ pᵣₘₛ)", "A pᵣₘₛ / F"],
         logarithmic: true,
         labels: SeriesLabelPosition::LowerLeft,
         series,

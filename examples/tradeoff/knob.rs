@@ -1,6 +1,5 @@
 //! The knob: the error that is asked for, the estimated and the true one, and the work, over many rough scenes.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use asperity::accuracy::{Accuracy, GridError, Quantity};
@@ -265,9 +264,10 @@ fn knob(scenes: &[Scene], truths: &[Found], quick: bool, out: &Path) -> Outcome<
         "that is one for all scenes and right in nine of ten; work is operator applications times nodes, in millions"
     );
     println!(
-        "{:>8} {:>8} {:>6} {:>12} {:>12} {:>9} | {:>22} {:>6} {:>9} {:>6}",
-        "wanted", "reached", "hits", "true median", "true 90 %", "work", "by hand", "hits", "work", "ratio"
+        "\n| asked for | reached | right | true error: median | nine in ten | work | grid by hand | tolerance | right by hand \
+         | work by hand | work over by hand |"
     );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
     let mut points = Vec::new();
     for target in TARGETS.into_iter().take(if quick { 1 } else { TARGETS.len() }) {
         let (mut errors, mut taken, mut reached) = (Vec::new(), Vec::new(), 0);
@@ -292,35 +292,25 @@ fn knob(scenes: &[Scene], truths: &[Found], quick: bool, out: &Path) -> Outcome<
         let cost = |found: &[(f64, f64)]| found.iter().map(|(work, _)| work).sum::<f64>() / found.len() as f64;
         let good = by_hand.iter().filter(|(_, _, found)| of(found) >= 90.0);
         let best = good.min_by(|a, b| cost(&a.2).total_cmp(&cost(&b.2)));
-        let mut line = String::new();
         let mut sorted = errors.clone();
         sorted.sort_by(f64::total_cmp);
         let at_90 = sorted.get(sorted.len() * 9 / 10).copied().unwrap_or(f64::NAN);
         let knob = mean(&taken);
-        write!(
-            line,
-            "{target:>8} {:>7}% {hits:>5.0}% {:>11.2}% {:>11.2}% {:>9.1} | ",
+        let hand = best.map_or("a finer grid | | | |".to_owned(), |(n, tolerance, found)| {
+            let hand = cost(found);
+            format!("{n}² | {tolerance:.0e} | {:.0} % | {hand:.1} | {:.1}", of(found), knob / hand)
+        });
+        println!(
+            "| {} % | {} % | {hits:.0} % | {:.2} % | {:.2} % | {knob:.1} | {hand} |",
+            100.0 * target,
             100 * reached / scenes.len(),
             100.0 * median(errors),
             100.0 * at_90,
-            knob
-        )?;
-        match best {
-            Some((n, tolerance, found)) => write!(
-                line,
-                "{:>22} {:>5.0}% {:>9.1} {:>6.2}",
-                format!("{n}², tolerance {tolerance:.0e}"),
-                of(found),
-                cost(found),
-                knob / cost(found)
-            )?,
-            None => write!(line, "{:>22}", "a finer grid")?,
-        }
-        println!("{line}");
+        );
     }
     let path = out.join("tradeoff-knob.svg");
     draw(&path, &points)?;
-    println!("drawn in {}", path.display());
+    println!("\ndrawn in {}", path.display());
     Ok(())
 }
 

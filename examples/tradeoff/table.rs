@@ -16,26 +16,23 @@ fn percent(error: f64) -> String {
 
 /// The discretisation error of each grid.
 pub fn discretisation(scene: &Scene, grids: &[OnGrid]) {
-    println!("\nDiscretisation error in %: what is converged on the grid, against the truth");
     println!(
-        "{:>6} {:>10} {:>6} | {:>9} {:>13} | {:>9} {:>9} {:>14} {:>14}",
-        "nodes",
-        "per length",
-        "μ_ρ",
-        "energy",
+        "\nDiscretisation error: the solution converged on the grid against the truth, the displacement in the energy norm"
+    );
+    println!(
+        "\n| nodes in the {} | nodes | μ_ρ | displacement, % | {}, % | nodes in contact, % | corrected area, % \
+         | 2A(n) − A(n/2), % | the same, corrected, % |\n|{}",
+        scene.length_name,
         scene.answer_name(),
-        "counted",
-        "corrected",
-        "2A(n)-A(n/2)",
-        "the same, corr."
+        "---|".repeat(9)
     );
     for grid in grids {
         let e = &grid.discretisation;
         let [plain, corrected] = grid.extrapolated.map_or([const { String::new() }; 2], |both| both.map(percent));
         println!(
-            "{:>6} {:>10.1} {:>6.2} | {:>9} {:>13} | {:>9} {:>9} {plain:>14} {corrected:>14}",
+            "| {} | {} | {:.2} | {} | {} | {} | {} | {plain} | {corrected} |",
+            (10.0 * grid.n as f64 * scene.length).round() / 10.0,
             grid.n,
-            grid.n as f64 * scene.length,
             scene.resolution(grid.n),
             percent(e.energy),
             percent(e.answer),

@@ -69,7 +69,7 @@ impl<'py> Functions<'py> {
     /// A function at many gaps, in one call.
     ///
     /// # Errors
-    /// What the method raises, and `ValueError` if it returns another number of values.
+    /// The exception of the method, and `ValueError` if it returns another number of values.
     pub fn at(&self, function: Function, gaps: &[f64]) -> PyResult<Vec<f64>> {
         let method = function.method();
         at_arrays(&self.object.getattr(method)?, &format!("law.{method}"), "gap", &[gaps])
@@ -93,7 +93,7 @@ impl<'py> Functions<'py> {
 /// A function of arrays, by its name, at many of what it is a function `of`, in one call.
 ///
 /// # Errors
-/// What the function raises, and `ValueError` if it returns another number of values.
+/// The exception of the function, and `ValueError` if it returns another number of values.
 pub fn at_arrays<'py>(function: &Bound<'py, PyAny>, name: &str, of: &str, arrays: &[&[f64]]) -> PyResult<Vec<f64>> {
     let (py, count) = (function.py(), arrays.first().map_or(0, |array| array.len()));
     let call = |arguments: Vec<Bound<'py, PyAny>>| function.call1(PyTuple::new(py, arguments)?);
@@ -137,7 +137,7 @@ struct Called {
 /// Tells whether the functions of an object of Python agree with one another, up to a gap or that of most laws.
 ///
 /// # Errors
-/// What they raise; `ValueError` with the function that is wrong.
+/// An exception of the functions, or `ValueError` with the function that is wrong.
 pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
     let scales = Scales::of(&Functions::of(object)?)?;
     let called = Called { object: object.clone().unbind(), scales, raised: Mutex::new(None) };

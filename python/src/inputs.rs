@@ -17,7 +17,7 @@ pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) 
     found.map_err(|_| PyValueError::new_err(format!("{keyword} is {name}: it must be {names}")))
 }
 
-/// What a dictionary of keys and values describes.
+/// The object that a dictionary of keys and values describes.
 pub fn keys<V: DeserializeOwned>(given: Bound<'_, PyAny>) -> PyResult<V> {
     let py = given.py();
     from_pyobject(given).map_err(|error| match error.0 {

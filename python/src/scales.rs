@@ -36,7 +36,7 @@ impl Scales {
     /// The scales of a law.
     ///
     /// # Errors
-    /// What its functions raise; `ValueError` if it has no range, or attracts nowhere, as with a wrong sign.
+    /// The exception of its functions; `ValueError` if it has no range, or attracts nowhere, as with a wrong sign.
     pub fn of(law: &Functions<'_>) -> PyResult<Self> {
         let at = |function, gap: f64| law.at(function, &[gap; 2]).map(|values| values[0]);
         let in_contact = at(Function::Traction, 0.0)?;

@@ -50,7 +50,7 @@ type Columns<'py> = PyResult<(Vec<&'static str>, Bound<'py, PyAny>)>;
 /// The dictionary of what a solve found.
 type Answered<'py> = PyResult<Bound<'py, PyDict>>;
 
-/// What a problem does in either precision.
+/// The methods of a problem in either precision.
 pub trait Solves: Send {
     fn solve<'py>(&mut self, py: Python<'py>, run: Run<'_>, asked: Asked, start: Option<Begin<'py>>) -> Answered<'py>;
     fn pull_off<'py>(

@@ -87,7 +87,7 @@ impl Table {
     /// Reads the law.
     ///
     /// # Errors
-    /// What the functions raise; `ValueError` if one is not finite somewhere, or not the derivative of the one before,
+    /// The exception of the functions; `ValueError` if one is not finite somewhere, or not the derivative of the one before,
     /// or rougher than a table can be.
     pub fn of(law: &Functions<'_>) -> PyResult<Self> {
         let Scales { work_of_adhesion, range, rest, least, goes_on } = Scales::of(law)?;

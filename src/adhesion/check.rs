@@ -1,4 +1,4 @@
-//! A check that an adhesion law is one, for users' tests.
+//! A check of an adhesion law, for users' tests.
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::derivatives::{self, GAPS, Named};

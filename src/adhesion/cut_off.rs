@@ -119,7 +119,7 @@ impl<L> CutOff<L> {
         ]
     }
 
-    /// What is left of a value of the law at a gap, less that of a quintic.
+    /// A value of the law at a gap, less that of a quintic.
     fn left<T: Real>(&self, gap: T, value: T, of: impl Fn(T, T, [T; 3]) -> T, quintic: impl FnOnce() -> [T; 3]) -> T {
         let [start, distance] = [self.start, self.distance].map(T::lit);
         if gap >= distance {

@@ -10,7 +10,8 @@ use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
 
-/// The springs are made so much stiffer where more than this share of the interpenetration is left after a round.
+/// The factor by which the springs become stiffer, and the share of the interpenetration above which they do so if it is
+/// left after a round.
 const STIFFEN: f64 = 4.0;
 const SLOW: f64 = 0.25;
 
@@ -20,19 +21,19 @@ const STIFFEST: f64 = 10.0;
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure
 /// from them, λ ← ⟨λ − kg⟩₊, after each round.
 ///
-/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node, and after a round the gap is off by s = (λ − ⟨λ − kg⟩₊)/k. Where
-/// more than a quarter of that is left, the next springs are four times as stiff, so the given stiffness, at most ten
-/// times that of the shortest wave, hardly matters.
+/// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node, and after a round the gap has the error s = (λ − ⟨λ − kg⟩₊)/k. If
+/// more than a quarter of this error is left, the next springs are four times as stiff. The given stiffness, at most ten
+/// times that of the shortest wave, therefore hardly matters.
 ///
-/// The rounds end when the pressure p may be off by no more than the tolerance in the energy norm: with κ the stiffness
-/// of the shortest wave, Δλ the change of λ, bars for means and ‖·‖ for roots of mean squares
+/// The rounds end when the error of the pressure p in the energy norm is at most the tolerance. With κ the stiffness of
+/// the shortest wave, Δλ the change of λ, bars for means and ‖·‖ for roots of mean squares, the criterion is
 ///
 /// ```math
 /// κ² ‖s‖² + κ k s̄² ≤ tolerance² ‖λ − λ̄‖² ,   s = −Δλ/k .
 /// ```
 ///
-/// Without adhesion the first term bounds the error, as ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩; the second is for the mean
-/// pressure close to full contact. Then, and with adhesion, it is an estimate. The page
+/// Without adhesion the first term bounds the error, since ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩. The second term is for the
+/// mean pressure close to full contact. In this case, and with adhesion, the criterion is an estimate. The page
 /// [`paper_checked`](crate::guide::paper_checked) has the cost of Uzawa. Memory per node: one scalar.
 ///
 /// ```

@@ -1,4 +1,4 @@
-//! The original of a mirrored map, in the solutions on all of it.
+//! The original of a mirrored map, as a part of the solution on the whole map.
 
 use ndarray::{Array2, ArrayView2, Axis, Slice};
 

@@ -1,4 +1,4 @@
-//! The outline of the contact: where between the nodes its edge runs.
+//! The outline of the contact: the line of its edge between the nodes.
 
 use std::f64::consts::{E, PI};
 

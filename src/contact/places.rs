@@ -1,4 +1,4 @@
-//! The places between the nodes at which the edge of a contact runs.
+//! The places of a contact edge between the nodes.
 
 use crate::grid::Grid;
 

@@ -6,7 +6,7 @@ use crate::real::Real;
 
 /// The abilities of an operator beside its applications, [`ElasticOperator::abilities`]; none by default.
 ///
-/// A wrapper returns those of its operator, less what it changes.
+/// A wrapper returns the abilities of its operator, except for those that it changes.
 #[non_exhaustive]
 pub struct Abilities<'a, T: Real> {
     /// The boundary of the body; periodic by default.

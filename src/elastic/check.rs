@@ -1,4 +1,4 @@
-//! A check that an elastic operator is one, for users' tests.
+//! A check of an elastic operator, for users' tests.
 
 use ndarray::Array2;
 

@@ -1,4 +1,4 @@
-//! Roots, maxima, integrals, and the two of Carlson that the solutions need.
+//! Roots, maxima and integrals, among them the two elliptic integrals of Carlson.
 
 use std::f64::consts::FRAC_PI_2;
 

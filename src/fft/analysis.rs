@@ -1,4 +1,4 @@
-//! The analysis of a field into its modes, and the synthesis of one from them.
+//! The analysis of a field into its modes, and the synthesis of a field from modes.
 
 use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, ArrayView2};

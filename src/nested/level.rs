@@ -1,4 +1,4 @@
-//! The cost of one of nested grids, and what was found there.
+//! A level of nested grids: its cost, and the quantities found there.
 
 #[cfg(doc)]
 use super::{Nested, NestedSolution};

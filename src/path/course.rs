@@ -70,7 +70,7 @@ impl Course {
         }
     }
 
-    /// What holds the mean gap where the load is a position.
+    /// The control that holds the mean gap where the load is a position.
     pub(super) fn held<T>(&self, flat: &PressedFlat<T>) -> Load {
         let rigid = flat.boundary.mean_compliance();
         let compliance = if let Mode::Spring(compliance) = self.mode { flat.padding * compliance } else { 0.0 };

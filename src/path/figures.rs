@@ -1,4 +1,4 @@
-//! The figures of a state in the balance of energy, and what is held there.
+//! The figures of a state in the balance of energy, and the quantity that is held.
 
 use crate::solver::Report;
 

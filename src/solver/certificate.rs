@@ -31,7 +31,7 @@ const NEAR_FLOOR: f64 = 2.0;
 /// The same numbers for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
 
-/// The roundings that the length of a spring may have.
+/// The greatest rounding of the length of a spring, in units of ε.
 const SPRING_ROUNDINGS: f64 = 8.0;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
@@ -45,9 +45,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if error.is_nan() { f64::INFINITY } else { error }
     }
 
-    /// The scale of a certificate, the mean of u·p, and the rounding floor: the certificate of a gap with rounding as
-    /// its only error, ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)). The first is that of p = K⁻¹h + K⁻¹g where these cancel; the
-    /// second of the gap, as a transform spreads it evenly over all waves, k being the stiffness of the shortest.
+    /// The scale of a certificate, the mean of u·p, and the rounding floor. The floor is the certificate of a gap whose
+    /// only error is rounding, ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)). Its first term is the rounding of p = K⁻¹h + K⁻¹g where
+    /// the two cancel. Its second term is the rounding of the gap, which a transform spreads evenly over all waves, with
+    /// k the stiffness of the shortest wave.
     fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };

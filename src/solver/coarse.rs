@@ -1,4 +1,4 @@
-//! The coarse space of a solve: when it is told where the contacts are.
+//! The coarse space of a solve, and the iterations at which its map of the contacts is renewed.
 
 use std::ops::Range;
 use std::slice::Chunks;

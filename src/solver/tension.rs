@@ -1,4 +1,5 @@
-//! Surfaces that come apart under a load: whether adhesion could hold them, and where they come to rest if not.
+//! Surfaces that come apart under a load: the search for a state that adhesion holds, and the final gap if there is
+//! none.
 
 use super::driver::{Observer, minimise};
 use super::minimisation::{Goal, Left};

@@ -1,4 +1,4 @@
-//! The contact stiffness: how much more pressure it takes to move the bodies closer.
+//! The contact stiffness: the increment of pressure over the increment of approach.
 
 use ndarray::Array2;
 

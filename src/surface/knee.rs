@@ -1,4 +1,4 @@
-//! The knee of a power spectrum: where it flattens to a floor of noise.
+//! The knee of a power spectrum: the wavelength at which it flattens to a floor of noise.
 
 use std::f64::consts::PI;
 

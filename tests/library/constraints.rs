@@ -315,6 +315,11 @@ fn report_and_contact_map_count_the_same_nodes() {
     agree(&touching, "flats");
 }
 
+/// A figure of a table, to two digits.
+pub fn short(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
 #[test]
 #[ignore = "prints the figures of the guide: cargo test --release --test library constraints::figures -- --ignored --nocapture"]
 fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
@@ -331,10 +336,12 @@ fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
             let report = &solution.report;
             assert_eq!(report.status, Status::Converged);
             let error = norm(&(&solution.contact_pressure - &exact.contact_pressure)) / norm(&exact.contact_pressure);
-            let (applications, gap) = (report.operator_applications, report.min_gap);
-            let contact = 100.0 * report.contact_fraction;
-            println!("| {name} | {rounds} | {applications} | {gap:.1e} | {error:.1e} | {contact:.2} |");
+            let [gap, error] = [report.min_gap, error].map(short);
+            let (applications, contact) = (report.operator_applications, 100.0 * report.contact_fraction);
+            println!("| {name} | {rounds} | {applications} | {gap} | {error} | {contact:.2} |");
         };
+        println!("\n| | rounds | applications | deepest gap | error of the pressure | contact, % |");
+        println!("|---|---|---|---|---|---|");
         print("projection", 1, &exact);
         for k in [1e2, 1e3, 1e4, 1e5] {
             let solution = with(&mut problem, Penalty::new(k).unwrap(), control, 1e-6).0;

@@ -9,6 +9,7 @@ use ndarray::Array2;
 
 use crate::common::dense::Dense;
 use crate::common::rough::rough;
+use crate::constraints::short;
 
 fn unit(n: usize) -> (Grid, Westergaard<f64>) {
     let grid = Grid::square(n, 1.0).unwrap();
@@ -406,24 +407,28 @@ fn walls_in_figures() {
         Solver { settings, constraint }.solve(&mut problem, Control::MeanPressure(0.05)).unwrap()
     }
     let norm = |field: &Array2<f64>| field.iter().map(|p| p * p).sum::<f64>().sqrt();
+    println!("\n| law and wall | applications | error of the pressure | contact, % |\n|---|---|---|---|");
     let show = |name: &str, solution: &Solution<f64>, exact: &Solution<f64>| {
         let error = norm(&(&solution.contact_pressure - &exact.contact_pressure)) / norm(&exact.contact_pressure);
-        let Report { status, operator_applications, min_gap, contact_fraction, .. } = &solution.report;
-        let contact = 100.0 * contact_fraction;
-        println!("{name:<28} {status} {operator_applications:>5} {min_gap:.1e} {error:.1e} {contact:.2} %");
+        let Report { status, operator_applications, contact_fraction, .. } = &solution.report;
+        println!("| {name} | {operator_applications} | {} | {:.2} |", short(error), 100.0 * contact_fraction);
         assert_eq!(*status, Status::Converged);
     };
     let (work, range) = (2e-4, 4e-3);
     let (lennard_jones, morse) = (LennardJones::new(work, range).unwrap(), Morse::new(work, range).unwrap());
     let (hard, rigid) = (solve(&lennard_jones.cut(), Projection), solve(&morse, Projection));
-    show("Lennard-Jones, wall", &hard, &hard);
-    show("Lennard-Jones, itself", &solve(&lennard_jones, NoWall), &hard);
+    show("Lennard-Jones, wall at z₀", &hard, &hard);
+    show("Lennard-Jones, no wall", &solve(&lennard_jones, NoWall), &hard);
     show("Morse, wall", &rigid, &rigid);
-    show("Morse, itself", &solve(&morse, NoWall), &rigid);
+    show("Morse, no wall", &solve(&morse, NoWall), &rigid);
     for k in [1.0, 10.0, 100.0, 1e3, 1e4] {
-        show(&format!("Uzawa, {k:e}"), &solve(&lennard_jones.cut(), Uzawa::new(k).unwrap()), &hard);
+        show(&format!("Lennard-Jones, Uzawa, k = {k:e}"), &solve(&lennard_jones.cut(), Uzawa::new(k).unwrap()), &hard);
     }
     for k in [100.0, 1e3, 1e4] {
-        show(&format!("penalty, {k:e}"), &solve(&lennard_jones.cut(), Penalty::new(k).unwrap()), &hard);
+        show(
+            &format!("Lennard-Jones, penalty, k = {k:e}"),
+            &solve(&lennard_jones.cut(), Penalty::new(k).unwrap()),
+            &hard,
+        );
     }
 }

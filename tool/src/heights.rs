@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-2;
 /// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
 
-/// What the file of a surface says beside its heights.
+/// The entries of the file of a surface beside its heights.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
     /// The unit of length.

@@ -6,7 +6,7 @@ use std::{env, io, process, thread};
 
 use asperity_maps::io::OutputFolder;
 
-/// What an interrupted run says of its rows.
+/// The line of an interrupted run about its rows.
 static STANDING: Mutex<String> = Mutex::new(String::new());
 
 /// The variable of the environment that a case of a study has.

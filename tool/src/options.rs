@@ -103,7 +103,7 @@ pub struct ProblemOptions<'a> {
 pub struct Given<'a> {
     pub surface: Surface,
     pub adhesion: Adhesion<'a>,
-    /// What the file of the surface says beside its heights
+    /// The entries of the file of the surface beside its heights
     pub origin: Origin,
     /// The part of the surface that results are of
     pub part: Part,

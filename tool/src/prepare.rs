@@ -101,7 +101,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     Ok(true)
 }
 
-/// What a format has no place for, of all that is known of a map.
+/// The properties of a map that a format cannot hold.
 fn left_out(out: &Path, map: &Topography) -> String {
     let is = |ending: &str| out.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
     let lengths = (map.lengths.is_some() && is("npy")).then_some("without side lengths: give them again by --lengths");

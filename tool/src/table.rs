@@ -29,7 +29,7 @@ use crate::warnings::{self, Strictness, Warnings};
 /// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
 pub const UNCONVERGED: &str = "unconverged";
 
-/// What a run that fills a table replaces, refuses and prints.
+/// The replacements, refusals and prints of a run that fills a table.
 #[derive(Args)]
 pub struct Manner {
     /// Start over, and replace files that are there
@@ -59,7 +59,7 @@ pub struct TableOptions<'a> {
     pub stiffness: bool,
 }
 
-/// What a command does with its table in the precision of its solves; whether all rows converged.
+/// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
 pub trait Fill {
     /// The way through the loads.
     fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way>;

@@ -23,14 +23,14 @@ pub fn use_threads(threads: Option<usize>) -> Outcome<()> {
     }
 }
 
-/// What `work` gives on so many threads, whatever number other solves use.
+/// The result of `work` on this number of threads, whatever number other solves use.
 #[cfg(feature = "parallel")]
 pub fn on<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Outcome<R> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     Ok(pool.map_err(|e| format!("{threads} threads cannot be started ({e}): free some memory"))?.install(work))
 }
 
-/// What `work` gives: this tool was built without threads.
+/// The result of `work`: this tool was built without threads.
 #[cfg(not(feature = "parallel"))]
 pub fn on<R>(_threads: usize, work: impl FnOnce() -> R) -> Outcome<R> {
     Ok(work())

@@ -50,7 +50,7 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
 /// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
 ///
-/// Nothing is refused or changed; whether a warning matters is for the reader to say. Clean periodic surfaces have
+/// A warning refuses and changes nothing, and the reader decides whether it matters. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the
 /// contact modulus beside them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve,
 /// [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on a mirrored map.

@@ -1,4 +1,4 @@
-//! The scale of a pressure: where it ends, and the load that is carried beyond.
+//! The scale of a pressure: its ends, and the load on nodes beyond them.
 
 use super::colours::drawable;
 

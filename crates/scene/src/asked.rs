@@ -1,4 +1,4 @@
-//! What is asked of a solve.
+//! The quantities that are asked of a solve.
 
 use asperity::{Control, Method};
 

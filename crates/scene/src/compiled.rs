@@ -1,4 +1,4 @@
-//! Functions that this crate compiles for either precision, and no crate that calls them compiles again.
+//! Functions that this crate compiles for both precisions, so that crates that call them need not compile them again.
 
 /// A type by whose name [`Real::call`](asperity::Real) calls a function generic in `T`.
 macro_rules! compiled {

@@ -50,7 +50,7 @@ impl Saved {
     }
 }
 
-/// What a journal that another process has open has saved.
+/// The saved state of a journal that another process has open.
 #[derive(Debug)]
 pub struct Seen {
     /// The fields and values from which the next row starts.

@@ -1,4 +1,4 @@
-//! The adhesion laws by their names: what each is, what it needs, and how it is made of that.
+//! The adhesion laws by their names, each with its description, its parameters and its construction.
 
 use std::sync::Arc;
 

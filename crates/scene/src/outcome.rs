@@ -1,4 +1,4 @@
-//! The outcome of whatever a run does.
+//! The outcome of a run or of one of its steps.
 
 use std::error::Error;
 

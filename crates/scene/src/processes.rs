@@ -78,7 +78,7 @@ impl Processes {
         outcome
     }
 
-    /// What the first process does, if it can; the others wait for it.
+    /// The result of work of the first process, for which the others wait.
     pub fn first(&self, work: impl FnOnce() -> Outcome<()>) -> Outcome<()> {
         self.agree(if self.is_first() { work() } else { Ok(()) })
     }

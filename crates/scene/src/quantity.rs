@@ -107,7 +107,7 @@ impl Dimension {
         }
     }
 
-    /// What is wrong with the unit behind a number, if something is.
+    /// The fault of the unit behind a number, if it has one.
     fn mistaken_unit(self, text: &str) -> Option<String> {
         let (_, unit) = number_and_unit(text).filter(|(_, unit)| !unit.is_empty())?;
         match Unit::parse(unit) {

@@ -1,4 +1,4 @@
-//! The scene of a run: its problem but for surface and loads, and how that is solved.
+//! The scene of a run: its problem except for surface and loads, and the settings of its solves.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Names that are none: what they mean, by another word for the same thing or misspelt.
+//! Synonyms and misspellings of names, and the names that they stand for.
 
 /// Words for keys, with the keys that are meant, of which a command has one. A word stands for its plural as well.
 pub const SYNONYMS: [(&str, &str); 30] = [

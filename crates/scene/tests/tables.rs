@@ -1,4 +1,4 @@
-//! Tables: lines and the rows that they were, and the journal against what kills, changes and locks may do to its files.
+//! Tables: lines and the rows that they were, and the journal after kills, changes and locks of its files.
 
 use std::fs;
 use std::path::Path;

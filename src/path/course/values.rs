@@ -1,4 +1,4 @@
-//! The values of a state by their names, with which a path that was interrupted goes on.
+//! The values of a state by their names, from which an interrupted path goes on.
 
 use std::collections::BTreeMap;
 

@@ -27,7 +27,7 @@ pub(in crate::solver) struct Released {
     pub(in crate::solver) sum_r: f64,
 }
 
-/// The sums of a residual r', with those of a step c whose field is still there.
+/// The sums of a residual r', and those with the change c of the last step.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Continued {
     /// Σ|g r'|
@@ -109,7 +109,8 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     (Continued { complementarity, working, descent, overlap, sum_change }, difference)
 }
 
-/// r' of a chunk from the gradient in its field; gradient, release and level are all less one constant.
+/// The residual r' of a chunk from the gradient in its field. One constant is subtracted from gradient, release and
+/// level.
 pub(super) fn release_chunk<T: Real, Lo: Real>(
     touching: T,
     working: Working<T>,
@@ -125,7 +126,8 @@ pub(super) fn release_chunk<T: Real, Lo: Real>(
     })
 }
 
-/// r' from the gradient that a step has left in its field; gradient, release and level are all less one constant.
+/// The residual r' from the gradient that a step has left in its field. One constant is subtracted from gradient,
+/// release and level.
 pub(in crate::solver) fn release<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,

@@ -149,7 +149,7 @@ impl Study {
     }
 }
 
-/// What to add to a file that lacks an entry, or to write in the place of one that may be it misspelt.
+/// The remedy for a file that lacks an entry: an addition, or the correction of an entry that may be misspelt.
 fn lacks(table: &Table, key: &str, what: &str, value: &str) -> String {
     let instead = similar(key, table.keys().map(String::as_str));
     let instead = instead.map_or(String::new(), |found| format!(" in the place of {found}"));

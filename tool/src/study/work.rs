@@ -181,7 +181,7 @@ fn refused(mut reasons: Vec<(usize, usize)>, of: usize) -> Outcome<()> {
 }
 
 /// Solves a case that no other run has solved by then; the warnings of its runs, or the line by which one was refused.
-/// Nothing if another run is at it, unless this one is to `wait`.
+/// None if another run is solving the case, unless this one is to `wait`.
 fn solved(
     study: &Study,
     case: &Case,

@@ -159,7 +159,7 @@ pub(super) fn write_map(path: &Path, map: &Topography) -> Result<()> {
     write(path, &heights, &Known { lengths, unit: map.unit.as_deref(), original, seed: seed.as_deref() })
 }
 
-/// What is known of fields, beside them.
+/// The entries of an archive that describe its fields.
 #[derive(Default)]
 struct Known<'a> {
     lengths: Option<(f64, f64)>,

@@ -1,4 +1,4 @@
-//! The refusal of files that are not as they should be, or are larger than the memory.
+//! The refusal of malformed files, and of files that are larger than the memory.
 
 use std::io;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What is told of heights: tilt, edges, slopes, spikes, codes of missing points, and their cells.
+//! The warnings about heights: tilt, edges, slopes, spikes, codes of missing points, and cells.
 
 use super::extremes::Extremes;
 use super::relief::{Relief, Side};
@@ -211,7 +211,7 @@ pub(super) fn modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<W
     Some(Warning { code: WarningCode::Modulus, text: text.with(message) })
 }
 
-/// What is probably wrong with an rms slope, if more than `most` is steep.
+/// The probable mistake behind an rms slope, if a slope of more than `most` is steep.
 pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
     let (code, than, severity) = match slope {
         _ if slope > most => (WarningCode::Steep, format!("more than {most}"), slope),

@@ -1,4 +1,4 @@
-//! What is told of scan lines: that those along the other axis have the offsets.
+//! The warning about scan lines: the lines along the other axis have the offsets.
 
 use super::text::Text;
 use super::{Warning, WarningCode};

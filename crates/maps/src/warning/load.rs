@@ -1,4 +1,4 @@
-//! What is told of the load: that much of it stands on single scan lines, or on single nodes.
+//! The warnings about the load: a large share of it stands on single scan lines, or on single nodes.
 
 use asperity::{Real, Solution};
 

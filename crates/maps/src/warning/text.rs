@@ -17,7 +17,7 @@ pub struct Text {
     severity: f64,
 }
 
-/// What stands for a quantity in a text: no message has another use for it.
+/// The characters that stand for a quantity in a text. No message has another use for them.
 const MARK: char = '\0';
 
 impl Text {

@@ -20,7 +20,7 @@ pub fn described_form(fit: &FormFit, map: &Topography) -> String {
     }
 }
 
-/// What a trend takes away.
+/// The heights that a trend takes away.
 pub fn removed(trend: Trend, before: &Topography, after: &Topography) -> Result<String> {
     if let Trend::Polynomial(order @ 3..) = trend {
         return Ok(format!("polynomial of order {order} removed, heights {}", changed(&before.heights, after)));

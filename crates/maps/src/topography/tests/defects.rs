@@ -1,5 +1,4 @@
-//! Tests of what is done about the defects of a measurement: offsets of scan lines, spikes, and codes for missing
-//! points.
+//! Tests of the corrections of a measurement: offsets of scan lines, spikes, and codes for missing points.
 
 use approx::assert_relative_eq;
 
