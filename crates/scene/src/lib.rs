@@ -73,7 +73,7 @@ pub use pair::between;
 pub use posed::{AnyProblem, Observe, Posed};
 pub use preparation::{Log, Preparation, in_unit};
 pub use pulled_off::PulledOff;
-pub use rows::rows;
+pub use rows::{corrected, rows};
 pub use scalar::Scalar;
 pub use scene::{Branches, Precision, Scene};
 pub use sentences::shortfalls;

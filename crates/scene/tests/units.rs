@@ -240,15 +240,18 @@ fn the_cases_of_a_study_are_named_by_what_varies() {
     };
     let found = |rows: &[Value]| -> Vec<(String, Vec<usize>)> {
         let count = |(name, parts): (String, Vec<&[Value]>)| (name, parts.iter().map(|rows| rows.len()).collect());
-        legs(rows).into_iter().map(count).collect()
+        legs(rows, |column, value| format!("{value}{}", if column == "hurst" { " H" } else { "" }))
+            .into_iter()
+            .map(count)
+            .collect()
     };
     let name = |text: &str, parts: &[usize]| (text.to_owned(), parts.to_vec());
-    let two = [name("hurst 0.5, seed 1", &[2]), name("hurst 0.8, seed 2", &[2])];
+    let two = [name("hurst 0.5 H, seed 1", &[2]), name("hurst 0.8 H, seed 2", &[2])];
     assert_eq!(found(&rows(&[(1, 0.5), (1, 0.5), (2, 0.8), (2, 0.8)])), two);
     assert_eq!(found(&rows(&[(1, 0.5), (1, 0.5)])), [name("", &[2])]);
     // more than there are colours: by the columns with few values, but not by the seed
-    let many = rows(&[(1, 0.5), (2, 0.5), (3, 0.5), (4, 0.8), (5, 0.8)]);
-    assert_eq!(found(&many), [name("hurst 0.5", &[1; 3]), name("hurst 0.8", &[1; 2])]);
-    let seeds = rows(&[(1, 0.5), (2, 0.5), (3, 0.5), (4, 0.5), (5, 0.5)]);
-    assert_eq!(found(&seeds), [name("", &[1; 5])]);
+    let many: Vec<_> = (1..10).map(|seed| (seed, if seed < 6 { 0.5 } else { 0.8 })).collect();
+    assert_eq!(found(&rows(&many)), [name("hurst 0.5 H", &[1; 5]), name("hurst 0.8 H", &[1; 4])]);
+    let seeds: Vec<_> = (1..10).map(|seed| (seed, 0.5)).collect();
+    assert_eq!(found(&rows(&seeds)), [name("", &[1; 9])]);
 }
