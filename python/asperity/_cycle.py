@@ -72,6 +72,15 @@ class Cycle(Rows[Step]):
         self.run()
         return [row for row in self.rows if row["event"] is not None]
 
+    @property
+    def seconds_left(self) -> float | None:
+        """An estimate of the time until the end, in seconds, while the cycle is solved; None before the first state.
+
+        After the first state it is that of the least number of states, and jumps take further ones; after a twentieth of
+        the way it is that of the rest at the speed so far.
+        """
+        return self._seconds_left
+
     def __repr__(self) -> str:
         return f"Cycle({len(self.rows)} states{'' if self._ended else ' so far'})"
 

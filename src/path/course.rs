@@ -97,6 +97,24 @@ impl Course {
         self.span.0 == self.span.1 || self.here().slope(self.mode).0 == self.span.1
     }
 
+    /// The share of the way through that many loads that is behind, all legs alike.
+    pub(super) fn share(&self, loads: usize) -> f64 {
+        let along = |from: f64, to: f64, at: f64| ((at - from) / (to - from)).clamp(0.0, 1.0);
+        let here = self.here();
+        let leg = match self.pressures {
+            _ if self.is_at_end() => 1.0,
+            // at given mean gaps, to wherever the pressure or the contact ends
+            Some((end, start)) => {
+                along(start, end, here.pressure).max(along(self.span.0, self.span.1, here.slope(self.mode).0))
+            }
+            None => along(self.span.0, self.span.1, here.slope(self.mode).0),
+        };
+        match loads.saturating_sub(1) {
+            0 => f64::from(u8::from(self.solved)),
+            legs => (self.leg.saturating_sub(1) as f64 + if self.leg > 0 { leg } else { 0.0 }) / legs as f64,
+        }
+    }
+
     pub(super) fn end_leg(&mut self) {
         let (x, _) = self.here().slope(self.mode);
         self.span = (x, x);

@@ -98,6 +98,25 @@ fn energy_is_balanced_over_a_cycle() {
 }
 
 #[test]
+fn the_share_of_the_way_grows_from_nothing_to_all() {
+    for (loads, grows) in [(gaps(&[0.03, 0.015, 0.03]), true), (pressures(&[6e-3, -0.1]), false)] {
+        let (mut solver, mut problem) = (Solver::default(), wave(128, 2e-3));
+        let mut path = Path::new(&mut solver, &mut problem, loads, PathSettings::default().steps(20)).unwrap();
+        let mut shares = vec![path.share()];
+        while let Some(step) = path.next() {
+            step.unwrap();
+            shares.push(path.share());
+        }
+        assert_eq!((&shares[..2], shares.last()), (&[0.0; 2][..], Some(&1.0)));
+        assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)));
+        // under a pressure it may fall past a limit point
+        assert!(!grows || shares[1..].is_sorted(), "{shares:?}");
+        path.end_leg();
+        assert_eq!(path.share(), 1.0);
+    }
+}
+
+#[test]
 fn a_pressure_leads_to_limit_points_and_the_gap_past_them() {
     let mut problem = wave(128, 2e-3);
     let settings = PathSettings::default();

@@ -31,6 +31,7 @@ pub mod list;
 mod load;
 pub mod outcome;
 pub mod output;
+pub mod pace;
 mod pair;
 mod posed;
 mod preparation;

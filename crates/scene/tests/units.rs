@@ -4,6 +4,7 @@
 use asperity_scene::fall::{Fall, time};
 use asperity_scene::legs::{legs, logarithmic};
 use asperity_scene::list::{Loads, list};
+use asperity_scene::pace::Pace;
 use asperity_scene::quantity::{
     ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH,
     power_of_length, times_ten_to,
@@ -214,6 +215,28 @@ fn a_steady_fall_tells_its_rate_and_the_time_that_is_left() {
     (10..20).for_each(|k| fall.next((1, false), k, k as f64, 0.1 * k as f64));
     assert_eq!(fall.told(1e-3), "");
     assert_eq!([5.0, 60.0, 600.0, 9000.0].map(time), ["5.0 s", "60 s", "10 min", "2.5 h"]);
+}
+
+#[test]
+fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
+    // two states were there, with one event; a hundred there are at least
+    let mut pace = Pace::new(100, 2, 1);
+    assert_eq!((pace.seconds_left(), pace.expected()), (None, None));
+    pace.begin(0.2);
+    pace.add(0.21, false, 2.0);
+    assert_eq!(pace.seconds_left(), Some(97.0 * 2.0));
+    // from a twentieth of the way on by the way
+    pace.add(0.4, true, 4.0);
+    assert!((pace.seconds_left().unwrap() - 18.0).abs() < 1e-12);
+    assert_eq!(pace.told(), "4 states, 2 events, 40 % of the way, about 18 s left");
+    let mut fresh = Pace::new(101, 0, 0);
+    fresh.add(0.0, false, 0.5);
+    assert_eq!(fresh.expected().unwrap(), "101 states and 50 s at least; each jump takes further ones");
+    // past a limit point the load falls again, the way does not
+    fresh.add(0.5, false, 0.5);
+    fresh.add(0.4, false, 0.5);
+    assert_eq!(fresh.share(), 0.5);
+    assert_eq!(fresh.expected(), None);
 }
 
 #[test]
