@@ -173,7 +173,8 @@ def cycle(
     smallest_step : float
         Step to which a jump is located, as a share of the leg.
     imbalance : float
-        Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed.
+        Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed,
+        and of twenty times what jumps have dissipated so far: jumps that are smaller are not located one by one.
     smooth : bool
         Whether jumps of the law's traction are smoothed by what the grid resolves.
     out : str or path, optional

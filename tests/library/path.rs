@@ -82,7 +82,7 @@ fn jumps_are_found_where_they_are_however_long_the_steps() {
 
 #[test]
 fn energy_is_balanced_over_a_cycle() {
-    let settings = PathSettings::default().imbalance(1e-9);
+    let settings = PathSettings::default().imbalance(1e-11);
     let mut problem = wave(256, 2e-3);
     let steps = follow(&mut problem, gaps(&[0.03, 0.012, 0.03]), settings, 1e-10);
     let (first, last) = (&steps[0], &steps[steps.len() - 1]);

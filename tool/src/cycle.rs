@@ -50,7 +50,8 @@ pub struct Options {
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Loads")]
     smallest_step: f64,
-    /// Imbalance of energy that a step may have, as a share of how much the energy has changed
+    /// Imbalance of energy that a step may have, as a share of how much the energy has changed, and of twenty
+    /// times what jumps have dissipated so far: jumps that are smaller are not located one by one
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Loads")]
     imbalance: f64,
