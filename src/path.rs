@@ -169,6 +169,12 @@ where
         self.course.end_leg();
     }
 
+    /// The share of the way that is behind, from 0 to 1: all legs alike, and the present one by its load, or by its mean
+    /// gap past a limit point, where the share may fall. A leg that is [ended](Self::end_leg) is behind at once.
+    pub fn share(&self) -> f64 {
+        self.course.share(self.legs.len())
+    }
+
     /// The present place of the path, from which [`Path::continuing`] goes on.
     pub fn checkpoint(&self) -> PathCheckpoint<T> {
         let window = self.problem.flat.window.as_ref();

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _law
 from ._control import Load
+from ._progress import progress
 from ._scene import Scene
 from ._solution import Solution
 
@@ -45,17 +46,22 @@ class Rows(Iterator[T]):
         #: the names of the columns, as in the tool's table
         self.names = tuple(names)
         self.rows: list[dict[str, Any]] = [dict(zip(self.names, row, strict=True)) for row in rows]
+        self._seconds_left: float | None = None
 
     def _solve(self) -> Solution:
         """The next solution, whose row is kept."""
         found = None if self._ended else self._scene.problem.next(self._observe)
         if found is None:
-            self._ended = True
+            self._ended, self._seconds_left = True, None
             raise StopIteration
         if found["raised"] is None:
             self.rows.append({name: found["row"][name] for name in self.names})
             # ended by the observer: it goes no further
             self._ended = found["row"]["status"] == "stopped"
+        if found["pace"] is not None:
+            self._seconds_left, told = found["pace"]
+            if isinstance(self._observe, progress):
+                self._observe._tell(told)
         return self._scene.solution(found)
 
     def run(self: R) -> R:

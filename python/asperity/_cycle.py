@@ -72,6 +72,15 @@ class Cycle(Rows[Step]):
         self.run()
         return [row for row in self.rows if row["event"] is not None]
 
+    @property
+    def seconds_left(self) -> float | None:
+        """An estimate of the time until the end, in seconds, while the cycle is solved; None before the first state.
+
+        After the first state it is that of the least number of states, and jumps take further ones; after a twentieth of
+        the way it is that of the rest at the speed so far.
+        """
+        return self._seconds_left
+
     def __repr__(self) -> str:
         return f"Cycle({len(self.rows)} states{'' if self._ended else ' so far'})"
 
@@ -164,7 +173,8 @@ def cycle(
     smallest_step : float
         Step to which a jump is located, as a share of the leg.
     imbalance : float
-        Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed.
+        Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed,
+        and of twenty times what jumps have dissipated so far: jumps that are smaller are not located one by one.
     smooth : bool
         Whether jumps of the law's traction are smoothed by what the grid resolves.
     out : str or path, optional

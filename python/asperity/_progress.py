@@ -18,7 +18,8 @@ class progress:
     """An observer that shows the iteration and the error of a solve while it runs.
 
     Pass it as ``observe`` of `solve`, `sweep` or `cycle`. It draws with tqdm if that is installed, in a notebook as its
-    widget, and writes a line of text to the standard error otherwise.
+    widget, and writes a line of text to the standard error otherwise. Of a cycle it has the states, the events, and the
+    time that is left.
 
     Examples
     --------
@@ -33,22 +34,26 @@ class progress:
             self._bar: Any = importlib.import_module("tqdm.auto").tqdm(unit=" iterations", mininterval=_PAUSE)
         except ImportError:
             self._bar = _Line()
-        self._last = 0
+        self._last, self._pace = 0, ""
         # with the observer the solve has ended
         weakref.finalize(self, self._bar.close)
 
     def __call__(self, state: Iteration) -> None:
-        self._bar.set_postfix_str(f"error {state.relative_error:.1e}", refresh=False)
+        self._bar.set_postfix_str(f"{self._pace}error {state.relative_error:.1e}", refresh=False)
         # the count begins again on the next grid, and under the next load
         self._bar.update(state.iteration - (self._last if state.iteration >= self._last else 0))
         self._last = state.iteration
+
+    def _tell(self, pace: str) -> None:
+        """Shows the pace of a cycle from now on, in words."""
+        self._pace = f"{pace}; "
 
 
 class _Line:
     """A line of text in the place of a bar of tqdm."""
 
     def __init__(self) -> None:
-        self._iterations, self._text, self._written = 0, "", 0.0
+        self._iterations, self._text, self._written, self._width = 0, "", 0.0, 0
 
     def set_postfix_str(self, text: str, refresh: bool) -> None:
         self._text = text
@@ -63,6 +68,8 @@ class _Line:
             self._write("\n")
 
     def _write(self, end: str) -> None:
+        line = f"{self._iterations} iterations, {self._text}"
         # what is longer before it is written over
-        print(f"\r{self._iterations} iterations, {self._text}  ", end=end, file=sys.stderr, flush=True)
+        print(f"\r{line.ljust(self._width)}", end=end, file=sys.stderr, flush=True)
+        self._width = len(line)
         self._written = time.monotonic()

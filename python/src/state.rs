@@ -253,6 +253,8 @@ impl<T: Scalar> Solves for State<T> {
         let found = found.map(|(found, row)| (found, entries.insert(row).account.clone()));
         let found = answer(py, self.threads, (found, raised))?;
         found.set_item("row", entries.map(|row| to_pyobject(py, &row)).transpose()?)?;
+        let pace = self.course.as_ref().and_then(|course| course.pace());
+        found.set_item("pace", pace.map(|pace| (pace.seconds_left(), pace.told())))?;
         Ok(Some(found))
     }
 

@@ -28,6 +28,14 @@ def test_the_first_solve_runs(page, tmp_path, monkeypatch):
     assert blocks == 1 and found["solution"].converged
 
 
+def test_a_figure_for_a_paper_comes_in_few_lines(tmp_path, monkeypatch):
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(tmp_path)
+    blocks, found = run("docs/gallery.md")
+    assert blocks == 1 and pathlib.Path("adhesion.pdf").stat().st_size > 1000
+    assert [len(line.get_xdata()) for line in found["ax"].get_lines()] == [12] * 3
+
+
 def test_the_code_of_the_guide_runs(tmp_path, monkeypatch):
     pytest.importorskip("matplotlib")
     monkeypatch.chdir(tmp_path)

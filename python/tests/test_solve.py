@@ -345,6 +345,17 @@ def test_the_distribution_of_the_pressure_knows_lines_and_absent_nodes():
         assert np.sum(density * np.diff(edges)) == pytest.approx(solution.contact_fraction, rel=1e-12)
 
 
+def test_the_pace_of_a_cycle_is_told(law, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    wave = 0.02 * np.cos(2 * np.pi * np.arange(32) / 32)
+    loads = {"modulus": 1.0, "law": law, "mean_gaps": [0.05, 0.03, 0.05], "steps": 5}
+    cycle = asperity.cycle(wave, 1.0, observe=asperity.progress(), **loads)
+    assert cycle.seconds_left is None
+    assert all(cycle.seconds_left >= 0 for _ in cycle) and cycle.seconds_left is None
+    del cycle
+    assert re.search(r"\d+ states, 0 events, \d+ % of the way, about .* left; error ", capsys.readouterr().err)
+
+
 def test_progress_shows_iterations_and_error(rough, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "tqdm.auto", None)
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=asperity.progress())

@@ -51,6 +51,10 @@ const GROWTH: f64 = 2.0;
 /// The distance, as a share of the leg, to which a leg to a pressure approaches it at given mean gaps.
 const LANDING: f64 = 1e-3;
 
+/// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
+/// beside all before are not located one by one.
+const MANY: f64 = 20.0;
+
 /// The largest number of states in the quadrature.
 const PLACES: usize = 4;
 
@@ -95,6 +99,24 @@ impl Course {
 
     pub(super) fn is_at_end(&self) -> bool {
         self.span.0 == self.span.1 || self.here().slope(self.mode).0 == self.span.1
+    }
+
+    /// The share of the way through that many loads that is behind, all legs alike.
+    pub(super) fn share(&self, loads: usize) -> f64 {
+        let along = |from: f64, to: f64, at: f64| ((at - from) / (to - from)).clamp(0.0, 1.0);
+        let here = self.here();
+        let leg = match self.pressures {
+            _ if self.is_at_end() => 1.0,
+            // at given mean gaps, to wherever the pressure or the contact ends
+            Some((end, start)) => {
+                along(start, end, here.pressure).max(along(self.span.0, self.span.1, here.slope(self.mode).0))
+            }
+            None => along(self.span.0, self.span.1, here.slope(self.mode).0),
+        };
+        match loads.saturating_sub(1) {
+            0 => f64::from(u8::from(self.solved)),
+            legs => (self.leg.saturating_sub(1) as f64 + if self.leg > 0 { leg } else { 0.0 }) / legs as f64,
+        }
     }
 
     pub(super) fn end_leg(&mut self) {
@@ -172,8 +194,8 @@ impl Course {
         }
     }
 
-    /// The balance of a step, up to an imbalance as a share of the change of the energy (`least` at least), the noise
-    /// of rounding, and what the tolerance of the solver has `left`.
+    /// The balance of a step, up to an imbalance as a share of the change of the energy (`least` at least) and of what
+    /// jumps have dissipated, the noise of rounding, and what the tolerance of the solver has `left`.
     pub(super) fn judge(
         &self,
         target: f64,
@@ -190,7 +212,7 @@ impl Course {
         let change = next.potential(self.mode) - here.potential(self.mode);
         let excess = change - integral(&points[first..]);
         let (low, high) = self.account.range;
-        let scale = (high.max(next.energy) - low.min(next.energy)).max(least);
+        let scale = (high.max(next.energy) - low.min(next.energy)).max(least) + MANY * self.account.dissipated;
         let allowed = (imbalance * scale + noise).max(left);
         let order = 1.0 + (points.len() - first) as f64;
         let growth = (0.5 * allowed / excess.abs()).powf(order.recip());

@@ -9,7 +9,7 @@ use crate::setters::setters;
 /// | `steps` | 50 | the least number of steps in a leg | at least 1 |
 /// | `smallest_step` | 1e-4 | the step, as a share of the leg, to which a jump is located | positive, below 1 |
 /// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
-/// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more) | positive |
+/// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more), and of twenty times what jumps have dissipated so far | positive |
 ///
 /// The square of the solver's tolerance must be well below the imbalance. Without adhesion, its square times the
 /// energy of the surface pressed flat is no imbalance between surfaces that are apart, nor is rounding: in `f32` jumps

@@ -82,7 +82,7 @@ fn jumps_are_found_where_they_are_however_long_the_steps() {
 
 #[test]
 fn energy_is_balanced_over_a_cycle() {
-    let settings = PathSettings::default().imbalance(1e-9);
+    let settings = PathSettings::default().imbalance(1e-11);
     let mut problem = wave(256, 2e-3);
     let steps = follow(&mut problem, gaps(&[0.03, 0.012, 0.03]), settings, 1e-10);
     let (first, last) = (&steps[0], &steps[steps.len() - 1]);
@@ -95,6 +95,25 @@ fn energy_is_balanced_over_a_cycle() {
     // back where it began, and what the load has done is lost
     assert!((energy(last) - energy(first)).abs() <= 1e-9 * largest);
     assert!((last.work / last.dissipated - 1.0).abs() < 1e-6 && last.dissipated > 0.0);
+}
+
+#[test]
+fn the_share_of_the_way_grows_from_nothing_to_all() {
+    for (loads, grows) in [(gaps(&[0.03, 0.015, 0.03]), true), (pressures(&[6e-3, -0.1]), false)] {
+        let (mut solver, mut problem) = (Solver::default(), wave(128, 2e-3));
+        let mut path = Path::new(&mut solver, &mut problem, loads, PathSettings::default().steps(20)).unwrap();
+        let mut shares = vec![path.share()];
+        while let Some(step) = path.next() {
+            step.unwrap();
+            shares.push(path.share());
+        }
+        assert_eq!((&shares[..2], shares.last()), (&[0.0; 2][..], Some(&1.0)));
+        assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)));
+        // under a pressure it may fall past a limit point
+        assert!(!grows || shares[1..].is_sorted(), "{shares:?}");
+        path.end_leg();
+        assert_eq!(path.share(), 1.0);
+    }
 }
 
 #[test]

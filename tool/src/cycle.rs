@@ -11,12 +11,13 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::AdhesionOptions;
 use crate::allowed::positive;
 use crate::boundary::{LOADS, LoadsOptions};
+use crate::columns::Columns;
 use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
 use crate::printing::{self, say};
 use crate::processes::Processes;
-use crate::quantity::{Dimension, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
+use crate::quantity::{FORCE, PRESSURE};
 use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
 use crate::units::UnitOptions;
@@ -49,7 +50,8 @@ pub struct Options {
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Loads")]
     smallest_step: f64,
-    /// Imbalance of energy that a step may have, as a share of how much the energy has changed
+    /// Imbalance of energy that a step may have, as a share of how much the energy has changed, and of twenty
+    /// times what jumps have dissipated so far: jumps that are smaller are not located one by one
     #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
     #[arg(help_heading = "Loads")]
     imbalance: f64,
@@ -155,7 +157,6 @@ impl Options {
         events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
         let free = self.surface.beyond.boundary == Boundary::Free;
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
-        let y_dimension = if free { FORCE } else { PRESSURE };
         self.manner.printing.report(|| {
             let last = rows.last().cloned().unwrap_or_default();
             let event = |&k: &usize| {
@@ -180,28 +181,29 @@ impl Options {
             table.report(found)
         });
         if self.manner.printing.for_people() {
-            let energy = |value| units.number(value, ENERGY_PER_AREA);
+            let columns = Columns::new(&rows, units);
+            let told = |row: &Value, name: &str| columns.number(name, columns.value(row, name));
             say(&format!("{} rows in {}", table.rows(), printing::name(&self.out)));
             if tension > 0.0 {
-                say(&format!("greatest tension        {}", units.number(tension, PRESSURE)));
+                if !free {
+                    say(&format!("greatest tension        {}", units.number(tension, PRESSURE)));
+                }
                 say(&format!("greatest tensile force  {}", units.number(-least("normal_force"), FORCE)));
             }
             for &k in events.iter().take(MOST_EVENTS) {
                 let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);
                 let event = row["event"].as_str().unwrap_or_default();
-                let ways = [(x, LENGTH), (y, y_dimension)].map(|(name, dimension): (_, Dimension)| {
-                    let [from, to] = [before, row].map(|row| units.number(number(row, name), dimension));
-                    format!("{} {from} to {to}", name.replace('_', " "))
-                });
-                let drop = row["energy_drop"].as_f64().map(|drop| format!(", energy drop {}", energy(drop)));
+                let ways = [x, y]
+                    .map(|name| format!("{} {} to {}", name.replace('_', " "), told(before, name), told(row, name)));
+                let drop = row["energy_drop"].as_f64().map(|_| format!(", energy drop {}", told(row, "energy_drop")));
                 say(&format!("{event:<23} {}{}", ways.join(", "), drop.unwrap_or_default()));
             }
             if events.len() > MOST_EVENTS {
                 say(&format!("and {} smaller events", events.len() - MOST_EVENTS));
             }
             if let Some(last) = rows.last() {
-                say(&format!("dissipated in jumps     {}", energy(number(last, "dissipated"))));
-                say(&format!("work done by the load   {}", energy(number(last, "work"))));
+                say(&format!("dissipated in jumps     {}", told(last, "dissipated")));
+                say(&format!("work done by the load   {}", told(last, "work")));
                 say(&format!("imbalance of energy     {:.1e}", number(last, "imbalance")));
             }
         }

@@ -9,6 +9,7 @@
 #![recursion_limit = "256"]
 
 // the commands
+mod columns;
 mod completions;
 mod cycle;
 mod demo;

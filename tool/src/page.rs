@@ -22,6 +22,7 @@ mod of_solve;
 mod of_table;
 
 use figures::{escaped, spaced};
+pub use of_table::draw_loads;
 
 /// Put the results of a run on one page for a browser.
 ///

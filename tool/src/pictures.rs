@@ -11,6 +11,7 @@ use ndarray::Array2;
 use serde_json::Value;
 
 use crate::allowed::resolution;
+use crate::columns::Columns;
 use crate::numbers::{percent, plain};
 use crate::options::Scalar;
 use crate::outcome::Outcome;
@@ -147,7 +148,7 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture
 /// for each part of a sweep in which the loads rise or fall, and for what varies in a study. For its axes see
 /// [`logarithmic`].
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
-    chart(rows, (x, &x.replace('_', " ")), &[("", y)], units, dpi)
+    chart(rows, (x, &Columns::label(x)), &[("", y)], units, dpi)
 }
 
 /// The chart of columns `ys` of one dimension, under their names if they have any, over column `x`, which has a name.
@@ -159,14 +160,16 @@ pub fn chart(
     dpi: f64,
 ) -> Result<Picture> {
     let (mut jumps, mut curves) = (Vec::new(), Vec::new());
-    for ((leg, parts), (name, y)) in legs(rows).into_iter().flat_map(|leg| ys.iter().map(move |y| (leg.clone(), y))) {
+    let columns = Columns::new(rows, units);
+    let legs = legs(rows, |column, value| columns.number(column, value));
+    for ((leg, parts), (name, y)) in legs.into_iter().flat_map(|leg| ys.iter().map(move |y| (leg.clone(), y))) {
         let mut points: Vec<(f64, f64)> = Vec::new();
         for part in parts {
             if !points.is_empty() {
                 points.push((f64::NAN, f64::NAN));
             }
             for row in part {
-                let point = (value(row, x), value(row, y));
+                let point = (columns.value(row, x), columns.value(row, y));
                 if let (Some(&before), true) = (points.last(), value(row, "energy_drop") > 0.0) {
                     jumps.push([before, point]);
                     points.push((f64::NAN, f64::NAN));
@@ -179,9 +182,8 @@ pub fn chart(
     }
     let y = ys[0].1;
     let [x_log, y_log] = logarithmic(rows, x, y);
-    let control = rows.first().and_then(|row| row["control"].as_str()).unwrap_or_default();
-    let [x_unit, y_unit] = [x, y].map(|column| units.of_column(column, control, false));
-    let y_label = y.replace('_', " ");
+    let [x_unit, y_unit] = [x, y].map(|column| columns.unit(column));
+    let y_label = Columns::label(y);
     let title = format!("{}{} over {x_label}", y_label[..1].to_uppercase(), &y_label[1..]);
     let chart = Chart {
         title: &title,

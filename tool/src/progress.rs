@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use asperity::{Grid, Iteration};
 use asperity_scene::fall::Fall;
+use asperity_scene::pace::Pace;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// The steps from the first error to the tolerance, on a logarithmic scale.
@@ -19,6 +20,7 @@ pub struct Progress {
     first_error: Option<f64>,
     fall: Fall,
     clock: Instant,
+    pace: Option<Pace>,
 }
 
 impl Progress {
@@ -42,7 +44,21 @@ impl Progress {
             first_error: None,
             fall: Fall::default(),
             clock: Instant::now(),
+            pace: None,
         }
+    }
+
+    /// The progress of a cycle, whose bar has the share of its way.
+    pub fn follow(&mut self, pace: Option<Pace>) {
+        if let Some(pace) = pace {
+            self.bar.set_position((STEPS * pace.share()) as u64);
+        }
+        self.pace = pace;
+    }
+
+    /// Leaves a line on the terminal that outlives the bar.
+    pub fn leave(&self, text: &str) {
+        self.bar.println(text);
     }
 
     /// Shows the state of a solve on nested grids, each to a tolerance of its own; the bar goes on from one grid to the
@@ -68,11 +84,21 @@ impl Progress {
         if error.is_finite() && error > 0.0 {
             let first = *self.first_error.get_or_insert(error.max(10.0 * self.tolerance));
             let way = (first / error).ln() / (first / self.tolerance).ln();
-            self.bar.set_position(((STEPS * way.clamp(0.0, 1.0)) as u64).max(self.bar.position()));
+            if self.pace.is_none() {
+                self.bar.set_position(((STEPS * way.clamp(0.0, 1.0)) as u64).max(self.bar.position()));
+            }
             self.fall.add(state, error, self.clock.elapsed().as_secs_f64());
         }
         let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
         let contact = 100.0 * state.contact_nodes as f64 / self.nodes;
+        if let Some(pace) = &self.pace {
+            self.bar.set_message(format!(
+                "{}; {}: error {error}, contact {contact:.2} %",
+                pace.told(),
+                state.iteration
+            ));
+            return;
+        }
         let fall = self.fall.told(self.until);
         self.bar.set_message(format!("{}: error {error}{fall}, contact {contact:.2} %", state.iteration));
     }

@@ -20,6 +20,8 @@ use self::work::{Folder, solve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::check_free;
+use crate::page;
+use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain, name};
 use crate::report;
 use crate::warnings;
@@ -58,6 +60,8 @@ pub struct Options {
     /// Replace a table that is not of this study
     #[arg(long, help_heading = "Output")]
     force: bool,
+    #[command(flatten)]
+    plot: PlotOptions,
     #[command(flatten)]
     printing: Printing,
 }
@@ -146,6 +150,7 @@ pub fn run(options: &Options, mut tool: clap::Command, program: &[OsString]) -> 
         let replaceable = folder.exists() || options.force;
         check_free(&study.out, replaceable, "--out")?;
         warnings::check_beside(&study.out, replaceable)?;
+        options.plot.check(&study.out, replaceable)?;
         let slice = options.slice.unwrap_or(Slice::WHOLE);
         let chosen: Vec<_> = (0..study.cases.len()).filter(|&case| slice.has(case)).collect();
         let jobs = options.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
@@ -153,6 +158,9 @@ pub fn run(options: &Options, mut tool: clap::Command, program: &[OsString]) -> 
     }
     let (cases, done) = (study.cases.len(), study.cases.iter().filter(|case| folder.is_done(case)).count());
     let table = if done == cases && !options.list { Some(merge(&study, &folder)?) } else { None };
+    if table.is_some() {
+        page::draw_loads(&study.out, &options.plot)?;
+    }
     let (rows, unconverged) = table.map_or((None, None), |table| (Some(table.rows), Some(table.unconverged)));
     printing.say(&match rows {
         Some(rows) => format!("{rows} rows of {cases} cases in {}", name(&study.out)),

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use asperity::Control;
+use asperity_scene::pace::Pace;
 use asperity_scene::{Account, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -206,10 +207,14 @@ impl<T: Scalar> Table<'_, T> {
         let name = format!("{}{}", self.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
         let (tolerance, grid) = (problem.scene().tolerance(), *self.posed.parts()?.1.grid());
         let mut progress = Progress::new(&name, tolerance, grid.nodes(), manner.printing.without_bars());
+        progress.follow(self.course.pace().copied());
         let found = self.course.next(&mut self.posed, &mut |state| {
             progress.update(state);
             ControlFlow::Continue(())
         });
+        if let Some(expected) = self.course.pace().and_then(Pace::expected) {
+            progress.leave(&expected);
+        }
         drop(progress);
         let Some(mut found) = found? else { return Ok(None) };
         check_finite(&found.solution)?;

@@ -46,7 +46,7 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
         (format!("{solve} --mean-pressure 1 --poisson 0.3 --layer 1,2"), &["'asperity study', by layer ="]),
         (format!("{sweep} --approach 1"), &["did you mean '--approaches',"]),
         (format!("{sweep} --mean-pressures 1MPa-100MPa"), &["a range is FROM:TO:COUNT, as 1MPa:100MPa:10 or"]),
-        (format!("{solve} --mean-gap 1 --plot a.png"), &["'--plot' is an option of sweep, cycle and laws"]),
+        (format!("{solve} --mean-gap 1 --plot a.png"), &["'--plot' is an option of sweep, cycle, study and laws"]),
         (format!("{solve} --mean-gap 1 --lengths 2,3"), &["with spaces between, '--lengths 2 3'"]),
         ("solve h.npy --mean-gap 1 --out r".to_owned(), &["'--heights h.npy'"]),
         ("stats --heights h.npy".to_owned(), &["<FILE> is given without a name"]),

@@ -189,7 +189,7 @@ fn a_report_is_one_page_that_loads_nothing() {
         assert_eq!((unbalanced(&page), loaded(&page)), (vec![], vec![]));
         assert!(page.contains(command) && page.contains("<th>mean gap</th>") && page.contains("doi:10.1007"));
         // what is asked first of a cycle, and what is the same in all rows, folded away
-        let asked = ["<th>pull-off pressure</th>", "<th>jumps</th>", "<th>dissipated energy per area</th>"];
+        let asked = ["<th>greatest tension</th>", "<th>jumps</th>", "<th>dissipated energy per area</th>"];
         assert!(asked.iter().all(|head| page.contains(head) == (table == "c.csv")), "{table}");
         let folded = page.split("<summary>The same in all rows</summary>").nth(1).unwrap();
         assert!(folded.contains("<th>modulus</th>") && !folded.contains("<th>mean gap</th>"));

@@ -68,6 +68,26 @@ fn a_study_has_the_rows_of_the_sweeps_that_it_stands_for() {
 }
 
 #[test]
+fn the_chart_of_a_study_names_its_curves_by_what_varies() {
+    let bench = Bench::new();
+    // six combinations, each of two surfaces
+    let vary = "seed = [1, 2]\nhurst = [0.4, 0.6, 0.8]\nwork-of-adhesion = [\"20mJ/m2\", \"40mJ/m2\"]\n";
+    let (made, _) = MADE.split_once("[vary]").unwrap();
+    let made = made.replace("size = 24", "size = 24\nlengths = \"1um\"").replace("1e-3:1e-2", "1MPa:10MPa");
+    let surface = "[surface]\nmodulus = \"1GPa\"\n[adhesion]\nlaw = \"exponential\"\nrange = \"20nm\"\n";
+    bench.write("study.toml", &format!("{made}{surface}[vary]\n{vary}"));
+    bench.run("study study.toml --plot study.svg --quiet");
+    bench.said("report study.csv");
+    for picture in ["study.svg", "study.csv.html"] {
+        let picture = bench.read(picture);
+        for name in ["work of adhesion 20 mJ/m², hurst 0.4", "work of adhesion 40 mJ/m², hurst 0.8"] {
+            assert!(picture.contains(&format!(">{name}<")), "{name}");
+        }
+    }
+    bench.refused_with("study study.toml --plot study.jpg", &["study.jpg", ".png, .svg or .pdf"]);
+}
+
+#[test]
 fn slices_jobs_and_interruptions_come_to_the_same_table() {
     let whole = Bench::new();
     whole.write("study.toml", MADE);

@@ -179,11 +179,22 @@ fn tables_name_the_units_of_their_columns() {
     );
     assert!(said.contains("normal force 0 N") || said.contains(" nN  approach -"), "{said}");
     assert!(
-        said.contains("greatest tensile force  ") && said.contains("energy drop ") && said.contains("J/m²"),
+        said.contains("greatest tensile force  ")
+            && said.contains("energy drop ")
+            && !said.contains("J/m²")
+            && said.contains(" aJ"),
         "{said}"
     );
     assert!(bench.read("tip.csv").starts_with("leg,direction,control,control_value [m],"));
     assert!(bench.read("tip.svg").contains(">normal force (nN)<"));
+    // what an AFM draws first, and energies of a tip in full
+    bench.said("report tip.csv");
+    let page = bench.read("tip.csv.html");
+    let charts =
+        ["Normal force over position of the spring", "Normal force over approach", "Dissipated energy over approach"];
+    let places: Vec<_> = charts.iter().map(|title| page.find(&format!(">{title}<")).unwrap()).collect();
+    assert!(places.is_sorted() && page.contains(">dissipated energy (aJ)<"), "{places:?}");
+    assert!(page.contains("<th>pull-off force</th>") && page.contains("<th>dissipated energy</th>"));
 }
 
 #[test]

@@ -45,8 +45,18 @@ pub struct Chart<'a> {
 }
 
 const SIZE: (f64, f64) = (360.0, 240.0);
-/// Blue, red, green, violet: distinct also to eyes that confuse two of them, by their lightness.
-pub(super) const COLOURS: [Colour; 4] = [[33, 74, 135], [214, 96, 30], [0, 140, 100], [150, 90, 170]];
+/// Blue, red, green, violet: distinct also to eyes that confuse two of them, by their lightness. Then sky blue, ochre,
+/// brown and grey.
+pub(super) const COLOURS: [Colour; 8] = [
+    [33, 74, 135],
+    [214, 96, 30],
+    [0, 140, 100],
+    [150, 90, 170],
+    [95, 175, 225],
+    [225, 170, 30],
+    [120, 60, 35],
+    [125, 125, 125],
+];
 /// The width of a curve, and the diameter of its dots.
 pub(super) const WIDTH: f64 = 1.0;
 const DOT: f64 = 3.5;
@@ -91,17 +101,18 @@ impl Chart<'_> {
         let legend = entries.map(entry).filter(|entry| !entry.text.is_empty()).collect();
         let texts = Texts { title: self.title, caption: self.caption, legend };
 
-        let plot = Area::new(2.0 * MARGIN + room(&beside), texts.above(), SIZE.0, SIZE.1);
+        let left = room(&beside);
+        let plot = Area::new(2.0 * MARGIN + left, texts.above(), SIZE.0, SIZE.1);
         let bottom = plot.bottom() + NUMBERS + LINE + MARGIN;
-        let width = plot.left + (SIZE.0 + 3.0 * MARGIN).max(texts.widest() + MARGIN);
-        let mut picture = Picture::new(self.title, (width.ceil(), bottom + texts.below()), dpi)?;
-        let (across, above) = (x.part(), y.part());
+        let across = (SIZE.0 + 3.0 * MARGIN).max(texts.widest() + MARGIN);
+        let mut picture = Picture::new(self.title, ((plot.left + across).ceil(), bottom + texts.below(across)), dpi)?;
+        let (along, above) = (x.part(), y.part());
         if !y.logarithmic && y.low < 0.0 && y.high > 0.0 {
             let zero = plot.bottom() - plot.height * above.share(0.0);
             picture.fill(Area::new(plot.left, zero - 0.5 * HAIRLINE, plot.width, HAIRLINE), GREY);
         }
         let place = |&(x, y): &(f64, f64)| {
-            (plot.left + plot.width * across.share(x), plot.bottom() - plot.height * above.share(y))
+            (plot.left + plot.width * along.share(x), plot.bottom() - plot.height * above.share(y))
         };
         for [from, to] in &self.jumps {
             let pieces = dashes(place(from), place(to));
@@ -121,8 +132,8 @@ impl Chart<'_> {
         }
         picture.outline(plot);
         draw_axis_below(&mut picture, &below, plot);
-        draw_axis_beside(&mut picture, &beside, plot, -1.0, room(&beside));
-        texts.draw(&mut picture, plot.left, bottom);
+        draw_axis_beside(&mut picture, &beside, plot, -1.0, left);
+        texts.draw(&mut picture, plot.left, bottom, across);
         Ok(picture)
     }
 

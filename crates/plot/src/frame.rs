@@ -52,19 +52,34 @@ impl Texts<'_> {
         2.0 * MARGIN + lines as f64 * LINE
     }
 
-    /// The height below the plot and its axis.
-    pub(super) fn below(&self) -> f64 {
-        if self.legend.is_empty() { 0.0 } else { LINE + 0.5 * MARGIN }
+    /// The height below the plot and its axis, for a legend of this width.
+    pub(super) fn below(&self, across: f64) -> f64 {
+        let rows = self.places(across).last().map_or(0, |&(_, row)| row + 1);
+        if rows == 0 { 0.0 } else { rows as f64 * LINE + 0.5 * MARGIN }
     }
 
-    /// The width of the longest line.
+    /// The width of the longest line, where each entry of the legend may have a row of its own.
     pub(super) fn widest(&self) -> f64 {
-        let legend: f64 = self.legend.iter().map(Entry::width).sum();
+        let legend = self.legend.iter().map(Entry::width).fold(0.0, f64::max);
         width(self.title, TITLE).max(width(self.caption, LABEL)).max(legend)
     }
 
-    /// Draws title and caption from the top, and the legend from `bottom` on.
-    pub(super) fn draw(&self, picture: &mut Picture, left: f64, bottom: f64) {
+    /// The columns and rows of the entries in a legend of this width.
+    fn places(&self, across: f64) -> Vec<(f64, usize)> {
+        let (mut column, mut row) = (0.0, 0);
+        let mut place = |entry: &Entry| {
+            if column > 0.0 && column + entry.width() > across {
+                (column, row) = (0.0, row + 1);
+            }
+            let place = (column, row);
+            column += entry.width();
+            place
+        };
+        self.legend.iter().map(&mut place).collect()
+    }
+
+    /// Draws title and caption from the top, and the legend from `bottom` on, over the width `across`.
+    pub(super) fn draw(&self, picture: &mut Picture, left: f64, bottom: f64, across: f64) {
         let mut row = MARGIN + 0.5 * LINE;
         for (text, size) in [(self.title, TITLE), (self.caption, LABEL)] {
             if !text.is_empty() {
@@ -72,17 +87,17 @@ impl Texts<'_> {
                 row += LINE;
             }
         }
-        let (mut column, middle) = (left, bottom + 0.5 * SWATCH);
-        for entry in &self.legend {
+        for (entry, (column, row)) in self.legend.iter().zip(self.places(across)) {
+            let (column, top) = (left + column, bottom + row as f64 * LINE);
+            let middle = top + 0.5 * SWATCH;
             if entry.line {
                 picture.fill(Area::new(column, middle - 0.75, SWATCH + 1.0, 1.5), entry.colour);
             } else {
-                let swatch = Area::new(column, bottom, SWATCH, SWATCH);
+                let swatch = Area::new(column, top, SWATCH, SWATCH);
                 picture.fill(swatch, entry.colour);
                 picture.outline(swatch);
             }
             picture.text(&entry.text, (column + SWATCH + SWATCH_SPACE, middle), LABEL, Anchor::Start);
-            column += entry.width();
         }
     }
 }

@@ -124,8 +124,8 @@ impl<'a> Map<'a> {
         let right = if bars.is_empty() { 3.0 * MARGIN } else { GAP + BAR + bars_room + MARGIN };
         let plot = Area::new(left, texts.above(), width, height);
         let bottom = plot.top + height.max(bars_height - NUMBERS - LINE) + NUMBERS + LINE + MARGIN;
-        let across = left + (width + right).max(texts.widest() + MARGIN);
-        let mut picture = Picture::new(self.title, (across.ceil(), bottom + texts.below()), dpi)?;
+        let across = (width + right).max(texts.widest() + MARGIN);
+        let mut picture = Picture::new(self.title, ((left + across).ceil(), bottom + texts.below(across)), dpi)?;
         if y.is_some() && self.is_line() {
             self.draw_curve(&mut picture, plot, &colours);
         } else {
@@ -140,7 +140,7 @@ impl<'a> Map<'a> {
         for bar in bars {
             bar.draw(&mut picture, (plot.right() + GAP, plot.top), bars_room, &colours);
         }
-        texts.draw(&mut picture, left, bottom);
+        texts.draw(&mut picture, left, bottom, across);
         picture.key = self.key(&colours);
         Ok((picture, plot))
     }

@@ -5,8 +5,8 @@ pub(super) const TINY: f64 = 1e-280;
 
 /// Units that take SI prefixes, alone or in front of a division such as "/m".
 const PREFIXABLE: [&str; 7] = ["m", "Pa", "N", "J", "s", "V", "W"];
-/// The prefixes from 1e-15 to 1e12.
-const PREFIXES: [&str; 10] = ["f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
+/// The prefixes from 1e-18 to 1e12.
+const PREFIXES: [&str; 11] = ["a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
 
 /// The least number on a logarithmic axis that is not written as a power of ten.
 const PLAIN: f64 = 5e-4;
@@ -27,7 +27,7 @@ impl Scale {
         let decade = if largest > TINY { (largest.log10() + 1e-9).floor() as i32 } else { 0 };
         let power = decade.div_euclid(3);
         let symbol = unit.split_once('/').map_or(unit, |(symbol, _)| symbol);
-        match usize::try_from(power + 5).ok().and_then(|i| PREFIXES.get(i)) {
+        match usize::try_from(power + 6).ok().and_then(|i| PREFIXES.get(i)) {
             Some(prefix) if PREFIXABLE.contains(&symbol) => {
                 Self { factor: 10f64.powi(3 * power), exponent: 0, unit: format!("{prefix}{unit}") }
             }

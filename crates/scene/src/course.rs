@@ -18,6 +18,7 @@ use crate::compiled::compiled;
 use crate::entries::{Search, Step};
 use crate::found::{Found, check_finite};
 use crate::identity::Identity;
+use crate::pace::Pace;
 use crate::posed::Posed;
 
 /// The way through the loads of a table.
@@ -43,6 +44,8 @@ pub struct Course<T> {
     place: PathCheckpoint<T>,
     /// Whether the present leg of a cycle ends at the place
     leg_ends: bool,
+    /// The pace of a cycle
+    pace: Option<Pace>,
 }
 
 /// The row of a state in a table: its account, and the figures that tables alone have.
@@ -90,13 +93,20 @@ impl Way {
             Self::Search(_) => &[],
         }
     }
+
+    /// The least number of states of a cycle.
+    fn least_states(&self) -> Option<usize> {
+        let Self::Cycle(loads, settings) = self else { return None };
+        Some(1 + loads.len().saturating_sub(1) * settings.steps)
+    }
 }
 
 impl<T: Real> Course<T> {
     /// A course from its beginning, with the contact stiffness of each state or without.
     pub fn new(way: Way, stiffness: bool) -> Self {
         let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
-        Self { way, stiffness, start: None, states: 0, place, leg_ends: false }
+        let pace = way.least_states().map(|least| Pace::new(least, 0, 0));
+        Self { way, stiffness, start: None, states: 0, place, leg_ends: false, pace }
     }
 
     /// The course from a gap in the place of the default start.
@@ -105,9 +115,15 @@ impl<T: Real> Course<T> {
     }
 
     /// The course continued behind as many states from the [place](Self::place) of the last one, bit for bit; of a
-    /// cycle, whether its surfaces are apart there.
-    pub fn continuing(self, states: usize, place: PathCheckpoint<T>, apart: bool) -> Self {
-        Self { states, place, leg_ends: apart, ..self }
+    /// cycle, behind as many events, and whether its surfaces are apart there.
+    pub fn continuing(self, states: usize, place: PathCheckpoint<T>, (events, apart): (usize, bool)) -> Self {
+        let pace = self.way.least_states().map(|least| Pace::new(least, states, events));
+        Self { states, place, leg_ends: apart, pace, ..self }
+    }
+
+    /// The pace of a cycle.
+    pub fn pace(&self) -> Option<&Pace> {
+        self.pace.as_ref()
     }
 
     /// The place from which the next state follows.
@@ -228,7 +244,13 @@ impl<T: Real> Course<T> {
                 if this.leg_ends {
                     path.end_leg();
                 }
+                if let Some(pace) = &mut this.pace {
+                    pace.begin(path.share());
+                }
                 let Some(found) = path.next_observed(observe).transpose()? else { return Ok(None) };
+                if let Some(pace) = &mut this.pace {
+                    pace.add(path.share(), found.event.is_some(), clock.elapsed().as_secs_f64());
+                }
                 this.place = path.checkpoint();
                 let step = Step {
                     leg: found.leg,

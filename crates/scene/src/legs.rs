@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::course::INPUTS;
 
 /// The most curves of a study that a chart names: it has as many colours.
-const MOST_NAMED: usize = 4;
+const MOST_NAMED: usize = 8;
 
 /// The value of a column, not a number where there is none.
 pub fn value(row: &Value, column: &str) -> f64 {
@@ -55,10 +55,11 @@ impl Spread {
 }
 
 /// The parts of a table for one curve each, with its name: of a sweep the loads that rise or fall, of a cycle its legs,
-/// which begin with the row before them, and of a study its cases. A single curve has no name.
-pub fn legs(rows: &[Value]) -> Vec<(String, Vec<&[Value]>)> {
+/// which begin with the row before them, and of a study its cases, by the numbers that they vary, each of a column as it
+/// is `told`. A single curve has no name.
+pub fn legs(rows: &[Value], told: impl Fn(&str, f64) -> String) -> Vec<(String, Vec<&[Value]>)> {
     if rows.first().is_some_and(|row| row["case"].is_u64()) {
-        return cases(rows);
+        return cases(rows, &told);
     }
     let load = |row: &Value| value(row, "control_value");
     let cycle = is_cycle(rows);
@@ -96,12 +97,12 @@ pub fn varied(rows: &[Value]) -> Vec<&str> {
 /// The cases of a study under the values that they vary; where there are more cases than colours, those together whose
 /// values agree in the columns with the fewest of them. A seed then names none: surfaces of several seeds are samples of
 /// one.
-fn cases(rows: &[Value]) -> Vec<(String, Vec<&[Value]>)> {
+fn cases<'a>(rows: &'a [Value], told: &dyn Fn(&str, f64) -> String) -> Vec<(String, Vec<&'a [Value]>)> {
     let cases: Vec<_> = rows.chunk_by(|row, next| row["case"] == next["case"]).collect();
     let few = cases.len() <= MOST_NAMED;
     let mut columns = varied(rows);
     columns.retain(|column| few || *column != "seed");
-    let count = |columns: &[&str]| grouped(&cases, columns).len();
+    let count = |columns: &[&str]| grouped(&cases, columns, told).len();
     columns.sort_by_cached_key(|column| count(&[column]));
     let mut naming: Vec<&str> = Vec::new();
     for column in columns {
@@ -110,7 +111,7 @@ fn cases(rows: &[Value]) -> Vec<(String, Vec<&[Value]>)> {
             naming.pop();
         }
     }
-    let mut found = grouped(&cases, &naming);
+    let mut found = grouped(&cases, &naming, told);
     if let [(name, _)] = &mut *found {
         name.clear();
     }
@@ -118,13 +119,18 @@ fn cases(rows: &[Value]) -> Vec<(String, Vec<&[Value]>)> {
 }
 
 /// The cases by their values in some columns, which are their names.
-fn grouped<'a>(cases: &[&'a [Value]], columns: &[&str]) -> Vec<(String, Vec<&'a [Value]>)> {
+fn grouped<'a>(
+    cases: &[&'a [Value]],
+    columns: &[&str],
+    told: &dyn Fn(&str, f64) -> String,
+) -> Vec<(String, Vec<&'a [Value]>)> {
     let mut found: Vec<(String, Vec<&[Value]>)> = Vec::new();
     for case in cases {
         let named = |column: &&str| {
             let value = match &case[0][*column] {
                 Value::Null => return None,
                 Value::String(text) => text.clone(),
+                Value::Number(number) if number.is_f64() => told(column, number.as_f64().unwrap_or(f64::NAN)),
                 other => other.to_string(),
             };
             Some(format!("{} {value}", column.replace('_', " ")))

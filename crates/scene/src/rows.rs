@@ -13,6 +13,15 @@ use crate::words::{Skin, worded};
 /// of waves that the nodes do not resolve: its pieces are of a few nodes then.
 const NOISE: f64 = 0.25;
 
+/// The corrected contact fraction for people, and what it says if it is far from the counted one.
+pub fn corrected(corrected: f64, counted: f64) -> String {
+    let (apart, share) = ((corrected / counted - 1.0).abs(), percent(corrected));
+    match apart > NOISE {
+        true => format!("{share} %, {} % apart: noise, or waves finer than the nodes", percent(apart)),
+        false => format!("{share} %"),
+    }
+}
+
 /// The rows of a summary of solves after a look: the name of each, and its text for each of the solves, in units as far
 /// as they are known, and in the words of a skin. A row of which no solve has anything is left out.
 pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<String>)> {
@@ -41,16 +50,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     });
     row("body", &|s| s.inputs.elastic.in_words(units));
     row("contact", &|s| share(s.contact_fraction));
-    row("corrected for its edge", &|s| {
-        let (corrected, counted) = (s.corrected_contact_fraction?, s.contact_fraction);
-        let apart = (corrected / counted - 1.0).abs();
-        let noise = if apart > NOISE {
-            format!(", {} % apart: noise, or waves finer than the nodes", percent(apart))
-        } else {
-            String::new()
-        };
-        Some(format!("{} %{noise}", percent(corrected)))
-    });
+    row("corrected for its edge", &|s| Some(corrected(s.corrected_contact_fraction?, s.contact_fraction)));
     row("nodes in contact", &|s| {
         let (nx, ny) = s.inputs.shape;
         Some(format!("{} of {}", s.contact_nodes, nx * ny - s.absent_nodes))

@@ -192,7 +192,9 @@ impl Table {
         let fields = fields.into_iter().map(own).map(T::field).collect();
         let shares = ["contact_fraction", "attractive_fraction"].map(|name| last[name].as_f64());
         let apart = is_apart(last["direction"].as_str(), shares);
-        Ok(course.continuing(self.rows, PathCheckpoint { values, fields }, apart))
+        let earlier = rows.filter(|row| !row["event"].is_null()).count();
+        let events = earlier + [&last, &before].iter().filter(|row| !row["event"].is_null()).count();
+        Ok(course.continuing(self.rows, PathCheckpoint { values, fields }, (events, apart)))
     }
 
     /// Appends the row of the state that its course found last, with the fields on the part of a mirrored map, if they

@@ -156,7 +156,7 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
         let (mut whole, mut problem) = (Course::new(way.clone(), true), posed());
         let (mut place, mut last, mut rows) = (whole.place().clone(), false, 0);
         while let Some((row, apart)) = next(&mut whole, &mut problem) {
-            let mut course = Course::new(way.clone(), true).continuing(rows, place, last);
+            let mut course = Course::new(way.clone(), true).continuing(rows, place, (0, last));
             assert_eq!(next(&mut course, &mut posed()).unwrap().0, row);
             (place, last, rows) = (course.place().clone(), apart, rows + 1);
         }

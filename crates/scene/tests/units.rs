@@ -4,6 +4,7 @@
 use asperity_scene::fall::{Fall, time};
 use asperity_scene::legs::{legs, logarithmic};
 use asperity_scene::list::{Loads, list};
+use asperity_scene::pace::Pace;
 use asperity_scene::quantity::{
     ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH,
     power_of_length, times_ten_to,
@@ -217,6 +218,28 @@ fn a_steady_fall_tells_its_rate_and_the_time_that_is_left() {
 }
 
 #[test]
+fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
+    // two states were there, with one event; a hundred there are at least
+    let mut pace = Pace::new(100, 2, 1);
+    assert_eq!((pace.seconds_left(), pace.expected()), (None, None));
+    pace.begin(0.2);
+    pace.add(0.21, false, 2.0);
+    assert_eq!(pace.seconds_left(), Some(97.0 * 2.0));
+    // from a twentieth of the way on by the way
+    pace.add(0.4, true, 4.0);
+    assert!((pace.seconds_left().unwrap() - 18.0).abs() < 1e-12);
+    assert_eq!(pace.told(), "4 states, 2 events, 40 % of the way, about 18 s left");
+    let mut fresh = Pace::new(101, 0, 0);
+    fresh.add(0.0, false, 0.5);
+    assert_eq!(fresh.expected().unwrap(), "101 states and 50 s at least; each jump takes further ones");
+    // past a limit point the load falls again, the way does not
+    fresh.add(0.5, false, 0.5);
+    fresh.add(0.4, false, 0.5);
+    assert_eq!(fresh.share(), 0.5);
+    assert_eq!(fresh.expected(), None);
+}
+
+#[test]
 fn an_axis_is_logarithmic_where_values_are_spread_so() {
     let rows = |values: &[f64]| values.iter().map(|value| json!({ "mean_gap": value })).collect::<Vec<_>>();
     let log = |values: &[f64]| logarithmic(&rows(values), "mean_gap", "mean_gap") == [true; 2];
@@ -240,15 +263,18 @@ fn the_cases_of_a_study_are_named_by_what_varies() {
     };
     let found = |rows: &[Value]| -> Vec<(String, Vec<usize>)> {
         let count = |(name, parts): (String, Vec<&[Value]>)| (name, parts.iter().map(|rows| rows.len()).collect());
-        legs(rows).into_iter().map(count).collect()
+        legs(rows, |column, value| format!("{value}{}", if column == "hurst" { " H" } else { "" }))
+            .into_iter()
+            .map(count)
+            .collect()
     };
     let name = |text: &str, parts: &[usize]| (text.to_owned(), parts.to_vec());
-    let two = [name("hurst 0.5, seed 1", &[2]), name("hurst 0.8, seed 2", &[2])];
+    let two = [name("hurst 0.5 H, seed 1", &[2]), name("hurst 0.8 H, seed 2", &[2])];
     assert_eq!(found(&rows(&[(1, 0.5), (1, 0.5), (2, 0.8), (2, 0.8)])), two);
     assert_eq!(found(&rows(&[(1, 0.5), (1, 0.5)])), [name("", &[2])]);
     // more than there are colours: by the columns with few values, but not by the seed
-    let many = rows(&[(1, 0.5), (2, 0.5), (3, 0.5), (4, 0.8), (5, 0.8)]);
-    assert_eq!(found(&many), [name("hurst 0.5", &[1; 3]), name("hurst 0.8", &[1; 2])]);
-    let seeds = rows(&[(1, 0.5), (2, 0.5), (3, 0.5), (4, 0.5), (5, 0.5)]);
-    assert_eq!(found(&seeds), [name("", &[1; 5])]);
+    let many: Vec<_> = (1..10).map(|seed| (seed, if seed < 6 { 0.5 } else { 0.8 })).collect();
+    assert_eq!(found(&rows(&many)), [name("hurst 0.5 H", &[1; 5]), name("hurst 0.8 H", &[1; 4])]);
+    let seeds: Vec<_> = (1..10).map(|seed| (seed, 0.5)).collect();
+    assert_eq!(found(&rows(&seeds)), [name("", &[1; 9])]);
 }

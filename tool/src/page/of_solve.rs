@@ -5,11 +5,12 @@ use std::fs;
 use std::path::Path;
 
 use asperity::Error;
+use asperity_scene::corrected;
 use serde_json::Value;
 
 use super::Page;
 use super::figures::{GROUPS, OF_ADHESION, place, shown, spaced};
-use crate::numbers::plain;
+use crate::columns;
 use crate::outcome::Outcome;
 use crate::pictures::MapColours;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
@@ -53,14 +54,15 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     }
     page.heading("Figures");
     let on_line = report["shape"][1] == 1;
+    let counted = report["contact_fraction"].as_f64().unwrap_or_default();
     let number = |key: &str, value| match dimension_of(key, word("control"), on_line) {
         // a window around a tip is no area of its energy
         Some(ENERGY_PER_AREA) if word("boundary") == "free" && key.ends_with("_energy") => {
             let area: f64 = report["lengths"].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
             units.number(area * value, ENERGY)
         }
-        Some(dimension) => units.number(value, dimension),
-        None => plain(value),
+        _ if key == "corrected_contact_fraction" => corrected(value, counted),
+        dimension => columns::number(key, value, dimension, &units),
     };
     let all: Vec<_> = report.as_object().into_iter().flatten().collect();
     let figure = |(key, value): &(&String, &Value)| Some(((*key).clone(), shown(key, value, &number)?));
@@ -69,6 +71,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     let once = |key: &str| match key {
         "control" | "control_value" => !report[given.as_str()].is_f64(),
         "absent_nodes" => report[key] != 0,
+        "under_resolved" => report[key] != false,
         _ if word("law") == "none" => !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key),
         _ => true,
     };

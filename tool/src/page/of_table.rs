@@ -12,13 +12,12 @@ use toml::Table;
 
 use super::figures::{escaped, place, shown, spaced};
 use super::{FINE, Page};
+use crate::columns::Columns;
 use crate::csv;
-use crate::numbers::plain;
 use crate::outcome::Outcome;
-use crate::pictures::{chart, chart_of_columns, chart_of_loads};
-use crate::quantity::{ENERGY, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE};
+use crate::pictures::{PlotOptions, chart, chart_of_columns, chart_of_loads};
 use crate::scene;
-use crate::units::{Units, dimension_of};
+use crate::units::Units;
 use crate::warnings;
 
 /// The page of a table of `asperity sweep` or `asperity cycle`.
@@ -58,24 +57,31 @@ pub fn page(table: &Path) -> Outcome<String> {
     }
     page.heading("Rows");
     // what no row has is left out, what is the same in all is folded, and the others stand as one asks for them
-    let filled =
-        header.iter().zip(&columns).filter(|(_, column)| rows.iter().any(|row| !row[column.as_str()].is_null()));
+    let control = rows[0]["control"].as_str().unwrap_or_default();
+    let held = control.replace('-', "_");
+    let same = |column: &str| rows.iter().all(|row| row[column] == rows[0][column]);
+    let is_there = |column: &str| match column {
+        "control_value" => rows.iter().any(|row| {
+            let [given, found] = [column, &held].map(|column| value(row, column));
+            (given - found).abs() > 1e-6 * found.abs() || found.is_nan()
+        }),
+        _ => rows.iter().any(|row| !row[column].is_null()),
+    };
+    let filled = header.iter().zip(&columns).filter(|(_, column)| is_there(column));
     let varied = varied(&rows);
     let is_setting = |(_, column): &(&String, &String)| {
-        place(column) == usize::MAX
-            && !varied.contains(&column.as_str())
-            && rows.iter().all(|row| row[column.as_str()] == rows[0][column.as_str()])
+        !varied.contains(&column.as_str()) && same(column) && (count > 1 || place(column) == usize::MAX)
     };
     let (settings, mut kept): (Vec<_>, Vec<_>) = filled.partition(is_setting);
     kept.sort_by_key(|(_, column)| if varied.contains(&column.as_str()) { 0 } else { place(column) });
-    let head: String = kept.iter().map(|(_, column)| format!("<th>{}</th>", escaped(&spaced(column)))).collect();
+    let head: String =
+        kept.iter().map(|(_, column)| format!("<th>{}</th>", escaped(&Columns::label(column)))).collect();
     let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
-    let control = rows[0]["control"].as_str().unwrap_or_default();
-    let number = |column: &str, value| match dimension_of(column, control, false) {
-        Some(dimension) => units.number(value, dimension),
-        None => plain(value),
+    let of = Columns::new(&rows, &units);
+    let text = |row: &Value, column: &str| {
+        let number = |name: &str, found| of.number(name, if name == column { of.value(row, name) } else { found });
+        shown(column, &row[column], &number).unwrap_or_default()
     };
-    let text = |row: &Value, column: &str| shown(column, &row[column], &number).unwrap_or_default();
     for row in &rows {
         let cells: String =
             kept.iter().map(|(_, column)| format!("<td>{}</td>", escaped(&text(row, column)))).collect();
@@ -87,36 +93,47 @@ pub fn page(table: &Path) -> Outcome<String> {
     Ok(page.finish(scene.as_deref()))
 }
 
+/// Draws the chart of the loads of a table, if it is wanted.
+pub fn draw_loads(table: &Path, plot: &PlotOptions) -> Outcome<()> {
+    let text = fs::read_to_string(table).map_err(|e| Error::unreadable(table, e))?;
+    let (header, _, rows) = rows(&text);
+    plot.draw(&rows, &units_of_table(&header, None))
+}
+
 /// What one asks of a cycle first: the pull-off, the jumps, and the energy that they dissipate. Those of a body with a
-/// free boundary are forces and energies, others are over the area.
+/// free boundary are forces and energies, others are over the area, too.
 fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
-    let free = rows.iter().any(|row| !row["approach"].is_null());
-    let load = if free { "normal_force" } else { "mean_pressure" };
-    let least = rows.iter().min_by(|a, b| value(a, load).total_cmp(&value(b, load)));
+    let columns = Columns::new(rows, units);
+    let free = !columns.are_per_area();
+    let told = |row: &Value, column: &str| columns.number(column, columns.value(row, column));
     let mut figures = Vec::new();
-    if let Some(row) = least.filter(|row| value(row, load) < 0.0) {
-        let (name, dimension) = if free { ("pull-off force", FORCE) } else { ("pull-off pressure", PRESSURE) };
+    let least = rows.iter().enumerate().min_by(|(_, a), (_, b)| {
+        let [a, b] = [a, b].map(|row| value(row, "normal_force"));
+        a.total_cmp(&b)
+    });
+    if let Some((k, row)) = least.filter(|(_, row)| value(row, "normal_force") < 0.0) {
         let (at, place) = if free { ("an approach", "approach") } else { ("a mean gap", "mean_gap") };
-        let (pull, place) = (units.number(-value(row, load), dimension), units.number(value(row, place), LENGTH));
-        figures.push((name.to_owned(), format!("{pull} at {at} of {place}")));
+        // what the surfaces come to in an approach, or still bear at the end, is no pull-off
+        let is_lost = row["direction"] == "withdrawal" && k + 1 < rows.len();
+        let name = if is_lost { "pull-off force" } else { "greatest tensile force" };
+        let force = columns.number("normal_force", -value(row, "normal_force"));
+        figures.push((name.to_owned(), format!("{force} at {at} of {}", told(row, place))));
+        if !free {
+            let tension = columns.number("mean_pressure", -value(row, "mean_pressure"));
+            figures.push(("greatest tension".to_owned(), tension));
+        }
     }
     let jumps: Vec<_> = rows.iter().filter(|row| value(row, "energy_drop") > 0.0).collect();
     let of = |direction: &str| jumps.iter().filter(|row| row["direction"] == direction).count();
     let (approach, withdrawal) = (of("approach"), of("withdrawal"));
     figures.push(("jumps".to_owned(), format!("{approach} in approach, {withdrawal} in withdrawal")));
-    // rows have no side lengths, but the force over the area and the force
-    let firm = rows.iter().max_by(|a, b| value(a, "mean_pressure").abs().total_cmp(&value(b, "mean_pressure").abs()));
-    let area = firm.map_or(f64::NAN, |row| value(row, "normal_force") / value(row, "mean_pressure"));
-    let energy = |value: f64| match free && area.is_finite() {
-        true => units.number(area * value, ENERGY),
-        false => units.number(value, ENERGY_PER_AREA),
-    };
     let per_area = if free { "" } else { " per area" };
     if let Some(last) = rows.last() {
-        figures.push((format!("dissipated energy{per_area}"), energy(value(last, "dissipated"))));
+        figures.push((format!("dissipated energy{per_area}"), told(last, "dissipated")));
     }
-    if let Some(most) = jumps.iter().map(|row| value(row, "energy_drop")).max_by(f64::total_cmp) {
-        figures.push((format!("greatest of a jump{per_area}"), energy(most)));
+    let drop = |row: &&&Value| value(row, "energy_drop");
+    if let Some(most) = jumps.iter().max_by(|a, b| drop(a).total_cmp(&drop(b))) {
+        figures.push((format!("greatest of a jump{per_area}"), told(most, "energy_drop")));
     }
     figures
 }
@@ -127,10 +144,11 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
     let of = |x: &str, y: &str| chart_of_columns(rows, x, y, units, FINE);
     let searched = !rows[0]["wanted_contact_fraction"].is_null();
     let load = if rows[0]["control"] == "normal-force" && !searched { "normal_force" } else { "mean_pressure" };
+    let free = rows.iter().any(|row| !row["approach"].is_null());
     let mut charts = Vec::new();
     if cycle && rows[0]["control"] == "spring" {
         // what is measured
-        let y = if rows.iter().any(|row| !row["approach"].is_null()) { "normal_force" } else { "mean_pressure" };
+        let y = if free { "normal_force" } else { "mean_pressure" };
         charts.push(chart(rows, ("control_value", "position of the spring"), &[("", y)], units, FINE)?);
     }
     if cycle || !differs(load) {
@@ -143,14 +161,14 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
         charts.push(chart(rows, (load, &spaced(load)), &areas[..known], units, FINE)?);
         charts.push(of(load, "mean_gap")?);
     }
+    let gap = if free { "approach" } else { "mean_gap" };
     if !rows[0]["contact_stiffness"].is_null() {
-        charts.push(of(if cycle { "mean_gap" } else { load }, "contact_stiffness")?);
+        charts.push(of(if cycle { gap } else { load }, "contact_stiffness")?);
     }
-    for (x, y) in [("mean_gap", "contact_fraction"), ("mean_gap", if cycle { "dissipated" } else { "elastic_energy" })]
-    {
+    for y in ["contact_fraction", if cycle { "dissipated" } else { "elastic_energy" }] {
         // what is the same in all rows needs no curve
-        if differs(y) && differs(x) {
-            charts.push(of(x, y)?);
+        if differs(y) && differs(gap) {
+            charts.push(of(gap, y)?);
         }
     }
     Ok(charts)

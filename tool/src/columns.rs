@@ -1,0 +1,79 @@
+//! The columns of a table as people read them.
+
+use asperity_scene::legs::value;
+use serde_json::Value;
+
+use crate::numbers::{percent, plain};
+use crate::quantity::{Dimension, ENERGY, ENERGY_PER_AREA};
+use crate::units::{Units, dimension_of};
+
+/// The columns of the rows of a table, with their units. Energies of a body with a free boundary are in full, as a window
+/// around a tip is no area of its energy; others are over the area.
+pub struct Columns<'a> {
+    units: &'a Units,
+    control: &'a str,
+    /// The nominal area of a body with a free boundary.
+    area: Option<f64>,
+}
+
+impl<'a> Columns<'a> {
+    pub fn new(rows: &'a [Value], units: &'a Units) -> Self {
+        let control = rows.first().and_then(|row| row["control"].as_str()).unwrap_or_default();
+        let free = rows.iter().any(|row| !row["approach"].is_null());
+        // rows have no side lengths, but the force over the area and the force
+        let area = rows.iter().filter_map(area).max_by(f64::total_cmp);
+        Self { units, control, area: area.filter(|_| free) }
+    }
+
+    /// Whether energies are over the area.
+    pub fn are_per_area(&self) -> bool {
+        self.area.is_none()
+    }
+
+    /// The number of a row in a column; not a number where there is none.
+    pub fn value(&self, row: &Value, name: &str) -> f64 {
+        match (self.dimension(name), self.area) {
+            (Some(ENERGY), Some(of_table)) => area(row).unwrap_or(of_table) * value(row, name),
+            _ => value(row, name),
+        }
+    }
+
+    /// The dimension of a column.
+    fn dimension(&self, name: &str) -> Option<Dimension> {
+        match dimension_of(name, self.control, false) {
+            Some(ENERGY_PER_AREA) if self.area.is_some() && name != "work_of_adhesion" => Some(ENERGY),
+            other => other,
+        }
+    }
+
+    /// The unit of a column.
+    pub fn unit(&self, name: &str) -> Option<String> {
+        self.units.of(self.dimension(name)?)
+    }
+
+    /// A number of a column for people.
+    pub fn number(&self, name: &str, value: f64) -> String {
+        number(name, value, self.dimension(name), self.units)
+    }
+
+    /// The name of a column for people.
+    pub fn label(name: &str) -> String {
+        if name == "dissipated" { "dissipated energy".to_owned() } else { name.replace('_', " ") }
+    }
+}
+
+/// The nominal area of a row, of which the load is not zero.
+fn area(row: &Value) -> Option<f64> {
+    Some(value(row, "normal_force") / value(row, "mean_pressure")).filter(|area| area.is_finite())
+}
+
+/// A number of a name and dimension for people: a share in percent, and an error to two digits.
+pub fn number(name: &str, value: f64, dimension: Option<Dimension>, units: &Units) -> String {
+    match dimension {
+        Some(dimension) => units.number(value, dimension),
+        None if name == "seconds" => format!("{value:.3} s"),
+        None if name.ends_with("_fraction") => format!("{} %", percent(value)),
+        None if name.ends_with("_error") => format!("{value:.1e}"),
+        None => plain(value),
+    }
+}
