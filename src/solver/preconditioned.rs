@@ -300,7 +300,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
         let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
         let best = (-(trial.slope + trial.kink) / curvature).min(FARTHEST);
-        let best = if best > 0.0 { best } else { BACK };
+        let best = if trial.kink > 0.0 && best <= 0.0 { BACK } else { best };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,
             true => best,

@@ -358,7 +358,8 @@ fn every_law_control_body_and_precision_works_with_it() {
         let free = capped(0.05, 1e-6).solve(&mut problem, control).unwrap();
         for solution in [&periodic, &free] {
             assert_eq!(solution.report.status, Status::Converged, "{control:?}");
-            assert!(solution.report.plastic.unwrap().fraction > 0.0 && greatest(solution) == 0.05);
+            assert!(solution.report.plastic.unwrap().fraction == 0.0 || greatest(solution) == 0.05);
+            assert!(greatest(solution) <= 0.05);
             let depth = solution.plastic_depth.as_ref().unwrap();
             assert!(solution.gap.iter().zip(depth).all(|(gap, depth)| gap.is_finite() || *depth == 0.0));
         }
