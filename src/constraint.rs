@@ -9,11 +9,13 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::real::Real;
 
+mod hardness;
 mod no_wall;
 mod penalty;
 mod projection;
 mod uzawa;
 
+pub use hardness::Hardness;
 pub use no_wall::NoWall;
 pub use penalty::Penalty;
 pub use projection::Projection;
@@ -23,7 +25,7 @@ pub use uzawa::Uzawa;
 ///
 /// Either the gap is confined to g ≥ 0 ([`Projection`]), or any gap is feasible and the energy gains a term at each
 /// node that resists negative gaps ([`Penalty`]), perhaps with multipliers that are updated between solves ([`Uzawa`]).
-/// A law that repels close by needs neither ([`NoWall`]).
+/// A wall of a given [`Hardness`] yields. A law that repels close by needs no wall ([`NoWall`]).
 ///
 /// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0, and goes on at negative gaps as its tangent, φ(0) +
 /// φ'(0)g: springs of any stiffness then bound the energy below, which an exponential would outrun.
@@ -84,17 +86,20 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
 pub enum Wall<'a, T> {
     /// The gap is confined to g ≥ 0.
     Rigid,
+    /// The gap is confined to g ≥ 0 until the contact pressure reaches a hardness, at which the surface yields.
+    Capped(&'a Hardness),
     /// Any gap is feasible, and the energy gains that of springs.
     Springs(&'a dyn Springs<T>),
     /// Any gap is feasible at which the adhesion law is finite: the law itself keeps the surfaces apart.
     None,
 }
 
-impl<T> Wall<'_, T> {
-    /// The name that reports use: `"rigid"`, `"springs"` or `"none"`.
+impl<'a, T> Wall<'a, T> {
+    /// The name that reports use: `"rigid"`, `"capped"`, `"springs"` or `"none"`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
+            Self::Capped(_) => "capped",
             Self::Springs(_) => "springs",
             Self::None => "none",
         }
@@ -103,6 +108,16 @@ impl<T> Wall<'_, T> {
     /// Whether the gap is confined to g ≥ 0.
     pub fn is_rigid(&self) -> bool {
         matches!(self, Self::Rigid)
+    }
+
+    /// Whether steps end where the surfaces touch: at a rigid wall, and at one that yields.
+    pub(crate) fn projects(&self) -> bool {
+        matches!(self, Self::Rigid | Self::Capped(_))
+    }
+
+    /// The hardness at which the wall yields, if it does.
+    pub(crate) fn hardness(&self) -> Option<&'a Hardness> {
+        if let Self::Capped(hardness) = self { Some(hardness) } else { None }
     }
 }
 

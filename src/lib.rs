@@ -56,7 +56,7 @@
 //! |---|---|---|
 //! | [`ElasticOperator`] | pressure of a displacement | [`Westergaard`] (periodic), [`Boussinesq`] (free), [`Spectral`] (any symbol) |
 //! | [`AdhesionLaw`] | energy, traction, slope at a gap | [`NoAdhesion`], [`MaugisDugdale`], [`Exponential`] and more |
-//! | [`ContactConstraint`] | the way to impose g ≥ 0 | [`Projection`], [`Penalty`], [`Uzawa`] |
+//! | [`ContactConstraint`] | the way to impose g ≥ 0 | [`Projection`], [`Hardness`], [`Penalty`], [`Uzawa`] |
 //!
 //! # Around a solve
 //!
@@ -117,7 +117,7 @@ pub use ndarray;
 #[doc(inline)]
 pub use adhesion::{AdhesionLaw, Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated};
 #[doc(inline)]
-pub use constraint::{ContactConstraint, NoWall, Penalty, Projection, Uzawa};
+pub use constraint::{ContactConstraint, Hardness, NoWall, Penalty, Projection, Uzawa};
 #[doc(inline)]
 pub use elastic::{Boundary, Boussinesq, ElasticOperator, Spectral, Westergaard};
 pub use error::{Error, ErrorKind, Result};
@@ -131,7 +131,7 @@ pub use real::Compiled;
 pub use real::Real;
 #[doc(inline)]
 pub use search::ContactSearch;
-pub use solver::{Branch, Criterion, Iteration, Method, Report, Settings, Solution, Solver, Start, Status};
+pub use solver::{Branch, Criterion, Iteration, Method, Plastic, Report, Settings, Solution, Solver, Start, Status};
 #[doc(inline)]
 pub use surface::{Amplitude, SelfAffine, Surface};
 pub use sweep::Sweep;

@@ -24,7 +24,7 @@ mod transfer;
 use hierarchy::{coarsened, coarser};
 pub use level::Level;
 pub(crate) use level::equivalent_applications;
-pub(crate) use transfer::Deformed;
+pub(crate) use transfer::{Deformed, Touching};
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
@@ -210,8 +210,8 @@ impl<C> Nested<C> {
         };
         let (mut levels, coarser) = self.solve_coarser(surface, &mut operator, &law, control, &mut watch)?;
         let mut half_space = operator(*surface.grid())?;
-        let rigid = self.solver.constraint.wall().is_rigid();
-        let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), rigid));
+        let (rigid, touching) = (self.solver.constraint.wall().is_rigid(), Touching::of(self.solver.constraint.wall()));
+        let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), touching));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(surface.grid(), iteration);
         let part = match &prolonged {
@@ -270,7 +270,7 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         let varies = law.hints().shape.is_some();
-        let rigid = self.solver.constraint.wall().is_rigid();
+        let touching = Touching::of(self.solver.constraint.wall());
         let tolerance = self.coarse_tolerance.max(self.solver.settings.tolerance_in::<T>());
         let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
@@ -281,7 +281,7 @@ impl<C> Nested<C> {
             if problem.mu_rho() > Report::RESOLVED_MU_RHO {
                 continue;
             }
-            let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), rigid));
+            let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), touching));
             let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
             let mut smoothed = false;
             let Solved { solution, whole, .. } =

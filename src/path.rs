@@ -13,7 +13,9 @@ use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Begin, Iteration, Observer, Solution, Solved, Solver, Start, Status, check_wall, refuse_springs};
+use crate::solver::{
+    Begin, Iteration, Observer, Solution, Solved, Solver, Start, Status, check_hardness, check_wall, refuse_springs,
+};
 use crate::stability::Watch;
 
 mod account;
@@ -77,6 +79,13 @@ pub use step::{PathCheckpoint, PathStep};
 /// which no minimum was found is followed, and left at the next state from which there is one. The first state is left
 /// without an event if it is a saddle.
 ///
+/// # Yielding
+///
+/// At a [`Hardness`](crate::Hardness) the path keeps the plastic depth of each state: unloading is elastic on the
+/// flattened surface. A mean gap that is given is that to the surface as it was made, less than the mean of the gap by
+/// the mean plastic depth, and the energy has that dissipated by yielding. Where the path ends the problem is left as
+/// it then is; [`Problem::flatten`] by zeros makes it new.
+///
 /// # Going on
 ///
 /// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit. The page
@@ -114,6 +123,9 @@ pub struct Path<'a, T, O, L, C = Projection> {
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
+/// The name of the value of a checkpoint whose last field is a plastic depth.
+const YIELDED: &str = "yielded";
+
 /// The roundings that the sums of the energy may have.
 const ROUNDINGS: f64 = 8.0;
 
@@ -140,7 +152,7 @@ where
         refuse_springs(wall)?;
         check_wall(&problem.law, wall)?;
         for load in &legs {
-            problem.flat.load(*load, wall)?;
+            check_hardness(&problem.law, problem.flat.load(*load, wall)?, &problem.flat, wall)?;
             if problem.flat.window.is_some() && problem.flat.boundary == Boundary::Periodic {
                 let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                               solve at one load after the other, as Sweep does, or take a free half-space";
@@ -182,7 +194,10 @@ where
             Some(window) => window.place(&window.hold(mode.view()).into_owned(), T::zero()),
             None => mode.clone(),
         });
-        PathCheckpoint { values: self.course.values(), fields: self.gaps.iter().cloned().chain(mode).collect() }
+        let depth = self.problem.flat.yielded.as_ref().map(|yielded| yielded.depth().clone());
+        let mut values = self.course.values();
+        values.extend(depth.as_ref().map(|_| (YIELDED.to_owned(), vec![1.0])));
+        PathCheckpoint { values, fields: self.gaps.iter().cloned().chain(mode).chain(depth).collect() }
     }
 
     /// The path continued from the checkpoint of another one with the same problem, loads and settings.
@@ -191,13 +206,14 @@ where
     /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the values are not a checkpoint's.
     pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
         let grid = *self.problem.operator.grid();
-        let PathCheckpoint { values, mut fields } = from;
+        let PathCheckpoint { mut values, mut fields } = from;
         for field in &mut fields {
             grid.fits("field of the checkpoint", field.dim())?;
             if !field.is_standard_layout() {
                 *field = field.as_standard_layout().into_owned();
             }
         }
+        let depth = values.remove(YIELDED).and_then(|_| fields.pop());
         let course = Course::of_values(&values, Course::on(&self.problem.flat)).filter(|course| {
             let gaps = course.at.len();
             course.leg < self.legs.len().max(1)
@@ -213,6 +229,9 @@ where
             Some(window) => mode.map(|mode| window.crop(&mode, T::zero())),
             None => mode,
         });
+        if let Some(depth) = depth {
+            self.problem.flatten_on_grid(depth)?;
+        }
         (self.course, self.gaps) = (course, fields);
         Ok(self)
     }
@@ -272,7 +291,7 @@ where
         let (solution, gap) = solved.with_gap();
         self.course.begin(&solution.report);
         self.course.on_saddle = on_saddle;
-        self.gaps.push(gap);
+        self.keep(gap, &solution)?;
         Ok(Some(self.step(solution, None)))
     }
 
@@ -362,8 +381,18 @@ where
         } else if self.gaps.len() == 2 {
             self.gaps.remove(0);
         }
-        self.gaps.push(gap);
+        self.keep(gap, &solution)?;
         Ok(Some(self.step(solution, event)))
+    }
+
+    /// Keeps the gap of a state, and how far the surface has yielded: gaps are to the surface as it is now.
+    fn keep(&mut self, mut gap: Array2<T>, solution: &Solution<T>) -> Result<()> {
+        if let Some(depth) = &solution.plastic_depth {
+            let lowered = self.problem.lower(depth.view(), &mut gap)?;
+            self.gaps.iter_mut().for_each(|gap| *gap += &lowered);
+        }
+        self.gaps.push(gap);
+        Ok(())
     }
 
     fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {

@@ -1,5 +1,7 @@
 //! The contact problem: surface, elastic operator and adhesion law, and the load control.
 
+use ndarray::{Array2, ArrayView2};
+
 use crate::adhesion::{AdhesionLaw, Discretisation, mu_rho};
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
@@ -10,11 +12,13 @@ use crate::surface::Surface;
 mod control;
 mod flat;
 mod window;
+mod yielded;
 
 pub use control::Control;
 pub(crate) use control::Load;
 pub(crate) use flat::PressedFlat;
 pub(crate) use window::Window;
+pub(crate) use yielded::Yielded;
 
 /// The compliance with which jumps of a law are smoothed, in Δx/E*: a node has 1.1, the nodes along an edge some 3.
 const SMOOTHING: f64 = 5.0;
@@ -87,6 +91,50 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// The operator and the law, for another problem on the same grid.
     pub fn into_parts(self) -> (O, L) {
         (self.operator, self.law)
+    }
+
+    /// Lowers the surface, as it was made, by a plastic depth on its grid: that of a
+    /// [solution](crate::Solution::plastic_depth) at a [`Hardness`](crate::Hardness), which then unloads elastically.
+    /// Loads that are positions, and the approach, are still those of the surface as it was made.
+    ///
+    /// Takes one operator application, and keeps two fields.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](crate::Error::Shape), [`Error::NotFinite`](crate::Error::NotFinite) or
+    /// [`Error::Value`](crate::Error::Value) of a depth that does not fit, is not finite, or is negative somewhere.
+    ///
+    /// ```
+    /// use asperity::{Control, Grid, Hardness, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
+    /// let grid = Grid::square(64, 1.0)?;
+    /// let sphere = Surface::paraboloid(grid, 2.0)?;
+    /// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let mut solver = Solver { settings: Settings::default(), constraint: Hardness::new(0.02)? };
+    /// let loaded = solver.solve(&mut problem, Control::MeanPressure(4e-4))?;
+    /// problem.flatten(loaded.plastic_depth.as_ref().unwrap().view())?;
+    /// let again = solver.solve(&mut problem, Control::MeanPressure(4e-4))?;
+    /// let [before, after] = [loaded, again].map(|solution| solution.report.plastic.unwrap());
+    /// assert!((after.energy / before.energy - 1.0).abs() < 1e-4); // nothing more has yielded
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn flatten(&mut self, depth: ArrayView2<'_, T>) -> Result<()> {
+        let depth = self.flat.placed(&self.operator, depth)?;
+        self.flat.flatten(&mut self.operator, depth)
+    }
+
+    /// As [`flatten`](Self::flatten), with a depth on the operator's grid.
+    pub(crate) fn flatten_on_grid(&mut self, depth: Array2<T>) -> Result<()> {
+        self.flat.flatten(&mut self.operator, depth)
+    }
+
+    /// As [`flatten`](Self::flatten), where a gap is zero then that was negative. Returns by how much the surface is lower
+    /// than before, on the operator's grid, as the gap is.
+    pub(crate) fn lower(&mut self, depth: ArrayView2<'_, T>, gap: &mut Array2<T>) -> Result<Array2<T>> {
+        let before = self.flat.yielded.as_ref().map(|yielded| yielded.depth().clone());
+        self.flatten(depth)?;
+        let mut lowered = self.flat.yielded.as_ref().map(|yielded| yielded.depth().clone()).unwrap_or_default();
+        before.iter().for_each(|before| lowered -= before);
+        gap.zip_mut_with(&lowered, |gap, &lowered| *gap = if lowered > T::zero() { T::zero() } else { *gap });
+        Ok(lowered)
     }
 
     pub(crate) fn parts(&mut self) -> Parts<'_, T> {

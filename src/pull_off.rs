@@ -9,7 +9,9 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::setters::setters;
-use crate::solver::{Begin, Branch, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall};
+use crate::solver::{
+    Begin, Branch, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall, refuse_hardness,
+};
 
 /// The most solves of a search; a bracket is halved at least with every other one.
 const MOST: usize = 60;
@@ -177,6 +179,8 @@ impl PullOff {
                           with a law that repels";
             return Err(Error::Wall { wall: "springs", reason });
         }
+        let yields = "a surface that yields bears another tension after each load: follow a path, as Path does";
+        refuse_hardness(solver.constraint.wall(), yields)?;
         check_wall(&problem.law, solver.constraint.wall())
     }
 }

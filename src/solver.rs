@@ -20,6 +20,7 @@ mod minimisation;
 mod operators;
 mod passes;
 mod phases;
+mod plastic;
 mod posed;
 mod potential;
 mod precision;
@@ -38,9 +39,9 @@ use driver::Job;
 pub(crate) use driver::Observer;
 pub(crate) use potential::{Least, Of, Potential, bounded};
 pub(crate) use report::Solved;
-pub use report::{Iteration, Report, Solution, Status};
+pub use report::{Iteration, Plastic, Report, Solution, Status};
 pub use start::Start;
-pub(crate) use start::{Begin, check_wall, extrapolated, refuse_springs};
+pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
 
 /// The method of iteration, one of two.
 #[non_exhaustive]

@@ -17,7 +17,7 @@ use crate::par::{self, Parts};
 use crate::problem::{Control, Problem, Window, smoothed_law};
 use crate::real::Real;
 use crate::setters::setters;
-use crate::solver::{Of, Potential, Solution, check_wall};
+use crate::solver::{Of, Potential, Solution, check_wall, refuse_hardness};
 
 mod bound;
 mod departure;
@@ -290,6 +290,8 @@ where
     if problem.flat.window.is_none() {
         problem.grid().finite("gap", gap.view())?;
     }
+    let yields = "a surface that yields is not that of an energy: it does not come back where the load is taken away";
+    refuse_hardness(constraint.wall(), yields)?;
     check_wall(&problem.law, constraint.wall())?;
     let negative = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero());
     let refused = negative.map_or(Ok(()), |gap| {

@@ -23,6 +23,9 @@ use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start
 ///   follows its branch of equilibria up to the instability at which it jumps, and surfaces that were pulled apart
 ///   ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
 ///
+/// At a [`Hardness`](crate::Hardness) each load starts from the last gap, and the problem keeps the plastic depth
+/// ([`Problem::flatten`]): unloading is elastic. A sweep that is continued needs the depth of its last solution there.
+///
 /// A mean gap that is given scales the start, as in [`Start::From`], or is the start where no gap is left to scale.
 /// Fine steps save a third of the work without adhesion; steps by half the load or more save little, and with adhesion
 /// under a pressure may cost more than the default start. Memory: two gaps on the
@@ -120,13 +123,19 @@ where
         };
         let solved = self.solver.run(self.problem.parts(), control, begin, &mut observe).map(Solved::with_gap);
         self.failed = solved.is_err();
-        Some(solved.map(|(solution, gap)| {
-            if !self.problem.law.hints().zero {
-                self.history.clear();
-            }
-            self.history.push((control, gap));
-            solution
-        }))
+        Some(solved.and_then(|(solution, gap)| self.keep(control, solution, gap).inspect_err(|_| self.failed = true)))
+    }
+
+    /// Keeps a solution's gap for the next start, and how far the surface has yielded.
+    fn keep(&mut self, control: Control, solution: Solution<T>, mut gap: Array2<T>) -> Result<Solution<T>> {
+        if let Some(depth) = &solution.plastic_depth {
+            self.problem.lower(depth.view(), &mut gap)?;
+        }
+        if !self.problem.law.hints().zero || solution.plastic_depth.is_some() {
+            self.history.clear();
+        }
+        self.history.push((control, gap));
+        Ok(solution)
     }
 
     /// The start under a load to which the history leads; of two gaps the older one is dropped.

@@ -7,7 +7,7 @@ use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{Deformed, Level, Nested, equivalent_applications};
+use crate::nested::{Deformed, Level, Nested, Touching, equivalent_applications};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::setters::setters;
@@ -311,8 +311,8 @@ impl<C> Accuracy<C> {
                 break (error, false, Some((shape, bytes)));
             }
             let fine = refined(&surface, periodic)?;
-            let rigid = self.nested.solver.constraint.wall().is_rigid();
-            let start = Deformed::of(&surface, solution.gap, whole).prolonged(&fine, half_space.grid(), rigid);
+            let touching = Touching::of(self.nested.solver.constraint.wall());
+            let start = Deformed::of(&surface, solution.gap, whole).prolonged(&fine, half_space.grid(), touching);
             let mut problem = Problem::new(&fine, half_space, law)?;
             let grid = *fine.grid();
             let begin = Begin::Prolonged(start);

@@ -135,7 +135,9 @@ impl Original {
             normal_force: self.share() * solution.report.normal_force,
             ..solution.report.clone()
         };
-        Ok(Solution { gap, pressure: pressure?, contact_pressure: contact_pressure?, grid: self.grid, report })
+        let plastic_depth = solution.plastic_depth.as_ref().map(|depth| self.of(depth.view())).transpose()?;
+        let (pressure, contact_pressure) = (pressure?, contact_pressure?);
+        Ok(Solution { gap, pressure, contact_pressure, plastic_depth, grid: self.grid, report })
     }
 
     /// The statistics of the original, from a solution on the whole and its law. Clusters end at its sides, which are

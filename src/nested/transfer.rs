@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use ndarray::Array2;
 
+use crate::constraint::Wall;
 use crate::error::Result;
 use crate::field::{flat, flat_mut};
 use crate::grid::Grid;
@@ -124,6 +125,40 @@ fn places(from: Side, to: Side) -> Vec<Place> {
     (0..to.whole).map(place).collect()
 }
 
+/// What nodes in contact keep where a gap is interpolated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Touching {
+    /// Nothing: any gap is feasible.
+    Free,
+    /// A gap of zero, and no node apart a negative one.
+    Zero,
+    /// As [`Zero`](Self::Zero), but for those between nodes that yield.
+    Yielding,
+}
+
+impl Touching {
+    pub(crate) fn of<T>(wall: Wall<'_, T>) -> Self {
+        match wall {
+            Wall::Rigid => Self::Zero,
+            Wall::Capped(_) => Self::Yielding,
+            Wall::Springs(_) | Wall::None => Self::Free,
+        }
+    }
+
+    /// The gap at a place, from that by interpolation, and the gaps of the four nodes about it.
+    #[inline(always)]
+    fn gap(self, place: &Place, interpolated: f64, gap: impl Fn(usize) -> f64) -> f64 {
+        if self == Self::Free {
+            return interpolated;
+        }
+        if !place.touches(&gap) {
+            return interpolated.max(0.0);
+        }
+        let yields = self == Self::Yielding && gap(1) < 0.0 && (place.is_node() || gap(2) < 0.0);
+        if yields { interpolated.min(0.0) } else { 0.0 }
+    }
+}
+
 /// A solution on one grid as the start on another: the deformed half-space.
 pub(crate) struct Deformed<T> {
     window: (usize, usize),
@@ -151,7 +186,7 @@ impl<T: Real> Deformed<T> {
     }
 
     /// The start on the grid of another surface and its operator: a gap on the latter.
-    pub(crate) fn prolonged(self, surface: &Surface, grid: &Grid, projects: bool) -> Array2<T> {
+    pub(crate) fn prolonged(self, surface: &Surface, grid: &Grid, touching: Touching) -> Array2<T> {
         let Self { window, grid: coarse, displacement, gap } = self;
         let facing = Window::new(surface, grid);
         let extended = facing.as_ref().map(|facing| facing.extend(surface.heights().view()));
@@ -178,21 +213,12 @@ impl<T: Real> Deformed<T> {
             let [g0, g1, g2, g3] = x.nodes.map(|node| line(&gap, node));
             vectors!([u0, u1, u2, u3, g0, g1, g2, g3, at, facing], [displaced, apart], |j| {
                 let (u, height) = (x.cubic(|k| [u0[j], u1[j], u2[j], u3[j]][k]), at[j]);
-                let gap = if projects { (u - height).max(0.0) } else { u - height };
-                let touches = projects && x.touches(|k| [g0[j], g1[j], g2[j], g3[j]][k].widen());
-                (displaced[j], apart[j]) = match facing[j] {
-                    true if touches => (height, 0.0),
-                    true => (gap + height, gap),
-                    false => (u, f64::INFINITY),
-                };
+                let gap = touching.gap(&x, u - height, |k| [g0[j], g1[j], g2[j], g3[j]][k].widen());
+                (displaced[j], apart[j]) = if facing[j] { (gap + height, gap) } else { (u, f64::INFINITY) };
             });
             for (((g, y), height), faces) in row.iter_mut().zip(&along_y).zip(heights).zip(faces) {
                 let gap = y.cubic(|l| displaced[y.nodes[l]]) - height;
-                *g = match projects && faces {
-                    true if y.touches(|l| apart[y.nodes[l]]) => T::zero(),
-                    true => T::lit(gap.max(0.0)),
-                    false => T::lit(gap),
-                };
+                *g = T::lit(if faces { touching.gap(y, gap, |l| apart[y.nodes[l]]) } else { gap });
             }
         });
         fine
@@ -241,7 +267,7 @@ mod tests {
                 Array2::from_shape_fn((nx, ny), |(i, j)| 2.0 + turn(i, nx).sin() * turn(j, ny).cos())
             };
             let (gap, exact) = (wave(coarse.grid()) - coarse.heights(), wave(&grid) - surface.heights());
-            let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, true);
+            let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::Zero);
             // the error of the cubic in the middle, 3/128 of the fourth derivative, along both sides
             let spacing = std::f64::consts::TAU / 16.0;
             let worst = (&fine - &exact).iter().fold(0.0_f64, |worst, e| worst.max(e.abs()));
@@ -255,7 +281,7 @@ mod tests {
         let surface = Surface::wave_2d(grid, 0.1, 3).unwrap();
         let coarse = coarsen(&surface, (8, 8)).unwrap().unwrap();
         let gap = Array2::from_shape_fn((8, 8), |(i, _)| if i < 4 { 0.0_f32 } else { 1.0 });
-        let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, true);
+        let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::Zero);
         assert!(fine.rows().into_iter().take(7).all(|row| row.iter().all(|&g| g == 0.0)));
         assert!(fine.rows().into_iter().skip(8).step_by(2).all(|row| row.iter().all(|&g| g > 0.0)));
     }

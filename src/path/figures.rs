@@ -1,6 +1,6 @@
 //! The figures of a state in the balance of energy, and the quantity that is held.
 
-use crate::solver::Report;
+use crate::solver::{Plastic, Report};
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Mode {
@@ -20,20 +20,23 @@ pub(super) struct Figures {
     pub(super) rest: f64,
     pub(super) gap: f64,
     pub(super) pressure: f64,
-    /// elastic and adhesive
+    /// elastic and adhesive, and that dissipated by yielding
     pub(super) energy: f64,
     pub(super) contact: f64,
 }
 
 impl Figures {
     pub(super) fn of(report: &Report) -> Self {
-        let position = report.approach.map_or(report.mean_gap, |approach| -approach);
+        // to the surface as it was made
+        let Plastic { depth_mean, energy, .. } = report.plastic.unwrap_or_default();
+        let gap = report.mean_gap - depth_mean;
+        let position = report.approach.map_or(gap, |approach| -approach);
         Self {
             position,
             rest: position,
-            gap: report.mean_gap,
+            gap,
             pressure: report.mean_pressure,
-            energy: report.elastic_energy + report.adhesive_energy,
+            energy: report.elastic_energy + report.adhesive_energy + energy,
             contact: report.contact_fraction,
         }
     }

@@ -31,6 +31,6 @@ pub struct PathStep<T> {
 pub struct PathCheckpoint<T> {
     /// The values of the path's state by their names, as `work` and `step`.
     pub values: BTreeMap<String, Vec<f64>>,
-    /// The last gaps, and the softest mode of the last state, where it was needed.
+    /// The last gaps, the softest mode of the last state, where it was needed, and the plastic depth, if there is one.
     pub fields: Vec<Array2<T>>,
 }

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{Control, Load, Window};
+use super::{Control, Load, Window, Yielded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::elastic::{self, Boundary, ElasticOperator};
@@ -30,6 +30,8 @@ pub(crate) struct PressedFlat<T> {
     pub(crate) area: f64,
     /// the area of the operator's grid over it
     pub(crate) padding: f64,
+    /// how far the surface has yielded, if it has; rms height, stiffness and span of the heights stay those before
+    pub(crate) yielded: Option<Yielded<T>>,
 }
 
 impl<T: Real> PressedFlat<T> {
@@ -118,6 +120,7 @@ impl<T: Real> PressedFlat<T> {
             boundary,
             area: lx * ly,
             padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
+            yielded: None,
         })
     }
 
@@ -150,7 +153,7 @@ impl<T: Real> PressedFlat<T> {
                 );
             }
             Control::MeanGap(_) if matches!(wall, Wall::None) => Load::Gap(held()?),
-            Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)?),
+            Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)? + self.mean_depth()),
             Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
             Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
             Control::Approach(_) => {
@@ -161,7 +164,10 @@ impl<T: Real> PressedFlat<T> {
                 Error::positive("stiffness of the spring", stiffness)?;
                 held()?;
                 let compliance = self.padding * self.area / stiffness + self.boundary.mean_compliance();
-                Load::Spring { stiffness: compliance.recip(), rest: if free { self.peak - rest } else { rest } }
+                Load::Spring {
+                    stiffness: compliance.recip(),
+                    rest: if free { self.peak - rest } else { rest + self.mean_depth() },
+                }
             }
         };
         let values = match load {

@@ -6,7 +6,7 @@ use super::minimisation::{Goal, Left};
 use super::operators::Operators;
 use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
-use super::start::{Begin, check_wall};
+use super::start::{Begin, check_hardness, check_wall};
 use super::state::State;
 use super::{Branch, Method, Settings};
 use crate::adhesion::{AdhesionLaw, Discretisation, NoAdhesion};
@@ -90,6 +90,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
     let load = flat.load(control, constraint.wall())?;
+    check_hardness(law, load, flat, constraint.wall())?;
     let asked = (control, constraint.wall().name());
     let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
     let (default_start, near) = (begin.is_default(), begin.is_near());

@@ -4,6 +4,7 @@ use ndarray::Array2;
 
 use super::minimisation::Left;
 use super::passes::Fields;
+use super::plastic::to_the_yielded;
 use super::report::{Report, Solution, Solved, Status};
 use super::state::State;
 use crate::adhesion::{mu_rho, noticeable};
@@ -59,6 +60,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             Load::Gap(_) => 0.0,
             _ => self.load_error().max(self.share_of_load(net_pressure - mean)),
         };
+        let plastic = self.plastic();
         let modulus = self.posed.operators.state().modulus();
         let mu_rho = mu_rho(law, self.posed.operators.state().grid(), modulus);
         let facing = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.facing() as f64);
@@ -66,6 +68,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         // the mean of the displacement is no wave
         let of_mean = 0.5 * flat.boundary.mean_compliance() * net_pressure.powi(2);
         let nominal = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.grid().nodes() as f64);
+        // to the surface as it is now, beside that as it was before the solve
+        let facing_mean = if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() };
+        let deeper = plastic
+            .as_ref()
+            .map_or(0.0, |(_, plastic)| plastic.depth_mean - flat.mean_depth() * self.posed.nodes() / facing);
         let mut report = Report {
             status: self.final_status(status, load_error),
             branch: self.posed.branch,
@@ -80,7 +87,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             wall: self.posed.asked.1,
             law: law.hints().known_as().into(),
             work_of_adhesion: law.hints().work_of_adhesion.widen(),
-            mean_gap: if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() },
+            mean_gap: facing_mean + deeper,
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,
             approach: flat.approach(self.mean_gap(), mean),
@@ -91,7 +98,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             absent_nodes: (nominal - facing) as usize,
             edge_traction: None,
             reaches_edge: false,
-            min_gap: total.min,
+            min_gap: if plastic.is_some() { total.min.max(0.0) } else { total.min },
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
             adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
             mu_rho,
@@ -100,18 +107,25 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             method: self.posed.settings.method,
             criterion: self.posed.settings.criterion,
             tolerance: self.posed.settings.tolerance_in::<T>(),
+            plastic: plastic.as_ref().map(|(_, figures)| *figures),
         };
         let (grid, at_floor) = (*self.posed.operators.state().grid(), self.is_at_floor());
-        let Fields { gap, pressure, .. } = self.fields;
+        let Fields { mut gap, pressure, .. } = self.fields;
+        let plastic_depth = plastic.map(|(depth, _)| depth);
         let Some(window) = &flat.window else {
-            return Ok(Solved {
-                solution: Solution { gap, pressure, contact_pressure, grid, report },
-                whole: None,
-                at_floor,
-            });
+            let whole = plastic_depth.is_some().then(|| (grid, gap.clone()));
+            if whole.is_some() {
+                to_the_yielded(&mut gap);
+            }
+            let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report };
+            return Ok(Solved { solution, whole, at_floor });
         };
         let (whole, grid) = ((grid, gap), *window.grid());
-        let gap = window.crop(&whole.1, T::infinity());
+        let mut gap = window.crop(&whole.1, T::infinity());
+        if plastic_depth.is_some() {
+            to_the_yielded(&mut gap);
+        }
+        let plastic_depth = plastic_depth.map(|depth| window.crop(&depth, T::zero()));
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
@@ -126,7 +140,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
         Ok(Solved {
-            solution: Solution { gap, pressure, contact_pressure, grid, report },
+            solution: Solution { gap, pressure, contact_pressure, plastic_depth, grid, report },
             whole: Some(whole),
             at_floor,
         })

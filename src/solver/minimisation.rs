@@ -115,6 +115,8 @@ pub(super) struct Residual {
     pub(super) complementarity: f64,
     /// Σ (r' − r'₀)², with r'₀ the previous content of the field, if r' was computed anew
     pub(super) difference: f64,
+    /// whether contact nodes with a positive r' move down, as the surface yields
+    pub(super) yields: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default)]

@@ -52,7 +52,7 @@ impl<T: Real, Lo: Real> Fields<T, Lo> {
 }
 
 #[inline(always)]
-fn count(condition: bool) -> f64 {
+pub(super) fn count(condition: bool) -> f64 {
     if condition { 1.0 } else { 0.0 }
 }
 

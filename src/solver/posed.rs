@@ -37,10 +37,13 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         }
         let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
         self.constraint.start(surface, operator.stiffness_range().1, self.settings.tolerance_in::<T>())?;
-        if self.settings.method == Method::Rey2017 && (flat.window.is_some() || self.load.stiffness() > 0.0) {
+        let unknown =
+            flat.window.is_some() || self.load.stiffness() > 0.0 || self.constraint.wall().hardness().is_some();
+        if self.settings.method == Method::Rey2017 && unknown {
             return Err(Error::Control {
                 control: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
-                reason: "it knows neither springs nor absent nodes nor a free boundary: take the default method",
+                reason: "it knows neither springs nor absent nodes nor a free boundary nor a hardness: take the \
+                         default method",
             });
         }
         Ok(())
@@ -55,7 +58,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
     }
 
     pub(super) fn projects(&self) -> bool {
-        self.constraint.wall().is_rigid()
+        self.constraint.wall().projects()
     }
 
     /// Whether nothing but the law keeps the surfaces apart.

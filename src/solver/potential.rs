@@ -1,11 +1,11 @@
 //! The local energy of a node: the adhesion law, and the constraint where it is a term of the energy.
 
 use crate::adhesion::{AdhesionLaw, Hints, NoAdhesion, Values};
-use crate::constraint::{ContactConstraint, Wall};
+use crate::constraint::{ContactConstraint, Hardness, Wall};
 use crate::field::{CHUNK, Nodes, Partial, Reducer};
 use crate::par::Parts;
 use crate::problem::Window;
-use crate::real::Real;
+use crate::real::{Real, cast};
 
 /// The least share of its gap that a node keeps in a step, where the law has no bound at zero gap.
 pub(super) const CLOSER: f64 = 0.5;
@@ -31,6 +31,49 @@ impl<T: Real> Least<T> {
         if gap > self.rest { self.rest } else { self.share * gap - self.depth }
     }
 }
+
+/// The cap on the contact pressure at a node, or none: passes are compiled for either.
+pub(crate) trait Cap<T>: Copy {
+    const CAPPED: bool;
+    fn at(self) -> T;
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Uncapped;
+
+impl<T: Real> Cap<T> for Uncapped {
+    const CAPPED: bool = false;
+    #[inline(always)]
+    fn at(self) -> T {
+        T::infinity()
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Capped<T>(pub(crate) T);
+
+impl<T: Real> Cap<T> for Capped<T> {
+    const CAPPED: bool = true;
+    #[inline(always)]
+    fn at(self) -> T {
+        self.0
+    }
+}
+
+/// Calls a pass over `count` nodes with their caps, compiled with caps and without.
+macro_rules! with_caps {
+    ($local:expr, $first:expr, $count:expr, |$caps:ident| $pass:expr) => {
+        if $local.is_capped() {
+            let mut caps = [Capped(T::zero()); CHUNK];
+            let $caps = $local.caps($first, &mut caps[..$count]);
+            $pass
+        } else {
+            let $caps = &[Uncapped; CHUNK][..$count];
+            $pass
+        }
+    };
+}
+pub(crate) use with_caps;
 
 pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
     let least = least.after(gap);
@@ -123,7 +166,34 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     pub(crate) fn is_zero(&self) -> bool {
+        self.hints.zero && !self.goes_below()
+    }
+
+    /// Whether the local energy of a node is linear along every step: there is no law, and steps end at its corners.
+    pub(crate) fn is_straight(&self) -> bool {
         self.hints.zero && !matches!(self.wall, Some(Wall::Springs(_)))
+    }
+
+    /// Whether the wall is a term of the energy, with gaps below zero.
+    fn goes_below(&self) -> bool {
+        matches!(self.wall, Some(Wall::Springs(_) | Wall::Capped(_)))
+    }
+
+    pub(crate) fn hardness(&self) -> Option<&'a Hardness> {
+        self.wall.and_then(|wall| wall.hardness())
+    }
+
+    pub(crate) fn is_capped(&self) -> bool {
+        self.hardness().is_some()
+    }
+
+    /// The caps on the contact pressure at nodes from `first` on, without bound if there are none.
+    pub(crate) fn caps<'b>(&self, first: usize, caps: &'b mut [Capped<T>]) -> &'b [Capped<T>] {
+        match self.hardness() {
+            Some(hardness) => hardness.fill(first, caps, Capped),
+            None => caps.fill(Capped(T::infinity())),
+        }
+        caps
     }
 
     pub(crate) fn is_surface(&self) -> bool {
@@ -139,11 +209,12 @@ impl<'a, T: Real> Potential<'a, T> {
         matches!(self.wall, Some(Wall::None))
     }
 
+    /// Whether steps end where the surfaces touch.
     pub(crate) fn projects(&self) -> bool {
-        matches!(self.wall, Some(Wall::Rigid))
+        self.wall.is_some_and(|wall| wall.projects())
     }
 
-    /// The largest gap of a node in contact with a rigid wall, which is zero; −∞ where there is none.
+    /// The gap of a node in contact with a wall, which is zero; −∞ where there is none.
     pub(crate) fn touching(&self) -> T {
         if self.projects() { T::zero() } else { T::neg_infinity() }
     }
@@ -152,7 +223,7 @@ impl<'a, T: Real> Potential<'a, T> {
     /// its repulsion begins, and keeps a part of its gap below it, if the law has no bound at zero gap.
     pub(crate) fn least(&self) -> Least<T> {
         match (self.wall, self.hints.rest) {
-            (Some(Wall::Rigid), _) => Least { rest: T::zero(), share: T::zero(), depth: T::zero() },
+            (Some(Wall::Rigid | Wall::Capped(_)), _) => Least { rest: T::zero(), share: T::zero(), depth: T::zero() },
             (Some(Wall::None), Some(rest)) => {
                 let bounded = self.law.energy(T::zero()).is_finite();
                 let [share, depth] = if bounded { [T::zero(), T::infinity()] } else { [T::lit(CLOSER), T::zero()] };
@@ -164,6 +235,9 @@ impl<'a, T: Real> Potential<'a, T> {
 
     pub(crate) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, first, gaps, out);
+        if let Some(hardness) = self.hardness() {
+            return below(hardness, of, first, gaps, out);
+        }
         let Some(Wall::Springs(springs)) = self.wall else { return };
         for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
             *out += match of {
@@ -174,14 +248,14 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// Whether the tangent of the local energy is nowhere below it.
+    /// Whether the tangent of the local energy is nowhere below it, along any step.
     pub(crate) fn is_concave(&self) -> bool {
         self.projects() && self.hints.concave
     }
 
     /// The energies of the law alone, and the tractions of law and constraint, at once.
     pub(crate) fn energies_and_tractions(&self, first: usize, gaps: &[T], energies: &mut [T], tractions: &mut [T]) {
-        if !matches!(self.wall, Some(Wall::Springs(_))) {
+        if !self.goes_below() {
             return self.law.evaluate(first, gaps, Values::energies_and_tractions(energies, tractions));
         }
         self.law(Of::Energy, first, gaps, energies);
@@ -189,20 +263,19 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     pub(crate) fn tractions_and_slopes(&self, first: usize, gaps: &[T], tractions: &mut [T], slopes: &mut [T]) {
-        if !matches!(self.wall, Some(Wall::Springs(_))) {
+        if !self.goes_below() {
             return self.law.evaluate(first, gaps, Values::tractions_and_slopes(tractions, slopes));
         }
         self.evaluate(Of::Traction, first, gaps, tractions);
         self.evaluate(Of::Slope, first, gaps, slopes);
     }
 
-    /// Those of the law alone, which springs continue to g < 0 as its tangent at g = 0.
+    /// Those of the law alone, which goes on to g < 0 as its tangent at g = 0.
     pub(crate) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         if self.hints.zero {
             return out.fill(T::zero());
         }
-        let springs = matches!(self.wall, Some(Wall::Springs(_)));
-        if !springs || gaps.iter().all(|&gap| gap >= T::zero()) {
+        if !self.goes_below() || gaps.iter().all(|&gap| gap >= T::zero()) {
             return self.law.evaluate(first, gaps, Values::one(of as usize, out));
         }
         let (mut apart, mut at_contact) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
@@ -220,20 +293,72 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
+    /// Takes from tractions the hardness, and the slopes, where the surfaces touch and a change makes them yield.
+    /// Returns the energy of nodes that pass zero beyond their tangents.
+    pub(crate) fn yielding<Lo: Real>(
+        &self,
+        first: usize,
+        gaps: &[T],
+        change: &[Lo],
+        tractions: &mut [T],
+        slopes: &mut [T],
+    ) -> f64 {
+        if !self.is_capped() {
+            return 0.0;
+        }
+        let mut caps = [Capped(T::zero()); CHUNK];
+        let caps = self.caps(first, &mut caps[..gaps.len()]);
+        let mut kink = 0.0;
+        for (i, (&gap, cap)) in gaps.iter().zip(caps).enumerate() {
+            if gap == T::zero() && change[i] < Lo::zero() {
+                (tractions[i], slopes[i]) = (tractions[i] - cap.at(), T::zero());
+            }
+            let next = gap + cast(change[i]);
+            // a node that stops there is beyond it by no more than its rounding
+            if next.signum() != gap.signum()
+                && gap != T::zero()
+                && next.abs() > T::lit(4.0) * cast(Lo::epsilon()) * gap.abs()
+            {
+                kink += (cap.at() * next.abs()).widen();
+            }
+        }
+        kink
+    }
+
+    /// Σ H d over nodes that touch after a step d from where they yield.
+    pub(crate) fn landed<Lo: Real>(&self, first: usize, gaps: &[T], step: &[Lo]) -> f64 {
+        if !self.is_capped() {
+            return 0.0;
+        }
+        let mut caps = [Capped(T::zero()); CHUNK];
+        let caps = self.caps(first, &mut caps[..gaps.len()]);
+        let nodes = gaps.iter().zip(step).zip(caps);
+        let landed = nodes.filter(|((gap, step), _)| **gap == T::zero() && **step > Lo::zero());
+        landed.map(|((_, step), cap)| step.widen() * cap.at().widen()).sum()
+    }
+
     /// The tractions of the attraction alone.
     pub(crate) fn attractions(&self, first: usize, gaps: &[T], tractions: &[T], out: &mut [T]) {
         match self.wall {
-            Some(Wall::Springs(_)) => self.law(Of::Traction, first, gaps, out),
+            Some(Wall::Springs(_) | Wall::Capped(_)) => self.law(Of::Traction, first, gaps, out),
             Some(Wall::None) => out.iter_mut().zip(tractions).for_each(|(out, &t)| *out = t.max(T::zero())),
             Some(Wall::Rigid) | None => out.copy_from_slice(tractions),
         }
     }
 
-    /// The number of nodes that springs or the law press apart, and the energy of the springs.
+    /// The number of nodes that springs, the law or a wall that yields press apart, and the energy of springs and wall.
     pub(crate) fn pressed(&self, first: usize, gaps: &[T], tractions: &[T]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         let springs = match self.wall {
             Some(Wall::Springs(springs)) => springs,
+            Some(Wall::Capped(hardness)) => {
+                let mut energies = [T::zero(); CHUNK];
+                let energies = &mut energies[..gaps.len()];
+                below(hardness, Of::Energy, first, gaps, energies);
+                sums[0] = gaps.iter().filter(|&&gap| gap <= T::zero()).count() as f64;
+                sums[1] = energies.iter().map(|energy| energy.widen()).sum();
+                return sums;
+            }
             Some(Wall::None) => {
                 sums[0] = tractions.iter().filter(|&&traction| traction < T::zero()).count() as f64;
                 return sums;
@@ -264,6 +389,28 @@ impl<'a, T: Real> Potential<'a, T> {
         for ((contact, &gap), &p) in contact.iter_mut().zip(gaps).zip(pressures) {
             *contact = if gap <= T::zero() { (p + *contact).max(T::zero()) } else { T::zero() };
         }
+        if let Some(hardness) = self.hardness() {
+            let mut caps = [T::zero(); CHUNK];
+            let caps = &mut caps[..gaps.len()];
+            hardness.fill(first, caps, |cap| cap);
+            for ((contact, &gap), &cap) in contact.iter_mut().zip(gaps).zip(&*caps) {
+                *contact = if gap < T::zero() { cap } else { contact.min(cap) };
+            }
+        }
+    }
+}
+
+/// Adds what a surface that yields at a hardness H adds where the gap is negative: ψ = −H g.
+fn below<T: Real>(hardness: &Hardness, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
+    let mut caps = [T::zero(); CHUNK];
+    let caps = &mut caps[..gaps.len()];
+    hardness.fill(first, caps, |cap| cap);
+    for ((out, &gap), &cap) in out.iter_mut().zip(gaps).zip(&*caps).filter(|((_, gap), _)| **gap < T::zero()) {
+        *out -= match of {
+            Of::Energy => cap * gap,
+            Of::Traction => cap,
+            Of::Slope => T::zero(),
+        };
     }
 }
 

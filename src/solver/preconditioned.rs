@@ -24,6 +24,12 @@ const FARTHEST: f64 = 10.0;
 /// The least and largest ratio of two successive trial lengths.
 const ADAPT: (f64, f64) = (0.7, 1.3);
 
+/// The same where the surface yields: nodes that yield or stop doing so change the curvature by more.
+const ADAPT_YIELDING: (f64, f64) = (0.5, 2.0);
+
+/// The length taken for the best one where nodes that pass their corners leave none along the tangent.
+const BACK: f64 = 0.1;
+
 /// The multiple of the last change c₀ in the next step.
 #[derive(Clone, Copy)]
 struct Momentum {
@@ -51,6 +57,8 @@ struct Trial {
     square: f64,
     /// Σ c·K⁻¹h and Σ g·K⁻¹h, if the scale is not one
     surface: [f64; 2],
+    /// the energy beyond the tangents of nodes that pass a corner of the local energy
+    kink: f64,
     /// Σ φ'·c, and Σ φ''·d²
     traction: f64,
     slopes: f64,
@@ -123,7 +131,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let elastic = self.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.counters.applications += 1;
             let Some(step) = self.search(&trial, elastic * self.posed.nodes()) else { return Ok(None) };
-            if !trial.blocked || step.length >= SHORT {
+            if !trial.blocked || self.has_yielded() || step.length >= SHORT {
                 return Ok(Some(self.advance(&step)));
             }
             // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
@@ -176,12 +184,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let length = self.steps.step_length;
         let (keep, mean) = momentum.map_or((0.0, 0.0), |m| (length * m.conjugate + m.remainder, m.mean));
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
-        let attempt = Attempt { length, centre, keep, mean };
+        let yields = self.sums.residual.yields;
+        let attempt = Attempt { length, centre, keep, mean, yields };
         let surface = self.posed.is_gap_controlled().then_some(&self.posed.flat.pressure);
         let local = self.posed.potential();
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
         let Tried { change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, .. } = tried;
-        let Tried { traction, slope_change, slope_mixed, slope_gap, .. } = tried;
+        let Tried { kink, traction, slope_change, slope_mixed, slope_gap, .. } = tried;
         // the given mean would let a long step multiply the rounding of their difference
         let present = self.sums.tally.sum_gap;
         let scale = if self.posed.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
@@ -190,7 +199,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let scale = T::lit(scale).widen();
         let rest = scale - 1.0;
         Trial {
-            clipped: clipped > 0.0,
+            clipped: clipped > 0.0 || kink > 0.0,
             blocked: blocked > 0.0,
             slope: if possible { scale * descent + rest * gap_descent } else { f64::INFINITY },
             scale,
@@ -198,6 +207,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             descent,
             square,
             surface: [change_surface, gap_surface],
+            kink: if possible { scale * kink } else { 0.0 },
             traction,
             slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
         }
@@ -206,10 +216,16 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// A change that puts the blocked nodes into contact and lifts the others; both lower the energy.
     fn land(&mut self, centre: f64, trial: Trial) -> Trial {
         let (length, centre) = (T::lit(self.steps.step_length), T::lit(centre));
-        let lands =
-            move |gap: T, r: Lo, z: Lo| gap > T::zero() && r > Lo::zero() && gap < length * (cast::<_, T>(z) - centre);
         let held = self.posed.is_gap_controlled();
         let local = self.posed.potential();
+        let capped = self.sums.residual.yields;
+        let lands = move |gap: T, r: Lo, z: Lo| {
+            let wanted = length * (cast::<_, T>(z) - centre);
+            gap > T::zero() && r > Lo::zero() && gap < wanted
+                || capped && gap < T::zero() && r < Lo::zero() && gap > wanted
+        };
+        // a node that touches moves to one side only
+        let lifted = move |gap: T, r: Lo| !(idles(r) || capped && gap == T::zero());
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
         let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
@@ -217,7 +233,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
                 if faces && lands(gap, r, z) {
                     part.sum[0] += gap.widen();
-                } else if !idles(r) {
+                } else if lifted(gap, r) {
                     part.sum[1] += 1.0;
                 }
             }
@@ -237,7 +253,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             for (i, (((&gap, &r), &z), d)) in gap.iter().zip(residual).zip(z).zip(change).enumerate() {
                 *d = if faces && lands(gap, r, z) {
                     cast(-gap)
-                } else if !idles(r) {
+                } else if lifted(gap, r) {
                     lift
                 } else {
                     Lo::zero()
@@ -252,14 +268,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             part
         });
         let [slope, change, traction, slopes, square, ..] = total.sum;
-        Trial { slope, scale: 1.0, change, descent: slope, square, traction, slopes, ..trial }
+        Trial { slope, scale: 1.0, change, descent: slope, square, kink: 0.0, traction, slopes, ..trial }
     }
 
     /// The length of a step with `elastic` = ⟨c, K⁻¹c⟩; `None` if the energy rises at every length.
     fn search(&mut self, trial: &Trial, elastic: f64) -> Option<Step> {
         let (shift, nodes) = (self.offset() - self.sums.residual.level, self.posed.nodes());
         let noise = self.energy_noise() * nodes;
-        let stiffness = self.posed.load.stiffness();
+        let (stiffness, yielded) = (self.posed.load.stiffness(), self.has_yielded());
         let Self { fields, posed, sums, .. } = self;
         let (local, tally) = (posed.potential(), &sums.tally);
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
@@ -283,7 +299,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let (slopes, quadratic) = (trial.slopes, elastic + spring);
         let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
         let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
-        let best = (-trial.slope / curvature).min(FARTHEST);
+        let best = (-(trial.slope + trial.kink) / curvature).min(FARTHEST);
+        let best = if trial.kink > 0.0 && best <= 0.0 { BACK } else { best };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,
             true => best,
@@ -294,7 +311,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         // the tangent of a concave energy bounds it
         let bound = length * trial.slope + 0.5 * length * length * quadratic;
-        if !(local.is_zero() || local.is_concave() && bound <= noise) {
+        if trial.kink > 0.0 || !(local.is_straight() || local.is_concave() && bound <= noise) {
             let before = tally.adhesive + tally.penalty;
             loop {
                 let after = passes::energy_after(fields, &local, T::lit(length), scale);
@@ -310,7 +327,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         // near the solution the best lengths scatter: damp their changes
         let ratio = if self.steps.near { best.sqrt() } else { best };
-        self.steps.step_length *= ratio.clamp(ADAPT.0, ADAPT.1);
+        let (least, most) = if yielded { ADAPT_YIELDING } else { ADAPT };
+        self.steps.step_length *= ratio.clamp(least, most);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
         (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
     }
@@ -325,8 +343,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let local = posed.potential();
         let advanced = passes::advance(fields, &local, advance, &posed.flat.pressure);
         // `change` holds d after a scaled step, and c = d otherwise
-        let curvature =
-            if local.is_zero() { length * length * (elastic + spring) } else { length * (advanced.product - slope) };
+        let curvature = if local.is_straight() {
+            length * length * (elastic + spring)
+        } else {
+            length * (advanced.product - slope)
+        };
         self.sums.tally = advanced.tally;
         let change = length * (2.0 * work + length * elastic);
         self.sums.work = self.sums.work.after(change, self.update_noise() * change.abs());

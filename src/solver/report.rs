@@ -165,6 +165,26 @@ pub struct Report {
     pub criterion: Criterion,
     /// The tolerance of the solve, [`Settings::tolerance_in`](crate::Settings::tolerance_in) its precision.
     pub tolerance: f64,
+    /// How far the surface has yielded, at a [`Hardness`](crate::Hardness); nothing at another wall.
+    pub plastic: Option<Plastic>,
+}
+
+/// How far a surface has yielded: since it was made, or since the depth that [`Problem::flatten`](crate::Problem) gave
+/// it. Shares and means are over the nodes that are not absent.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Plastic {
+    /// The hardness H, in the mean over the nodes.
+    pub hardness: f64,
+    /// The share of nodes that have yielded.
+    pub fraction: f64,
+    /// The greatest plastic depth.
+    pub depth_max: f64,
+    /// The mean plastic depth.
+    pub depth_mean: f64,
+    /// The dissipated energy, the mean of H times the depth over the nominal area.
+    pub energy: f64,
 }
 
 impl Report {
@@ -178,7 +198,7 @@ type Name = &'static str;
 #[cfg(feature = "serde")]
 fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name, D::Error> {
     let name: String = serde::Deserialize::deserialize(from)?;
-    let known = ["rigid", "springs", "none", f32::NAME, f64::NAME].into_iter().find(|known| *known == name);
+    let known = ["rigid", "capped", "springs", "none", f32::NAME, f64::NAME].into_iter().find(|known| *known == name);
     known.ok_or_else(|| serde::de::Error::custom(format_args!("{name} names neither a wall nor a precision")))
 }
 
@@ -198,12 +218,15 @@ fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name,
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<T> {
-    /// The gap g ≥ 0 between the surfaces, infinite at [absent nodes](crate::Surface::with_absent).
+    /// The gap g ≥ 0 between the surfaces, infinite at [absent nodes](crate::Surface::with_absent). Where the surface
+    /// has yielded it is that to the surface as it is now.
     pub gap: Array2<T>,
     /// The full elastic pressure p + p̄: the contact pressure less the adhesive traction; zero at absent nodes.
     pub pressure: Array2<T>,
     /// The contact pressure λ ≥ 0, zero wherever the gap is not.
     pub contact_pressure: Array2<T>,
+    /// The plastic depth by which the surface has yielded, at a [`Hardness`](crate::Hardness); zero at absent nodes.
+    pub plastic_depth: Option<Array2<T>>,
     /// The grid of the surface, and of the fields.
     pub grid: Grid,
     /// The account of the solve.
@@ -213,7 +236,7 @@ pub struct Solution<T> {
 /// A solution, and what only other solves need of it.
 pub(crate) struct Solved<T> {
     pub(crate) solution: Solution<T>,
-    /// the gap on the operator's grid, with that grid, if not all of its nodes face the surface
+    /// the gap on the operator's grid, with that grid, if not all of its nodes face the surface, or some may yield
     pub(crate) whole: Option<(Grid, Array2<T>)>,
     /// whether the residual is at the rounding floor
     pub(crate) at_floor: bool,
@@ -248,10 +271,12 @@ impl<T: Real> Solution<T> {
         if !self.grid.is_shared() {
             return Some(Cow::Borrowed(self));
         }
-        let fields = [&self.gap, &self.pressure, &self.contact_pressure];
-        let fields = fields.map(|field| self.grid.gathered(field).map(CowArray::into_owned));
+        let gathered = |field: &Array2<T>| self.grid.gathered(field).map(CowArray::into_owned);
+        let fields = [&self.gap, &self.pressure, &self.contact_pressure].map(gathered);
+        let plastic_depth = self.plastic_depth.as_ref().and_then(gathered);
         let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
-        Some(Cow::Owned(Self { gap, pressure, contact_pressure, grid: self.grid.alone(), report: self.report.clone() }))
+        let (grid, report) = (self.grid.alone(), self.report.clone());
+        Some(Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, grid, report }))
     }
 
     /// Refuses an adhesion law of another name or work of adhesion than that under which the solution was found.

@@ -87,7 +87,7 @@ pub(super) fn given_start<T: Real>(
     grid: &Grid,
     window: Option<&Window>,
     load: Load,
-    projects: bool,
+    wall: Wall<'_, T>,
 ) -> Result<Option<Array2<T>>> {
     let (given, whole): (CowArray<'_, T, Ix2>, _) = match begin {
         Begin::At(Start::Default) | Begin::On(_) => return Ok(None),
@@ -103,7 +103,7 @@ pub(super) fn given_start<T: Real>(
     grid.finite("starting gap", start.view())?;
     let confined = |node: usize| window.is_none_or(|window| window.faces(node));
     // without places, and without an end, the pass is several times as fast
-    let some = projects && start.fold(false, |some, &gap| some | (gap < T::zero()));
+    let some = wall.is_rigid() && start.fold(false, |some, &gap| some | (gap < T::zero()));
     let mut nodes = start.iter().zip(grid.first_node()..);
     let find = || nodes.find(|&(&gap, node)| gap < T::zero() && confined(node));
     let negative = some.then(find).flatten().map_or(Ok(()), |(gap, _)| {
@@ -114,7 +114,7 @@ pub(super) fn given_start<T: Real>(
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Load::Gap(mean) = load {
         let present = grid.mean(gap.view(), T::widen);
-        if grid.has(gap.iter().any(|&g| g < T::zero())) {
+        if !wall.projects() && grid.has(gap.iter().any(|&g| g < T::zero())) {
             // gaps of both signs may have hardly any mean
             gap.mapv_inplace(|g| g + T::lit(mean - present));
         } else if present > 0.0 {
@@ -150,6 +150,39 @@ pub(crate) fn refuse_springs<T: Real>(wall: Wall<'_, T>) -> Result<()> {
     if let Wall::Springs(_) = wall { Err(Error::Wall { wall: "springs", reason }) } else { Ok(()) }
 }
 
+/// Refuses a wall that yields, where a state has to bear what it has borne before.
+pub(crate) fn refuse_hardness<T: Real>(wall: Wall<'_, T>, reason: &'static str) -> Result<()> {
+    wall.hardness().map_or(Ok(()), |_| Err(Error::Wall { wall: "a hardness", reason }))
+}
+
+/// Refuses a mean pressure that a wall which yields everywhere cannot bear, beside what the law pulls there.
+pub(crate) fn check_hardness<T: Real>(
+    law: &dyn AdhesionLaw<T>,
+    load: Load,
+    flat: &PressedFlat<T>,
+    wall: Wall<'_, T>,
+) -> Result<()> {
+    let Some(hardness) = wall.hardness() else { return Ok(()) };
+    let pull = law.traction(T::zero()).widen();
+    if pull >= hardness.least() {
+        let requirement = "below the hardness: else each contact crushes itself";
+        return Err(Error::Value { name: "adhesive traction at contact", value: pull, requirement });
+    }
+    let facing = flat
+        .window
+        .as_ref()
+        .map_or(1.0, |window| window.facing() as f64 / (window.grid().nodes() as f64 * flat.padding));
+    match load {
+        Load::Pressure(pressure) if pressure >= facing * (hardness.mean() - pull) => Err(Error::Value {
+            name: "mean pressure",
+            value: pressure * flat.padding,
+            requirement: "below the hardness, less the adhesive traction at contact: a surface that yields everywhere \
+                          bears no more",
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses a law that is not made for a wall.
 pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -> Result<()> {
     let (wall, reason) = match wall {
@@ -157,7 +190,7 @@ pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -
             "no wall",
             "the adhesion law does not repel at every node, so that nothing would keep the surfaces apart: choose a wall",
         ),
-        Wall::Rigid | Wall::Springs(_) if !law.energy(T::zero()).is_finite() => (
+        Wall::Rigid | Wall::Capped(_) | Wall::Springs(_) if !law.energy(T::zero()).is_finite() => (
             "a wall at zero gap",
             "the adhesion law has no bound there: solve it without a wall (NoWall), or cut it at its equilibrium \
              separation",

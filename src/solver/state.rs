@@ -38,7 +38,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let grid = operators.state().grid();
         let (grid, shape) = (*grid, grid.field_shape());
         let uniform = begin.is_default();
-        let given = given_start(begin, &grid, flat.window.as_ref(), *load, constraint.wall().is_rigid())?;
+        let given = given_start(begin, &grid, flat.window.as_ref(), *load, constraint.wall())?;
         let (gap, pressure) = match given {
             Some(gap) => {
                 let mut pressure = Array2::zeros(shape);
@@ -186,16 +186,20 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let (offset, release) = (T::lit(self.offset()), T::lit(self.multiplier()));
         let centred = self.posed.is_gap_controlled() && self.posed.settings.method == Method::Preconditioned;
         let before = T::lit(self.sums.residual.level);
+        let yielded = self.has_yielded();
         let Self { fields, posed, sums, .. } = self;
         let (local, tally) = (posed.potential(), &sums.tally);
-        let mut level = release.widen();
+        let (mut level, mut yields) = (release.widen(), local.is_capped());
         if centred && tally.contact > 0.0 && local.projects() {
             let released = passes::released(fields, &local, offset, release);
             let working = tally.free + released.count;
             if working > 0.0 {
                 level = (tally.sum_r + released.sum_r) / working;
             }
+            yields = yields && (released.most > level || yielded);
         }
+        // where some yield, both sides of the corner have one level
+        let release = if yields { T::lit(level) } else { release };
         let (found, difference) = if gradient {
             // of the gradient less the level before; their difference is small
             let [release, level] = [release.widen(), level].map(|value| T::lit(value - before.widen()));
@@ -205,7 +209,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             passes::residual(fields, &local, Working { offset, release, level: T::lit(level) })
         };
         let Continued { complementarity, working, descent, overlap, sum_change } = found;
-        self.sums.residual = Residual { level, working, complementarity, difference };
+        self.sums.residual = Residual { level, working, complementarity, difference, yields };
         self.steps.momentum = made.map(|made| Made { descent, overlap, sum: sum_change, ..made });
     }
 

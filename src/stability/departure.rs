@@ -9,7 +9,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Potential, Solution, Solver, Start, bounded, refuse_springs};
+use crate::solver::{Potential, Solution, Solver, Start, bounded, refuse_hardness, refuse_springs};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
@@ -64,6 +64,8 @@ impl<T: Real> Stability<T> {
         C: ContactConstraint<T>,
     {
         refuse_springs(solver.constraint.wall())?;
+        let yields = "the way from a saddle is one of an energy, and a surface that yields has none";
+        refuse_hardness(solver.constraint.wall(), yields)?;
         from.check(problem, &solver.constraint)?;
         let (grid, control) = (from.grid, self.control);
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));

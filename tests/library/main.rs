@@ -16,6 +16,7 @@ mod exact;
 mod exact_solutions;
 mod extremes;
 mod free;
+mod hardness;
 mod laws;
 mod light_loads;
 mod maugis_dugdale;

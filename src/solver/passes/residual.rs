@@ -5,7 +5,7 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::potential::Potential;
+use crate::solver::potential::{Cap, Capped, Potential, Uncapped, with_caps};
 use crate::vector::sums;
 
 /// The working set by the gradient r, and the constants of r and r'.
@@ -13,7 +13,7 @@ use crate::vector::sums;
 pub(in crate::solver) struct Working<T> {
     /// the constant b in r = p + φ'(g) + b
     pub(in crate::solver) offset: T,
-    /// the value of r below which a node in contact is released
+    /// the value of r below which a node in contact is released; beyond this and its cap it yields
     pub(in crate::solver) release: T,
     /// the mean of r over the working set under gap control, zero under pressure control: r' = r − level
     pub(in crate::solver) level: T,
@@ -23,8 +23,10 @@ pub(in crate::solver) struct Working<T> {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::solver) struct Released {
     pub(in crate::solver) count: f64,
-    /// Σ r over these nodes
+    /// Σ r over these nodes, less the cap where they yield
     pub(in crate::solver) sum_r: f64,
+    /// the most that r exceeds the cap of a contact node
+    pub(in crate::solver) most: f64,
 }
 
 /// The sums of a residual r', and those with the change c of the last step.
@@ -48,9 +50,21 @@ fn works<T: Real>(residual: T) -> T {
     residual + T::zero()
 }
 
+/// The gradient r of a node in the direction in which it may move, r less the cap where it is about to yield, and
+/// whether it may.
 #[inline(always)]
-fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, gap: T, r: T) -> (Lo, bool) {
-    let may = (gap > touching) | (r < w.release);
+fn gradient<T: Real, C: Cap<T>>(touching: T, release: T, cap: C, gap: T, r: T) -> (T, bool) {
+    let may = (gap > touching) | (r < release);
+    if !C::CAPPED {
+        return (r, may);
+    }
+    let yields = (gap == touching) & (r - cap.at() > release);
+    (if yields { r - cap.at() } else { r }, may | yields | (gap < touching))
+}
+
+#[inline(always)]
+fn residual_of<T: Real, Lo: Real, C: Cap<T>>(touching: T, w: Working<T>, cap: C, gap: T, r: T) -> (Lo, bool) {
+    let (r, may) = gradient(touching, w.release, cap, gap, r);
     (if may { works(cast(r - w.level)) } else { Lo::neg_zero() }, may)
 }
 
@@ -62,24 +76,29 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
     release: T,
 ) -> Released {
     let Fields { reducer, least_r, gap, pressure, .. } = fields;
-    let limit = release.widen();
+    let (limit, capped) = (release.widen(), local.is_capped());
     let total = local.run_where(
         reducer,
         least_r,
-        |least| least < limit,
+        |least| least < limit || capped,
         read(gap).zip(read(pressure)),
         |local, first, (gap, pressure)| {
             let touching = local.touching();
             let mut buffer = [T::zero(); CHUNK];
             let tractions = tractions(local, first, gap, &mut buffer);
-            sums!(2, [gap, pressure, tractions], [], |i| {
-                let r = pressure[i] + tractions[i] + offset;
-                let released = (gap[i] <= touching) & (r < release);
-                [count(released), if released { r.widen() } else { 0.0 }]
+            with_caps!(local, first, gap.len(), |caps| {
+                sums!(2, [gap, pressure, tractions, caps], [], least low, |i| {
+                    let (r, touches) = (pressure[i] + tractions[i] + offset, gap[i] == touching);
+                    let cap: T = caps[i].at();
+                    low[i] = if touches { (cap - r).widen() } else { f64::INFINITY };
+                    let (r, may) = gradient(touching, release, caps[i], gap[i], r);
+                    let released = touches & may;
+                    [count(released), if released { r.widen() } else { 0.0 }]
+                })
             })
         },
     );
-    Released { count: total.sum[0], sum_r: total.sum[1] }
+    Released { count: total.sum[0], sum_r: total.sum[1], most: -total.min }
 }
 
 /// Computes r' from gap and pressure, and Σ (r' − r'₀)², with r'₀ the previous content of the field.
@@ -94,14 +113,16 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
         let touching = local.touching();
         let mut buffer = [T::zero(); CHUNK];
         let tractions = tractions(local, first, gap, &mut buffer);
-        sums!(6, [gap, pressure, tractions, z, change], [residual], |i| {
-            let r = pressure[i] + tractions[i] + working.offset;
-            let (r, may): (Lo, _) = residual_of(touching, working, gap[i], r);
-            let difference = (r - residual[i]).widen();
-            residual[i] = r;
-            let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
-            let moved = if may { d } else { 0.0 };
-            [count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference]
+        with_caps!(local, first, gap.len(), |caps| {
+            sums!(6, [gap, pressure, tractions, z, change, caps], [residual], |i| {
+                let r = pressure[i] + tractions[i] + working.offset;
+                let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], r);
+                let difference = (r - residual[i]).widen();
+                residual[i] = r;
+                let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
+                let moved = if may { d } else { 0.0 };
+                [count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference]
+            })
         })
     });
     reducer.keep(|part| part.sum[0], moving);
@@ -112,17 +133,21 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
 /// The residual r' of a chunk from the gradient in its field. One constant is subtracted from gradient, release and
 /// level.
 pub(super) fn release_chunk<T: Real, Lo: Real>(
-    touching: T,
+    local: &Potential<'_, T>,
     working: Working<T>,
+    first: usize,
     gap: &[T],
     (z, change): (&[Lo], &[Lo]),
     residual: &mut [Lo],
 ) -> Partial {
-    sums!(5, [gap, z, change], [residual], |i| {
-        let (r, may): (Lo, _) = residual_of(touching, working, gap[i], cast(residual[i]));
-        residual[i] = r;
-        let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
-        [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
+    let touching = local.touching();
+    with_caps!(local, first, gap.len(), |caps| {
+        sums!(5, [gap, z, change, caps], [residual], |i| {
+            let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], cast(residual[i]));
+            residual[i] = r;
+            let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
+            [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
+        })
     })
 }
 
@@ -135,8 +160,8 @@ pub(in crate::solver) fn release<T: Real, Lo: Real>(
 ) -> Continued {
     let Fields { reducer, moving, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
-    let total = local.run(reducer, chunks, |local, _, (((gap, residual), z), change)| {
-        release_chunk(local.touching(), working, gap, (z, change), residual)
+    let total = local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
+        release_chunk(local, working, first, gap, (z, change), residual)
     });
     reducer.keep(|part| part.sum[0], moving);
     let [working, complementarity, descent, overlap, sum_change, ..] = total.sum;

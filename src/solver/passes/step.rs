@@ -8,7 +8,7 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::potential::{Least, Of, Potential};
+use crate::solver::potential::{Cap, Capped, Least, Of, Potential, Uncapped, with_caps};
 use crate::vector::{sums, vectors};
 
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +21,8 @@ pub(in crate::solver) struct Attempt<T> {
     pub(in crate::solver) keep: T,
     /// the mean of the last change over the working set
     pub(in crate::solver) mean: T,
+    /// whether contact nodes with a positive r' move down
+    pub(in crate::solver) yields: bool,
 }
 
 /// The sums over a clipped change c, before the scale that restores the mean gap.
@@ -39,6 +41,8 @@ pub(in crate::solver) struct Tried {
     pub(in crate::solver) gap_descent: f64,
     pub(in crate::solver) change_surface: f64,
     pub(in crate::solver) gap_surface: f64,
+    /// the energy beyond the tangents of nodes that pass a corner of the local energy
+    pub(in crate::solver) kink: f64,
     /// Σ t·c, with t the local traction
     pub(in crate::solver) traction: f64,
     /// Σ s·c², Σ s·c·g and Σ s·g², with s the slope of the local traction
@@ -68,11 +72,25 @@ pub(in crate::solver) struct Advanced {
     pub(in crate::solver) residual: Option<Continued>,
 }
 
-/// The gap after a change, exactly zero where it is above zero by no more than the rounding in Lo.
-#[inline(always)]
-fn moved<T: Real, Lo: Real>(projects: bool, gap: T, change: T) -> T {
-    let next = gap + change;
-    if projects & (next <= T::lit(4.0) * cast(Lo::epsilon()) * gap) { T::zero() } else { next }
+/// The corner of the local energy at zero gap, where steps end.
+#[derive(Clone, Copy)]
+struct Corner {
+    from_above: bool,
+    from_below: bool,
+}
+
+impl Corner {
+    fn of<T: Real>(local: &Potential<'_, T>) -> Self {
+        Self { from_above: local.projects(), from_below: local.is_capped() }
+    }
+
+    /// The gap after a change, exactly zero where it is beyond zero, or within the rounding in Lo of it.
+    #[inline(always)]
+    fn moved<T: Real, Lo: Real>(self, gap: T, change: T) -> T {
+        let (next, least) = (gap + change, T::lit(4.0) * cast(Lo::epsilon()) * gap);
+        let lands = if self.from_below { next.abs() <= least.abs() } else { self.from_above & (next <= least) };
+        if lands { T::zero() } else { next }
+    }
 }
 
 /// The step d = scale·(g + c) − g of unit length at one node.
@@ -81,18 +99,43 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a node, and whether it was clipped to the least gap after a step.
+/// The change c of a node, and whether it was clipped to the least gap after a step; with a cap to zero, from the side
+/// on which the node is, or to which the gradient drives it.
 #[inline(always)]
-fn clipped_change<T: Real>(least: Least<T>, attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
-    let Attempt { length, centre, keep, mean } = attempt;
+fn clipped_change<T: Real, C: Cap<T>>(
+    (least, cap): (Least<T>, C),
+    attempt: Attempt<T>,
+    gap: T,
+    [r, z, change]: [T; 3],
+) -> (T, bool) {
+    let Attempt { length, centre, keep, mean, yields } = attempt;
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
+    if C::CAPPED {
+        let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
+        // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
+        let most = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
+        let stops = (gap == T::zero()) | (most <= cap.at());
+        let clipped = stops & if below { next > T::zero() } else { next < T::zero() };
+        return ((if clipped { T::zero() } else { next }) - gap, clipped);
+    }
     let least = least.after(gap);
     let clipped = next < least;
     ((if clipped { least } else { next }) - gap, clipped)
 }
 
+/// Whether a clipped node is driven to zero by the gradient itself.
+#[inline(always)]
+fn is_blocked<T: Real, C: Cap<T>>(_: C, clipped: bool, gap: T, r: T) -> bool {
+    let from_above = (r > T::zero()) & (gap > T::zero());
+    clipped & (from_above | (C::CAPPED & (r < T::zero()) & (gap < T::zero())))
+}
+
+/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
+const PASSES: f64 = 0.3;
+
 const BLOCKED: usize = 2;
+const KINK: usize = 8;
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h under gap control.
 pub(in crate::solver) fn trial<T: Real, Lo: Real>(
@@ -113,6 +156,7 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
         let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
         local.tractions_and_slopes(first, gap, tractions, slopes);
+        part.sum[KINK] = local.yielding(first, gap, change, tractions, slopes);
         let found = sums!(4, [gap, change, tractions, slopes], [], |i| {
             let ([g, t, s], c) = ([gap[i], tractions[i], slopes[i]].map(T::widen), change[i].widen());
             [t * c, s * c * c, s * c * g, s * g * g]
@@ -122,13 +166,15 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
             let least = local.least();
-            let mut part = sums!(5, [gap, residual, z], [change], |i| {
-                let (g, r): (_, T) = (gap[i], cast(residual[i]));
-                let (c, clipped) = clipped_change(least, attempt, g, [r, cast(z[i]), cast(change[i])]);
-                change[i] = cast(c);
-                let blocked = clipped & (r > T::zero()) & (g > T::zero());
-                let (r, c) = (r.widen(), change[i].widen());
-                [c, count(clipped), count(blocked), r * c, c * c]
+            let mut part = with_caps!(local, first, gap.len(), |caps| {
+                sums!(5, [gap, residual, z, caps], [change], |i| {
+                    let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                    let (c, clipped) = clipped_change((least, caps[i]), attempt, g, [r, cast(z[i]), cast(change[i])]);
+                    change[i] = cast(c);
+                    let blocked = is_blocked(caps[i], clipped, g, r);
+                    let (r, c) = (r.widen(), change[i].widen());
+                    [c, count(clipped), count(blocked), r * c, c * c]
+                })
             });
             finish(local, &mut part, first, gap, change);
             part
@@ -137,13 +183,16 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
                 let least = local.least();
-                let mut part = sums!(8, [gap, residual, z, surface], [change], |i| {
-                    let (g, r): (_, T) = (gap[i], cast(residual[i]));
-                    let (c, clipped) = clipped_change(least, attempt, g, [r, cast(z[i]), cast(change[i])]);
-                    change[i] = cast(c);
-                    let blocked = clipped & (r > T::zero()) & (g > T::zero());
-                    let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
-                    [c, count(clipped), count(blocked), r * c, c * c, r * g, c * h, g * h]
+                let mut part = with_caps!(local, first, gap.len(), |caps| {
+                    sums!(8, [gap, residual, z, surface, caps], [change], |i| {
+                        let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                        let trial = [r, cast(z[i]), cast(change[i])];
+                        let (c, clipped) = clipped_change((least, caps[i]), attempt, g, trial);
+                        change[i] = cast(c);
+                        let blocked = is_blocked(caps[i], clipped, g, r);
+                        let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
+                        [c, count(clipped), count(blocked), r * c, c * c, r * g, c * h, g * h]
+                    })
                 });
                 finish(local, &mut part, first, gap, change);
                 part
@@ -161,6 +210,7 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
         gap_descent,
         change_surface,
         gap_surface,
+        kink: total.sum[KINK],
         traction,
         slope_change,
         slope_mixed,
@@ -168,14 +218,18 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     }
 }
 
-/// The largest a with g + a·c ≥ 0 at all confined nodes, for a change c that was not clipped.
+/// The largest a with g + a·c of the sign of g at all confined nodes, for a change c that was not clipped.
 pub(in crate::solver) fn reach<T: Real, Lo: Real>(fields: &mut Fields<T, Lo>, local: &Potential<'_, T>) -> f64 {
     let Fields { reducer, gap, change, .. } = fields;
     let total = local.run(reducer, read(gap).zip(read(change)), |local, _, (gap, change)| {
         let mut part = Partial::NONE;
         if local.least().depth == T::zero() {
-            for (&gap, &change) in gap.iter().zip(change).filter(|&(_, &change)| change < Lo::zero()) {
-                part.min = part.min.min((gap / -cast::<_, T>(change)).widen());
+            let capped = local.is_capped();
+            for (&gap, &change) in gap.iter().zip(change) {
+                let (closes, opens) = (change < Lo::zero(), capped && change > Lo::zero() && gap < T::zero());
+                if closes && !(capped && gap <= T::zero()) || opens {
+                    part.min = part.min.min((gap / -cast::<_, T>(change)).widen());
+                }
             }
         }
         part
@@ -192,11 +246,11 @@ pub(in crate::solver) fn energy_after<T: Real, Lo: Real>(
 ) -> f64 {
     let Fields { reducer, gap, change, .. } = fields;
     let total = local.run(reducer, read(gap).zip(read(change)), |local, first, (gap, change)| {
-        let projects = local.projects();
+        let corner = Corner::of(local);
         let (mut next, mut buffer) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (next, energies) = (&mut next[..gap.len()], &mut buffer[..gap.len()]);
         vectors!([gap, change], [next], |i| {
-            next[i] = moved::<T, Lo>(projects, gap[i], length * whole(scale, gap[i], cast(change[i])));
+            next[i] = corner.moved::<T, Lo>(gap[i], length * whole(scale, gap[i], cast(change[i])));
         });
         local.evaluate(Of::Energy, first, next, energies);
         sums!(1, [energies], [], |i| [energies[i].widen()])
@@ -222,15 +276,15 @@ pub(in crate::solver) fn advance<T: Real, Lo: Real>(
         vectors!([pressure, tractions], [residual], |i| {
             residual[i] = cast(pressure[i] + tractions[i] + offset - before);
         });
-        if !local.is_zero() {
+        if !local.is_straight() {
             let product = sums!(1, [step, residual], [], |i| [step[i].widen() * residual[i].widen()]);
-            part.sum[PRODUCT] = product.sum[0];
+            part.sum[PRODUCT] = product.sum[0] - local.landed(first, gap, step);
         }
         part
     };
-    let take = |projects: bool, gap: &mut [T], pressure: &mut [T], change: &[Lo], response: &[Lo]| {
+    let take = |corner: Corner, gap: &mut [T], pressure: &mut [T], change: &[Lo], response: &[Lo]| {
         vectors!([change, response], [gap, pressure], |i| {
-            gap[i] = moved::<T, Lo>(projects, gap[i], length * cast(change[i]));
+            gap[i] = corner.moved::<T, Lo>(gap[i], length * cast(change[i]));
             pressure[i] += length * cast(response[i]);
         });
     };
@@ -242,9 +296,9 @@ pub(in crate::solver) fn advance<T: Real, Lo: Real>(
             reducer,
             chunks.zip(read(change)).zip(read(preconditioned)),
             |local, first, ((((gap, pressure), response), change), z)| {
-                take(local.projects(), gap, pressure, change, response);
+                take(Corner::of(local), gap, pressure, change, response);
                 let mut part = finish(local, first, gap, pressure, change, response);
-                let new = release_chunk(local.touching(), working, gap, (z, change), response);
+                let new = release_chunk(local, working, first, gap, (z, change), response);
                 part.sum[SUMS - 4..].copy_from_slice(&new.sum[..4]);
                 part
             },
@@ -256,18 +310,18 @@ pub(in crate::solver) fn advance<T: Real, Lo: Real>(
     }
     let total = if rest == T::zero() {
         local.run(reducer, chunks.zip(read(change)), |local, first, (((gap, pressure), response), change)| {
-            take(local.projects(), gap, pressure, change, response);
+            take(Corner::of(local), gap, pressure, change, response);
             finish(local, first, gap, pressure, change, response)
         })
     } else {
         let chunks = chunks.zip(write(change)).zip(read(surface));
         local.run(reducer, chunks, |local, first, ((((gap, pressure), response), change), surface)| {
-            let projects = local.projects();
+            let corner = Corner::of(local);
             vectors!([response, surface], [gap, pressure, change], |i| {
                 let (g, p) = (gap[i], pressure[i]);
                 let d = whole(scale, g, cast(change[i]));
                 change[i] = cast(d);
-                gap[i] = moved::<T, Lo>(projects, g, length * d);
+                gap[i] = corner.moved::<T, Lo>(g, length * d);
                 pressure[i] = p + length * (scale * cast(response[i]) + rest * (p - surface[i]));
             });
             finish(local, first, gap, pressure, change, response)

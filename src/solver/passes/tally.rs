@@ -12,11 +12,11 @@ use crate::vector::sums;
 /// The sums over the nodes of a state, on which the driver decides.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::solver) struct Tally {
-    /// the number of nodes apart
+    /// the number of nodes apart, and of those that yield
     pub(in crate::solver) free: f64,
-    /// Σ r over the nodes apart
+    /// Σ r over these nodes
     pub(in crate::solver) sum_r: f64,
-    /// the least r in contact
+    /// the least r where the surfaces touch and do not yield
     pub(in crate::solver) min_r: f64,
     pub(in crate::solver) sum_gap: f64,
     /// Σ g·p
@@ -79,7 +79,7 @@ fn tally_of<T: Real>(touching: T, offset: T, gap: &[T], pressure: &[T], traction
     sums!(5, [gap, pressure, traction], [], least low, |i| {
         let (g, p) = (gap[i], pressure[i]);
         let r = (p + traction[i] + offset).widen();
-        let touches = g <= touching;
+        let touches = g == touching;
         let free = count(!touches);
         low[i] = if touches { r } else { f64::INFINITY };
         [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free]
@@ -104,7 +104,7 @@ pub(super) fn tally_chunk<T: Real>(
     let mut part = tally_of(touching, offset, gap, pressure, tractions);
     let sum = |values: &[T]| sums!(1, [values], [], |i| [values[i].widen()]).sum[0];
     part.sum[ADHESIVE] = sum(values);
-    if !local.is_soft() {
+    if !local.is_soft() && !local.is_capped() {
         part.sum[TRACTION] = sum(tractions);
     } else {
         local.attractions(first, gap, tractions, values);

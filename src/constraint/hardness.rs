@@ -1,0 +1,131 @@
+//! Hardness: a cap on the contact pressure, at which the surface yields.
+
+use ndarray::Array2;
+
+use super::{ContactConstraint, Wall};
+use crate::error::{Error, Result};
+use crate::field::flat;
+use crate::grid::Grid;
+use crate::real::Real;
+
+/// A rigid wall that yields where the contact pressure reaches a hardness H: perfectly plastic asperities, 0 ≤ λ ≤ H.
+///
+/// The energy of a node whose surface yields by a depth d is H d, linear, with a corner where the surfaces touch:
+///
+/// ```math
+/// ψ(g) = H ⟨−g⟩₊ ,   λ = H where g < 0 ,   0 ≤ λ ≤ H where g = 0 ,   λ = 0 where g > 0
+/// ```
+///
+/// The gap g of the surface as it was is negative where this has yielded, by the plastic depth −g. A
+/// [`Solution`](crate::Solution) has the gap to the surface as it is now, which is zero there, and the
+/// [depth](crate::Solution::plastic_depth) beside it. A solve is monotonic loading of its problem's surface;
+/// [`Problem::flatten`](crate::Problem::flatten) keeps a depth, so that unloading from there is elastic, as
+/// [`Sweep`](crate::Sweep) and [`Path`](crate::path::Path) do from load to load.
+///
+/// The function ψ is convex, so that the certificate of a solve holds as for a rigid wall, and no spring regularises
+/// its corners. The model leaves out hardening, the volume of what is displaced, and yielding below the surface.
+///
+/// ```
+/// use asperity::{Control, Grid, Hardness, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
+/// let grid = Grid::square(64, 1.0)?;
+/// let sphere = Surface::paraboloid(grid, 2.0)?;
+/// let mut problem = Problem::new(&sphere, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+/// let mut solver = Solver { settings: Settings::default(), constraint: Hardness::new(0.02)? };
+/// let solution = solver.solve(&mut problem, Control::MeanPressure(2e-4))?;
+/// let plastic = solution.report.plastic.unwrap();
+/// assert!(plastic.fraction > 0.0 && plastic.depth_max > 0.0);
+/// assert_eq!(solution.contact_pressure.iter().copied().fold(0.0, f64::max), 0.02);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hardness {
+    mean: f64,
+    least: f64,
+    /// H at every node of the surface; empty if it is the same everywhere
+    field: Array2<f64>,
+    /// H at the nodes of the solve's grid, from the first one that this process has
+    held: Array2<f64>,
+    first: usize,
+}
+
+impl Hardness {
+    /// The same hardness H everywhere, a pressure.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if it is not positive and finite.
+    pub fn new(hardness: f64) -> Result<Self> {
+        let mean = Error::positive("hardness", hardness)?;
+        let none = || Array2::zeros((0, 0));
+        Ok(Self { mean, least: mean, field: none(), held: none(), first: 0 })
+    }
+
+    /// A hardness H at each node of the surface, of shape (Nx, Ny). On coarser grids each node takes that of the
+    /// nearest one.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a value that is not positive and finite; [`Error::Shape`] of an empty field, and from a
+    /// solve on another grid.
+    pub fn varying(hardness: Array2<f64>) -> Result<Self> {
+        if hardness.is_empty() {
+            return Err(Error::Shape { name: "hardness", found: hardness.dim(), expected: (1, 1) });
+        }
+        let mut least = f64::INFINITY;
+        for &value in &hardness {
+            least = least.min(Error::positive("hardness", value)?);
+        }
+        let field = hardness.as_standard_layout().into_owned();
+        Ok(Self { mean: field.sum() / field.len() as f64, least, field, held: Array2::zeros((0, 0)), first: 0 })
+    }
+
+    /// The hardness H, in the mean over the nodes.
+    pub fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// The least hardness.
+    pub(crate) fn least(&self) -> f64 {
+        self.least
+    }
+
+    /// Writes the hardness at nodes of the solve's grid, from the node `first` on.
+    pub(crate) fn fill<T: Real, C: Copy>(&self, first: usize, caps: &mut [C], cap: impl Fn(T) -> C) {
+        let own = first.checked_sub(self.first).and_then(|own| flat(&self.held).get(own..own + caps.len()));
+        match own {
+            Some(held) => caps.iter_mut().zip(held).for_each(|(to, &held)| *to = cap(T::lit(held))),
+            None => caps.fill(cap(T::lit(self.mean))),
+        }
+    }
+}
+
+impl<T: Real> ContactConstraint<T> for Hardness {
+    fn wall(&self) -> Wall<'_, T> {
+        Wall::Capped(self)
+    }
+    fn takes_slabs(&self) -> bool {
+        true
+    }
+    fn start(&mut self, grid: &Grid, _: f64, _: f64) -> Result<()> {
+        for value in [self.least, self.mean] {
+            let rounded = T::lit(value);
+            if !(rounded > T::zero() && rounded.is_finite()) {
+                let requirement = "positive and finite in the precision of the fields";
+                return Err(Error::Value { name: "hardness", value, requirement });
+            }
+        }
+        let ((fx, fy), (nx, ny)) = (self.field.dim(), grid.shape());
+        if self.field.is_empty() {
+            return Ok(());
+        }
+        let coarser = |fine: usize, coarse: usize| fine == coarse || 2 * coarse <= fine + 1;
+        if !(coarser(fx, nx) && coarser(fy, ny)) {
+            return Err(Error::Shape { name: "hardness", found: (fx, fy), expected: (nx, ny) });
+        }
+        let (rows, field) = (grid.rows(), &self.field);
+        let nearest = |i: usize, fine: usize, coarse: usize| ((2 * i * fine + coarse) / (2 * coarse)).min(fine - 1);
+        self.held = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
+            field[[nearest(rows.start + i, fx, nx), nearest(j, fy, ny)]]
+        });
+        self.first = rows.start * ny;
+        Ok(())
+    }
+}

@@ -1,0 +1,61 @@
+//! How far a surface has yielded in a solve.
+
+use ndarray::Array2;
+
+use super::passes::count;
+use super::report::Plastic;
+use super::state::State;
+use crate::field::{CHUNK, Partial, read, write};
+use crate::par::Parts;
+use crate::problem::Yielded;
+use crate::real::Real;
+
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
+    /// Whether some nodes yield in the present state.
+    pub(super) fn has_yielded(&self) -> bool {
+        // these are in contact, and free
+        self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
+    }
+
+    /// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing
+    /// if the wall does not yield. The energy is over all nodes of the operator's grid.
+    pub(super) fn plastic(&mut self) -> Option<(Array2<T>, Plastic)> {
+        let Self { fields, posed, .. } = self;
+        let hardness = posed.constraint.wall().hardness()?.mean();
+        let before = posed.flat.yielded.as_ref().map(Yielded::depth);
+        let mut depth = before.cloned().unwrap_or_else(|| Array2::zeros(fields.gap.dim()));
+        let local = posed.potential();
+        let chunks = read(&fields.gap).zip(write(&mut depth));
+        let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
+            let (mut caps, mut part) = ([T::zero(); CHUNK], Partial::NONE);
+            if !local.is_surface() {
+                return part;
+            }
+            local.hardness().into_iter().for_each(|hardness| hardness.fill(first, &mut caps[..gaps.len()], |cap| cap));
+            for ((&gap, depth), &cap) in gaps.iter().zip(depths).zip(&caps) {
+                *depth += (-gap).max(T::zero());
+                let [deep, cap] = [*depth, cap].map(T::widen);
+                part.min = part.min.min(-deep);
+                part.sum[0] += count(deep > 0.0);
+                part.sum[1] += deep;
+                part.sum[2] += cap * deep;
+            }
+            part
+        });
+        let facing = posed.flat.window.as_ref().map_or(posed.nodes(), |window| window.facing() as f64);
+        let [yielded, sum, energy, ..] = total.sum;
+        let plastic = Plastic {
+            hardness,
+            fraction: yielded / facing,
+            depth_max: (-total.min).max(0.0),
+            depth_mean: sum / facing,
+            energy: posed.flat.padding * energy / posed.nodes(),
+        };
+        Some((depth, plastic))
+    }
+}
+
+/// The gap to a surface that has yielded where the gap to that before was negative.
+pub(super) fn to_the_yielded<T: Real>(gap: &mut Array2<T>) {
+    gap.mapv_inplace(|gap| gap.max(T::zero()));
+}
