@@ -13,8 +13,9 @@ use crate::real::Real;
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether some nodes yield in the present state.
     pub(super) fn has_yielded(&self) -> bool {
+        let yields = self.posed.constraint.wall().hardness().is_some();
         // these are in contact, and free
-        self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
+        yields && self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
     }
 
     /// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing
