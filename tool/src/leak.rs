@@ -83,7 +83,7 @@ const EXAMPLES: &str = "\
   Through the gap of a solve, and with water:
     asperity solve --heights heights.npy --lengths 1mm --modulus 1GPa --mean-pressure 30MPa --out pressed
     asperity leak pressed
-    asperity leak pressed --viscosity 1mPa*s --out leakage
+    asperity leak pressed --viscosity 1mPas --out leakage
   Through a gap from elsewhere, from side to side:
     asperity leak gap.npy --lengths 2 1 --boundary free";
 

@@ -1,7 +1,13 @@
 //! Conductance of heat and electric current through a contact, from its stiffness.
 
+use asperity::elastic::ElasticOperator;
 use asperity::stability::ContactStiffness;
-use asperity::{Error, Result};
+use asperity::{Boussinesq, Control, Error, Grid, NoAdhesion, Problem, Result, Solver, Surface, Westergaard};
+use ndarray::ArrayView2;
+
+/// The mean pressure under which a punch with the outline of the contact is pressed, over E*, and its depth over the longer
+/// side: its displacements are far less than that.
+const PRESSED: f64 = 1e-6;
 
 /// The conductance of a contact between two half-spaces, for electric current or for heat.
 ///
@@ -55,15 +61,65 @@ impl Conductance {
             let requirement = "at least zero: take that of a problem without adhesion";
             return Err(Error::Value { name: "contact stiffness", value: pressure_per_length, requirement });
         }
+        let grid = stiffness.edge.map_or(0.0, |edge| (edge.stiffness / pressure_per_length).abs());
+        let error = stiffness.relative_error + grid;
+        Self::checked((pressure_per_length, stiffness.force_per_length, error), modulus, resistivities)
+    }
+
+    /// That of a stiffness per area, of the whole, and of its relative error.
+    fn checked(
+        (per_area, whole, relative_error): (f64, f64, f64),
+        modulus: f64,
+        resistivities: (f64, f64),
+    ) -> Result<Self> {
         let modulus = Error::positive("contact modulus", modulus)?;
         let first = Error::non_negative("resistivity of the first body", resistivities.0)?;
         let second = Error::non_negative("resistivity of the second body", resistivities.1)?;
         let per_stiffness = 2.0 / (modulus * Error::positive("sum of both resistivities", first + second)?);
-        let grid = stiffness.edge.map_or(0.0, |edge| (edge.stiffness / pressure_per_length).abs());
-        Ok(Self {
-            per_area: per_stiffness * pressure_per_length,
-            whole: per_stiffness * stiffness.force_per_length,
-            relative_error: stiffness.relative_error + grid,
-        })
+        Ok(Self { per_area: per_stiffness * per_area, whole: per_stiffness * whole, relative_error })
     }
+
+    /// The conductance of spots of contact on a grid, in a periodic cell or between free half-spaces: with a law too, which
+    /// leaves the spots what they are. The error is that of the solves alone.
+    ///
+    /// ```
+    /// use asperity::Grid;
+    /// use asperity_flow::Conductance;
+    /// let grid = Grid::square(64, 1.0)?;
+    /// let spot = grid.sample(|x, y| x * x + y * y).mapv(|square| square <= 0.09);
+    /// let conductance = Conductance::of_spots(spot.view(), grid, false, (0.5, 0.5))?;
+    /// assert!((conductance.whole / (4.0 * 0.3) - 1.0).abs() < 0.03); // 4a/(ρ₁ + ρ₂)
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Self::of`], and [`Error::Shape`] if the contact is not on the grid.
+    pub fn of_spots(
+        contact: ArrayView2<'_, bool>,
+        grid: Grid,
+        periodic: bool,
+        resistivities: (f64, f64),
+    ) -> Result<Self> {
+        let (lx, ly) = grid.lengths();
+        Error::shape("contact", contact.dim(), grid.shape())?;
+        if !contact.iter().any(|contact| *contact) {
+            return Self::checked((0.0, 0.0, 0.0), 1.0, resistivities);
+        }
+        let punch = Surface::new(grid, contact.mapv(|contact| if contact { 0.0 } else { -lx.max(ly) }))?;
+        if periodic {
+            of_punch(&punch, Westergaard::<f64>::new(grid, 1.0)?, resistivities)
+        } else {
+            of_punch(&punch, Boussinesq::<f64>::new(grid, 1.0)?, resistivities)
+        }
+    }
+}
+
+/// The conductance of a flat punch.
+fn of_punch(punch: &Surface, body: impl ElasticOperator<f64>, resistivities: (f64, f64)) -> Result<Conductance> {
+    let mut problem = Problem::new(punch, body, NoAdhesion)?;
+    let solution = Solver::default().solve(&mut problem, Control::MeanPressure(PRESSED))?;
+    let mut stiffness = ContactStiffness::of(&mut problem, &solution)?;
+    // the edge of a punch is where its nodes are
+    stiffness.edge = None;
+    Conductance::of(&stiffness, 1.0, resistivities)
 }

@@ -2,8 +2,9 @@
 
 use approx::assert_relative_eq;
 use asperity::stability::ContactStiffness;
-use asperity::{Boussinesq, Control, Grid, NoAdhesion, Problem, Solver, Surface};
+use asperity::{Amplitude, Boussinesq, Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Surface, Westergaard};
 use asperity_flow::Conductance;
+use ndarray::Array2;
 
 const MODULUS: f64 = 3.0;
 
@@ -54,4 +55,25 @@ fn resistivities_and_moduli_are_checked() {
     let mut adhesive = stiffness;
     adhesive.pressure_per_length = -1.0;
     assert!(Conductance::of(&adhesive, 1.0, (1.0, 1.0)).unwrap_err().to_string().contains("contact stiffness is -1"));
+}
+
+#[test]
+fn spots_conduct_as_the_stiffness_of_their_solution_says() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let rough = SelfAffine::default().k_s(8.0).amplitude(Amplitude::RmsSlope(0.1)).seed(2).surface(grid).unwrap();
+    let mut problem = Problem::new(&rough, Westergaard::<f64>::new(grid, MODULUS).unwrap(), NoAdhesion).unwrap();
+    for pressure in [0.01, 0.1] {
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
+        let stiffness = ContactStiffness::of(&mut problem, &solution).unwrap();
+        let of_stiffness = Conductance::of(&stiffness, MODULUS, (1.0, 3.0)).unwrap();
+        let contact = solution.gap.mapv(|gap| gap <= 0.0);
+        let of_spots = Conductance::of_spots(contact.view(), grid, true, (1.0, 3.0)).unwrap();
+        assert_relative_eq!(of_spots.per_area, of_stiffness.per_area, max_relative = 1e-5);
+        // the grid leaves more than the solve
+        assert!(of_spots.relative_error < 1e-5 && of_stiffness.relative_error > of_spots.relative_error);
+    }
+    // nothing, and all of it
+    let none = Conductance::of_spots(Array2::from_elem((64, 64), false).view(), grid, true, (1.0, 3.0));
+    let all = Conductance::of_spots(Array2::from_elem((64, 64), true).view(), grid, true, (1.0, 3.0));
+    assert_eq!((none.unwrap().per_area, all.unwrap().per_area), (0.0, f64::INFINITY));
 }

@@ -1,12 +1,12 @@
 //! The leakage through a gap, with the keys of its report and the sentences for people.
 
+use asperity::Result;
 use asperity_flow::{Axis, Bounds, Gap, Leak, Leakage};
 use serde::Serialize;
 
 use crate::boundary::Boundary;
 use crate::numbers::{percent, plain};
-use crate::outcome::Outcome;
-use crate::quantity::{LENGTH, VISCOSITY};
+use crate::quantity::{LENGTH, VISCOSITY, times_ten_to};
 use crate::units::Units;
 use crate::words::{Skin, worded};
 
@@ -106,7 +106,10 @@ pub struct LeakAsked {
 
 impl LeakAsked {
     /// The leakage through a gap, with the flow, and as its report has it.
-    pub fn find(&self, gap: Gap<'_>) -> Outcome<(Leak, Leaked)> {
+    ///
+    /// # Errors
+    /// Those of [`Gap::absent`] and [`Leakage::through`].
+    pub fn find(&self, gap: Gap<'_>) -> Result<(Leak, Leaked)> {
         let Self { boundary, absent_gap, settings, viscosity } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };
         let leak = settings.through(&gap.absent(absent_gap.unwrap_or(0.0))?)?;
@@ -161,9 +164,9 @@ impl Leaked {
     pub fn rows(&self, units: &Units) -> Vec<(String, String)> {
         let mut rows = Vec::new();
         let unit = |text: Option<String>| text.map(|unit| format!(" {unit}")).unwrap_or_default();
-        // two bounds of one number, with the digits that tell them apart
+        // rounded outwards, so that the bounds hold as they are printed
         let between = |lower: f64, upper: f64, unit: &str| match upper > 0.0 {
-            true => format!("{} to {}{unit}", plain(lower), plain(upper)),
+            true => format!("{} to {}{unit}", plain(outwards(lower, f64::floor)), plain(outwards(upper, f64::ceil))),
             false => "0".to_owned(),
         };
         let volume = unit(units.length.as_ref().map(|unit| format!("{unit}³")));
@@ -185,4 +188,13 @@ impl Leaked {
         }
         rows
     }
+}
+
+/// A number to seven digits, rounded by a function to whole numbers.
+fn outwards(value: f64, round: fn(f64) -> f64) -> f64 {
+    if value <= 0.0 {
+        return 0.0;
+    }
+    let power = value.log10().floor() as i32 - 6;
+    times_ten_to(power, round(times_ten_to(-power, value)))
 }

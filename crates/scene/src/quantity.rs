@@ -79,7 +79,7 @@ pub const ENERGY: Dimension = dimension("energy, as 60zJ", "J", 1, 1);
 pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, as 50mJ/m2", "J/m²", 1, -1);
 
 /// A dynamic viscosity.
-pub const VISCOSITY: Dimension = Dimension { time: 1, ..dimension("viscosity, as 1mPa*s", "Pa·s", 1, -2) };
+pub const VISCOSITY: Dimension = Dimension { time: 1, ..dimension("viscosity, as 1mPas", "Pa·s", 1, -2) };
 
 impl Dimension {
     /// The parser of quantities that are positive.
@@ -168,10 +168,11 @@ struct Unit {
 }
 
 /// The symbols of units: force, length, time, power of ten, and a factor.
-const SYMBOLS: [(&str, i32, i32, i32, i32, f64); 9] = [
+const SYMBOLS: [(&str, i32, i32, i32, i32, f64); 10] = [
     ("m", 0, 1, 0, 0, 1.0),
     ("s", 0, 0, 1, 0, 1.0),
     ("Pa", 1, -2, 0, 0, 1.0),
+    ("Pas", 1, -2, 1, 0, 1.0),
     ("N", 1, 0, 0, 0, 1.0),
     ("J", 1, 1, 0, 0, 1.0),
     ("eV", 1, 1, 0, -19, 1.602176634),

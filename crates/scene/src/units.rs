@@ -107,7 +107,7 @@ impl Units {
 pub fn dimension_of_key(key: &str) -> Option<Dimension> {
     match key {
         "radius" | "amplitude" | "rms_height" | "fourier_unit" | "cut_off_wavelength" => Some(LENGTH),
-        "spring_position" | "distance" => Some(LENGTH),
+        "spring_position" | "distance" | "absent_gap" => Some(LENGTH),
         "young" | "other_young" => Some(PRESSURE),
         _ => dimension_of(key, "", false),
     }
