@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _pair, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
+from . import _cycle, _flow, _pair, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -32,9 +32,17 @@ from ._asperity import (
 )
 from ._body import Coating, Layer, Symbol
 from ._cycle import Cycle, Step
+from ._flow import Flow, Leakage
 from ._progress import progress
 from ._pull_off import PullOff
-from ._solution import ContactStatistics, PressureDistribution, Solution
+from ._solution import (
+    Conductance,
+    Constriction,
+    ContactStatistics,
+    Percolation,
+    PressureDistribution,
+    Solution,
+)
 from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Topography, from_topography, read
@@ -45,6 +53,7 @@ from ._words import checked as _checked
 
 contact_modulus = _checked(_pair.contact_modulus)
 cycle = _checked(_cycle.cycle)
+leakage = _checked(_flow.leakage)
 prepare = _checked(_prepare.prepare)
 pull_off = _checked(_pull_off.pull_off)
 solve = _checked(_solve.solve)
@@ -54,20 +63,25 @@ sweep = _checked(_sweep.sweep)
 __all__ = [
     "AccuracyWarning",
     "Coating",
+    "Conductance",
+    "Constriction",
     "ContactStatistics",
     "ConvergenceWarning",
     "CutOff",
     "Cycle",
     "Exponential",
+    "Flow",
     "InputWarning",
     "Iteration",
     "Law",
     "Layer",
+    "Leakage",
     "LennardJones",
     "MaugisDugdale",
     "Morse",
     "OwnLaw",
     "Penalty",
+    "Percolation",
     "Plan",
     "PowerLaw",
     "PressureDistribution",
@@ -90,6 +104,7 @@ __all__ = [
     "cycle",
     "exact",
     "from_topography",
+    "leakage",
     "prepare",
     "progress",
     "pull_off",

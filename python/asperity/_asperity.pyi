@@ -39,14 +39,17 @@ __all__ = [
     "cluster_colours",
     "clusters",
     "command",
+    "conductance",
     "contact_modulus",
     "fourier",
     "has_dimension",
     "in_metres",
     "knee_wavelength",
+    "leakage",
     "load_scale",
     "made",
     "meant",
+    "percolation",
     "prepare",
     "pressure_distribution",
     "quantity",
@@ -58,6 +61,7 @@ __all__ = [
 VERSION: str
 
 _Field = NDArray[np.float64]
+_Narrowest = tuple[float, tuple[int, int], NDArray[np.int64]]
 _Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
 _Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, int | None]
 
@@ -295,6 +299,21 @@ def clusters(map: NDArray[np.bool_], periodic: bool) -> tuple[NDArray[np.int64],
 def cluster_colours(labels: NDArray[np.int64]) -> NDArray[np.uint8]: ...
 def load_scale(pressure: _Field, end: float | None) -> tuple[float, float, float]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
+def percolation(
+    gap: _Field, lengths: tuple[float, float], boundary: str
+) -> tuple[_Narrowest | None, _Narrowest | None]: ...
+def leakage(
+    gap: _Field,
+    lengths: tuple[float, float],
+    boundary: str,
+    absent_gap: float | None,
+    viscosity: float | None,
+    tolerance: float,
+    max_iterations: int,
+) -> dict[str, Any]: ...
+def conductance(
+    contact: NDArray[np.bool_], lengths: tuple[float, float], boundary: str, resistivities: tuple[float, float]
+) -> tuple[float, float, float]: ...
 def prepare(
     given: _Given,
     new_lengths: tuple[float, float] | None,

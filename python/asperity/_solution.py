@@ -65,6 +65,55 @@ class PressureDistribution(NamedTuple):
     edges: NDArray[np.float64]
 
 
+class Constriction(NamedTuple):
+    """The narrowest place of the widest passage through a gap.
+
+    Attributes
+    ----------
+    gap : float
+        Gap there: every way through has one of at most this somewhere.
+    node : (int, int)
+        Its node.
+    path : ndarray of int64, shape (N, 2)
+        Nodes of the shortest passage that is nowhere narrower, from neighbour to neighbour.
+    """
+
+    gap: float
+    node: tuple[int, int]
+    path: NDArray[np.int64]
+
+
+class Percolation(NamedTuple):
+    """Whether a gap is open from side to side, or around a periodic cell.
+
+    Attributes
+    ----------
+    x, y : Constriction or None
+        Constriction along x and along y; None where the gap is closed.
+    """
+
+    x: Constriction | None
+    y: Constriction | None
+
+
+class Conductance(NamedTuple):
+    """Conductance of a contact, for electric current or for heat.
+
+    Attributes
+    ----------
+    per_area : float
+        Conductance over the area of the map.
+    whole : float
+        Conductance 1/R of the whole map.
+    relative_error : float
+        Relative error of the solve and, where nested grids tell it, the estimated one of the grid.
+    """
+
+    per_area: float
+    whole: float
+    relative_error: float
+
+
 class Solution:
     """An equilibrium: fields of the shape of the heights, and the account of the solve.
 
@@ -177,6 +226,65 @@ class Solution:
             np.asarray(field, dtype=float).reshape(field.shape[0], -1) for field in (self.gap, self.contact_pressure)
         )
         return PressureDistribution(*_asperity.pressure_distribution(gap, pressure, bins))
+
+    @property
+    def flow_boundary(self) -> Boundary:
+        """Boundary of a flow through the gap: at the sides of the original of a mirrored map it is that of a free one."""
+        return "free" if self.boundary == "free" or self._told["part"] == "original" else "periodic"
+
+    def percolation(self) -> Percolation:
+        """Percolation of the gap: whether open nodes connect the sides, and where the constriction is.
+
+        A periodic gap percolates along x if a cluster of open nodes winds around the cell along x, alone or along y as
+        well. Neighbours are nodes whose cells share a side. Absent nodes are closed.
+
+        Examples
+        --------
+        >>> import asperity
+        >>> rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_s=16, seed=1)
+        >>> light, heavy = (asperity.solve(rough, modulus=1.0, mean_pressure=p).percolation() for p in (0.005, 0.05))
+        >>> light.x is not None, heavy.x is None
+        (True, True)
+        """
+        gap = np.asarray(self.gap, dtype=float).reshape(self.gap.shape[0], -1)
+        found = _asperity.percolation(gap, self.lengths, self.flow_boundary)
+        x, y = (None if along is None else Constriction(*along) for along in found)
+        return Percolation(x, y)
+
+    def conductance(self, resistivities: tuple[float, float]) -> Conductance:
+        """Conductance of the contact between two half-spaces, by its stiffness at fixed spots (Barber's identity).
+
+        1/R = 2 (dF/dδ)/(E* (ρ₁ + ρ₂)), whatever the shape and number of the spots; a circle of radius a has 4a/(ρ₁ + ρ₂).
+        The spots conduct perfectly, the gap not at all. Adhesion makes other spots, but conducts nothing itself.
+
+        Parameters
+        ----------
+        resistivities : (float, float)
+            Resistivities ρ of both bodies; for heat, reciprocal conductivities.
+
+        Returns
+        -------
+        Conductance
+
+        Examples
+        --------
+        >>> import asperity
+        >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
+        >>> solution = asperity.solve(rough, modulus=2.0, mean_pressure=0.02, stiffness=True)
+        >>> found = solution.conductance(resistivities=(1.0, 3.0))
+        >>> abs(found.per_area / (2 * solution.contact_stiffness / (2.0 * 4.0)) - 1) < 1e-4
+        True
+        """
+        if self.body is not None:
+            raise ValueError(f"the body is a {type(self.body).__name__.lower()}: conductance is that between half-spaces")
+        first, second = (float(one) for one in resistivities)
+        gap = np.asarray(self.whole_gap).reshape(self.whole_gap.shape[0], -1)
+        lengths = self.topography.lengths
+        sides = self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
+        per_area, _, error = _asperity.conductance(gap <= 0, sides, self.boundary, (first, second))
+        grid = (self.report["grid_error"] or {}).get("stiffness") if self.law is None else None
+        lx, ly = self.lengths
+        return Conductance(per_area, per_area * lx * ly, error + (0.0 if grid is None else grid["relative"] or 0.0))
 
     @cached_property
     def report(self) -> Report:

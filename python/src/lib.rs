@@ -5,6 +5,7 @@ mod answer;
 mod command;
 mod contact;
 mod exact;
+mod flow;
 mod formulas;
 mod functions;
 mod given;
@@ -37,6 +38,8 @@ mod _asperity {
     use crate::contact::{cluster_colours, clusters, load_scale, pressure_distribution};
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
+    #[pymodule_export]
+    use crate::flow::{conductance, leakage, percolation};
     #[pymodule_export]
     use crate::formulas::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
     #[pymodule_export]

@@ -1,9 +1,9 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
-//! many loads, `asperity cycle` a path with jumps, `asperity pull-off` the greatest tension, and `asperity study` every combination of options; `asperity
-//! surface` makes files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them.
-//! `asperity laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does
-//! any of these by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a
-//! page for a browser.
+//! many loads, `asperity cycle` a path with jumps, `asperity pull-off` the greatest tension, and `asperity study` every
+//! combination of options; `asperity leak` tells what leaks through the gap of a solve. `asperity surface` makes files of
+//! heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the
+//! adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any of these by a scene file,
+//! which every run leaves beside its results, and `asperity report` puts the results on a page for a browser.
 
 // the report of a solve has more keys than serde_json's macro expands otherwise
 #![recursion_limit = "256"]
@@ -14,6 +14,7 @@ mod completions;
 mod cycle;
 mod demo;
 mod laws;
+mod leak;
 mod page;
 mod prepare;
 mod pull_off;
@@ -87,6 +88,7 @@ const EXAMPLES: &str = "\
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
+  asperity leak results
   asperity study study.toml --jobs 4
   asperity laws
   asperity selftest
@@ -105,6 +107,7 @@ enum Command {
     Prepare(prepare::Options),
     Surface(surface::Options),
     Stats(stats::Options),
+    Leak(Box<leak::Options>),
     Laws(Box<laws::Options>),
     Selftest(selftest::Options),
     Completions(completions::Options),
@@ -181,6 +184,7 @@ fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: 
         Command::Prepare(options) => prepare::run(&options, scene),
         Command::Surface(options) => surface::run(&options, scene),
         Command::Stats(options) => stats::run(&options, scene),
+        Command::Leak(options) => leak::run(&options, scene),
         Command::Laws(options) => laws::run(&options, scene),
         Command::Selftest(options) => selftest::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),

@@ -15,6 +15,7 @@ mod hostile;
 #[cfg(unix)]
 mod interruption;
 mod laws_tool;
+mod leak_tool;
 mod mirror_tool;
 mod pair_tool;
 mod pictures;

@@ -79,6 +79,8 @@ pub(super) struct Colours {
     given: bool,
     /// The shares of the sum of the negative values, and of the positive ones, that are beyond these ends.
     shares: (f64, f64),
+    /// The colour of values that are not finite.
+    pub(super) missing: Colour,
 }
 
 impl Colours {
@@ -111,7 +113,7 @@ impl Colours {
             }
             (Colouring::Contact | Colouring::Clusters, _) => (0.0, 1.0),
         };
-        Self { colouring, extremes: (low, high), limits, given, shares }
+        Self { colouring, extremes: (low, high), limits, given, shares, missing: MISSING }
     }
 
     /// A value, or NaN if it cannot be drawn.
@@ -123,7 +125,7 @@ impl Colours {
         let (low, high) = self.limits;
         let colour = match self.colouring {
             Colouring::Clusters if value.is_nan() => return GREY,
-            _ if value.is_nan() => return MISSING,
+            _ if value.is_nan() => return self.missing,
             Colouring::Clusters => return cluster_colour(value as usize),
             Colouring::Contact => {
                 return match value {

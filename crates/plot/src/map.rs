@@ -74,6 +74,12 @@ pub struct Map<'a> {
     /// The names of negative and of positive values, such as "tension" and "compression", at colour bars of their own;
     /// the label stands at both if they are empty.
     pub signs: [&'a str; 2],
+    /// The name of values that are not finite, as "contact" on a map of what is outside of it; they are grey then.
+    pub without: Option<&'a str>,
+    /// Nodes, `(ix, iy)`, that a line connects from neighbour to neighbour, across opposite sides too.
+    pub path: &'a [(usize, usize)],
+    /// A node with a dot.
+    pub mark: Option<(usize, usize)>,
 }
 
 impl<'a> Map<'a> {
@@ -90,6 +96,9 @@ impl<'a> Map<'a> {
             unit: None,
             limits: None,
             signs: [""; 2],
+            without: None,
+            path: &[],
+            mark: None,
         }
     }
 
@@ -109,7 +118,10 @@ impl<'a> Map<'a> {
             let (name, requirement) = ("upper limit of the colours", "finite and above the lower limit");
             return Err(Error::Value { name, value, requirement });
         }
-        let colours = Colours::new(self.values, self.colouring, self.limits);
+        let mut colours = Colours::new(self.values, self.colouring, self.limits);
+        if self.without.is_some() {
+            colours.missing = GREY;
+        }
         let (width, height) = self.size();
         let (x, y, bars) = self.axes(&colours, width, height);
         let bars_height = bars.iter().map(|bar| bar.place.1).fold(0.0, f64::max);
@@ -131,6 +143,7 @@ impl<'a> Map<'a> {
         } else {
             let image = self.image(plot, &colours, dpi);
             picture.shapes.push(Shape::Image(image));
+            self.draw_path(&mut picture, plot);
         }
         picture.outline(plot);
         draw_axis_below(&mut picture, &x, plot);
@@ -243,7 +256,10 @@ impl<'a> Map<'a> {
             match self.colouring {
                 Colouring::Clusters => entry(GREY, "no surface"),
                 Colouring::Contact => entry(MISSING, "no surface"),
-                _ => entry(MISSING, "not finite"),
+                _ => match self.without {
+                    Some(name) => entry(GREY, name),
+                    None => entry(MISSING, "not finite"),
+                },
             }
         }
         legend
@@ -270,6 +286,25 @@ impl<'a> Map<'a> {
             }
         }
         Image { area: plot, columns, pixels }
+    }
+
+    /// The path from node to node, white on black, and the node with a dot.
+    fn draw_path(&self, picture: &mut Picture, plot: Area) {
+        let (nx, ny) = self.grid.shape();
+        let (width, height) = (plot.width / nx as f64, plot.height / ny as f64);
+        let point = |&(i, j): &(usize, usize)| {
+            (plot.left + (i as f64 + 0.5) * width, plot.bottom() - (j as f64 + 0.5) * height)
+        };
+        // where it leaves the map it begins anew at the opposite side
+        let meet = |a: &(usize, usize), b: &(usize, usize)| a.0.abs_diff(b.0) <= 1 && a.1.abs_diff(b.1) <= 1;
+        let pieces: Vec<Vec<_>> = self.path.chunk_by(meet).map(|piece| piece.iter().map(point).collect()).collect();
+        let mark: Vec<Vec<_>> = self.mark.iter().map(|node| vec![point(node)]).collect();
+        for (pieces, width) in [(pieces, WIDTH), (mark, 4.0 * WIDTH)] {
+            for (width, colour) in [(2.0 * width, BLACK), (width, WHITE)] {
+                let curve = Curve { pieces: pieces.clone(), width, colour, within: plot };
+                picture.shapes.push(Shape::Curve(curve));
+            }
+        }
     }
 
     /// The values on a line as a curve, periodically continued to the frame.

@@ -40,7 +40,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// A dimension: a product of powers of force and length.
+/// A dimension: a product of powers of force, length and time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
     /// In words, with an example as options take it.
@@ -51,10 +51,12 @@ pub struct Dimension {
     pub force: i32,
     /// The power of length.
     pub length: i32,
+    /// The power of time.
+    pub time: i32,
 }
 
 const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32) -> Dimension {
-    Dimension { what, si, force, length }
+    Dimension { what, si, force, length, time: 0 }
 }
 
 /// A length.
@@ -75,6 +77,9 @@ pub const FORCE_PER_LENGTH: Dimension = dimension("force per length, as 40N/m", 
 pub const ENERGY: Dimension = dimension("energy, as 60zJ", "J", 1, 1);
 /// An energy per area.
 pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, as 50mJ/m2", "J/m²", 1, -1);
+
+/// A dynamic viscosity.
+pub const VISCOSITY: Dimension = Dimension { time: 1, ..dimension("viscosity, as 1mPas", "Pa·s", 1, -2) };
 
 impl Dimension {
     /// The parser of quantities that are positive.
@@ -119,7 +124,7 @@ impl Dimension {
 
     /// Whether a unit is of this dimension.
     fn has(self, unit: Unit) -> bool {
-        unit.force == self.force && unit.length == self.length
+        (unit.force, unit.length, unit.time) == (self.force, self.length, self.time)
     }
 
     fn parse(self, text: &str) -> Option<Quantity> {
@@ -140,7 +145,7 @@ fn number_and_unit(text: &str) -> Option<(&str, &str)> {
 
 /// The power of ten that a unit of length is in metres; nothing if it is no unit of length.
 pub fn power_of_length(unit: &str) -> Option<i32> {
-    let unit = Unit::parse(unit).filter(|unit| (unit.force, unit.length) == (LENGTH.force, LENGTH.length))?;
+    let unit = Unit::parse(unit).filter(|unit| LENGTH.has(*unit))?;
     Some(unit.ten)
 }
 
@@ -150,27 +155,30 @@ pub fn times_ten_to(power: i32, value: f64) -> f64 {
     if power < 0 { value / ten } else { value * ten }
 }
 
-/// A unit: powers of force and length, and how much it is in the SI.
+/// A unit: powers of force, length and time, and how much it is in the SI.
 #[derive(Clone, Copy, Debug)]
 struct Unit {
     force: i32,
     length: i32,
+    time: i32,
     /// The power of ten,
     ten: i32,
     /// and what is left beside it.
     factor: f64,
 }
 
-/// The symbols of units: force, length, power of ten, and a factor.
-const SYMBOLS: [(&str, i32, i32, i32, f64); 8] = [
-    ("m", 0, 1, 0, 1.0),
-    ("Pa", 1, -2, 0, 1.0),
-    ("N", 1, 0, 0, 1.0),
-    ("J", 1, 1, 0, 1.0),
-    ("eV", 1, 1, -19, 1.602176634),
-    ("Å", 0, 1, -10, 1.0),
-    ("\u{212b}", 0, 1, -10, 1.0),
-    ("Angstrom", 0, 1, -10, 1.0),
+/// The symbols of units: force, length, time, power of ten, and a factor.
+const SYMBOLS: [(&str, i32, i32, i32, i32, f64); 10] = [
+    ("m", 0, 1, 0, 0, 1.0),
+    ("s", 0, 0, 1, 0, 1.0),
+    ("Pa", 1, -2, 0, 0, 1.0),
+    ("Pas", 1, -2, 1, 0, 1.0),
+    ("N", 1, 0, 0, 0, 1.0),
+    ("J", 1, 1, 0, 0, 1.0),
+    ("eV", 1, 1, 0, -19, 1.602176634),
+    ("Å", 0, 1, 0, -10, 1.0),
+    ("\u{212b}", 0, 1, 0, -10, 1.0),
+    ("Angstrom", 0, 1, 0, -10, 1.0),
 ];
 
 /// The prefixes; of µ the micro sign, the Greek letter, and what stands for them.
@@ -195,7 +203,7 @@ impl Unit {
     /// A product of units with powers, as `mJ/m2`, `N/m²` or `MPa µm`.
     fn parse(text: &str) -> Option<Self> {
         let (above, below) = text.split_once('/').map_or((text, None), |(above, below)| (above, Some(below)));
-        let mut unit = Self { force: 0, length: 0, ten: 0, factor: 1.0 };
+        let mut unit = Self { force: 0, length: 0, time: 0, ten: 0, factor: 1.0 };
         for (part, sign) in [(Some(above), 1), (below, -1)] {
             for factor in part.into_iter().flat_map(|part| part.split([' ', '·', '*'])) {
                 let (symbol, power) = powers(factor);
@@ -203,6 +211,7 @@ impl Unit {
                 let power = sign * power;
                 unit.force += power * found.force;
                 unit.length += power * found.length;
+                unit.time += power * found.time;
                 unit.ten += power * found.ten;
                 unit.factor *= found.factor.powi(power);
             }
@@ -212,10 +221,10 @@ impl Unit {
 
     /// A symbol with a prefix or without one.
     fn symbol(text: &str) -> Option<Self> {
-        SYMBOLS.iter().find_map(|&(symbol, force, length, ten, factor)| {
+        SYMBOLS.iter().find_map(|&(symbol, force, length, time, ten, factor)| {
             let prefix = text.strip_suffix(symbol)?;
             let (_, power) = PREFIXES.iter().find(|(name, _)| *name == prefix)?;
-            Some(Self { force, length, ten: ten + power, factor })
+            Some(Self { force, length, time, ten: ten + power, factor })
         })
     }
 

@@ -5,7 +5,7 @@ use asperity_maps::warning::Warning;
 use crate::numbers::{plain, si};
 use crate::quantity::{
     Dimension, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
-    PRESSURE_PER_LENGTH,
+    PRESSURE_PER_LENGTH, VISCOSITY,
 };
 use crate::told::Told;
 
@@ -49,6 +49,9 @@ impl Units {
         let is_si = (pressures == 0 || pressure == Some(PRESSURE.si)) && (lengths == 0 || length == Some(LENGTH.si));
         if is_si {
             return Some(dimension.si.to_owned());
+        }
+        if dimension.time != 0 {
+            return None;
         }
         let pressure = if pressures == 0 { "" } else { pressure? };
         let length = if lengths == 0 { "" } else { length? };
@@ -104,7 +107,7 @@ impl Units {
 pub fn dimension_of_key(key: &str) -> Option<Dimension> {
     match key {
         "radius" | "amplitude" | "rms_height" | "fourier_unit" | "cut_off_wavelength" => Some(LENGTH),
-        "spring_position" | "distance" => Some(LENGTH),
+        "spring_position" | "distance" | "absent_gap" => Some(LENGTH),
         "young" | "other_young" => Some(PRESSURE),
         _ => dimension_of(key, "", false),
     }
@@ -128,6 +131,7 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
             ENERGY_PER_AREA
         }
         ("hamaker", _) => ENERGY,
+        ("viscosity", _) => VISCOSITY,
         ("contact_stiffness" | "wall_stiffness", _) => PRESSURE_PER_LENGTH,
         ("normal_stiffness" | "spring_stiffness", _) => FORCE_PER_LENGTH,
         ("control_value", "mean-pressure") => PRESSURE,

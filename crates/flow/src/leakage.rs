@@ -1,0 +1,283 @@
+//! Leakage: the transmissivity of a gap, between two bounds.
+
+use asperity::{Error, Result};
+use ndarray::Array2;
+
+use crate::elimination::Elimination;
+use crate::gap::{Axis, Gap};
+use crate::network::Network;
+use crate::percolation::Percolation;
+use crate::tree::Tree;
+
+/// The iterations from one look at the upper bound to the next.
+const EVERY: usize = 8;
+
+/// The share of the tolerance from which on an error that brings the bounds no closer is rounding.
+const LEAST_SHARE: f64 = 1e-7;
+
+/// The share of the first error, squared, at which the residual is computed anew: what it has lost to rounding is then as
+/// small as the flow, and no longer as the flow that the first pressure drove through the widest gaps.
+const STALE: f64 = 1e-8;
+
+/// The leakage through a gap by Reynolds' equation, ∇·(g³∇p/12η) = 0, as settings.
+///
+/// The *transmissivity* along x is the flow, a volume per time, over the pressure Δp that falls from one side to the
+/// other, times the viscosity η: Qη/Δp, a length³, g³/12 for a slot of a square cell. In a periodic cell Δp falls over
+/// each period along x and nothing over that along y; what flows along y then is left to the gap. A free gap is fed at one
+/// side and drained at the opposite one, and the two other sides are tight.
+///
+/// On the grid the gap is a network: between two neighbours flows c Δp/12η with the conductance c = 2/(1/g₁³ + 1/g₂³), times
+/// Δy/Δx for neighbours along x. The transmissivity of this network is enclosed. *Any* pressure p that falls by one has
+/// Σ c (Δp)² ≥ 12 T (Dirichlet's principle), and *any* flow f that is conserved at each node, F over all, has
+/// F²/Σ(f²/c) ≤ 12 T (Thomson's principle). The pressure comes from conjugate gradients, preconditioned by an approximate
+/// elimination; the flow is that of the pressure, in integers, with what is not conserved sent along a tree of the largest
+/// conductances, so that conservation is exact. Both bounds are widened by the rounding of their sums. A gap through which
+/// nothing percolates has a transmissivity of zero, both bounds.
+///
+/// The distance of the bounds does not tell what the grid itself leaves out: compare two grids for that.
+///
+/// | field | default | meaning | range |
+/// |---|---|---|---|
+/// | `tolerance` | 1e-6 | distance of the bounds, relative to the upper one | positive, below 1 |
+/// | `max_iterations` | 1000 | the most iterations of conjugate gradients along each axis | at least 1 |
+///
+/// ```
+/// use asperity::Grid;
+/// use asperity_flow::{Axis, Gap, Leakage};
+/// let grid = Grid::square(64, 1.0)?;
+/// let wavy = grid.sample(|x, _| 1.0 + 0.5 * (std::f64::consts::TAU * x).cos());
+/// let leakage = Leakage::default().through(&Gap::new(wavy.view(), grid)?)?;
+/// let [across, along] = Axis::BOTH.map(|axis| &leakage.along(axis).transmissivity);
+/// assert!((12.0 * across.upper - 2.0 * 0.75_f64.powf(2.5) / 2.25).abs() < 1e-6); // 2(1 − ε²)^(5/2)/(2 + ε²)
+/// assert!((12.0 * along.lower - 1.375).abs() < 1e-5); // 1 + 3ε²/2
+/// assert!(leakage.reached());
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leakage {
+    /// Distance of the bounds, relative to the upper one.
+    pub tolerance: f64,
+    /// The most iterations of conjugate gradients along each axis.
+    pub max_iterations: usize,
+}
+
+impl Default for Leakage {
+    fn default() -> Self {
+        Self { tolerance: 1e-6, max_iterations: 1000 }
+    }
+}
+
+/// Two numbers that enclose a third one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The lower bound.
+    pub lower: f64,
+    /// The upper bound.
+    pub upper: f64,
+}
+
+impl Bounds {
+    /// The distance of the bounds, relative to the upper one; zero if both are zero.
+    pub fn width(&self) -> f64 {
+        if self.upper > 0.0 { (self.upper - self.lower) / self.upper } else { 0.0 }
+    }
+}
+
+/// The flow along one axis.
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct Flow {
+    /// The bounds of the transmissivity, a length³.
+    pub transmissivity: Bounds,
+    /// The pressure, relative to that which falls from side to side, of the nodes through which or next to which the fluid
+    /// flows; NaN elsewhere. With a periodic gap its mean over the flow through the last side is ½.
+    pub pressure: Array2<f64>,
+    /// The flow at the nodes along x and along y, times η/Δp: a volume per time and width, a length².
+    pub flow: [Array2<f64>; 2],
+    /// Whether the bounds are as close as the tolerance.
+    pub reached: bool,
+    /// The iterations of conjugate gradients.
+    pub iterations: usize,
+    /// The number of nodes through which the fluid may flow: without those of dead ends.
+    pub nodes: usize,
+}
+
+/// The flow along both axes.
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct Leak {
+    /// The widest passages.
+    pub percolation: Percolation,
+    flows: [Flow; 2],
+}
+
+impl Leak {
+    /// The flow along an axis.
+    pub fn along(&self, axis: Axis) -> &Flow {
+        &self.flows[axis as usize]
+    }
+
+    /// Whether the bounds along both axes are as close as the tolerance.
+    pub fn reached(&self) -> bool {
+        self.flows.iter().all(|flow| flow.reached)
+    }
+}
+
+impl Leakage {
+    /// Sets `tolerance`.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// Sets `max_iterations`.
+    #[must_use]
+    pub fn max_iterations(mut self, max_iterations: usize) -> Self {
+        self.max_iterations = max_iterations;
+        self
+    }
+
+    /// The flow through a gap along both axes, each on a thread of its own.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a setting out of its range, and for an open gap below 1e-100 of the greatest.
+    pub fn through(&self, gap: &Gap<'_>) -> Result<Leak> {
+        let percolation = gap.percolation();
+        let along = |axis| self.along(gap, &percolation, axis);
+        let [x, y] = std::thread::scope(|scope| {
+            let first = scope.spawn(|| along(Axis::X));
+            let second = along(Axis::Y);
+            [first.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), second]
+        });
+        Ok(Leak { flows: [x?, y?], percolation })
+    }
+
+    /// The flow through a gap along an axis, with its percolation.
+    ///
+    /// # Errors
+    /// Those of [`Self::through`].
+    pub fn along(&self, gap: &Gap<'_>, percolation: &Percolation, axis: Axis) -> Result<Flow> {
+        let Self { tolerance, max_iterations } = *self;
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            return Err(Error::Value { name: "tolerance", value: tolerance, requirement: "positive and below 1" });
+        }
+        if max_iterations == 0 {
+            return Err(Error::Value { name: "max_iterations", value: 0.0, requirement: "at least 1" });
+        }
+        if percolation.along(axis).is_none() {
+            let zero = Array2::zeros(gap.grid().shape());
+            return Ok(Flow {
+                transmissivity: Bounds { lower: 0.0, upper: 0.0 },
+                pressure: Array2::from_elem(gap.grid().shape(), f64::NAN),
+                flow: [zero.clone(), zero],
+                reached: true,
+                iterations: 0,
+                nodes: 0,
+            });
+        }
+        let network = Network::new(gap, percolation, axis)?;
+        let enclosed = Enclosed::new(&network, tolerance, max_iterations, gap.is_periodic());
+        let twelfth = network.unit / 12.0;
+        let Bounds { lower, upper } = enclosed.bounds;
+        let [pressure, x, y] = network.fields(gap, axis, &enclosed);
+        Ok(Flow {
+            transmissivity: Bounds { lower: lower * twelfth, upper: upper * twelfth },
+            pressure,
+            flow: [x, y].map(|flow| flow * twelfth),
+            reached: enclosed.bounds.width() <= tolerance,
+            iterations: enclosed.iterations,
+            nodes: network.nodes.len(),
+        })
+    }
+}
+
+/// The conductance of a network between bounds, by conjugate gradients.
+pub(crate) struct Enclosed {
+    pub bounds: Bounds,
+    pub pressure: Vec<f64>,
+    /// The conserved flow on each edge.
+    pub flow: Vec<f64>,
+    pub iterations: usize,
+}
+
+impl Enclosed {
+    /// Iterates until the bounds are as close as the tolerance, or rounding keeps them apart.
+    fn new(network: &Network, tolerance: f64, max_iterations: usize, is_periodic: bool) -> Self {
+        let (elimination, tree) = (Elimination::new(network), Tree::new(network));
+        let n = network.ground();
+        // the pressure of the ground, behind those of the vertices, is zero
+        let mut pressure = vec![0.0; n + 1];
+        let mut residual = network.gained(&pressure);
+        let [mut preconditioned, mut work, mut direction] = [(); 3].map(|()| vec![0.0; n]);
+        direction.push(0.0);
+        let mut best = Self {
+            bounds: Bounds { lower: 0.0, upper: f64::INFINITY },
+            pressure: Vec::new(),
+            flow: Vec::new(),
+            iterations: 0,
+        };
+        // the share of the upper bound, times the tolerance, below which the square of the error in the energy norm is, by the
+        // preconditioner, when both bounds are computed
+        let mut share = 0.1;
+        let (mut upper, mut first, mut before) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        for iterations in 0.. {
+            elimination.solve(&residual[..n], &mut preconditioned, &mut work);
+            let error = dot(&preconditioned, &residual[..n]);
+            if before.is_infinite() {
+                first = error;
+            }
+            if iterations % EVERY == 0 {
+                upper = network.upper(&pressure);
+            }
+            let again = error / before;
+            direction.iter_mut().zip(&preconditioned).for_each(|(d, z)| *d = z + again * *d);
+            let change = network.apply(&direction);
+            let step = error / dot(&direction[..n], &change[..n]);
+            let last = iterations == max_iterations || !(error > 0.0 && step.is_finite());
+            let mut stale = error <= STALE * first;
+            if error <= share * tolerance * upper || last {
+                let improved = best.look_at(network, &tree, &pressure);
+                best.iterations = iterations;
+                if last || best.bounds.width() <= tolerance || (!improved && share < LEAST_SHARE) {
+                    break;
+                }
+                (share, stale) = (0.1 * share, true);
+            }
+            before = error;
+            pressure.iter_mut().zip(&direction).for_each(|(p, d)| *p += step * d);
+            if stale {
+                (residual, before) = (network.gained(&pressure), f64::INFINITY);
+            } else {
+                residual.iter_mut().zip(&change).for_each(|(r, c)| *r -= step * c);
+            }
+        }
+        if is_periodic {
+            tree.level(network, &best.flow, &mut best.pressure);
+        }
+        best
+    }
+
+    /// Computes both bounds at a pressure, and keeps the better ones; whether one is better.
+    fn look_at(&mut self, network: &Network, tree: &Tree, pressure: &[f64]) -> bool {
+        let upper = network.upper(pressure);
+        let is_lower = upper < self.bounds.upper;
+        if is_lower {
+            self.bounds.upper = upper;
+            self.pressure = pressure.to_vec();
+        }
+        let Some((flow, unit)) = tree.conserved(network, pressure) else { return is_lower };
+        let lower = network.lower(&flow);
+        let is_higher = lower > self.bounds.lower || self.flow.is_empty();
+        if is_higher {
+            self.bounds.lower = lower;
+            self.flow = flow.into_iter().map(|flow| flow as f64 * unit).collect();
+        }
+        is_lower || is_higher
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

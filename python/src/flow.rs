@@ -1,0 +1,101 @@
+//! What follows a solve: percolation and leakage of a gap, and conductance of a contact.
+
+use asperity::Grid;
+use asperity_flow::{Axis, Conductance, Gap, Leakage, Percolation};
+use asperity_scene::{Boundary, LeakAsked, Skin};
+use numpy::ndarray::{Array2, ArrayView2};
+use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_pyobject::to_pyobject;
+
+use crate::numbers::Field;
+use crate::pools::Pool;
+use crate::refusal::refusal;
+
+/// The gap at a constriction, its node, and the nodes of the widest passage, in rows of two.
+type Narrowest<'py> = (f64, (usize, usize), Bound<'py, PyArray2<i64>>);
+
+/// The constriction along an axis, if the gap is open along it.
+fn narrowest<'py>(py: Python<'py>, found: &Percolation, axis: Axis) -> Option<Narrowest<'py>> {
+    let found = found.along(axis)?;
+    let path = Array2::from_shape_fn((found.path.len(), 2), |(k, part)| {
+        let (i, j) = found.path[k];
+        [i, j][part] as i64
+    });
+    Some((found.gap, found.node, path.into_pyarray(py)))
+}
+
+/// A gap on its grid.
+fn gap_on(values: ArrayView2<'_, f64>, lengths: (f64, f64)) -> asperity::Result<Gap<'_>> {
+    Gap::new(values, Grid::new(values.dim(), lengths)?)
+}
+
+/// The constrictions of a gap along x and along y.
+#[pyfunction]
+pub fn percolation<'py>(
+    py: Python<'py>,
+    gap: Field<'_>,
+    lengths: (f64, f64),
+    boundary: &str,
+) -> PyResult<(Option<Narrowest<'py>>, Option<Narrowest<'py>>)> {
+    let (values, periodic) = (gap.as_array(), boundary != "free");
+    let find = || gap_on(values, lengths).map(|gap| if periodic { gap } else { gap.free() }.percolation());
+    let found = py.detach(find).map_err(refusal)?;
+    Ok((narrowest(py, &found, Axis::X), narrowest(py, &found, Axis::Y)))
+}
+
+/// The leakage through a gap: what its report has, what falls short, and for each axis pressure, flow and constriction.
+#[pyfunction]
+#[pyo3(signature = (gap, lengths, boundary, absent_gap, viscosity, tolerance, max_iterations))]
+#[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by position")]
+pub fn leakage<'py>(
+    py: Python<'py>,
+    gap: Field<'_>,
+    lengths: (f64, f64),
+    boundary: &str,
+    absent_gap: Option<f64>,
+    viscosity: Option<f64>,
+    tolerance: f64,
+    max_iterations: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let boundary = match boundary {
+        "periodic" => Boundary::Periodic,
+        "free" => Boundary::Free,
+        other => return Err(PyValueError::new_err(format!("boundary is {other:?}: it must be 'periodic' or 'free'"))),
+    };
+    if viscosity.is_some_and(|viscosity| !(viscosity > 0.0 && viscosity.is_finite())) {
+        let given = viscosity.unwrap_or_default();
+        return Err(PyValueError::new_err(format!("viscosity is {given}: it must be positive and finite")));
+    }
+    let settings = Leakage::default().tolerance(tolerance).max_iterations(max_iterations);
+    let asked = LeakAsked { boundary, absent_gap, settings, viscosity };
+    let values = gap.as_array();
+    let (leak, leaked) = py.detach(|| asked.find(gap_on(values, lengths)?)).map_err(refusal)?;
+    let found = PyDict::new(py);
+    found.set_item("report", to_pyobject(py, &leaked)?)?;
+    found.set_item("shortfall", leaked.shortfall(Skin::Keywords))?;
+    for axis in Axis::BOTH {
+        let flow = leak.along(axis);
+        let [x, y] = flow.flow.clone();
+        let fields = (flow.pressure.clone().into_pyarray(py), x.into_pyarray(py), y.into_pyarray(py));
+        found.set_item(axis.name(), (fields, narrowest(py, &leak.percolation, axis)))?;
+    }
+    Ok(found)
+}
+
+/// The conductance of spots of contact per area and of the whole map, and its relative error.
+#[pyfunction]
+pub fn conductance(
+    py: Python<'_>,
+    contact: PyReadonlyArray2<'_, bool>,
+    lengths: (f64, f64),
+    boundary: &str,
+    resistivities: (f64, f64),
+) -> PyResult<(f64, f64, f64)> {
+    let (contact, periodic, pool) = (contact.as_array(), boundary != "free", Pool::of(None)?);
+    let find = || Conductance::of_spots(contact, Grid::new(contact.dim(), lengths)?, periodic, resistivities);
+    let found = py.detach(|| pool.get().install(find)).map_err(refusal)?;
+    Ok((found.per_area, found.whole, found.relative_error))
+}

@@ -1,0 +1,111 @@
+"""What follows a solve: percolation, leakage and conductance."""
+
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import asperity
+
+
+@pytest.fixture(scope="module")
+def solution():
+    rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_l=2, k_s=8, seed=1)
+    return asperity.solve(rough, modulus=2.0, mean_pressure=0.02, stiffness=True)
+
+
+def test_slots_leak_as_their_cubes_say():
+    wide = np.array([1.0, 2.0, 0.0, 3.0])
+    gap = np.tile(wide, (6, 1))
+    for boundary in ("periodic", "free"):
+        found = asperity.leakage(gap, (3.0, 2.0), boundary=boundary, viscosity=2.0, tolerance=1e-10)
+        exact = (wide**3).mean() / 12 * 2 / 3
+        assert found.x.lower <= exact * (1 + 1e-14) and exact <= found.x.upper and found.x.reached
+        assert found.x.upper - found.x.lower <= 1e-10 * found.x.upper
+        assert (found.y.lower, found.y.upper, found.y.constriction) == (0.0, 0.0, None)
+        assert found.report["flow_per_pressure"]["x"]["upper"] == found.x.upper / 2
+        assert found.x.constriction.gap == 3.0 and (found.x.constriction.path[:, 1] == 3).all()
+        assert found.x.flow.shape == (2, 6, 4)
+        np.testing.assert_allclose(found.x.flow[0], gap**3 / 12 / 3, rtol=1e-4)
+    assert np.isnan(found.y.pressure).all()
+    # a list, a line, and a cell of 1 by 1
+    assert asperity.leakage([1.0, 2.0, 4.0]).x.upper > 0
+    assert asperity.leakage(gap.astype("f4")[::-1]).report["boundary"] == "periodic"
+
+
+def test_a_solution_leaks_and_percolates(solution):
+    found = asperity.leakage(solution)
+    same = asperity.leakage(solution.gap, solution.lengths)
+    assert (found.x.lower, found.y.upper) == (same.x.lower, same.y.upper)
+    for along, other in zip(solution.percolation(), (found.x.constriction, found.y.constriction)):
+        assert along is not None and along.gap == other.gap == solution.gap[along.node]
+        assert (solution.gap[tuple(along.path.T)] >= along.gap).all()
+    pressed = asperity.solve(solution.topography, modulus=2.0, mean_pressure=1.0)
+    assert pressed.percolation() == (None, None)
+    closed = asperity.leakage(pressed)
+    assert closed.x.upper == closed.y.upper == 0 and closed.x.reached
+
+
+def test_units_and_refusals(solution):
+    gap = 1e-6 * np.ones((8, 8))
+    found = asperity.leakage(gap, "1mm", viscosity="1mPas")
+    assert found.report["viscosity"] == 1e-3
+    assert abs(found.x.upper / (1e-18 / 12) - 1) < 1e-5
+    with pytest.raises(ValueError, match="lengths is 1.0, without a unit, but viscosity 1mPas has one"):
+        asperity.leakage(gap, 1.0, viscosity="1mPas")
+    with pytest.raises(ValueError, match="leave lengths out"):
+        asperity.leakage(solution, 1.0)
+    with pytest.raises(ValueError, match="boundary is"):
+        asperity.leakage(gap, boundary="open")
+    with pytest.raises(ValueError, match="viscosity is -1"):
+        asperity.leakage(gap, viscosity=-1.0)
+    with pytest.raises(ValueError, match="tolerance is 2"):
+        asperity.leakage(gap, tolerance=2.0)
+    with pytest.raises(ValueError, match="gap of absent nodes is -1"):
+        asperity.leakage(gap, absent_gap=-1.0)
+    with pytest.raises(ValueError, match="max_iterations is 0"):
+        asperity.leakage(gap, max_iterations=0)
+    with pytest.raises(TypeError, match="did you mean viscosity"):
+        asperity.leakage(gap, viscosty=1.0)
+    wavy = 1 + 0.9 * np.sin(np.add.outer(np.arange(32), np.arange(32) ** 1.5))
+    with pytest.warns(asperity.ConvergenceWarning, match="bounds of the transmissivity hold"):
+        asperity.leakage(wavy, max_iterations=2, tolerance=1e-9)
+
+
+def test_absent_nodes_are_closed_or_open():
+    gap = np.ones((8, 8))
+    gap[3] = np.nan
+    assert asperity.leakage(gap).x.upper == 0
+    assert abs(12 * asperity.leakage(gap, absent_gap=2.0).x.upper - 8 / (7 + 1 / 8)) < 1e-5
+
+
+def test_the_conductance_is_that_of_the_stiffness(solution):
+    found = solution.conductance((1.0, 3.0))
+    stiffness = solution.contact_stiffness
+    assert abs(found.per_area / (2 * stiffness / (2.0 * 4.0)) - 1) < 1e-4
+    assert found.whole == found.per_area and 0 < found.relative_error < 0.2
+    # one of a law is that of its spots, which are more
+    law = asperity.Exponential(1e-4, 4e-3)
+    sticky = asperity.solve(solution.topography, modulus=2.0, mean_pressure=0.02, law=law)
+    assert sticky.conductance((1.0, 3.0)).per_area > found.per_area
+    # Holm's spot
+    tip = asperity.surface.paraboloid(64, 1.0, radius=2.0)
+    spot = asperity.solve(tip, modulus=1.0, approach=0.04, boundary="free").conductance((0.5, 0.5))
+    assert abs(spot.whole / (4 * np.sqrt(0.08)) - 1) < 0.03
+    with pytest.raises(ValueError, match="resistivity of the first body is -1"):
+        solution.conductance((-1.0, 1.0))
+    layer = asperity.solve(
+        solution.topography, modulus=2.0, mean_pressure=0.02, body=asperity.Layer(0.1, poisson=0.3, base="bonded")
+    )
+    with pytest.raises(ValueError, match="between half-spaces"):
+        layer.conductance((1.0, 1.0))
+
+
+@pytest.mark.skipif("ASPERITY_TOOL" not in os.environ, reason="ASPERITY_TOOL names the program")
+def test_the_program_says_the_same(solution, tmp_path):
+    np.save(tmp_path / "gap.npy", solution.gap)
+    command = [os.environ["ASPERITY_TOOL"], "leak", "gap.npy", "--lengths", "1", "--json"]
+    report = json.loads(subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stdout)
+    assert report["transmissivity"] == asperity.leakage(solution).report["transmissivity"]

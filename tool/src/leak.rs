@@ -1,0 +1,275 @@
+//! `asperity leak`: percolation of a gap, and what leaks through it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use asperity::{Error, Grid};
+use asperity_flow::{Axis, Flow, Gap, Leak, Leakage};
+use asperity_maps::Topography;
+use asperity_maps::io::{OutputFolder, read_field, write_npy};
+use asperity_plot::{Colouring, Map, Picture};
+use asperity_scene::{Boundary, LeakAsked, Skin};
+use clap::Args;
+use ndarray::Array2;
+use serde_json::{Value, json};
+
+use crate::allowed::share;
+use crate::heights::{self, check_room, converted, warn_of_unread};
+use crate::outcome::Outcome;
+use crate::output::{at_destination, check_apart, output_folder, write_text};
+use crate::pictures::{PictureFormat, Resolution};
+use crate::printing::{Printing, complain, name, say};
+use crate::quantity::{LENGTH, Quantity, VISCOSITY};
+use crate::report;
+use crate::scene::{self, SceneFile};
+use crate::units::Units;
+
+/// Find out whether a gap is open from side to side, and how much leaks through it.
+///
+/// GAP is the folder of a solve, of which gap.npy, the side lengths and the boundary are taken, or a file of gaps: open
+/// where they are positive, closed elsewhere. The flow is that of Reynolds' equation, and its transmissivity Q times
+/// viscosity over pressure, a length cubed, is enclosed between two bounds: that of any pressure, and that of any flow
+/// that is conserved. Along each axis the constriction is told, the narrowest place of the widest passage. Exits with 0
+/// if the bounds are as close as --tolerance, 2 if not (they hold all the same), and 1 if the input is refused.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Options {
+    /// Folder of a solve, or a file of gaps, shape (Nx, Ny): .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, or a text
+    /// matrix
+    #[arg(value_name = "GAP")]
+    gap: PathBuf,
+    /// Side lengths of the map, in the unit of the gaps; LX alone means square cells [default: the file's]
+    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
+    #[arg(value_parser = LENGTH.positive())]
+    lengths: Option<Vec<Quantity>>,
+    /// What is beyond the map: of a free one each axis is fed at one side and drained at the other [default: that of
+    /// the folder, or periodic]
+    #[arg(long, value_enum, value_name = "BOUNDARY")]
+    boundary: Option<Boundary>,
+    /// Gap of absent nodes, where the file has no number; without it they are closed
+    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = LENGTH.positive())]
+    absent_gap: Option<Quantity>,
+    /// Dynamic viscosity of the fluid, for the flow per pressure
+    #[arg(long, value_name = "ETA", allow_hyphen_values = true, value_parser = VISCOSITY.positive())]
+    viscosity: Option<Quantity>,
+    /// Distance of the bounds at which to stop, relative to the upper one
+    #[arg(long, value_name = "T", default_value = "1e-6", allow_hyphen_values = true, value_parser = share)]
+    #[arg(help_heading = "Solver")]
+    tolerance: f64,
+    /// The most iterations along each axis
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, help_heading = "Solver")]
+    max_iterations: usize,
+
+    /// Folder for report.json, scene.toml, and for each axis along which the gap is open pressure_x.npy (relative to
+    /// the pressure that falls), flow_x.npy (per width, over pressure and times viscosity, a length squared), and
+    /// flow_x.png with the widest passage
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    out: Option<PathBuf>,
+    /// Replace results that are there
+    #[arg(long, help_heading = "Output")]
+    force: bool,
+    /// Format of the pictures
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
+    picture_format: PictureFormat,
+    #[command(flatten)]
+    resolution: Resolution,
+    #[command(flatten)]
+    printing: Printing,
+}
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mExamples:\u{1b}[0m
+  Through the gap of a solve, and with water:
+    asperity solve --heights heights.npy --lengths 1mm --modulus 1GPa --mean-pressure 30MPa --out pressed
+    asperity leak pressed
+    asperity leak pressed --viscosity 1mPas --out leakage
+  Through a gap from elsewhere, from side to side:
+    asperity leak gap.npy --lengths 2 1 --boundary free";
+
+/// All files that a leakage may leave.
+const FILES: [&str; 12] = [
+    "report.json",
+    scene::NAME,
+    FIELDS[0][0],
+    FIELDS[0][1],
+    FIELDS[1][0],
+    FIELDS[1][1],
+    PICTURES[0][0],
+    PICTURES[0][1],
+    PICTURES[1][0],
+    PICTURES[1][1],
+    PICTURES[2][0],
+    PICTURES[2][1],
+];
+const FIELDS: [[&str; 2]; 2] = [["pressure_x.npy", "flow_x.npy"], ["pressure_y.npy", "flow_y.npy"]];
+const PICTURES: [[&str; 2]; 3] =
+    [["flow_x.png", "flow_y.png"], ["flow_x.svg", "flow_y.svg"], ["flow_x.pdf", "flow_y.pdf"]];
+
+/// The decades of the flow that a picture shows, below and above its mean.
+const DECADES: (f64, f64) = (-3.0, 1.5);
+
+/// Runs the command; whether the bounds are as close as the tolerance.
+pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+    let Options { gap, out, force, printing, .. } = options;
+    if let Some(out) = out {
+        scene.check(&out.join(scene::NAME))?;
+        let read = if gap.is_dir() { SOLVED.map(|name| gap.join(name)).to_vec() } else { vec![gap.clone()] };
+        FILES.iter().try_for_each(|name| check_apart(&out.join(name), read.iter().map(PathBuf::as_path)))?;
+        drop(output_folder(out, &FILES, *force)?);
+    }
+    let (map, boundary) = options.read(scene.is_si())?;
+    check_room(map.heights.dim())?;
+    let grid = Grid::new(map.heights.dim(), map.lengths.unwrap_or((1.0, 1.0)))?;
+    let number = |given: Option<Quantity>| given.map(|given| given.value);
+    let asked = LeakAsked {
+        boundary: options.boundary.unwrap_or(boundary),
+        absent_gap: number(options.absent_gap),
+        settings: Leakage::default().tolerance(options.tolerance).max_iterations(options.max_iterations),
+        viscosity: number(options.viscosity),
+    };
+    let start = Instant::now();
+    let (leak, leaked) = asked.find(Gap::new(map.heights.view(), grid)?)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let units = if scene.is_si() { Units::si() } else { Units::of_map(map.unit.as_deref()) };
+    let report = || {
+        let inputs = json!({
+            "gap": gap.to_string_lossy(),
+            "shape": grid.shape(),
+            "lengths": grid.lengths(),
+            "length_unit": units.length,
+            "max_iterations": options.max_iterations,
+            "given": scene.given(),
+            "seconds": seconds,
+            "version": env!("CARGO_PKG_VERSION"),
+        });
+        report::report("leak", json!(leaked), &inputs)
+    };
+    let written = out.as_deref().map(|out| options.write(out, (&leak, &map.heights, grid), &units, scene, &report()));
+    let written = written.transpose()?;
+    if printing.for_people() {
+        let rows = leaked.rows(&units);
+        let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        rows.iter().for_each(|(name, text)| say(&format!("{name:width$}  {text}")));
+        if let (Some(out), Some(names)) = (out, written) {
+            say(&format!("results in {}: {}", name(out), names.join(", ")));
+        }
+    }
+    printing.report(report);
+    if let Some(text) = leaked.shortfall(Skin::Options) {
+        complain("warning", &text);
+    }
+    Ok(leaked.reached)
+}
+
+/// The files of a solve that are read.
+const SOLVED: [&str; 2] = ["report.json", "gap.npy"];
+
+impl Options {
+    /// The gap, with the side lengths as far as they are known, and what is beyond it.
+    fn read(&self, si: bool) -> Outcome<(Topography, Boundary)> {
+        let path = &self.gap;
+        if path.is_dir() {
+            let (map, boundary) = of_solve(path)?;
+            if self.lengths.is_some() {
+                return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
+            }
+            return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
+        }
+        let (map, _) = heights::map(path, self.lengths.as_deref(), si)?;
+        warn_of_unread(path, &map, "are taken as 1 x 1");
+        Ok((map, Boundary::Periodic))
+    }
+
+    /// Writes all files, and tells their names.
+    fn write(
+        &self,
+        out: &Path,
+        (leak, gap, grid): (&Leak, &Array2<f64>, Grid),
+        units: &Units,
+        scene: &SceneFile,
+        report: &Value,
+    ) -> Outcome<Vec<&'static str>> {
+        let folder = output_folder(out, &FILES, self.force)?;
+        let mut names = vec![FILES[0], FILES[1]];
+        let write = |folder: &OutputFolder, names: &mut Vec<_>| {
+            write_text(&folder.path(FILES[0]), &format!("{report:#}\n"))?;
+            write_text(&folder.path(FILES[1]), &scene.text(out))?;
+            for axis in Axis::BOTH.into_iter().filter(|axis| leak.percolation.along(*axis).is_some()) {
+                let flow = leak.along(axis);
+                let [pressure_name, flow_name] = FIELDS[axis as usize];
+                let speed = speed(flow);
+                write_npy(folder.path(pressure_name), &flow.pressure)?;
+                write_npy(folder.path(flow_name), &speed)?;
+                let picture_name = self.picture_format.of(PICTURES)[axis as usize];
+                let picture = drawn(leak, axis, (gap, &speed), grid, units, self.resolution.dpi)?;
+                picture.write(folder.path(picture_name))?;
+                names.extend([pressure_name, flow_name, picture_name]);
+            }
+            asperity::Result::Ok(())
+        };
+        write(&folder, &mut names).map_err(|error| at_destination(error, out))?;
+        folder.commit()?;
+        Ok(names)
+    }
+}
+
+/// The gap of a solve, and what is beyond it: of the original of a mirrored map sides through which nothing flows, or
+/// which have one pressure, as those of a free one.
+fn of_solve(folder: &Path) -> Outcome<(Topography, Boundary)> {
+    let [report, gap] = SOLVED.map(|name| folder.join(name));
+    let refuse = |reason: &str| Error::file(folder, reason);
+    let text = fs::read_to_string(&report).map_err(|_| refuse("has no report.json: name the folder of a solve"))?;
+    let report: Value =
+        serde_json::from_str(&text).map_err(|_| refuse("has a report.json that is no report of a solve"))?;
+    if report["command"] != "solve" && report["command"] != "demo" {
+        return Err(refuse("has the results of another command: name the folder of a solve").into());
+    }
+    if !gap.exists() {
+        return Err(refuse("has no gap.npy: solve with --format npy").into());
+    }
+    let mut map = Topography::new(read_field(&gap)?);
+    let side = |k: usize| report["lengths"][k].as_f64();
+    map.lengths = side(0).zip(side(1));
+    map.unit = report["length_unit"].as_str().map(str::to_owned);
+    let free = report["boundary"] == "free" || report["solved_shape"].is_array();
+    Ok((map, if free { Boundary::Free } else { Boundary::Periodic }))
+}
+
+/// The flow at the nodes, per width.
+fn speed(flow: &Flow) -> Array2<f64> {
+    let [x, y] = &flow.flow;
+    ndarray::Zip::from(x).and(y).map_collect(|x, y| x.hypot(*y))
+}
+
+/// The picture of the flow along an axis: by powers of ten, with the widest passage.
+fn drawn(
+    leak: &Leak,
+    axis: Axis,
+    (gap, speed): (&Array2<f64>, &Array2<f64>),
+    grid: Grid,
+    units: &Units,
+    dpi: f64,
+) -> asperity::Result<Picture> {
+    let (open, sum) = speed.iter().filter(|speed| **speed > 0.0).fold((0, 0.0), |(n, sum), speed| (n + 1, sum + speed));
+    let mean = sum / f64::from(open.max(1));
+    let decades = ndarray::Zip::from(gap).and(speed).map_collect(|gap, speed| match *gap > 0.0 || *speed > 0.0 {
+        true => (speed / mean).log10().clamp(DECADES.0, DECADES.1),
+        false => f64::NAN,
+    });
+    let narrowest = leak.percolation.along(axis);
+    let caption = narrowest
+        .map(|found| format!("the widest passage is {} wide at its constriction", units.number(found.gap, LENGTH)));
+    let map = Map {
+        title: &format!("Flow along {}", axis.name()),
+        caption: caption.as_deref().unwrap_or_default(),
+        length_unit: units.length.as_deref(),
+        label: "power of ten of flow over mean flow",
+        limits: Some(DECADES),
+        without: Some("closed"),
+        path: narrowest.map_or(&[], |found| &found.path),
+        mark: narrowest.map(|found| found.node),
+        ..Map::new(decades.view(), grid, Colouring::Sequential)
+    };
+    map.draw(dpi)
+}
