@@ -81,7 +81,8 @@ pub struct Options {
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   Through the gap of a solve, and with water:
-    asperity solve --heights heights.npy --lengths 1mm --modulus 1GPa --mean-pressure 30MPa --out pressed
+    asperity solve --heights heights.npy --lengths 1mm --modulus 1GPa --mean-pressure 30MPa \\
+        --out pressed
     asperity leak pressed
     asperity leak pressed --viscosity 1mPas --out leakage
   Through a gap from elsewhere, from side to side:
