@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity
+from ._control import number
 from ._solution import Conductance, Constriction, Percolation, Solution
 from ._topography import _lengths, field_of
 from ._types import Boundary, Lengths, Quantity
@@ -115,7 +116,9 @@ def leakage(
         shape = np.shape(gap)
         sides = (1.0, 1.0) if lengths is None else _lengths(lengths, shape if len(shape) == 2 else (*shape, 1))
     field = field_of(values, "gaps")
-    found = _asperity.leakage(field, sides, boundary or own, absent_gap, viscosity, tolerance, max_iterations)
+    absent = None if absent_gap is None else number("absent_gap", absent_gap)
+    viscous = None if viscosity is None else number("viscosity", viscosity)
+    found = _asperity.leakage(field, sides, boundary or own, absent, viscous, tolerance, max_iterations)
     if found["shortfall"] is not None:
         warn(found["shortfall"], ConvergenceWarning)
     report = found["report"]

@@ -282,7 +282,8 @@ class Solution:
         lengths = self.topography.lengths
         sides = self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
         per_area, _, error = _asperity.conductance(gap <= 0, sides, self.boundary, (first, second))
-        grid = (self.report["grid_error"] or {}).get("stiffness") if self.law is None else None
+        grids = self.report["grid_error"] if self.law is None else None
+        grid = None if grids is None else grids["stiffness"]
         lx, ly = self.lengths
         return Conductance(per_area, per_area * lx * ly, error + (0.0 if grid is None else grid["relative"] or 0.0))
 
