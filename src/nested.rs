@@ -76,8 +76,8 @@ pub struct Nested<C = Projection> {
     pub coarsest: usize,
     /// The relative error to which the contact stiffness of each grid is found; `None`, the default, finds none.
     pub stiffness: Option<f64>,
-    /// The share of contact of the coarsest grid above which only the finest one follows. Default 0.8, above which
-    /// nothing is gained. With 1 all grids are solved, as [`GridError`](crate::accuracy::GridError) needs.
+    /// The share of contact of the coarsest grid, less what has yielded, above which only the finest one follows.
+    /// Default 0.8, above which nothing is gained. With 1 all grids are solved, as [`GridError`](crate::accuracy::GridError) needs.
     pub closed: f64,
 }
 
@@ -294,7 +294,8 @@ impl<C> Nested<C> {
                 })?;
             let stiffness = self.stiffness_of(&mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution)? });
-            if levels.len() == 1 && levels[0].area.contact_fraction > self.closed {
+            let yielded = solution.report.plastic.map_or(0.0, |plastic| plastic.fraction);
+            if levels.len() == 1 && levels[0].area.contact_fraction - yielded > self.closed {
                 break;
             }
             let Solution { gap, report, .. } = solution;

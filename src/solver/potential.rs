@@ -6,6 +6,7 @@ use crate::field::{CHUNK, Nodes, Partial, Reducer};
 use crate::par::Parts;
 use crate::problem::Window;
 use crate::real::{Real, cast};
+use crate::vector::{sums, vectors};
 
 /// The least share of its gap that a node keeps in a step, where the law has no bound at zero gap.
 pub(super) const CLOSER: f64 = 0.5;
@@ -308,21 +309,19 @@ impl<'a, T: Real> Potential<'a, T> {
         }
         let mut caps = [Capped(T::zero()); CHUNK];
         let caps = self.caps(first, &mut caps[..gaps.len()]);
-        let mut kink = 0.0;
-        for (i, (&gap, cap)) in gaps.iter().zip(caps).enumerate() {
-            if gap == T::zero() && change[i] < Lo::zero() {
-                (tractions[i], slopes[i]) = (tractions[i] - cap.at(), T::zero());
-            }
-            let next = gap + cast(change[i]);
-            // a node that stops there is beyond it by no more than its rounding
-            if next.signum() != gap.signum()
-                && gap != T::zero()
-                && next.abs() > T::lit(4.0) * cast(Lo::epsilon()) * gap.abs()
-            {
-                kink += (cap.at() * next.abs()).widen();
-            }
-        }
-        kink
+        // a node that stops there is beyond it by no more than its rounding
+        let rounding = T::lit(4.0) * cast(Lo::epsilon());
+        sums!(1, [gaps, change, caps], [tractions, slopes], |i| {
+            let (gap, change, cap): (_, T, _) = (gaps[i], cast(change[i]), caps[i].at());
+            let falls = (gap == T::zero()) & (change < T::zero());
+            tractions[i] = if falls { tractions[i] - cap } else { tractions[i] };
+            slopes[i] = if falls { T::zero() } else { slopes[i] };
+            let next = gap + change;
+            let passes = (gap != T::zero()) & ((next < T::zero()) != (gap < T::zero()));
+            let beyond = passes & (next.abs() > rounding * gap.abs());
+            [if beyond { (cap * next.abs()).widen() } else { 0.0 }]
+        })
+        .sum[0]
     }
 
     /// Σ H d over nodes that touch after a step d from where they yield.
@@ -355,9 +354,11 @@ impl<'a, T: Real> Potential<'a, T> {
                 let mut energies = [T::zero(); CHUNK];
                 let energies = &mut energies[..gaps.len()];
                 below(hardness, Of::Energy, first, gaps, energies);
-                sums[0] = gaps.iter().filter(|&&gap| gap <= T::zero()).count() as f64;
-                sums[1] = energies.iter().map(|energy| energy.widen()).sum();
-                return sums;
+                let found = sums!(2, [gaps, energies], [], |i| {
+                    let touches = if gaps[i] <= T::zero() { 1.0 } else { 0.0 };
+                    [touches, energies[i].widen()]
+                });
+                return [found.sum[0], found.sum[1]];
             }
             Some(Wall::None) => {
                 sums[0] = tractions.iter().filter(|&&traction| traction < T::zero()).count() as f64;
@@ -405,13 +406,15 @@ fn below<T: Real>(hardness: &Hardness, of: Of, first: usize, gaps: &[T], out: &m
     let mut caps = [T::zero(); CHUNK];
     let caps = &mut caps[..gaps.len()];
     hardness.fill(first, caps, |cap| cap);
-    for ((out, &gap), &cap) in out.iter_mut().zip(gaps).zip(&*caps).filter(|((_, gap), _)| **gap < T::zero()) {
-        *out -= match of {
-            Of::Energy => cap * gap,
-            Of::Traction => cap,
-            Of::Slope => T::zero(),
-        };
-    }
+    let (linear, constant) = match of {
+        Of::Energy => (T::one(), T::zero()),
+        Of::Traction => (T::zero(), T::one()),
+        Of::Slope => return,
+    };
+    vectors!([gaps, caps], [out], |i| {
+        let (gap, cap) = (gaps[i], caps[i]);
+        out[i] = if gap < T::zero() { out[i] - cap * (linear * gap + constant) } else { out[i] };
+    });
 }
 
 #[cfg(test)]

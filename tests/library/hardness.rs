@@ -384,6 +384,21 @@ fn nested_grids_find_the_same() {
 }
 
 #[test]
+fn nested_grids_help_where_all_but_a_little_yields() {
+    let grid = Grid::square(256, 1.0).unwrap();
+    let surface = SelfAffine::default().k_s(32.0).surface(grid).unwrap();
+    let (half_space, control) = (|grid| Westergaard::<f64>::new(grid, 1.0), Control::MeanPressure(0.001));
+    for hardness in [0.0012, 0.001001] {
+        let solver = capped(hardness, 1e-6);
+        let nested = Nested::with_solver(solver).solve(&surface, half_space, NoAdhesion, control).unwrap();
+        assert_eq!((nested.levels.len(), nested.solution.report.status), (3, Status::Converged));
+        let applications = nested.equivalent_applications();
+        println!("hardness {hardness}: {applications:.1}");
+        assert!(applications < 90.0, "{applications}");
+    }
+}
+
+#[test]
 fn what_has_no_meaning_is_refused_by_name() {
     assert!(matches!(Hardness::new(0.0), Err(Error::Value { name: "hardness", .. })));
     assert!(matches!(Hardness::new(f64::NAN), Err(Error::Value { name: "hardness", .. })));
