@@ -384,6 +384,21 @@ fn nested_grids_find_the_same() {
 }
 
 #[test]
+fn the_certificate_is_between_the_error_and_some_twice_of_it() {
+    let mut problem = rough::<f64, _>(96, 8, NoAdhesion);
+    let gaps = [0.02, 0.04].map(Control::MeanGap);
+    for (hardness, control) in [0.2, 0.1, 0.05].into_iter().flat_map(|hardness| gaps.map(|gap| (hardness, gap))) {
+        let exact = capped(hardness, 1e-11).solve(&mut problem, control).unwrap();
+        for tolerance in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+            let solution = capped(hardness, tolerance).solve(&mut problem, control).unwrap();
+            let times = solution.report.relative_error / solution.distance(&exact);
+            println!("hardness {hardness}, {control:?}, tolerance {tolerance:e}: {times:.2}");
+            assert!((1.0..2.5).contains(&times), "{hardness} {control:?} {tolerance:e}: {times}");
+        }
+    }
+}
+
+#[test]
 fn nested_grids_help_where_all_but_a_little_yields() {
     let grid = Grid::square(256, 1.0).unwrap();
     let surface = SelfAffine::default().k_s(32.0).surface(grid).unwrap();
