@@ -175,6 +175,7 @@ impl Options {
                 "events": events.iter().map(event).collect::<Vec<_>>(),
                 "work": last["work"],
                 "dissipated": last["dissipated"],
+                "plastic_energy": last["plastic_energy"],
                 "imbalance": last["imbalance"],
                 "last": last,
             });
@@ -203,6 +204,9 @@ impl Options {
             }
             if let Some(last) = rows.last() {
                 say(&format!("dissipated in jumps     {}", told(last, "dissipated")));
+                if last["plastic_energy"].is_number() {
+                    say(&format!("dissipated by yielding  {}", told(last, "plastic_energy")));
+                }
                 say(&format!("work done by the load   {}", told(last, "work")));
                 say(&format!("imbalance of energy     {:.1e}", number(last, "imbalance")));
             }

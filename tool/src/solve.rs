@@ -151,7 +151,7 @@ const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
 const DISTRIBUTION: &str = "distribution.csv";
 /// All files that a solve may leave. The report stands for the run.
-pub const FILES: [&str; 17] = [
+pub const FILES: [&str; 18] = [
     REPORT,
     scene::NAME,
     FIELDS[0],
@@ -160,6 +160,7 @@ pub const FILES: [&str; 17] = [
     BESIDE[0],
     BESIDE[1],
     BESIDE[2],
+    BESIDE[3],
     NPZ,
     VTI,
     DISTRIBUTION,
@@ -253,7 +254,12 @@ impl Job<'_> {
         warnings.say()?;
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
-        let mut posed = self.options.problem().scene().posed::<T>(surface, adhesion.law(), self.part.wanted())?;
+        let mut posed = self.options.problem().scene().posed::<T>(
+            surface,
+            adhesion.law(),
+            adhesion.hardness(),
+            self.part.wanted(),
+        )?;
         let tolerance = posed.tolerance(self.asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         if let Some(goal) = self.asked.goal {
@@ -372,7 +378,9 @@ impl Job<'_> {
         if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            let regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
+            let mut regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
+            let depth = solution.plastic_depth.as_ref();
+            depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
             let contact = match self.options.colours.colour_clusters {
                 true => {
                     pictures::draw_clusters(shown, "Contact", units, (&regions, self.part.sides_meet(whole)), *dpi)?

@@ -82,6 +82,10 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         row("adhesive energy per area", &|s| energy(s.adhesive_energy));
         row("mu_rho", &|s| Some(plain(s.mu_rho)));
     }
+    row("yielded", &|s| share(s.plastic_fraction?));
+    row("greatest plastic depth", &|s| length(s.plastic_depth_max?));
+    row("mean plastic depth", &|s| length(s.plastic_depth_mean?));
+    row("plastic work per area", &|s| energy(s.plastic_energy?));
     row("contact stiffness", &|s| Some(units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)));
     if adhesive {
         row("branch", &|s| of_branch(s.branch));

@@ -54,7 +54,7 @@ fn inputs() -> Inputs {
 /// A rough surface with adhesion.
 fn posed() -> Posed<f64> {
     let surface = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap();
-    scene().posed(surface, scene().adhesion.formula(None).unwrap().law(), None).unwrap()
+    scene().posed(surface, scene().adhesion.formula(None).unwrap().law(), None, None).unwrap()
 }
 
 fn solved(asked: &Asked) -> (Found<f64>, Account) {
