@@ -41,10 +41,10 @@ use crate::warnings::{Strictness, Warnings};
 /// Either all numbers have units, as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m, or none has, and then any consistent units
 /// will do. With units all results are in the SI, and heights of a file that names no unit are in m. The folder gets
 /// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
-/// part), or files as --format says, report.json, contact.png and pressure.png (or .svg, .pdf), and scene.toml, which
-/// repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and
-/// 1 if the input is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are
-/// warnings, on a line each and in the report; --strict takes them for errors.
+/// part), with a hardness plastic_depth.npy, or files as --format says, report.json, contact.png and pressure.png (or
+/// .svg, .pdf), and scene.toml, which repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the
+/// fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are none).
+/// Probable mistakes, as a tilt, are warnings, on a line each and in the report; --strict takes them for errors.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
 pub struct Options {
@@ -83,8 +83,9 @@ pub struct Options {
     /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
-    /// Fields to write beside gap and pressures: displacement.npy is gap and height as long as the other body is rigid;
-    /// if both are elastic, the displacement of the first one, and against_displacement.npy that of the other
+    /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as the
+    /// other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy that of
+    /// the other
     #[arg(long, value_enum, value_name = "FIELD", help_heading = "Output")]
     fields: Option<Beside>,
     /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0

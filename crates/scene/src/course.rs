@@ -215,11 +215,15 @@ impl<T: Real> Course<T> {
         let (solver, problem) = posed.parts()?;
         let start = this.start.take();
         let fields = &mut this.place.fields;
+        if this.yields && done == 0 {
+            // another course, or a state that was not kept, may have flattened it
+            problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
+        }
         let (solution, search, step) = match &this.way {
             Way::Sweep(loads) => {
                 let Some(&load) = loads.get(done) else { return Ok(None) };
                 // the surface as it has yielded, also under the loads of another run
-                let depth = if this.yields { fields.pop() } else { None };
+                let depth = if this.yields && done > 0 { fields.pop() } else { None };
                 depth.map_or(Ok(()), |depth| problem.flatten(depth.view()))?;
                 let before = &loads[done.saturating_sub(fields.len())..done];
                 let history = before.iter().copied().zip(mem::take(fields)).collect();

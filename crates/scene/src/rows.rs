@@ -50,7 +50,10 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     });
     row("body", &|s| s.inputs.elastic.in_words(units));
     row("contact", &|s| share(s.contact_fraction));
-    row("corrected for its edge", &|s| Some(corrected(s.corrected_contact_fraction?, s.contact_fraction)));
+    row("corrected for its edge", &|s| {
+        let known = s.corrected_contact_fraction.filter(|share| share.is_finite())?;
+        Some(corrected(known, s.contact_fraction))
+    });
     row("nodes in contact", &|s| {
         let (nx, ny) = s.inputs.shape;
         Some(format!("{} of {}", s.contact_nodes, nx * ny - s.absent_nodes))

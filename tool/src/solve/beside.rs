@@ -33,14 +33,18 @@ impl Options {
     pub fn fields_beside<T: Scalar>(&self, found: &Found<T>, surface: Option<&Surface>) -> Result<Vec<Named>> {
         let mode = found.mode.as_ref().map(|mode| mode.mapv(T::widen));
         let solution = &found.solution;
+        let depth = solution.plastic_depth.as_ref().map(|depth| depth.mapv(T::widen));
         let (own, other) = match surface {
             None => (None, None),
             Some(surface) => match found.sight.displacements(&self.surface.elastic(), solution.pressure.view())? {
                 Some([own, other]) => (Some(own), Some(other)),
-                None => (Some(gap_to_write(solution).mapv(T::widen) + surface.heights()), None),
+                None => {
+                    let mut own = gap_to_write(solution).mapv(T::widen) + surface.heights();
+                    depth.iter().for_each(|depth| own -= depth);
+                    (Some(own), None)
+                }
             },
         };
-        let depth = solution.plastic_depth.as_ref().map(|depth| depth.mapv(T::widen));
         Ok(BESIDE.into_iter().zip([mode, own, other, depth]).filter_map(|(name, field)| Some((name, field?))).collect())
     }
 }
