@@ -231,6 +231,7 @@ class Problem:
         law: Any,
         wall: str,
         wall_stiffness: float | None,
+        hardness: float | _Field | None,
         precision: str,
         tolerance: float | None,
         max_iterations: int | None,

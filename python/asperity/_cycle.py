@@ -15,7 +15,7 @@ from ._scene import Scene
 from ._solution import Solution, Start
 from ._topography import Heights
 from ._types import AxisOrder, Boundary, Branch, Lengths, Method, OwnLaw, Precision, Quantity
-from ._wall import Wall
+from ._wall import Hardness, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -131,6 +131,7 @@ def cycle(
     absent_missing: bool = False,
     law: OwnLaw | None = None,
     wall: Wall = "hard",
+    hardness: Hardness | None = None,
     steps: int = 50,
     smallest_step: float = 1e-4,
     imbalance: float = 1e-4,

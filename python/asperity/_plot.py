@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+#: The colour of nodes that have yielded, as in the pictures of the tool.
+_YIELDED = "#d55e00"
+
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
@@ -97,6 +100,16 @@ def _from_white(name: str) -> Any:
     return LinearSegmentedColormap.from_list(f"{name} from white", colours)
 
 
+def _yielded(ax: Axes, yielded: NDArray[np.bool_], lengths: tuple[float, float], length_unit: str | None) -> None:
+    """The nodes that have yielded, over those in contact, with a legend."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    nodes = np.ma.masked_equal(yielded.astype(float), 0.0)
+    _map(ax, nodes, lengths, length_unit, cmap=ListedColormap([_YIELDED]), vmin=0, vmax=1)
+    ax.legend(handles=[Patch(color=_YIELDED, label="yielded")], loc="upper right", fontsize="small")
+
+
 def contact_and_pressure(
     contact: NDArray[np.bool_],
     pressure: NDArray[Any],
@@ -104,6 +117,7 @@ def contact_and_pressure(
     adhesive: bool,
     title: str,
     clusters: NDArray[np.int64] | None,
+    yielded: NDArray[np.bool_] | None,
     limits: tuple[float, float] | None,
     length_unit: str | None,
     pressure_unit: str | None,
@@ -115,6 +129,8 @@ def contact_and_pressure(
     )
     if clusters is None:
         _map(left, contact.astype(float), lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
+        if yielded is not None:
+            _yielded(left, yielded, lengths, length_unit)
     else:
         _map(left, _asperity.cluster_colours(clusters), lengths, length_unit)
     left.set_title(title)

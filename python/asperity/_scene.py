@@ -17,7 +17,7 @@ from ._solution import Solution, Start
 from ._topography import Heights, Topography, field_of, original_of, refined, sides, taken
 from ._types import AxisOrder, Boundary, Branches, Lengths, Method, OwnLaw, Precision, Quantity
 from ._units import given
-from ._wall import Wall, parts
+from ._wall import Hardness, Wall, hardness_of, parts
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
 
@@ -39,6 +39,7 @@ class Scene:
         absent_missing: bool,
         law: OwnLaw | None,
         wall: Wall,
+        hardness: Hardness | None = None,
         tolerance: float | None,
         max_iterations: int | None,
         method: Method,
@@ -75,6 +76,7 @@ class Scene:
             symbol(body),
             law,
             *parts(wall),
+            hardness_of(hardness),
             precision,
             tolerance,
             max_iterations,

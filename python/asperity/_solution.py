@@ -31,7 +31,8 @@ class ContactStatistics(NamedTuple):
     contact_fraction : float
         Share of the nodes in contact.
     corrected_contact_fraction : float
-        Contact area within the edge that gap and contact pressure tell between the nodes.
+        Contact area within the edge that gap and contact pressure tell between the nodes; NaN where a surface has
+        yielded, of which they tell none.
     perimeter : float
         Length of the edge of the contact along the sides of the cells.
     cluster_sizes : ndarray of int64
@@ -129,7 +130,9 @@ class Solution:
         Elastic pressure p + p̄ on the half-space: the contact pressure less the adhesive traction. Zero at absent
         nodes.
     contact_pressure : ndarray
-        Contact pressure λ ≥ 0, zero wherever the gap is not.
+        Contact pressure λ ≥ 0, zero wherever the gap is not; at most the hardness, if there is one.
+    plastic_depth : ndarray or None
+        Depth by which the surface has yielded, with a hardness. The gap is that to the surface as it is now.
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
     whole_gap : ndarray
@@ -159,6 +162,7 @@ class Solution:
     whole_gap: NDArray[np.floating[Any]]
     pressure: NDArray[np.floating[Any]]
     contact_pressure: NDArray[np.floating[Any]]
+    plastic_depth: NDArray[np.floating[Any]] | None
     mode: NDArray[np.floating[Any]] | None
     plan: Plan | None
 
@@ -170,7 +174,8 @@ class Solution:
         self._part = tuple(slice(nodes) for nodes in told["shape"][: len(topography.shape)])
         for name in ("gap", "pressure", "contact_pressure"):
             setattr(self, name, self.part_of(found[name]))
-        self.mode = None if found["mode"] is None else self.part_of(found["mode"])
+        for name in ("plastic_depth", "mode"):
+            setattr(self, name, None if found[name] is None else self.part_of(found[name]))
         # the report without what is found of the fields, and what finds that
         self._told, self._look = told, found["look"]
 
@@ -297,8 +302,13 @@ class Solution:
 
     @property
     def heights(self) -> NDArray[np.float64]:
-        """Heights of the surface; between two surfaces their sum, the second as it faces the first."""
+        """Heights of the surface as it was made; between two surfaces their sum, the second as it faces the first."""
         return self.part_of(self.topography.heights)
+
+    @property
+    def _flattened(self) -> NDArray[np.floating[Any]]:
+        """Heights of the surface as it is now."""
+        return self.heights if self.plastic_depth is None else self.heights - self.plastic_depth
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -313,13 +323,13 @@ class Solution:
 
     @property
     def displacement(self) -> NDArray[np.floating[Any]]:
-        """Displacement of the body that is pressed, u = g + h as long as the other one is rigid.
+        """Displacement of the body that is pressed, u = g + h as long as the other one is rigid, h less the plastic depth.
 
         If both are elastic, ``displacement + against_displacement`` is g + h but for a constant: each is û = p̂/k of its
         own body, wave by wave. They vanish far away with a free boundary; with a periodic one their mean is zero, or
         the compression of a layer or a coating as a whole.
         """
-        return self.gap + self.heights if self._displacements is None else self._displacements[0]
+        return self.gap + self._flattened if self._displacements is None else self._displacements[0]
 
     @property
     def against_displacement(self) -> NDArray[np.float64] | None:
@@ -454,7 +464,7 @@ class Solution:
     ) -> Figure:
         """Draws contact and pressure side by side; needs matplotlib.
 
-        With adhesion, compression and tension have a scale each. A scale ends where most of the load is carried: where
+        Nodes that have yielded are orange. With adhesion, compression and tension have a scale each. A scale ends where most of the load is carried: where
         a few nodes press far harder its bar has an arrow, and says how much of the load stands on them.
 
         Parameters
@@ -483,7 +493,7 @@ class Solution:
             )
         if self.gap.ndim == 1:
             return _plot.profiles(
-                (self.heights, self.displacement), pressure, self.lengths[0], length_unit, pressure_unit
+                (self._flattened, self.displacement), pressure, self.lengths[0], length_unit, pressure_unit
             )
         title, clusters = f"contact {100 * self.contact_fraction:.3g} %", None
         if colour_clusters:
@@ -498,6 +508,7 @@ class Solution:
             adhesive,
             title,
             clusters,
+            None if self.plastic_depth is None else self.plastic_depth > 0,
             colour_limits,
             length_unit,
             pressure_unit,

@@ -24,7 +24,7 @@ from ._types import (
     Precision,
     Quantity,
 )
-from ._wall import Wall
+from ._wall import Hardness, Wall
 
 
 def solve(
@@ -48,6 +48,7 @@ def solve(
     absent_missing: bool = False,
     law: OwnLaw | None = None,
     wall: Wall = "hard",
+    hardness: Hardness | None = None,
     tolerance: float | None = None,
     max_iterations: int | None = None,
     method: Method = "default",
@@ -129,6 +130,10 @@ def solve(
     wall : {"hard", "none"}, Penalty or Uzawa
         What keeps the surfaces apart: a rigid wall at zero gap, a law that repels alone, as `LennardJones` and `Morse`
         do, or springs of a stiffness.
+    hardness : float or array_like, optional
+        Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
+        ``Solution.plastic_depth``. An array has it at each node, x along the first axis, in Pa where other quantities have units.
+        At a hard wall.
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional

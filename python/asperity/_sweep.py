@@ -15,7 +15,7 @@ from ._scene import Scene
 from ._solution import Solution, Start
 from ._topography import Heights
 from ._types import AxisOrder, Boundary, Branch, Lengths, Method, OwnLaw, Precision, Quantity
-from ._wall import Wall
+from ._wall import Hardness, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -76,6 +76,7 @@ def sweep(
     absent_missing: bool = False,
     law: OwnLaw | None = None,
     wall: Wall = "hard",
+    hardness: Hardness | None = None,
     tolerance: float | None = None,
     max_iterations: int | None = None,
     method: Method = "default",

@@ -203,6 +203,10 @@ class Report(TypedDict):
     max_pressure: float
     elastic_energy: float
     adhesive_energy: float
+    plastic_fraction: float | None
+    plastic_depth_max: float | None
+    plastic_depth_mean: float | None
+    plastic_energy: float | None
     stability: Steadiness | None
     contact_stiffness: float | None
     normal_stiffness: float | None
@@ -245,6 +249,8 @@ class Report(TypedDict):
     work_of_adhesion_map: str | None
     wall: WallName
     wall_stiffness: float | None
+    hardness: float | None
+    hardness_map: str | None
     method: Method
     precision: Precision
     tolerance: float

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Sequence
 from contextvars import ContextVar
 from typing import Any
 
+import numpy as np
+
 from . import _asperity
 from ._control import PLURALS
 
@@ -28,6 +30,8 @@ class Quantities:
             texts, bare = getattr(value, "given", ({}, None))
             self._texts.update({name: [text] for name, text in texts.items()})
             self._bare.update([bare] if bare else [])
+            return value
+        if key == "hardness" and np.ndim(value) > 0:
             return value
         if key == "spring":
             return self._spring(value)

@@ -1,11 +1,16 @@
-"""Walls that are made of springs."""
+"""Walls that are made of springs, and the hardness of a wall that yields."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._control import number
 from ._measured import Measured
+from ._topography import field_of
 from ._types import Quantity, RigidWall
 
 
@@ -64,9 +69,19 @@ class Uzawa(_Springs):
 #: A wall as functions take it.
 Wall: TypeAlias = RigidWall | Penalty | Uzawa
 
+#: A hardness as functions take it: one for all, or one at each node.
+Hardness: TypeAlias = Quantity | ArrayLike
+
 
 def parts(wall: Wall) -> tuple[str, float | None]:
     """The name of a wall, and the stiffness of its springs, if it has some."""
     if isinstance(wall, _Springs):
         return type(wall).__name__.lower(), float(wall.stiffness)
     return wall, None
+
+
+def hardness_of(hardness: Hardness | None) -> float | NDArray[np.float64] | None:
+    """A hardness as the compiled core takes it."""
+    if hardness is None or isinstance(hardness, str) or np.ndim(hardness) == 0:
+        return None if hardness is None else number("hardness", hardness)
+    return field_of(hardness, "hardness")

@@ -31,13 +31,16 @@ pub fn answer<'py, T: Scalar>(
     let found = PyDict::new(py);
     found.set_item("report", to_pyobject(py, &account)?)?;
     found.set_item("shortfalls", shortfalls(&account, Skin::Keywords))?;
-    let Solution { gap, pressure, contact_pressure, .. } = solution;
+    let Solution { gap, pressure, contact_pressure, plastic_depth, .. } = solution;
     let fields = [gap, pressure, contact_pressure].map(|field| field.into_pyarray(py));
     for (name, field) in ["gap", "pressure", "contact_pressure"].into_iter().zip(&fields) {
         // what is found of them later is about what they are now
         field.readwrite().make_nonwriteable();
         found.set_item(name, field)?;
     }
+    let depth = plastic_depth.map(|depth| depth.into_pyarray(py));
+    depth.iter().for_each(|depth| drop(depth.readwrite().make_nonwriteable()));
+    found.set_item("plastic_depth", depth)?;
     found.set_item("look", Look::at(sight, account, threads, fields))?;
     found.set_item("mode", mode.map(|mode| mode.into_pyarray(py)))?;
     // those of an accuracy

@@ -67,6 +67,13 @@ impl Begin<'_> {
     }
 }
 
+/// A hardness as Python passes it: a number, or an array.
+#[derive(FromPyObject)]
+pub enum Hardness<'py> {
+    Number(f64),
+    Map(Field<'py>),
+}
+
 /// An accuracy as Python passes it: the relative error, the name of the quantity, and the memory in GiB.
 pub type Accuracy = (Option<f64>, Option<String>, Option<f64>);
 

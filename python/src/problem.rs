@@ -3,14 +3,14 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
-use asperity::{Grid, PullOff, Surface};
+use asperity::{Control, Grid, PullOff, Surface};
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{Adhesion, Asked, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::inputs::{Accuracy, Begin, Given, goal, keys, load, named};
+use crate::inputs::{Accuracy, Begin, Given, Hardness, goal, keys, load, named};
 use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -55,9 +55,8 @@ impl Problem {
 impl Problem {
     #[new]
     #[pyo3(signature = (
-        heights, against, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, precision, tolerance,
-        max_iterations,
-        method, branch, nested, threads, original, part, unit, source, given
+        heights, against, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, hardness, precision,
+        tolerance, max_iterations, method, branch, nested, threads, original, part, unit, source, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -72,6 +71,7 @@ impl Problem {
         law: &Bound<'_, PyAny>,
         wall: &str,
         wall_stiffness: Option<f64>,
+        hardness: Option<Hardness<'_>>,
         precision: &str,
         tolerance: Option<f64>,
         max_iterations: Option<usize>,
@@ -97,7 +97,13 @@ impl Problem {
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
         let Law { formula, adhesion, .. } = Law::of(law)?;
-        let adhesion = Adhesion { wall, wall_stiffness, ..adhesion };
+        let (hardness, map) = match hardness {
+            Some(Hardness::Map(map)) => (None, Some(map.to_array()?)),
+            Some(Hardness::Number(hardness)) => (Some(hardness), None),
+            None => (None, None),
+        };
+        let hardness_map = map.as_ref().map(|_| "array".to_owned());
+        let adhesion = Adhesion { wall, wall_stiffness, hardness, hardness_map, ..adhesion };
         adhesion.check_wall(word).map_err(PyValueError::new_err)?;
         let elastic = Elastic { boundary, symbol: symbol.map(crate::symbol::symbol), ..keys(body)? };
         elastic.check().map_err(reason)?;
@@ -113,7 +119,7 @@ impl Problem {
             given: given.map(keys).transpose()?,
             ..scene.inputs(surface.grid().shape(), lengths, pool.threads())
         };
-        let (units, problem) = (inputs.units(), (surface, formula, original));
+        let (units, problem) = (inputs.units(), (surface, formula, map, original));
         let solves = match precision {
             Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units), threads)?,
             Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units), threads)?,
@@ -149,8 +155,7 @@ impl Problem {
             goal,
             ..Asked::under(load.control(1.0))
         };
-        let adhesive = self.inputs.adhesion.adheres();
-        asked.check(adhesive, self.inputs.method, start.is_some()).map_err(reason)?;
+        asked.check(&self.inputs.adhesion, self.inputs.method, start.is_some()).map_err(reason)?;
         let asked = Asked { control: load.control(self.full_pressure(py, &[load])?), ..asked };
         self.begins(start.as_ref());
         let (pool, inputs, solves) = self.parts()?;
@@ -188,6 +193,8 @@ impl Problem {
         table: Option<File<'py>>,
     ) -> PyResult<(Vec<&'static str>, Bound<'py, PyAny>)> {
         let loads = loads.iter().map(load).collect::<PyResult<Vec<_>>>()?;
+        let asked = Asked { stiffness, ..Asked::under(Control::MeanPressure(0.0)) };
+        asked.check(&self.inputs.adhesion, self.inputs.method, false).map_err(reason)?;
         let full = self.full_pressure(py, &loads)?;
         let controls = loads.iter().map(|load| load.control(full)).collect();
         let fractions: Vec<_> = loads.iter().copied().filter_map(Load::fraction).collect();

@@ -32,6 +32,8 @@ struct State<T: Scalar> {
     threads: Option<usize>,
     strongest: Option<(usize, usize)>,
     units: Units,
+    /// where it varies
+    hardness: Option<Array2<f64>>,
     /// of the input
     warnings: Vec<Told>,
     course: Option<Course<T>>,
@@ -104,7 +106,7 @@ impl<T: Scalar> State<T> {
         found: Found<T>,
     ) -> asperity::Result<(Found<T>, Account)> {
         let mut warnings = self.warnings.clone();
-        warnings.extend(found.warnings()?.iter().map(|warning| self.units.told(warning)));
+        warnings.extend(found.warnings(&self.warnings)?.iter().map(|warning| self.units.told(warning)));
         let account = found.account(command, inputs, self.strongest, warnings)?;
         Ok((found, account))
     }
@@ -181,7 +183,7 @@ impl<T: Scalar> Solves for State<T> {
         let (loads, adhesive) = (way.loads(), at.inputs.adhesion.adheres());
         let control = loads.first().copied().unwrap_or_else(|| at.inputs.elastic.boundary.searched_by(adhesive));
         let start = self.start(start, loads)?;
-        let course = Course::new(way, stiffness);
+        let course = Course::new(way, stiffness).yielding(at.inputs.adhesion.yields());
         let names = course.columns();
         self.seed = seed;
         let Some((out, fields, force, law_table, works, law_differs)) = file else {
@@ -194,6 +196,7 @@ impl<T: Scalar> Solves for State<T> {
                 surface: self.posed.surface()?,
                 law_table: law_table.as_deref(),
                 works: works.as_deref(),
+                hardness: self.hardness.as_deref(),
                 start: start.as_deref().filter(|_| at.inputs.initial_gap.is_some()),
                 law_differs,
             };
@@ -282,15 +285,16 @@ impl<T: Scalar> Solves for State<T> {
 pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
-    (surface, formula, original): (Surface, Formula, Option<Original>),
+    (surface, formula, hardness, original): (Surface, Formula, Option<Array2<f64>>, Option<Original>),
     (scene, units): (&Scene, Units),
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let make = || {
         let warnings = warnings_of_input((&surface, None), &scene.elastic, &*law, &units);
-        let posed = scene.posed(surface, law, original)?;
-        Ok(State { posed, threads, strongest, units, warnings, course: None, seed: None, table: None })
+        let varying = hardness.as_ref().map(|hardness| hardness.view());
+        let posed = scene.posed(surface, law, varying, original)?;
+        Ok(State { posed, threads, strongest, units, hardness, warnings, course: None, seed: None, table: None })
     };
     Ok(Box::new(py.detach(|| pool.get().install(make)).map_err(refusal)?))
 }

@@ -60,6 +60,7 @@ SWEEPS = {
         ["--law", "exponential", "--work-of-adhesion-map", "works.npy", "--range", 8e-3],
         {"law": asperity.Varying(asperity.Exponential(WORKS.max(), 8e-3), WORKS)},
     ),
+    "hardness": (["--hardness", 0.1], {"hardness": 0.1}),
     "start": (["--initial-gap", "gap.npy"], {"start": "gap.npy"}),
 }
 

@@ -130,6 +130,7 @@ fn run(world: &World) -> Outcome {
     solves::<f64, _, _>(world, "tension", square, exponential, Projection, Control::MeanPressure(-1e-4))?;
     solves::<f64, _, _>(world, "penalty", square, exponential, Penalty::new(500.0)?, Control::MeanPressure(0.01))?;
     solves::<f64, _, _>(world, "Uzawa", odd, NoAdhesion, Uzawa::new(500.0)?, Control::MeanPressure(0.01))?;
+    solves::<f64, _, _>(world, "hardness", odd, NoAdhesion, Hardness::new(0.06)?, Control::MeanPressure(0.01))?;
     let lennard_jones = LennardJones::new(1e-3, 4e-3)?;
     solves::<f64, _, _>(world, "Lennard-Jones", square, lennard_jones, NoWall, Control::MeanPressure(0.01))?;
     starts_and_sweeps_are_shared(world)?;

@@ -8,13 +8,13 @@ use asperity_maps::io::read_field;
 use asperity_scene::{Adhesion as Described, Formula, LAWS, Wall, tabulated};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
 
 use crate::allowed::positive;
 use crate::heights;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
-use crate::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, PRESSURE_PER_LENGTH, Quantity};
+use crate::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Quantity};
 
 /// The name of no law.
 const NONE: &str = "none";
@@ -57,6 +57,14 @@ pub struct AdhesionOptions {
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = PRESSURE_PER_LENGTH.positive())]
     #[arg(help_heading = "Adhesion")]
     pub wall_stiffness: Option<Quantity>,
+    /// Hardness, a pressure that caps the contact pressure: the surface yields there and stays flattened
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = PRESSURE.positive())]
+    #[arg(help_heading = "Body")]
+    pub hardness: Option<Quantity>,
+    /// Hardness at each node, in a file as for the heights and of their shape, in the place of one for all; in Pa where
+    /// other numbers have units
+    #[arg(long, value_name = "FILE", help_heading = "Body")]
+    pub hardness_map: Option<PathBuf>,
 }
 
 /// The law of a table, and its numbers.
@@ -73,6 +81,8 @@ pub struct Adhesion<'a> {
     pub table: Option<Array2<f64>>,
     /// The works of adhesion of the map, of the rows that this process holds
     pub works: Option<Array2<f64>>,
+    /// The hardness of the map, at all nodes
+    pub hardness: Option<Array2<f64>>,
     strongest: Option<(usize, usize)>,
 }
 
@@ -102,6 +112,8 @@ impl AdhesionOptions {
             work_of_adhesion_map: path(self.work_of_adhesion_map.as_deref()),
             wall: self.wall,
             wall_stiffness: number(self.wall_stiffness),
+            hardness: number(self.hardness),
+            hardness_map: path(self.hardness_map.as_deref()),
         }
     }
 
@@ -113,6 +125,13 @@ impl AdhesionOptions {
     /// Whether there is adhesion.
     pub fn adheres(&self) -> bool {
         self.law != NONE
+    }
+
+    /// Refuses a surface that yields, for a reason.
+    pub fn check_elastic(&self, reason: &str) -> Outcome<()> {
+        let map = self.hardness_map.as_ref().map(|_| "--hardness-map");
+        let given = self.hardness.map(|_| "--hardness").or(map);
+        given.map_or(Ok(()), |option| Err(format!("{option} is given, but {reason}: leave it out").into()))
     }
 
     /// The law, whose works of adhesion do not vary; reads its table.
@@ -130,10 +149,13 @@ impl AdhesionOptions {
         let read = || {
             let rows = self.work_of_adhesion_map.as_deref();
             let rows = rows.map(|path| heights::rows_on("--work-of-adhesion-map", path, grid)).transpose()?;
+            // a wall has all nodes in each process
+            let hardness = self.hardness_map.as_deref();
+            let hardness = hardness.map(|path| heights::rows_on("--hardness-map", path, &grid.alone())).transpose()?;
             // whatever the law refuses with any work of adhesion
-            Ok((self.uniform()?, rows))
+            Ok((self.uniform()?, rows, hardness))
         };
-        let ((formula, table), works) = processes.agree(read())?;
+        let ((formula, table), works, hardness) = processes.agree(read())?;
         let (tabulated, table) = table.unzip();
         let formula = match (&works, &self.work_of_adhesion_map) {
             (Some(works), Some(path)) => {
@@ -145,7 +167,7 @@ impl AdhesionOptions {
             _ => formula,
         };
         let strongest = formula.strongest();
-        Ok(Adhesion { options: self, formula, grid: *grid, tabulated, table, works, strongest })
+        Ok(Adhesion { options: self, formula, grid: *grid, tabulated, table, works, hardness, strongest })
     }
 }
 
@@ -153,6 +175,11 @@ impl Adhesion<'_> {
     /// The law.
     pub fn law<T: Real>(&self) -> Arc<dyn AdhesionLaw<T>> {
         self.formula.clone().law()
+    }
+
+    /// The hardness at each node, where it varies.
+    pub fn hardness(&self) -> Option<ArrayView2<'_, f64>> {
+        self.hardness.as_ref().map(|hardness| hardness.view())
     }
 
     /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.

@@ -103,7 +103,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         let tolerance = options.problem().scene().tolerance();
         let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
         let asked = options.asked(1.0);
-        let mut found = options.problem().scene().posed::<f64>(surface, law, part.wanted())?.solve(
+        let mut found = options.problem().scene().posed::<f64>(surface, law, None, part.wanted())?.solve(
             &asked,
             None,
             &mut |grid, state, tolerance| {

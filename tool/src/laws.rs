@@ -50,6 +50,7 @@ const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+    options.adhesion.check_elastic("a law has none")?;
     let units = options.units.units(None, scene.is_si())?;
     let chosen = Law::named(&options.adhesion.law).filter(|_| options.adhesion.adheres());
     let Some(path) = &options.plot else {

@@ -156,7 +156,8 @@ impl<'a> ProblemOptions<'a> {
     /// The files of the problem: heights of both sides, law and works of adhesion.
     pub fn files(self) -> impl Iterator<Item = &'a Path> {
         let Self { surface, adhesion, .. } = self;
-        let others = [&surface.other.against, &adhesion.law_table, &adhesion.work_of_adhesion_map];
+        let AdhesionOptions { law_table, work_of_adhesion_map, hardness_map, .. } = adhesion;
+        let others = [&surface.other.against, law_table, work_of_adhesion_map, hardness_map];
         std::iter::once(&*surface.heights).chain(others.into_iter().filter_map(Option::as_deref))
     }
 

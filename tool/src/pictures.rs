@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use asperity::contact::Clusters;
-use asperity::{Grid, Result, Solution};
+use asperity::{Grid, Real, Result, Solution};
 use asperity_plot::{Chart, Colouring, DPI, Format, Map, Picture};
 use asperity_scene::legs::{legs, logarithmic, value};
 use clap::{Args, ValueEnum};
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
 use serde_json::Value;
 
 use crate::allowed::resolution;
@@ -200,8 +200,13 @@ pub fn chart(
     chart.draw(dpi)
 }
 
+/// Marks the nodes that have yielded by a plastic depth, by the number 2.
+pub fn mark_yielded<T: Real>(regions: &mut Array2<f64>, depth: ArrayView2<'_, T>) {
+    regions.zip_mut_with(&depth, |region, depth| *region = if *depth > T::zero() { 2.0 } else { *region });
+}
+
 /// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1
-/// attraction, 0 apart, NaN no surface.
+/// attraction, 0 apart, NaN no surface; and those that have yielded.
 pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
     let share = |of: fn(f64) -> bool| {
         let facing = regions.iter().filter(|region| !region.is_nan()).count();
@@ -211,7 +216,11 @@ pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64
         true => format!(", {} % attractive", share(|region| region < 0.0)),
         false => String::new(),
     };
-    let caption = format!("{} % contact{attractive}", share(|region| region > 0.0));
+    let yielded = match regions.iter().any(|region| *region > 1.0) {
+        true => format!(", {} % yielded", share(|region| region > 1.0)),
+        false => String::new(),
+    };
+    let caption = format!("{} % contact{yielded}{attractive}", share(|region| region > 0.0));
     let map = Map {
         title,
         caption: &caption,

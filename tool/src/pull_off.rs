@@ -72,6 +72,9 @@ const EXAMPLES: &str = "\
 /// Runs the command; whether the pull-off was found.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     options.solver.check_table()?;
+    options.adhesion.check_elastic(
+        "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
+    )?;
     let given = options.problem().read(scene.is_si(), processes)?;
     match options.solver.precision {
         Precision::F32 => options.find::<f32>(given, scene, processes),
@@ -90,7 +93,7 @@ impl Options {
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let mut warnings = Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, problem, &units)?;
         warnings.say()?;
-        let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), part.wanted())?;
+        let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), None, part.wanted())?;
         let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
         let mut progress = Progress::new("", posed.tolerance(None)?, nodes, printing.without_bars());
         let (mut found, pulled_off) = posed.pull_off(asked, start.map(T::field), &mut |grid, state, tolerance| {

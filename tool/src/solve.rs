@@ -41,10 +41,10 @@ use crate::warnings::{Strictness, Warnings};
 /// Either all numbers have units, as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m, or none has, and then any consistent units
 /// will do. With units all results are in the SI, and heights of a file that names no unit are in m. The folder gets
 /// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
-/// part), or files as --format says, report.json, contact.png and pressure.png (or .svg, .pdf), and scene.toml, which
-/// repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the fields are written all the same), and
-/// 1 if the input is refused or the files cannot be written (then there are none). Probable mistakes, as a tilt, are
-/// warnings, on a line each and in the report; --strict takes them for errors.
+/// part), with a hardness plastic_depth.npy, or files as --format says, report.json, contact.png and pressure.png (or
+/// .svg, .pdf), and scene.toml, which repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the
+/// fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are none).
+/// Probable mistakes, as a tilt, are warnings, on a line each and in the report; --strict takes them for errors.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
 pub struct Options {
@@ -83,8 +83,9 @@ pub struct Options {
     /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
-    /// Fields to write beside gap and pressures: displacement.npy is gap and height as long as the other body is rigid;
-    /// if both are elastic, the displacement of the first one, and against_displacement.npy that of the other
+    /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as the
+    /// other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy that of
+    /// the other
     #[arg(long, value_enum, value_name = "FIELD", help_heading = "Output")]
     fields: Option<Beside>,
     /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0
@@ -151,7 +152,7 @@ const VTI: &str = "fields.vti";
 const REPORT: &str = "report.json";
 const DISTRIBUTION: &str = "distribution.csv";
 /// All files that a solve may leave. The report stands for the run.
-pub const FILES: [&str; 17] = [
+pub const FILES: [&str; 18] = [
     REPORT,
     scene::NAME,
     FIELDS[0],
@@ -160,6 +161,7 @@ pub const FILES: [&str; 17] = [
     BESIDE[0],
     BESIDE[1],
     BESIDE[2],
+    BESIDE[3],
     NPZ,
     VTI,
     DISTRIBUTION,
@@ -253,7 +255,12 @@ impl Job<'_> {
         warnings.say()?;
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
-        let mut posed = self.options.problem().scene().posed::<T>(surface, adhesion.law(), self.part.wanted())?;
+        let mut posed = self.options.problem().scene().posed::<T>(
+            surface,
+            adhesion.law(),
+            adhesion.hardness(),
+            self.part.wanted(),
+        )?;
         let tolerance = posed.tolerance(self.asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         if let Some(goal) = self.asked.goal {
@@ -372,7 +379,9 @@ impl Job<'_> {
         if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            let regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
+            let mut regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
+            let depth = solution.plastic_depth.as_ref();
+            depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
             let contact = match self.options.colours.colour_clusters {
                 true => {
                     pictures::draw_clusters(shown, "Contact", units, (&regions, self.part.sides_meet(whole)), *dpi)?

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use asperity::Control;
 use asperity_scene::pace::Pace;
-use asperity_scene::{Account, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
+use asperity_scene::{Account, Asked, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
@@ -18,7 +18,7 @@ use crate::options::{Given, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::part::Part;
-use crate::printing::{Printing, complain, name};
+use crate::printing::{Printing, complain, in_options, name};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
@@ -103,17 +103,27 @@ impl<'a> TableOptions<'a> {
         let listed = loads.values(problem.surface.full_pressure(&surface, loads.are_reduced())?);
         part.check(self.control)?;
         let controls = loads.controls(&listed);
-        let course = Course::new(by.way::<T>(controls.clone())?, self.stiffness);
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let inputs = report::inputs(problem, &part, &units, scene);
+        let yields = inputs.adhesion.yields();
+        in_options(Asked { stiffness: self.stiffness, ..Asked::under(self.control) }.check(
+            &inputs.adhesion,
+            inputs.method,
+            false,
+        ))?;
+        let course = Course::new(by.way::<T>(controls.clone())?, self.stiffness).yielding(yields);
         let surface = Arc::new(surface);
-        let mut posed = problem.scene().posed::<T>(surface.clone(), adhesion.law(), part.wanted())?;
+        let mut posed =
+            problem.scene().posed::<T>(surface.clone(), adhesion.law(), adhesion.hardness(), part.wanted())?;
         let afar = if start.is_none() { posed.start_afar(&controls) } else { None };
         let nodes = *posed.parts()?.1.operator().grid();
         course.check(&mut posed)?;
         let grid = *surface.grid();
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
+        }
+        if yields && nodes.shape() != grid.shape() {
+            processes.alone("a table of a surface that yields, with --boundary free")?;
         }
         let opening = Opening {
             out: out.to_owned(),
@@ -139,6 +149,7 @@ impl<'a> TableOptions<'a> {
                 surface: &surface,
                 law_table: adhesion.table.as_deref(),
                 works: adhesion.works.as_deref(),
+                hardness: adhesion.hardness.as_deref(),
                 start: first.as_deref(),
                 law_differs: false,
             };

@@ -104,7 +104,7 @@ impl Warnings {
 
     /// Looks at an answer, and prints its warnings; of many answers, the worst counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, part: &Part) -> Outcome<()> {
-        let found = warnings_of(solution, part.wanted())?;
+        let found = warnings_of(solution, part.wanted(), &self.found)?;
         self.add(found.iter().map(|warning| self.units.told(warning)).collect())?;
         self.say()
     }

@@ -10,6 +10,7 @@ mod branch_tool;
 mod commands;
 mod fraction_tool;
 mod free_tool;
+mod hardness_tool;
 mod hints;
 mod hostile;
 #[cfg(unix)]

@@ -50,6 +50,7 @@ fn bench() -> Bench {
     let noisy = |i: usize, j: usize| wave(i) + ((i * 128 + j) as f64).sin() * 1e5 % 0.01;
     write_npy(bench.path("noisy.npy"), &Array2::from_shape_fn((128, 128), |(i, j)| noisy(i, j))).unwrap();
     bench.write("works.txt", &("1e-4 ".repeat(16) + &"2e-4 ".repeat(16) + "\n").repeat(32));
+    bench.write("hardness.txt", &("0.1 ".repeat(32) + "\n").repeat(32));
     bench.write("waves.dat", "2, 1, 0.01, 0\n");
     bench.write("table.csv", "0,2e-2\n5e-3,1e-2\n1e-2,0\n");
     let study = "command = \"sweep\"\nheights = \"heights.npy\"\nmean-gaps = [0.02]\nout = \"study.csv\"\n";

@@ -45,6 +45,10 @@ const FLAT: f64 = 4.0 * f64::EPSILON;
 /// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
 const UNLIKE: f64 = 0.05;
 
+/// The pressure over the contact modulus E* that few solids bear, and the share of the load above it that is most.
+const BORNE: f64 = 0.1;
+const MOST: f64 = 0.5;
+
 /// The resolution measure μ_ρ that the grid resolves.
 const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
@@ -53,7 +57,8 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 /// A warning refuses and changes nothing, and the reader decides whether it matters. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the
 /// contact modulus beside them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve,
-/// [`of_solution`](Self::of_solution) at its answer, and [`of_images`](Self::of_images) at that on a mirrored map.
+/// [`of_solution`](Self::of_solution) and [`of_hardness`](Self::of_hardness) at its answer, and
+/// [`of_images`](Self::of_images) at that on a mirrored map.
 ///
 /// ```
 /// use asperity_maps::warning::{Warning, WarningCode};
@@ -299,6 +304,40 @@ impl Warning {
         let text = text.with(message).of_severity(greatest / modulus);
         found.push(Self { code: WarningCode::BeyondModulus, text });
         found
+    }
+
+    /// An elastic solution with most of its load above a tenth of the contact modulus E*, [`Hardness`](WarningCode::Hardness):
+    /// most solids yield there. On a steep surface only a hardness makes its contact one of real surfaces.
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// use asperity::{Control, Grid, Hardness, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
+    /// let grid = Grid::square(32, 1.0)?;
+    /// let steep = Surface::wave_2d(grid, 0.2, 2)?;
+    /// let mut problem = Problem::new(&steep, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let control = Control::MeanPressure(0.05);
+    /// assert!(Warning::of_hardness(&Solver::default().solve(&mut problem, control)?).is_some());
+    /// let mut soft = Solver { settings: Settings::default(), constraint: Hardness::new(0.3)? };
+    /// assert!(Warning::of_hardness(&soft.solve(&mut problem, control)?).is_none());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn of_hardness<T: Real>(solution: &Solution<T>) -> Option<Self> {
+        let modulus = solution.report.modulus;
+        let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
+        let (all, above) = pressures().fold((0.0, 0.0), |(all, above), pressure| {
+            (all + pressure, if pressure > BORNE * modulus { above + pressure } else { above })
+        });
+        if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
+            return None;
+        }
+        let mut text = Text::default();
+        let message = format!(
+            "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which most \
+             solids yield: if the slopes are right, give the hardness of the softer body (hardness)",
+            Self::figure(100.0 * above / all),
+            text.pressure(BORNE * modulus)
+        );
+        Some(Self { code: WarningCode::Hardness, text: text.with(message).of_severity(above / all) })
     }
 
     /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images):

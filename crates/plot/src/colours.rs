@@ -13,6 +13,9 @@ pub(super) const MISSING: Colour = [201, 120, 199];
 /// The colour of attraction without contact.
 pub(super) const ATTRACTIVE: Colour = [107, 174, 214];
 
+/// The colour of nodes that have yielded.
+pub(super) const YIELDED: Colour = [213, 94, 0];
+
 /// Values of one sign that are all weaker than this share of the other sign's greatest are not shown.
 const NOISE: f64 = 1e-6;
 
@@ -34,8 +37,8 @@ pub enum Colouring {
     /// load, as a [`LoadScale`] has it. The colour bar then has an arrow and the extreme value at this end, and the
     /// caption the share of the load that is carried beyond it.
     Diverging,
-    /// Classes of contact: black where the value is positive (contact), blue where it is negative (attractive), and
-    /// white where it is zero (apart), with a legend; [`Solution::regions`](asperity::Solution::regions) has them.
+    /// Classes of contact: black where the value is positive (contact), orange where it exceeds 1 (yielded), blue where it
+    /// is negative (attractive), and white where it is zero (apart), with a legend; [`Solution::regions`](asperity::Solution::regions) has them.
     ///
     /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
     Contact,
@@ -131,6 +134,7 @@ impl Colours {
                 return match value {
                     0.0 => WHITE,
                     _ if value < 0.0 => ATTRACTIVE,
+                    _ if value > 1.0 => YIELDED,
                     _ => BLACK,
                 };
             }

@@ -4,7 +4,7 @@ use ndarray::ArrayView2;
 
 use super::Picture;
 use super::chart::{COLOURS, WIDTH, pieces};
-use super::colours::{ATTRACTIVE, Colouring, Colours, MISSING, cluster_colour, drawable};
+use super::colours::{ATTRACTIVE, Colouring, Colours, MISSING, YIELDED, cluster_colour, drawable};
 use super::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, label_length, room,
 };
@@ -247,6 +247,9 @@ impl<'a> Map<'a> {
         let mut entry = |colour, text: &str| legend.push(Entry { colour, line: false, text: text.to_owned() });
         if self.colouring == Colouring::Contact {
             entry(BLACK, "contact");
+            if self.values.iter().any(|v| *v > 1.0) {
+                entry(YIELDED, "yielded");
+            }
             if self.values.iter().any(|v| *v < 0.0) {
                 entry(ATTRACTIVE, "attractive");
             }

@@ -98,6 +98,14 @@ record! {
         elastic_energy: f64 = report.elastic_energy,
         /// The adhesive energy.
         adhesive_energy: f64 = report.adhesive_energy,
+        /// The share of the nodes that have yielded, at a hardness.
+        plastic_fraction: Option<f64> = report.plastic.map(|plastic| plastic.fraction),
+        /// The greatest plastic depth.
+        plastic_depth_max: Option<f64> = report.plastic.map(|plastic| plastic.depth_max),
+        /// The mean plastic depth.
+        plastic_depth_mean: Option<f64> = report.plastic.map(|plastic| plastic.depth_mean),
+        /// The energy that yielding has dissipated.
+        plastic_energy: Option<f64> = report.plastic.map(|plastic| plastic.energy),
         /// The stability, if it was asked for.
         stability: Option<Steadiness> = found.stability,
         /// The contact stiffness, a pressure per length, if it was asked for.
@@ -155,6 +163,7 @@ impl<T: Real> Found<T> {
             shape: grid.shape(),
             lengths: grid.lengths(),
             tolerance: report.tolerance,
+            adhesion: Adhesion { hardness: report.plastic.map(|plastic| plastic.hardness), ..inputs.adhesion.clone() },
             ..inputs.clone()
         };
         let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use asperity::{Grid, MaugisDugdale, Real, Result, Tabulated};
+use asperity::{Grid, Hardness, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +35,10 @@ pub struct Adhesion {
     pub wall: Wall,
     /// The stiffness of the springs of a wall that has some, a pressure per length.
     pub wall_stiffness: Option<f64>,
+    /// The hardness at which the surface yields, a pressure, if it does; of a hardness that varies its mean, in reports.
+    pub hardness: Option<f64>,
+    /// The file of a hardness that varies.
+    pub hardness_map: Option<String>,
 }
 
 impl Default for Adhesion {
@@ -57,6 +61,8 @@ impl Adhesion {
             work_of_adhesion_map: None,
             wall: Wall::default(),
             wall_stiffness: None,
+            hardness: None,
+            hardness_map: None,
         }
     }
 
@@ -68,6 +74,11 @@ impl Adhesion {
     /// Whether there is adhesion.
     pub fn adheres(&self) -> bool {
         self.law != LAWS[0].name
+    }
+
+    /// Whether the surface yields.
+    pub fn yields(&self) -> bool {
+        self.hardness.is_some() || self.hardness_map.is_some()
     }
 
     /// The value of a parameter in words, if it is given.
@@ -142,6 +153,19 @@ impl Adhesion {
                 self.law
             ));
         }
+        let [hardness, map] = ["hardness", "hardness_map"].map(&named);
+        if let (Some(_), Some(_)) = (self.hardness, &self.hardness_map) {
+            return Err(format!(
+                "{hardness} is given beside {map}, which says it at every node: leave one of them out"
+            ));
+        }
+        if self.yields() && self.wall != Wall::Hard {
+            let given = if self.hardness.is_some() { hardness } else { map };
+            let chosen = self.wall;
+            return Err(format!(
+                "{given} is given, but {wall} {chosen} does not yield: leave it out, or choose {wall} hard"
+            ));
+        }
         let stiffness = named("wall_stiffness");
         match (self.wall.has_springs(), self.wall_stiffness) {
             (true, None) => Err(format!("{wall} {} lacks {stiffness}: give it, a pressure per length", self.wall)),
@@ -154,12 +178,16 @@ impl Adhesion {
         }
     }
 
-    /// The wall as a solve takes it.
+    /// The wall as a solve takes it, with a hardness at the nodes of the surface where it varies.
     ///
     /// # Errors
-    /// Those of [`Constraint::new`].
-    pub fn constraint<T: Real>(&self) -> Result<Constraint<T>> {
-        Constraint::new(self.wall, self.wall_stiffness)
+    /// Those of [`Constraint::new`] and [`Hardness`].
+    pub fn constraint<T: Real>(&self, hardness: Option<ArrayView2<'_, f64>>) -> Result<Constraint<T>> {
+        let hardness = match hardness {
+            Some(varying) => Some(Hardness::varying(varying.to_owned())?),
+            None => self.hardness.map(Hardness::new).transpose()?,
+        };
+        Constraint::new(self.wall, self.wall_stiffness, hardness)
     }
 
     /// The law, whose works of adhesion do not vary, with the law of its table, if it has one.

@@ -3,6 +3,7 @@
 use asperity::{Control, Method};
 
 use crate::accuracy::Goal;
+use crate::adhesion::Adhesion;
 
 /// The load of a solve, and the findings that are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,13 +33,14 @@ impl Asked {
         Self { control, fraction, nested, other_branch: false, stability: false, leave: false, stiffness: false, goal }
     }
 
-    /// Refuses what excludes each other, in a solve by a method with adhesion or without it, from a start that is given
-    /// or the default.
+    /// Refuses what excludes each other, in a solve by a method with an adhesion and a wall, from a start that is given or
+    /// the default.
     ///
     /// # Errors
     /// The reason and the remedy, for [`worded`](crate::worded).
-    pub fn check(&self, adhesive: bool, method: Method, started: bool) -> Result<(), String> {
-        self.check_branches(adhesive, method)?;
+    pub fn check(&self, adhesion: &Adhesion, method: Method, started: bool) -> Result<(), String> {
+        self.check_branches(adhesion.adheres(), method)?;
+        self.check_hardness(adhesion, method)?;
         let (fraction, nested, tested) = (self.fraction.is_some(), self.nested == Some(true), self.stability);
         let chosen = [
             ("{initial_gap}", started),
@@ -64,6 +66,21 @@ impl Asked {
             }
             _ => return Ok(()),
         })
+    }
+
+    /// Refuses what is known of elastic contact alone where the surface yields.
+    fn check_hardness(&self, adhesion: &Adhesion, method: Method) -> Result<(), String> {
+        let elastic = "a surface that yields does not come back, as its test and its tangent take for granted";
+        let (key, reason) = match self {
+            _ if !adhesion.yields() => return Ok(()),
+            _ if method == Method::Rey2017 => ("{method=rey2017}", "it has no form for a surface that yields"),
+            Self { leave: true, .. } => ("{leave}", elastic),
+            Self { stability: true, .. } => ("{stability}", elastic),
+            Self { stiffness: true, .. } => ("{stiffness}", elastic),
+            Self { goal: Some(_), .. } => ("{accuracy}", "the error of the grid is known of elastic contact alone"),
+            _ => return Ok(()),
+        };
+        Err(format!("{key} and {{hardness}}: {reason}: leave one of them out"))
     }
 
     /// Refuses both branches where there is nothing to be compared.

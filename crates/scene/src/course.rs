@@ -38,6 +38,8 @@ pub struct Course<T> {
     way: Way,
     /// Whether the contact stiffness of each state is found
     stiffness: bool,
+    /// Whether the surface yields
+    yields: bool,
     start: Option<Array2<T>>,
     /// The number of states so far
     states: usize,
@@ -77,6 +79,7 @@ const STATE: &str = "control control_value mean_pressure mean_contact_pressure m
 const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
 pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
 const BALANCE: &str = "work dissipated imbalance event energy_drop";
+const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth_mean plastic_energy";
 
 const WITHDRAWAL: &str = "withdrawal";
 
@@ -106,7 +109,12 @@ impl<T: Real> Course<T> {
     pub fn new(way: Way, stiffness: bool) -> Self {
         let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
         let pace = way.least_states().map(|least| Pace::new(least, 0, 0));
-        Self { way, stiffness, start: None, states: 0, place, leg_ends: false, pace }
+        Self { way, stiffness, yields: false, start: None, states: 0, place, leg_ends: false, pace }
+    }
+
+    /// The course of a surface that yields, or does not.
+    pub fn yielding(self, yields: bool) -> Self {
+        Self { yields, ..self }
     }
 
     /// The course from a gap in the place of the default start.
@@ -144,7 +152,8 @@ impl<T: Real> Course<T> {
             Way::Cycle(..) => ["leg direction", STATE, BALANCE, OUTCOME, INPUTS],
         };
         let stiffness = if self.stiffness { "contact_stiffness normal_stiffness" } else { "" };
-        all.into_iter().chain([stiffness]).flat_map(str::split_whitespace).collect()
+        let plastic = if self.yields { PLASTIC } else { "" };
+        all.into_iter().chain([stiffness, plastic]).flat_map(str::split_whitespace).collect()
     }
 
     /// The loads of the rows, where these are known before.
@@ -206,9 +215,16 @@ impl<T: Real> Course<T> {
         let (solver, problem) = posed.parts()?;
         let start = this.start.take();
         let fields = &mut this.place.fields;
+        if this.yields && done == 0 {
+            // another course, or a state that was not kept, may have flattened it
+            problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
+        }
         let (solution, search, step) = match &this.way {
             Way::Sweep(loads) => {
                 let Some(&load) = loads.get(done) else { return Ok(None) };
+                // the surface as it has yielded, also under the loads of another run
+                let depth = if this.yields && done > 0 { fields.pop() } else { None };
+                depth.map_or(Ok(()), |depth| problem.flatten(depth.view()))?;
                 let before = &loads[done.saturating_sub(fields.len())..done];
                 let history = before.iter().copied().zip(mem::take(fields)).collect();
                 let mut sweep = Sweep::new(solver, problem, [load]).continuing(history);
@@ -216,8 +232,10 @@ impl<T: Real> Course<T> {
                     sweep = sweep.starting_from(start);
                 }
                 let Some(solution) = sweep.next_observed(observe) else { return Ok(None) };
-                *fields = sweep.into_history().into_iter().map(|(_, gap)| gap).collect();
-                (solution?, None, None)
+                let gaps = sweep.into_history().into_iter().map(|(_, gap)| gap);
+                let solution = solution?;
+                *fields = gaps.chain(solution.plastic_depth.clone()).collect();
+                (solution, None, None)
             }
             Way::Search(fractions) => {
                 let Some(&fraction) = fractions.get(done) else { return Ok(None) };

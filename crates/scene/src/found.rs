@@ -8,11 +8,12 @@ use asperity::contact::{ContactStatistics, Original};
 use asperity::nested::Level;
 use asperity::stability::ContactStiffness;
 use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
-use asperity_maps::warning::Warning;
+use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::{Array2, ArrayView2};
 
 use crate::compiled::compiled;
 use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
+use crate::told::Told;
 
 /// The solution of a contact problem, with all that was asked for beside it.
 pub struct Found<T> {
@@ -94,17 +95,20 @@ impl<T: Real> Found<T> {
     }
 
     /// The same by nested grids, with the applications on all of them.
-    pub(crate) fn by(self, levels: Vec<Level>, applications: f64) -> Self {
+    pub(crate) fn by(self, mut levels: Vec<Level>, applications: f64) -> Self {
+        if has_yielded(&self.solution.report) {
+            levels.iter_mut().for_each(|level| level.area.corrected_contact_fraction = f64::NAN);
+        }
         let stiffness = levels.last().and_then(|finest| finest.stiffness);
         Self { levels: Some(levels), equivalent_applications: Some(applications), stiffness, ..self }
     }
 
-    /// The probable mistakes that the solution shows.
+    /// The probable mistakes that the solution shows, beside those of its input.
     ///
     /// # Errors
     /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
-    pub fn warnings(&self) -> Result<Vec<Warning>> {
-        warnings_of(&self.solution, self.sight.original)
+    pub fn warnings(&self, of_input: &[Told]) -> Result<Vec<Warning>> {
+        warnings_of(&self.solution, self.sight.original, of_input)
     }
 
     /// The solution on the part of a mirrored map of which results are.
@@ -131,13 +135,16 @@ impl<T: Real> Sight<T> {
 
     fn see((this, [gap, pressure, contact_pressure]): (&Self, [ArrayView2<'_, T>; 3])) -> Result<Seen> {
         let (law, modulus) = (&this.law, this.report.modulus);
-        let found = match &this.original {
+        let mut found = match &this.original {
             Some(original) => original.statistics_of_fields(gap, contact_pressure, modulus, law)?,
             None => {
                 let body = (this.report.boundary, modulus);
                 ContactStatistics::of_fields(gap, contact_pressure, &this.grid, body, law)?
             }
         };
+        if has_yielded(&this.report) {
+            found.corrected_contact_fraction = f64::NAN;
+        }
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let extremes = pressure.iter().fold(none, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
         Ok((found, this.grid.extremes(extremes)))
@@ -150,12 +157,25 @@ impl<T: Real> Sight<T> {
     }
 }
 
-/// The probable mistakes that a solution shows; of the whole of an `original`, whether its images differ from it.
+/// Whether a surface has yielded: gap and pressure then tell no edge of the contact between the nodes, as they are not
+/// those of an elastic one.
+fn has_yielded(report: &Report) -> bool {
+    report.plastic.is_some_and(|plastic| plastic.fraction > 0.0)
+}
+
+/// The probable mistakes that a solution shows; of the whole of an `original`, whether its images differ from it, and of
+/// a surface that is steep by the warnings of its input, whether it lacks a hardness.
 ///
 /// # Errors
 /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
-pub fn warnings_of<T: Real>(solution: &Solution<T>, original: Option<Original>) -> Result<Vec<Warning>> {
+pub fn warnings_of<T: Real>(
+    solution: &Solution<T>,
+    original: Option<Original>,
+    of_input: &[Told],
+) -> Result<Vec<Warning>> {
     let mut found = Warning::of_solution(solution);
+    let steep = of_input.iter().any(|told| told.code == WarningCode::Steep.name());
+    found.extend(if steep { Warning::of_hardness(solution) } else { None });
     let images = original.map(|original| Warning::of_images(&original, solution)).transpose()?;
     found.extend(images.flatten());
     Ok(found)

@@ -19,6 +19,8 @@ pub struct Fields<'a> {
     pub law_table: Option<&'a ArrayRef2<f64>>,
     /// The works of adhesion, where they vary.
     pub works: Option<&'a ArrayRef2<f64>>,
+    /// The hardness, where it varies.
+    pub hardness: Option<&'a ArrayRef2<f64>>,
     /// The gap from which to start, if it is given.
     pub start: Option<&'a ArrayRef2<f64>>,
     /// Whether the law is another one than those of its name and parameters.
@@ -69,7 +71,10 @@ pub(crate) fn identity<T: Real>(
         // a table of a wall without springs has none
         identity.insert("wall_stiffness".to_owned(), stiffness.to_string().into());
     }
-    // nor has one of a half-space a body
+    // nor has one of a surface that does not yield a hardness
+    identity.extend(adhesion.hardness.map(|hardness| ("hardness".to_owned(), hardness.to_string().into())));
+    identity.extend(given.hardness.map(|hardness| ("hardness_map".to_owned(), field(hardness).into())));
+    // nor one of a half-space a body
     identity.extend(inputs.elastic.given().map(|(key, value)| (key.to_owned(), value.into())));
     if let Some(symbol) = &inputs.elastic.symbol {
         identity.insert("symbol_values".to_owned(), symbol.fingerprint(grid).to_string().into());

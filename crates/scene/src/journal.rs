@@ -207,7 +207,7 @@ fn resume(
         if there != here {
             let name = key.replace('_', " ");
             return refuse(match key.as_str() {
-                "heights" | "initial_gap" | "law_table" | "work_of_adhesion_map" => {
+                "heights" | "initial_gap" | "law_table" | "work_of_adhesion_map" | "hardness_map" => {
                     format!("belongs to another run, with another file of its {name}")
                 }
                 _ => format!("belongs to another run, whose {name} is {}, and not {}", bare(there), bare(here)),

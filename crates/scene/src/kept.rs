@@ -1,4 +1,5 @@
-//! The fields of the rows of a table, kept in a folder: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy.
+//! The fields of the rows of a table, kept in a folder: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy,
+//! and where the surface yields plastic_depth-0001.npy.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use crate::output::check_free;
 use crate::processes::Processes;
 use crate::scalar::Scalar;
 
-const FIELDS: [&str; 3] = ["gap", "pressure", "contact_pressure"];
+const FIELDS: [&str; 4] = ["gap", "pressure", "contact_pressure", "plastic_depth"];
 
 /// The folder of the fields, if they are kept.
 #[derive(Clone, Copy)]
@@ -40,7 +41,7 @@ impl Kept<'_> {
         let create = || Ok(OutputFolder::create(out, &[], true)?);
         let folder = processes.agree(processes.is_first().then(create).transpose())?;
         let gap = gap_to_write(solution);
-        let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
+        let fields = [&*gap, &solution.pressure, &solution.contact_pressure].into_iter().chain(&solution.plastic_depth);
         let named: Vec<_> = FIELDS.iter().zip(fields).map(|(name, field)| (file(name, row), field)).collect();
         write_fields(processes, folder.as_ref(), out, solution.grid, &named)?;
         processes.first(|| folder.map_or(Ok(()), |folder| Ok(folder.commit()?)))

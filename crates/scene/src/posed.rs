@@ -267,7 +267,8 @@ impl<T: Real> Posed<T> {
     fn on_nested_grids(&self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
         let Body::Surface(surface) = &self.body else { return Ok(None) };
         let (control, settings) = (asked.control, self.solver.settings);
-        let may = !started && !asked.stability && matches!(self.solver.constraint, Constraint::Hard);
+        let may =
+            !started && !asked.stability && matches!(self.solver.constraint, Constraint::Hard | Constraint::Capped(_));
         let pays = || may && Nested::new(settings).pays(surface, &self.law, control);
         if asked.fraction.is_some() || !asked.nested.unwrap_or_else(pays) {
             return Ok(None);
@@ -290,7 +291,8 @@ impl<T: Real> Posed<T> {
         let applications = found.equivalent_applications();
         let NestedSolution { solution, levels, .. } = found;
         let mut found = self.found(solution, clock)?;
-        found.sight.open = Some((surface.clone(), levels.clone()));
+        // the error of the grid is known of elastic contact alone
+        found.sight.open = found.solution.report.plastic.is_none().then(|| (surface.clone(), levels.clone()));
         Ok(Some(found.by(levels, applications)))
     }
 

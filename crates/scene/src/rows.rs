@@ -50,7 +50,10 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     });
     row("body", &|s| s.inputs.elastic.in_words(units));
     row("contact", &|s| share(s.contact_fraction));
-    row("corrected for its edge", &|s| Some(corrected(s.corrected_contact_fraction?, s.contact_fraction)));
+    row("corrected for its edge", &|s| {
+        let known = s.corrected_contact_fraction.filter(|share| share.is_finite())?;
+        Some(corrected(known, s.contact_fraction))
+    });
     row("nodes in contact", &|s| {
         let (nx, ny) = s.inputs.shape;
         Some(format!("{} of {}", s.contact_nodes, nx * ny - s.absent_nodes))
@@ -82,6 +85,10 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         row("adhesive energy per area", &|s| energy(s.adhesive_energy));
         row("mu_rho", &|s| Some(plain(s.mu_rho)));
     }
+    row("yielded", &|s| share(s.plastic_fraction?));
+    row("greatest plastic depth", &|s| length(s.plastic_depth_max?));
+    row("mean plastic depth", &|s| length(s.plastic_depth_mean?));
+    row("plastic work per area", &|s| energy(s.plastic_energy?));
     row("contact stiffness", &|s| Some(units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)));
     if adhesive {
         row("branch", &|s| of_branch(s.branch));

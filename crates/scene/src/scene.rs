@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use asperity::contact::Original;
 use asperity::{AdhesionLaw, Branch, Method, Real, Result, Settings, Solver, Surface};
+use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 
 use crate::account::Inputs;
@@ -92,8 +93,8 @@ impl Scene {
         }
     }
 
-    /// The problem of a surface with the law of the scene, whose results are of the `original` of a mirrored surface, or
-    /// of the whole.
+    /// The problem of a surface with the law of the scene, and a `hardness` at its nodes where that varies, whose results
+    /// are of the `original` of a mirrored surface, or of the whole.
     ///
     /// # Errors
     /// Those of [`Adhesion::constraint`].
@@ -101,9 +102,10 @@ impl Scene {
         &self,
         surface: impl Into<Arc<Surface>>,
         law: Arc<dyn AdhesionLaw<T>>,
+        hardness: Option<ArrayView2<'_, f64>>,
         original: Option<Original>,
     ) -> Result<Posed<T>> {
-        let solver = Solver { settings: self.settings(), constraint: self.adhesion.constraint()? };
+        let solver = Solver { settings: self.settings(), constraint: self.adhesion.constraint(hardness)? };
         Ok(Posed::new(surface, law, self.elastic.clone(), solver, original))
     }
 

@@ -141,6 +141,8 @@ pub(crate) fn estimate(account: &Account) -> String {
     let least = GridError::LEAST_NODES_PER_WAVE;
     if !words.is_empty() {
         return words.join(", ");
+    } else if account.inputs.adhesion.yields() {
+        return "unknown where a surface yields".to_owned();
     } else if of_accuracy.is_some() || account.nodes_per_wave >= least {
         return "unknown".to_owned();
     }

@@ -120,16 +120,18 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
         ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "layer" | "coating" | "lengths" | "shift", _) => {
             LENGTH
         }
+        ("plastic_depth_max" | "plastic_depth_mean", _) => LENGTH,
         ("perimeter", _) if !on_line => LENGTH,
         ("mean_pressure" | "net_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => PRESSURE,
         ("modulus" | "coating_modulus" | "against_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
-        ("pull_off_pressure" | "lost_pressure" | "preload", _) => PRESSURE,
+        ("pull_off_pressure" | "lost_pressure" | "preload" | "hardness", _) => PRESSURE,
         ("pull_off_force", _) => FORCE,
         ("density", _) => PER_PRESSURE,
         ("normal_force", _) => FORCE,
-        ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {
+        ("elastic_energy" | "adhesive_energy" | "plastic_energy" | "work" | "dissipated" | "energy_drop", _) => {
             ENERGY_PER_AREA
         }
+        ("work_of_adhesion", _) => ENERGY_PER_AREA,
         ("hamaker", _) => ENERGY,
         ("viscosity", _) => VISCOSITY,
         ("contact_stiffness" | "wall_stiffness", _) => PRESSURE_PER_LENGTH,

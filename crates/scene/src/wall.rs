@@ -3,7 +3,7 @@
 use std::fmt;
 
 use asperity::constraint::Update;
-use asperity::{ContactConstraint, Grid, NoWall, Penalty, Projection, Real, Result, Uzawa};
+use asperity::{ContactConstraint, Grid, Hardness, NoWall, Penalty, Projection, Real, Result, Uzawa};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,8 @@ impl fmt::Display for Wall {
 pub enum Constraint<T> {
     /// A rigid wall.
     Hard,
+    /// A rigid wall, up to a hardness at which the surface yields.
+    Capped(Hardness),
     /// No wall.
     None,
     /// Springs.
@@ -50,14 +52,15 @@ pub enum Constraint<T> {
 }
 
 impl<T: Real> Constraint<T> {
-    /// The wall of a name, with springs of a stiffness k, a pressure per length, if it has some.
+    /// The wall of a name, with springs of a stiffness k, a pressure per length, if it has some, and a hardness, if the
+    /// surface yields.
     ///
     /// # Errors
     /// Those of [`Penalty::new`] and [`Uzawa::new`]; a stiffness that is not given is zero.
-    pub fn new(wall: Wall, stiffness: Option<f64>) -> Result<Self> {
+    pub fn new(wall: Wall, stiffness: Option<f64>, hardness: Option<Hardness>) -> Result<Self> {
         let stiffness = stiffness.unwrap_or_default();
         Ok(match wall {
-            Wall::Hard => Self::Hard,
+            Wall::Hard => hardness.map_or(Self::Hard, Self::Capped),
             Wall::None => Self::None,
             Wall::Penalty => Self::Penalty(Penalty::new(stiffness)?),
             Wall::Uzawa => Self::Uzawa(Uzawa::new(stiffness)?),
@@ -69,6 +72,7 @@ impl<T: Real> ContactConstraint<T> for Constraint<T> {
     fn wall(&self) -> asperity::constraint::Wall<'_, T> {
         match self {
             Self::Hard => Projection.wall(),
+            Self::Capped(wall) => wall.wall(),
             Self::None => NoWall.wall(),
             Self::Penalty(wall) => wall.wall(),
             Self::Uzawa(wall) => wall.wall(),
@@ -77,6 +81,7 @@ impl<T: Real> ContactConstraint<T> for Constraint<T> {
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         match self {
             Self::Hard | Self::None => Ok(()),
+            Self::Capped(wall) => ContactConstraint::<T>::start(wall, grid, stiffest, tolerance),
             Self::Penalty(wall) => ContactConstraint::<T>::start(wall, grid, stiffest, tolerance),
             Self::Uzawa(wall) => wall.start(grid, stiffest, tolerance),
         }

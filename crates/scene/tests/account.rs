@@ -18,13 +18,14 @@ const OUTCOME: &str = "\
     levels equivalent_applications grid_error accuracy search mean_gap mean_pressure normal_force approach \
     spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
     edge_traction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
-    min_pressure max_pressure elastic_energy adhesive_energy stability contact_stiffness normal_stiffness \
+    min_pressure max_pressure elastic_energy adhesive_energy plastic_fraction plastic_depth_max \
+    plastic_depth_mean plastic_energy stability contact_stiffness normal_stiffness \
     departures mu_rho mu_rho_node under_resolved warnings seconds control control_value";
 const INPUTS: &str = "\
     heights against shift initial_gap part solved_shape shape lengths length_unit pressure_unit given boundary modulus \
     poisson layer base coating coating_modulus coating_poisson symbol against_modulus law work_of_adhesion range exponent \
-    hamaker law_table cut_off work_of_adhesion_map wall wall_stiffness method precision tolerance max_iterations threads \
-    version";
+    hamaker law_table cut_off work_of_adhesion_map wall wall_stiffness hardness hardness_map method precision tolerance max_iterations \
+    threads version";
 const OTHER_BRANCH: &str = "\
     branch status relative_error load_error operator_applications contact_fraction mean_gap mean_pressure \
     elastic_energy adhesive_energy distance same";
@@ -53,8 +54,12 @@ fn inputs() -> Inputs {
 
 /// A rough surface with adhesion.
 fn posed() -> Posed<f64> {
+    posed_by(scene())
+}
+
+fn posed_by(scene: Scene) -> Posed<f64> {
     let surface = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap();
-    scene().posed(surface, scene().adhesion.formula(None).unwrap().law(), None).unwrap()
+    scene.posed(surface, scene.adhesion.formula(None).unwrap().law(), None, None).unwrap()
 }
 
 fn solved(asked: &Asked) -> (Found<f64>, Account) {
@@ -162,6 +167,50 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
         }
         assert!(rows >= 3);
     }
+}
+
+#[test]
+fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
+    let scene = Scene { adhesion: Adhesion { hardness: Some(0.08), ..Adhesion::of("none") }, ..Scene::default() };
+    let inputs = scene.inputs((0, 0), (0.0, 0.0), 1);
+    let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
+    let settings = PathSettings::default().steps(3);
+    for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
+        let new = || Course::<f64>::new(way.clone(), false).yielding(true);
+        let names = new().columns();
+        assert!(names.ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
+        let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
+            let mut found = course.next(posed, &mut |_| ControlFlow::Continue(())).unwrap()?;
+            let account = found.account(course.command(), &inputs, None, Vec::new()).unwrap();
+            Some((course.row(&mut found, account, None).unwrap().cells(&names), found.solution.plastic_depth.unwrap()))
+        };
+        let (mut whole, mut problem) = (new(), posed_by(scene.clone()));
+        let (mut place, mut rows, mut deepest) = (whole.place().clone(), 0, 0.0_f64);
+        while let Some((row, depth)) = next(&mut whole, &mut problem) {
+            let mut course = new().continuing(rows, place, (0, false));
+            assert_eq!(
+                next(&mut course, &mut posed_by(scene.clone())).unwrap(),
+                (row, depth.clone()),
+                "{way:?} {rows}"
+            );
+            (place, rows) = (course.place().clone(), rows + 1);
+            deepest = deepest.max(depth.sum());
+        }
+        assert!(rows >= 3 && deepest > 0.0, "{way:?}");
+        // another course on the same problem finds the surface as it was made
+        let mut first = [new(), new()];
+        let [again, anew] = first.each_mut();
+        assert_eq!(next(again, &mut problem), next(anew, &mut posed_by(scene.clone())));
+    }
+}
+
+#[test]
+fn a_scene_with_a_hardness_is_data_and_one_without_still_reads() {
+    let adhesion = Adhesion { hardness: Some(0.25), ..Adhesion::of("none") };
+    let run = Scene { adhesion, tolerance: Some(1e-6), max_iterations: Some(2000), ..Scene::default() };
+    assert_eq!(serde_json::from_value::<Scene>(json!(run.inputs((4, 4), (1.0, 1.0), 1))).unwrap(), run);
+    let old = json!({ "modulus": 1.0, "law": "none", "wall": "hard", "wall_stiffness": null });
+    assert_eq!(serde_json::from_value::<Scene>(old).unwrap(), Scene::default());
 }
 
 #[test]

@@ -13,13 +13,14 @@ pub const GROUPS: [(&str, &str); 7] = [
     (
         "Contact",
         "contact_fraction corrected_contact_fraction contact_nodes absent_nodes perimeter clusters largest_cluster \
-         repulsive_fraction attractive_fraction patches contact_stiffness normal_stiffness",
+         repulsive_fraction attractive_fraction plastic_fraction patches contact_stiffness normal_stiffness",
     ),
-    ("Gap", "mean_gap min_gap approach"),
-    ("Pressures", "mean_contact_pressure min_pressure max_pressure edge_traction"),
+    ("Gap", "mean_gap min_gap approach plastic_depth_max plastic_depth_mean"),
+    ("Pressures", "hardness mean_contact_pressure min_pressure max_pressure edge_traction"),
     (
         "Energies",
-        "elastic_energy adhesive_energy work dissipated imbalance event energy_drop stability departures other_branch",
+        "elastic_energy adhesive_energy plastic_energy work dissipated imbalance event energy_drop stability departures \
+         other_branch",
     ),
     ("Error", "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved"),
     ("Cost", "iterations operator_applications equivalent_applications seconds"),

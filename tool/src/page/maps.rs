@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::{FINE, Page};
 use crate::outcome::Outcome;
-use crate::pictures::{MapColours, draw_clusters, draw_pressure, draw_regions};
+use crate::pictures::{MapColours, draw_clusters, draw_pressure, draw_regions, mark_yielded};
 use crate::units::Units;
 
 /// The finest resolution of the maps.
@@ -38,7 +38,7 @@ pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colou
     let least =
         report["work_of_adhesion"].as_f64().zip(report["range"].as_f64()).map(|(w, range)| NOTICEABLE * w / range);
     let least = least.filter(|_| adhesive).unwrap_or(f64::INFINITY);
-    let regions = Zip::from(&gap).and(&pressure).and(&contact_pressure).map_collect(|&gap, &pressure, &contact| {
+    let mut regions = Zip::from(&gap).and(&pressure).and(&contact_pressure).map_collect(|&gap, &pressure, &contact| {
         match contact - pressure {
             _ if contact > 0.0 || gap <= 0.0 => 1.0,
             _ if gap.is_nan() => f64::NAN,
@@ -46,6 +46,12 @@ pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colou
             _ => 0.0,
         }
     });
+    if report["plastic_fraction"].is_number() {
+        let depth = read_field(folder.join("plastic_depth.npy"))?;
+        if depth.dim() == gap.dim() {
+            mark_yielded(&mut regions, depth.view());
+        }
+    }
     // a pixel for each node, of which those of the picture are 0.25 to 0.5 points
     let dpi = (0.288 * gap.dim().0.max(gap.dim().1) as f64).clamp(FINE, FINEST);
     // the sides of an original do not meet

@@ -130,6 +130,9 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
     let per_area = if free { "" } else { " per area" };
     if let Some(last) = rows.last() {
         figures.push((format!("dissipated energy{per_area}"), told(last, "dissipated")));
+        if last["plastic_energy"].is_number() {
+            figures.push((format!("plastic work{per_area}"), told(last, "plastic_energy")));
+        }
     }
     let drop = |row: &&&Value| value(row, "energy_drop");
     if let Some(most) = jumps.iter().max_by(|a, b| drop(a).total_cmp(&drop(b))) {

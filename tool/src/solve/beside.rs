@@ -1,4 +1,4 @@
-//! The fields that a solve may leave beside gap and pressures: the softest mode, and displacements.
+//! The fields that a solve may leave beside gap and pressures: the softest mode, displacements, and the plastic depth.
 
 use asperity::{Result, Surface};
 use asperity_scene::{Found, gap_to_write};
@@ -9,7 +9,7 @@ use super::Options;
 use crate::options::Scalar;
 
 /// The files.
-pub const BESIDE: [&str; 3] = ["mode.npy", "displacement.npy", "against_displacement.npy"];
+pub const BESIDE: [&str; 4] = ["mode.npy", "displacement.npy", "against_displacement.npy", "plastic_depth.npy"];
 
 /// A kind of field that may be asked for by its name.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -21,11 +21,11 @@ pub enum Beside {
 pub type Named = (&'static str, Array2<f64>);
 
 impl Options {
-    /// The files of the fields that are asked for.
+    /// The files of the fields that are asked for, or come with a hardness.
     pub fn beside(&self) -> impl Iterator<Item = &'static str> + use<> {
         let displacement = self.fields == Some(Beside::Displacement);
         let both = displacement && self.surface.other.modulus().is_some();
-        let asked = [self.stability || self.leave, displacement, both];
+        let asked = [self.stability || self.leave, displacement, both, self.adhesion.described().yields()];
         BESIDE.into_iter().zip(asked).filter_map(|(name, asked)| asked.then_some(name))
     }
 
@@ -33,13 +33,18 @@ impl Options {
     pub fn fields_beside<T: Scalar>(&self, found: &Found<T>, surface: Option<&Surface>) -> Result<Vec<Named>> {
         let mode = found.mode.as_ref().map(|mode| mode.mapv(T::widen));
         let solution = &found.solution;
+        let depth = solution.plastic_depth.as_ref().map(|depth| depth.mapv(T::widen));
         let (own, other) = match surface {
             None => (None, None),
             Some(surface) => match found.sight.displacements(&self.surface.elastic(), solution.pressure.view())? {
                 Some([own, other]) => (Some(own), Some(other)),
-                None => (Some(gap_to_write(solution).mapv(T::widen) + surface.heights()), None),
+                None => {
+                    let mut own = gap_to_write(solution).mapv(T::widen) + surface.heights();
+                    depth.iter().for_each(|depth| own -= depth);
+                    (Some(own), None)
+                }
             },
         };
-        Ok(BESIDE.into_iter().zip([mode, own, other]).filter_map(|(name, field)| Some((name, field?))).collect())
+        Ok(BESIDE.into_iter().zip([mode, own, other, depth]).filter_map(|(name, field)| Some((name, field?))).collect())
     }
 }

@@ -29,8 +29,8 @@ impl Options {
 
     /// Refuses what excludes each other.
     pub fn check_asked(&self) -> Outcome<()> {
-        let (adhesive, started) = (self.adhesion.adheres(), self.solver.initial_gap.is_some());
-        in_options(self.asked(1.0).check(adhesive, self.solver.method.method(), started))
+        let (adhesion, started) = (self.adhesion.described(), self.solver.initial_gap.is_some());
+        in_options(self.asked(1.0).check(&adhesion, self.solver.method.method(), started))
     }
 
     /// Refuses what has no form for several processes.

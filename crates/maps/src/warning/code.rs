@@ -48,6 +48,8 @@ pub enum WarningCode {
     Scars,
     /// Much of the load stands on single nodes, as on noise.
     Noise,
+    /// Most of the load stands above a tenth of the contact modulus E*, where most solids yield.
+    Hardness,
 }
 
 impl WarningCode {
@@ -72,6 +74,7 @@ impl WarningCode {
             Self::ScanAxis => "scan-axis",
             Self::Scars => "scars",
             Self::Noise => "noise",
+            Self::Hardness => "hardness",
         }
     }
 }

@@ -1,0 +1,151 @@
+"""A cap on the contact pressure: a surface that yields, and stays flattened."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import asperity
+
+LOADS = [0.005, 0.03, 0.005, 0.03]
+
+
+@pytest.fixture(scope="module")
+def surface():
+    return asperity.surface.self_affine(48, 1.0, rms_slope=0.2, k_s=6, seed=3)
+
+
+@pytest.fixture(scope="module")
+def elastic(surface):
+    return asperity.solve(surface, modulus=1.0, mean_pressure=0.02)
+
+
+def test_pressures_are_capped_and_the_depth_is_reported(surface, elastic):
+    hardness = 0.3 * float(elastic.contact_pressure.max())
+    solution = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=hardness, tolerance=1e-8)
+    gap, pressure, depth = solution.gap, solution.contact_pressure, solution.plastic_depth
+    assert solution.converged and pressure.min() >= 0.0 and pressure.max() == hardness
+    assert depth.max() > 0.0 and np.all(pressure[depth > 0] == hardness) and np.all(gap[depth > 0] == 0.0)
+    assert np.isclose(pressure.mean(), 0.02, rtol=1e-6)
+    report = solution.report
+    assert (report["hardness"], report["plastic_depth_max"]) == (hardness, depth.max())
+    assert report["plastic_fraction"] == (depth > 0).mean()
+    assert np.isclose(report["plastic_depth_mean"], depth.mean(), rtol=1e-12)
+    assert np.isclose(report["plastic_energy"], hardness * depth.mean(), rtol=1e-12)
+    assert np.isnan(report["corrected_contact_fraction"]) and "greatest plastic depth" in repr(solution)
+    # u = g + h to the surface as it is now
+    assert np.array_equal(solution.displacement, gap + (solution.heights - depth))
+    with pytest.raises(ValueError, match="read-only"):
+        depth[0, 0] = 1.0
+    assert np.array_equal(pickle.loads(pickle.dumps(solution)).plastic_depth, depth)
+
+
+def test_a_hardness_above_the_greatest_pressure_has_the_bits_of_none(surface, elastic):
+    hard = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=2 * float(elastic.contact_pressure.max()))
+    for name in ("gap", "pressure", "contact_pressure"):
+        assert np.array_equal(getattr(hard, name), getattr(elastic, name))
+    assert hard.report["iterations"] == elastic.report["iterations"]
+    assert hard.plastic_depth.max() == 0.0 and hard.report["plastic_fraction"] == 0.0
+    assert elastic.plastic_depth is None
+    nothing = ("hardness", "hardness_map", "plastic_fraction", "plastic_depth_max", "plastic_depth_mean", "plastic_energy")
+    assert all(elastic.report[key] is None for key in nothing) and "yielded" not in repr(elastic)
+
+
+def test_a_hardness_may_vary_and_have_a_unit(surface, elastic):
+    soft = 0.2 * float(elastic.contact_pressure.max())
+    nodes = np.where(np.arange(48)[:, None] < 24, soft, 1.0) * np.ones(48)
+    varying = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=nodes)
+    assert np.all(varying.contact_pressure <= nodes) and varying.contact_pressure.max() > soft
+    assert varying.plastic_depth[:24].max() > 0.0 and varying.plastic_depth[24:].max() == 0.0
+    assert (varying.report["hardness"], varying.report["hardness_map"]) == (nodes.mean(), "array")
+    metres = asperity.Topography(1e-6 * surface.heights, (1e-6, 1e-6))
+    text = asperity.solve(metres, modulus="1GPa", mean_pressure="20MPa", hardness="100MPa")
+    assert text.report["hardness"] == 1e8 and text.report["given"]["hardness"] == "100MPa"
+    pascals = asperity.solve(metres, modulus="1GPa", mean_pressure="20MPa", hardness=np.full((48, 48), 1e8))
+    assert np.array_equal(pascals.contact_pressure, text.contact_pressure)
+    with pytest.raises(ValueError, match="hardness is 1.0, without a unit"):
+        asperity.solve(metres, modulus="1GPa", mean_pressure="20MPa", hardness=1.0)
+    with pytest.raises(ValueError, match="m is a unit of something else"):
+        asperity.solve(metres, modulus="1GPa", mean_pressure="20MPa", hardness="1m")
+    with pytest.raises(ValueError, match="hardness"):
+        asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=np.ones((48, 24)))
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"stability": True}, "stability and hardness"),
+        ({"leave": True}, "leave and hardness"),
+        ({"stiffness": True}, "stiffness and hardness"),
+        ({"accuracy": 0.1}, "accuracy and hardness"),
+        ({"method": "rey2017"}, "method='rey2017' and hardness"),
+        ({"wall": asperity.Penalty(100.0)}, "wall penalty does not yield"),
+        ({"hardness": 0.02}, "mean pressure.*below the hardness"),
+        ({"hardness": 0.0}, "hardness is 0"),
+        ({"hardness": np.full((48, 48), np.nan)}, "hardness"),
+    ],
+)
+def test_what_does_not_fit_is_refused(surface, given, message):
+    with pytest.raises(ValueError, match=message):
+        asperity.solve(surface, **{"modulus": 1.0, "mean_pressure": 0.02, "hardness": 0.2, **given})
+    if "stiffness" in given:
+        with pytest.raises(ValueError, match=message):
+            asperity.sweep(surface, modulus=1.0, mean_pressures=LOADS, hardness=0.2, stiffness=True)
+
+
+def test_an_equilibrium_that_has_yielded_has_no_stability(surface):
+    solution = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=0.2)
+    with pytest.raises(ValueError, match="does not come back"):
+        asperity.stability(solution)
+
+
+def test_a_sweep_keeps_the_depth_also_where_a_solve_was_interrupted(surface):
+    given = {"modulus": 1.0, "mean_pressures": LOADS, "hardness": 0.08}
+    solutions = list(asperity.sweep(surface, **given))
+    energies = [solution.report["plastic_energy"] for solution in solutions]
+    assert 0.0 < energies[0] < energies[1] and np.allclose(energies[1:], energies[1], rtol=1e-4)
+    interrupts = iter([True, False, False, True, False, False, False, False])
+
+    class Once:
+        def __init__(self):
+            self.raises = next(interrupts)
+
+        def __call__(self, state):
+            if self.raises and state.iteration > 2:
+                self.raises = False
+                raise KeyboardInterrupt
+
+    observe = [Once()]
+    sweep = asperity.sweep(surface, **given, observe=lambda state: observe[0](state))
+    found = []
+    while len(found) < len(LOADS):
+        try:
+            found.append(next(sweep))
+        except KeyboardInterrupt:
+            pass
+        observe[0] = Once()
+    for one, other in zip(found, solutions, strict=True):
+        assert np.array_equal(one.gap, other.gap) and np.array_equal(one.plastic_depth, other.plastic_depth)
+
+
+def test_a_cycle_dissipates_in_the_first_loading_alone(surface):
+    loads = [1e-4, 0.03, 1e-4, 0.03, 1e-4]
+    found = asperity.cycle(surface, modulus=1.0, mean_pressures=loads, hardness=0.1, steps=10, tolerance=1e-8)
+    columns = found.columns
+    ends = [np.flatnonzero(columns["leg"] == leg)[-1] for leg in (1, 2, 3, 4)]
+    plastic, work = columns["plastic_energy"][ends], columns["work"][ends]
+    span = columns["elastic_energy"][ends[0]] + plastic[0]
+    assert plastic[0] > 0.0 and np.allclose(plastic, plastic[0], rtol=1e-5)
+    # but for the quadrature of ten steps
+    assert abs(work[1] - plastic[0]) < 1e-2 * span and abs(work[3] - work[1]) < 1e-2 * span
+    assert columns["hardness"].tolist() == [0.1] * len(columns["leg"])
+    without = asperity.sweep(surface, modulus=1.0, mean_pressures=[0.01]).columns
+    assert not any("plastic" in name or "hardness" in name for name in without)
+
+
+def test_yielded_nodes_are_drawn_with_a_legend(surface):
+    plt = pytest.importorskip("matplotlib.pyplot")
+    figure = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=0.1).plot()
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["yielded"]
+    assert len(figure.axes[0].images) == 2
+    plt.close("all")

@@ -1,0 +1,280 @@
+//! A cap on the contact pressure, end to end.
+
+use asperity_maps::io::{read_field, write_npy};
+use ndarray::{Array2, Zip};
+use serde_json::Value;
+
+use crate::bench::Bench;
+
+/// A bench with a rough surface of 48 x 48 nodes, and the greatest contact pressure on it at a mean pressure of 0.02.
+fn rough() -> (Bench, f64) {
+    let bench = Bench::new();
+    bench.said("surface --size 48 --k-s 6 --rms-slope 0.2 --seed 3 --quiet --out heights.npy");
+    bench.said("solve --heights heights.npy --mean-pressure 0.02 --quiet --out elastic");
+    let greatest = field(&bench, "elastic/contact_pressure").fold(0.0, |most: f64, p| most.max(*p));
+    (bench, greatest)
+}
+
+fn field(bench: &Bench, name: &str) -> Array2<f64> {
+    read_field(bench.path(&format!("{name}.npy"))).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn a_solve_caps_the_pressure_and_reports_what_has_yielded() {
+    let (bench, greatest) = rough();
+    let hardness = 0.3 * greatest;
+    let run = format!("solve --heights heights.npy --mean-pressure 0.02 --tolerance 1e-8 --hardness {hardness}");
+    let report = bench.reported(&format!("{run} --fields displacement --out r"));
+    let names = "contact.png contact_pressure.npy displacement.npy gap.npy plastic_depth.npy pressure.npy pressure.png \
+                 report.json scene.toml";
+    assert_eq!(bench.names("r").join(" "), names);
+    let [gap, pressure, depth] =
+        ["gap", "contact_pressure", "plastic_depth"].map(|name| field(&bench, &format!("r/{name}")));
+    Zip::from(&gap).and(&pressure).and(&depth).for_each(|&gap, &pressure, &depth| {
+        assert!((0.0..=hardness).contains(&pressure) && gap >= 0.0 && depth >= 0.0);
+        assert!(depth == 0.0 || (pressure == hardness && gap == 0.0));
+    });
+    assert!((pressure.mean().unwrap() / 0.02 - 1.0).abs() < 1e-6);
+    // u = g + h to the surface as it is now
+    let own = field(&bench, "heights") - &depth + &gap;
+    assert!(Zip::from(&own).and(&field(&bench, "r/displacement")).all(|a, b| (a - b).abs() < 1e-15));
+    let yielded = depth.iter().filter(|depth| **depth > 0.0).count() as f64 / depth.len() as f64;
+    assert!(yielded > 0.0);
+    assert_eq!((number(&report["hardness"]), number(&report["plastic_fraction"])), (hardness, yielded));
+    assert_eq!(number(&report["plastic_depth_max"]), depth.fold(0.0, |most: f64, depth| most.max(*depth)));
+    let mean = number(&report["plastic_depth_mean"]);
+    assert!((mean / depth.mean().unwrap() - 1.0).abs() < 1e-12);
+    assert!((number(&report["plastic_energy"]) / (hardness * mean) - 1.0).abs() < 1e-12);
+    // an edge between the nodes is that of elastic surfaces
+    assert!(report["corrected_contact_fraction"].is_null());
+    // the scene repeats it
+    assert!(
+        bench.read("r/scene.toml").contains(&format!("[body]\nhardness = {hardness}")),
+        "{}",
+        bench.read("r/scene.toml")
+    );
+    bench.said("run r/scene.toml --out again --quiet");
+    assert_eq!(bench.bytes("again/plastic_depth.npy"), bench.bytes("r/plastic_depth.npy"));
+    // other forms of the fields have it, and the page of the results tells it
+    bench.said(&format!("{run} --format npz,vti --no-pictures --quiet --out both"));
+    for archive in ["both/fields.npz", "both/fields.vti"] {
+        assert!(bench.bytes(archive).windows(13).any(|name| name == b"plastic_depth"), "{archive}");
+    }
+    bench.said("report r");
+    let page = bench.read("r/report.html");
+    assert!(page.contains("yielded") && page.contains("plastic depth max"), "no word of it on the page");
+}
+
+/// The report without what a hardness adds to it, and the clock.
+fn elastic(mut report: Value) -> Value {
+    let report = report.as_object_mut().unwrap();
+    report.retain(|key, _| !key.starts_with("plastic") && !["hardness", "seconds"].contains(&key.as_str()));
+    Value::Object(report.clone())
+}
+
+#[test]
+fn a_hardness_above_the_greatest_pressure_has_the_bits_of_none() {
+    let bench = Bench::new();
+    // also where coarser grids come first
+    bench.said("surface --size 256 --k-s 32 --rms-slope 0.1 --seed 5 --quiet --out heights.npy");
+    let run = "solve --heights heights.npy --mean-pressure 0.01 --no-pictures";
+    let none = bench.reported(&format!("{run} --out none"));
+    let capped = bench.reported(&format!("{run} --hardness {} --out capped", 2.0 * number(&none["max_pressure"])));
+    assert!(none["levels"].is_array());
+    for name in ["gap", "pressure", "contact_pressure"] {
+        assert_eq!(bench.bytes(&format!("capped/{name}.npy")), bench.bytes(&format!("none/{name}.npy")));
+    }
+    for key in ["plastic_fraction", "plastic_depth_max", "plastic_depth_mean", "plastic_energy"] {
+        assert_eq!((number(&capped[key]), &none[key]), (0.0, &Value::Null), "{key}");
+    }
+    assert_eq!(none["hardness"], Value::Null);
+    // the error of the grid is known of elastic contact alone
+    let without = |report: Value| {
+        let mut report = elastic(report);
+        report.as_object_mut().unwrap().remove("grid_error");
+        report
+    };
+    assert_eq!(without(capped), without(none));
+    assert!(!bench.path("none/plastic_depth.npy").exists());
+}
+
+#[test]
+fn a_hardness_varies_over_the_nodes_of_a_map() {
+    let (bench, greatest) = rough();
+    let hardness = Array2::from_shape_fn((48, 48), |(i, _)| if i < 24 { 0.2 * greatest } else { 10.0 * greatest });
+    write_npy(bench.path("hardness.npy"), &hardness).unwrap();
+    let run = "solve --heights heights.npy --mean-pressure 0.02 --no-pictures --hardness-map";
+    let report = bench.reported(&format!("{run} hardness.npy --out r"));
+    assert_eq!(
+        (&report["hardness_map"], number(&report["hardness"])),
+        (&"hardness.npy".into(), hardness.mean().unwrap())
+    );
+    let (pressure, depth) = (field(&bench, "r/contact_pressure"), field(&bench, "r/plastic_depth"));
+    assert!(Zip::from(&pressure).and(&hardness).all(|pressure, hardness| *pressure <= *hardness));
+    assert!(pressure.iter().any(|pressure| *pressure > 0.2 * greatest));
+    assert!(depth.indexed_iter().all(|((i, _), depth)| i < 24 || *depth == 0.0) && depth.sum() > 0.0);
+    bench.said("run r/scene.toml --out again --quiet");
+    assert_eq!(bench.bytes("again/gap.npy"), bench.bytes("r/gap.npy"));
+    // the file is part of the identity of a table
+    let table = "sweep --heights heights.npy --mean-pressures 0.01 --hardness-map hardness.npy --quiet --out s.csv";
+    bench.said(table);
+    write_npy(bench.path("hardness.npy"), &(2.0 * hardness)).unwrap();
+    bench.refused_with(table, &["another file of its hardness map"]);
+    write_npy(bench.path("hardness.npy"), &Array2::from_elem((24, 48), 1.0)).unwrap();
+    bench.refused_with(&format!("{run} hardness.npy --out none"), &["--hardness-map", "24 x 48", "48 x 48"]);
+    write_npy(bench.path("hardness.npy"), &Array2::from_elem((48, 48), -1.0)).unwrap();
+    bench.refused_with(&format!("{run} hardness.npy --out none"), &["hardness", "-1"]);
+    bench.refused_with(
+        &format!("{run} hardness.npy --hardness 1 --out none"),
+        &["--hardness is given beside --hardness-map"],
+    );
+}
+
+#[test]
+fn what_does_not_fit_a_hardness_is_refused_by_name_before_the_solve() {
+    let (bench, _) = rough();
+    let solve = "solve --heights heights.npy --mean-pressure 0.02 --out none --hardness 0.2";
+    for (options, parts) in [
+        ("--stability", "--stability and --hardness"),
+        ("--leave", "--leave and --hardness"),
+        ("--stiffness", "--stiffness and --hardness"),
+        ("--accuracy 0.1", "--accuracy and --hardness"),
+        ("--method rey2017", "--method rey2017 and --hardness"),
+        ("--wall penalty --wall-stiffness 100", "--wall penalty does not yield"),
+        ("--wall uzawa --wall-stiffness 100", "--wall uzawa does not yield"),
+        ("--wall none --law morse --work-of-adhesion 1e-5 --range 1e-3", "--wall none does not yield"),
+    ] {
+        bench.refused_with(&format!("{solve} {options}"), &[parts]);
+    }
+    for pressure in [0.2, 0.3] {
+        let run = format!("solve --heights heights.npy --mean-pressure {pressure} --out none --hardness 0.2");
+        bench.refused_with(&run, &["mean pressure", "below the hardness"]);
+    }
+    bench.refused_with("solve --heights heights.npy --mean-pressure 0.1 --out none --hardness -1", &["--hardness"]);
+    bench.refused_with("solve --heights heights.npy --mean-pressure 0.1 --out none --hardness 2nm", &["--hardness"]);
+    bench.refused_with(
+        "solve --heights heights.npy --mean-pressure 0.1 --out none --hardness 2GPa",
+        &["without a unit"],
+    );
+    for command in ["sweep --mean-pressures 0.01 --stiffness", "sweep --mean-pressures 0.01 --method rey2017"] {
+        let run = format!("{command} --heights heights.npy --hardness 0.2 --out none.csv");
+        bench.refused_with(&run, &["and --hardness"]);
+    }
+    let law = "--law exponential --work-of-adhesion 1e-5 --range 1e-2";
+    bench
+        .refused_with(&format!("pull-off --heights heights.npy {law} --hardness 1"), &["--hardness is given", "cycle"]);
+    bench.refused_with("laws --hardness 1", &["--hardness is given"]);
+    assert!(!bench.path("none").exists() && !bench.path("none.csv").exists());
+}
+
+/// The numbers of a column of a table.
+fn column(bench: &Bench, table: &str, name: &str) -> Vec<f64> {
+    let text = bench.read(table);
+    let k = text.lines().next().unwrap().split(',').position(|column| column == name).unwrap();
+    text.lines().skip(1).map(|row| row.split(',').nth(k).unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn a_sweep_that_goes_on_keeps_the_depth() {
+    let (bench, greatest) = rough();
+    let run = |loads: &str, out: &str| {
+        let hardness = 0.3 * greatest;
+        bench.said(&format!(
+            "sweep --heights heights.npy --mean-pressures {loads} --hardness {hardness} --fields {out} --quiet --out {out}.csv"
+        ));
+    };
+    run("0.005,0.03,0.005,0.03,0.005", "whole");
+    for loads in ["0.005", "0.005,0.03", "0.005,0.03,0.005", "0.005,0.03,0.005,0.03,0.005"] {
+        run(loads, "parts");
+    }
+    assert_eq!(bench.bytes("parts.csv"), bench.bytes("whole.csv"));
+    for row in 1..=5 {
+        for name in ["gap", "plastic_depth"] {
+            assert_eq!(
+                bench.bytes(&format!("parts/{name}-{row:04}.npy")),
+                bench.bytes(&format!("whole/{name}-{row:04}.npy"))
+            );
+        }
+    }
+    let (energy, gap) = (column(&bench, "whole.csv", "plastic_energy"), column(&bench, "whole.csv", "mean_gap"));
+    assert!(energy[0] < energy[1]);
+    // nothing more yields below the greatest load, and the surface stays flattened
+    assert!(energy[2..].iter().all(|later| (later / energy[1] - 1.0).abs() < 1e-4), "{energy:?}");
+    let depth = column(&bench, "whole.csv", "plastic_depth_mean");
+    assert!((gap[2] - depth[2] - (gap[0] - depth[0])).abs() > 1e-4 * gap[0]);
+    assert!((gap[4] / gap[2] - 1.0).abs() < 1e-5 && (gap[3] / gap[1] - 1.0).abs() < 1e-5);
+    // a table of another hardness is another one
+    let other = "sweep --heights heights.npy --mean-pressures 0.005 --fields parts --quiet --out parts.csv";
+    bench.refused_with(other, &["whose hardness is"]);
+}
+
+#[test]
+fn the_balance_of_a_cycle_closes_with_the_plastic_work_and_a_second_one_dissipates_nothing() {
+    let (bench, greatest) = rough();
+    let legs = "1e-4,0.03,1e-4,0.03,1e-4";
+    let hardness = 0.3 * greatest;
+    let run = format!(
+        "cycle --heights heights.npy --mean-pressures {legs} --steps 20 --tolerance 1e-9 --hardness {hardness}"
+    );
+    let report = bench.reported(&format!("{run} --out cycle.csv"));
+    let of = |name: &str| column(&bench, "cycle.csv", name);
+    let (leg, work, plastic) = (of("leg"), of("work"), of("plastic_energy"));
+    let ends: Vec<_> = (1..=4).map(|k| leg.iter().rposition(|leg| *leg == f64::from(k)).unwrap()).collect();
+    let yielded = plastic[ends[0]];
+    assert!(yielded > 0.0);
+    assert!(ends.iter().all(|end| (plastic[*end] / yielded - 1.0).abs() < 1e-5));
+    let energy: Vec<_> =
+        of("elastic_energy").iter().zip(&plastic).map(|(elastic, plastic)| elastic + plastic).collect();
+    let range = energy[ends[0]];
+    // but for the quadrature of the steps
+    for row in 0..work.len() {
+        let balance = energy[row] - energy[0] + of("dissipated")[row] - work[row];
+        assert!(
+            (balance - of("imbalance")[row]).abs() < 1e-9 * range && balance.abs() < 3e-3 * range,
+            "{row}: {balance:e}"
+        );
+    }
+    assert!((work[ends[1]] - yielded).abs() < 3e-3 * range);
+    assert!((work[ends[3]] - work[ends[1]]).abs() < 3e-3 * range);
+    assert_eq!(number(&report["plastic_energy"]), plastic[ends[3]]);
+    let said = bench.said(&format!("{run} --out again.csv"));
+    assert!(said.contains("dissipated by yielding"), "{said}");
+    assert_eq!(bench.bytes("again.csv"), bench.bytes("cycle.csv"));
+    bench.said("report cycle.csv");
+    assert!(bench.read("cycle.csv.html").contains("plastic work per area"));
+}
+
+#[test]
+fn a_study_varies_the_hardness() {
+    let (bench, greatest) = rough();
+    let [soft, hard] = [0.3 * greatest, 10.0 * greatest];
+    bench.write(
+        "study.toml",
+        &format!(
+            "command = \"sweep\"\nout = \"study.csv\"\nheights = \"heights.npy\"\nmean-pressures = \"0.01,0.02\"\n\
+             [vary]\nhardness = [{soft:?}, {hard:?}]\n"
+        ),
+    );
+    bench.said("study study.toml --quiet");
+    assert_eq!(column(&bench, "study.csv", "hardness"), [soft, soft, hard, hard]);
+    let depths = column(&bench, "study.csv", "plastic_depth_max");
+    assert!(depths[..2].iter().all(|depth| *depth > 0.0) && depths[2..] == [0.0; 2]);
+}
+
+#[test]
+fn numbers_with_units_are_in_the_si() {
+    let bench = Bench::new();
+    bench.said("surface --size 48 --lengths 10um --k-s 6 --rms-slope 0.2 --seed 3 --quiet --out heights.npz");
+    let run = "solve --heights heights.npz --modulus 200GPa --mean-pressure 500MPa --hardness 2GPa";
+    let report = bench.reported(&format!("{run} --out r"));
+    assert_eq!((number(&report["hardness"]), &report["given"]["hardness"]), (2e9, &"2GPa".into()));
+    assert_eq!(field(&bench, "r/contact_pressure").fold(0.0, |most: f64, p| most.max(*p)), 2e9);
+    let said = bench.said(&format!("{run} --out again"));
+    for line in ["yielded ", "greatest plastic depth ", "plastic work per area "] {
+        assert!(said.contains(line), "{said}");
+    }
+}
