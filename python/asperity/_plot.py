@@ -107,7 +107,8 @@ def _yielded(ax: Axes, yielded: NDArray[np.bool_], lengths: tuple[float, float],
 
     nodes = np.ma.masked_equal(yielded.astype(float), 0.0)
     _map(ax, nodes, lengths, length_unit, cmap=ListedColormap([_YIELDED]), vmin=0, vmax=1)
-    ax.legend(handles=[Patch(color=_YIELDED, label="yielded")], loc="upper right", fontsize="small")
+    legend = [Patch(color=_YIELDED, label="yielded")]
+    ax.figure.legend(handles=legend, loc="outside lower left", fontsize="small", frameon=False)
 
 
 def contact_and_pressure(

@@ -80,8 +80,14 @@ def test_a_solve_that_has_not_converged_is_a_status_and_a_warning(rough):
 
 
 def test_a_probable_mistake_is_a_warning_and_in_the_report(rough):
-    with pytest.warns(asperity.InputWarning, match="steep: "):
+    with (
+        pytest.warns(asperity.InputWarning, match="hardness: .* give the hardness of the softer body"),
+        pytest.warns(asperity.InputWarning, match="steep: "),
+    ):
         solution = asperity.solve(8 * rough.heights, 1.0, modulus=1.0, mean_pressure=1e-4)
+    assert [warning["code"] for warning in solution.report["warnings"]] == ["steep", "hardness"]
+    with pytest.warns(asperity.InputWarning, match="steep: "):
+        solution = asperity.solve(8 * rough.heights, 1.0, modulus=1.0, mean_pressure=1e-4, hardness=0.2)
     assert [warning["code"] for warning in solution.report["warnings"]] == ["steep"]
 
 

@@ -25,6 +25,9 @@ use crate::real::Real;
 /// The function ψ is convex, so that the certificate of a solve holds as for a rigid wall, and no spring regularises
 /// its corners. The model leaves out hardening, the volume of what is displaced, and yielding below the surface.
 ///
+/// The contact area corrected for its edge ([`ContactStatistics`](crate::contact::ContactStatistics)) and the error of the
+/// grid ([`GridError`](crate::accuracy::GridError)) are those of elastic contact: take none of a surface that has yielded.
+///
 /// ```
 /// use asperity::{Control, Grid, Hardness, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
 /// let grid = Grid::square(64, 1.0)?;
@@ -80,6 +83,11 @@ impl Hardness {
     /// The hardness H, in the mean over the nodes.
     pub fn mean(&self) -> f64 {
         self.mean
+    }
+
+    /// Whether it is given node by node.
+    pub(crate) fn varies(&self) -> bool {
+        !self.field.is_empty()
     }
 
     /// The least hardness.

@@ -176,7 +176,8 @@ impl<C> Nested<C> {
         let whole = *half_space.grid();
         let fits = half_space.abilities().boundary != Boundary::Periodic
             && surface.absent().is_none()
-            && law.hints().shape.is_none();
+            && law.hints().shape.is_none()
+            && self.solver.constraint.wall().hardness().is_none_or(|hardness| !hardness.varies());
         let part = if fits { Part::of(surface.grid().shape(), &whole, gap, law) } else { None };
         let Some(part) = part else { return Ok(None) };
         let small = part.surface(surface)?;

@@ -414,6 +414,27 @@ fn nested_grids_help_where_all_but_a_little_yields() {
 }
 
 #[test]
+fn nested_grids_take_a_hardness_that_varies_also_with_a_free_boundary() {
+    let grid = Grid::square(128, 1.0).unwrap();
+    let surface = Surface::paraboloid(grid, 2.0).unwrap();
+    let field = Array2::from_shape_fn((128, 128), |(i, _)| if i < 64 { 0.03 } else { 0.06 });
+    let constraint = Hardness::varying(field).unwrap();
+    let solver = Solver { settings: Settings::default().tolerance(1e-7), constraint };
+    let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
+    let control = Control::Force(5e-4);
+    let mut problem = Problem::new(&surface, half_space(grid).unwrap(), NoAdhesion).unwrap();
+    let alone = solver.clone().solve(&mut problem, control).unwrap();
+    assert!(alone.report.plastic.unwrap().fraction > 0.0);
+    // the contact is on a small part of the window
+    assert!(alone.report.contact_fraction < 0.25);
+    let mut nested = Nested::with_solver(solver).coarsest(32);
+    let found = nested.solve(&surface, half_space, NoAdhesion, control).unwrap();
+    assert!(found.levels.len() > 1 && found.solution.report.status == Status::Converged);
+    let error = found.solution.distance(&alone);
+    assert!(error <= 3e-7, "{error:e}");
+}
+
+#[test]
 fn what_has_no_meaning_is_refused_by_name() {
     assert!(matches!(Hardness::new(0.0), Err(Error::Value { name: "hardness", .. })));
     assert!(matches!(Hardness::new(f64::NAN), Err(Error::Value { name: "hardness", .. })));

@@ -278,3 +278,21 @@ fn numbers_with_units_are_in_the_si() {
         assert!(said.contains(line), "{said}");
     }
 }
+
+#[test]
+fn a_steep_surface_that_is_pressed_asks_for_a_hardness() {
+    let bench = Bench::new();
+    bench.said("surface --size 64 --k-s 6 --rms-slope 0.8 --seed 3 --quiet --out steep.npy");
+    let codes = |options: &str| {
+        let output = bench.run(&format!("solve --heights steep.npy --mean-pressure 0.05 {options} --force --out r"));
+        assert_eq!(output.status.code(), Some(0), "{options}");
+        let report = bench.report("r");
+        let warnings = report["warnings"].as_array().unwrap().clone();
+        warnings.iter().map(|told| told["code"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(""), ["steep", "hardness"]);
+    assert_eq!(codes("--hardness 0.5"), ["steep"]);
+    // most of the load is borne by less than a tenth of the modulus
+    bench.said("surface --size 64 --k-s 6 --rms-slope 0.1 --seed 3 --force --quiet --out steep.npy");
+    assert_eq!(codes(""), Vec::<String>::new());
+}
