@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Plan(NamedTuple):
-    """What a solve to an accuracy is likely to take, by what other surfaces took; no promise.
+    """The cost of a solve to an accuracy, as an estimate from other surfaces.
 
     Attributes
     ----------

@@ -17,8 +17,9 @@ from ._types import Quantity
 class Layer(Measured):
     """An elastic layer on a rigid base, in the place of a half-space; ``modulus`` is its contact modulus E*.
 
-    A thick layer is the half-space. A thin one is springs of stiffness M/t, or E*/t if it slides, with
-    M = E*(1 − ν)²/(1 − 2ν); a bonded one of ν = ½ has to flow sideways. The boundary is periodic.
+    A layer that is thick beside the wavelength acts as a half-space. A thin one acts as springs of the stiffness M/t,
+    with M = E*(1 − ν)²/(1 − 2ν), or of E*/t if it slides. A thin bonded layer of ν = ½ is incompressible, and has to
+    flow sideways. The boundary is periodic.
 
     Parameters
     ----------
@@ -27,7 +28,7 @@ class Layer(Measured):
     poisson : float
         Poisson's ratio ν, greater than -1 and at most 0.5.
     base : {"bonded", "sliding"}
-        Hold of the base: the layer does not move on it, or slides without friction.
+        Whether the layer is bonded to its base, or slides on it without friction.
 
     Examples
     --------
@@ -99,9 +100,9 @@ class Symbol:
     """An elastic body by the stiffness of its waves, a function of your own.
 
     A wave of the displacement u cos(qx·x + qy·y) of the surface needs the pressure k u cos(qx·x + qy·y), and k is what the
-    function returns: that of the half-space is ½E*q. The function tells all, also the scale: ``modulus`` beside it is no
-    more than the pressure of which a ``reduced_pressure`` is a part, and measures of the grid take 2k/q of the shortest
-    waves. The boundary is periodic.
+    function returns: that of the half-space is ½E*q. The function sets the scale of the stiffness, too: the
+    ``modulus`` beside it only converts a ``reduced_pressure``. Measures of the grid use the modulus 2k/q of the
+    shortest waves. The boundary is periodic.
 
     Parameters
     ----------

@@ -37,7 +37,8 @@ class Step:
     dissipated : float
         Energy dropped in jumps since the start, per area.
     imbalance : float
-        Change of the energy plus the dissipated energy less the work: zero but for quadrature and tolerance.
+        Change of the energy plus the dissipated energy less the work: zero up to the errors of quadrature and
+        tolerance.
     event : str or None
         Event before this state: ``"jump-in"``, ``"jump-out"``, ``"pull-off"``, ``"bifurcation"``, ``"limit-point"``.
     energy_drop : float or None

@@ -46,14 +46,14 @@ def prepare(
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
     axes : {"xy", "yx"}, optional
-        Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. Dimensions of a DataArray
-        that are named x and y say it themselves. The result has x along the first axis.
+        Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray whose
+        dimensions are named x and y does not need it. The result has x along the first axis.
     unit : str, optional
         Unit of the heights after ``scale``, and of the side lengths.
     missing : float or list of float, optional
-        Values that stand for missing points, as -9999, in the unit of the heights before ``scale``.
+        Values that stand for missing points, for example -9999, in the unit of the heights before ``scale``.
     scale : float, optional
-        Factor of the heights, as 1e-9 for heights in nm and side lengths in m.
+        Factor of the heights, for example 1e-9 for heights in nm and side lengths in m.
     crop : (int, int, int, int), optional
         First node along x and y, and numbers of nodes.
     flip : bool
@@ -83,16 +83,16 @@ def prepare(
         Continues the map by its mirror images: twice as many nodes along both axes. The map remembers its ``original``,
         and a solution has results of that part alone, unless it is asked for the ``whole``.
     cut_off_wavelength : float or str, optional
-        Leaves out the waves shorter than this, as where they are noise: `surface.knee_wavelength` tells from where on.
-        The map should be periodic by then.
+        Leaves out the waves shorter than this, for example those that are noise: `surface.knee_wavelength` finds where
+        noise begins. The map should be periodic by then.
     resample : (int, int), optional
         Numbers of nodes of the grid on which it is interpolated.
 
     Returns
     -------
     Topography
-        With a line in its ``log`` for each step, as the tool prints them. Probable mistakes, as a code for missing points
-        that was left among the heights, come as an `InputWarning`.
+        With a line in its ``log`` for each step, as the tool prints them. Probable mistakes, such as a code for
+        missing points that was left among the heights, come as an `InputWarning`.
 
     Examples
     --------

@@ -136,10 +136,10 @@ class Solution:
     mode : ndarray or None
         Change of the gap along which the energy is softest, of mean square 1, where stability was asked for.
     whole_gap : ndarray
-        Gap on all nodes that were solved: on a mirrored map also on the mirror images of the original, of which the other
-        fields are unless the solve was asked for the whole. ``report["part"]`` says which it is.
+        Gap on all nodes that were solved. On a mirrored map these include the mirror images, while the other fields
+        are those of the original, unless the solve was asked for the whole. ``report["part"]`` says which it is.
     topography : Topography
-        Map of the heights that were solved: with an accuracy on the grid of the answer.
+        Map of the heights that were solved. Where an accuracy was asked for, it is on the grid of the solution.
     body : Layer, Coating, Symbol or None
         Body that deforms, unless it is a half-space.
     law : object or None
@@ -323,11 +323,11 @@ class Solution:
 
     @property
     def displacement(self) -> NDArray[np.floating[Any]]:
-        """Displacement of the body that is pressed, u = g + h as long as the other one is rigid, h less the plastic depth.
+        """Displacement of the body that is pressed: u = g + h, h less the plastic depth, if the other body is rigid.
 
-        If both are elastic, ``displacement + against_displacement`` is g + h but for a constant: each is û = p̂/k of its
-        own body, wave by wave. They vanish far away with a free boundary; with a periodic one their mean is zero, or
-        the compression of a layer or a coating as a whole.
+        If both are elastic, ``displacement + against_displacement`` is g + h up to a constant. Each of the two is û =
+        p̂/k for each wave, with the stiffness k of its own body. With a free boundary they vanish far away. With a
+        periodic one their mean is zero, or the compression of a layer or a coating as a whole.
         """
         return self.gap + self._flattened if self._displacements is None else self._displacements[0]
 
@@ -388,7 +388,7 @@ class Solution:
     def edge_traction(self) -> float | None:
         """Largest traction on the outermost nodes, as a share of the largest anywhere; None with a periodic boundary.
 
-        Unless the body ends there, more than a thousandth says that the heights should go further.
+        Unless the body ends there, a value above 0.001 means that the map of the heights is too small.
         """
         return self._told["edge_traction"]
 
@@ -416,8 +416,9 @@ class Solution:
     def contact_stiffness(self) -> float | None:
         """Contact stiffness dp̄/dδ, a pressure per length; None where it was not asked for.
 
-        How much the mean pressure grows as the bodies approach each other, or the mean gap falls: a flat punch with the
-        outline of the contact. Infinite where all nodes are in contact; with adhesion it may be negative.
+        It is how much the mean pressure grows as the bodies approach each other, or as the mean gap falls, and equals
+        that of a flat punch with the outline of the contact. Infinite where all nodes are in contact; with adhesion it
+        may be negative.
         """
         return self._told["contact_stiffness"]
 

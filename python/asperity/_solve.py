@@ -69,8 +69,9 @@ def solve(
     """Presses a rough surface against an elastic half-space.
 
     Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach``, ``spring``, ``reduced_pressure`` or
-    ``contact_fraction``. Quantities are numbers in any consistent units, or all are texts with units, as
-    ``modulus="70GPa"`` and ``law=asperity.Exponential("50mJ/m2", "1nm")``: then the map is brought to metres, and all results are in the SI.
+    ``contact_fraction``. Quantities are numbers in any consistent units, or all are texts with units, such as
+    ``modulus="70GPa"`` and ``law=asperity.Exponential("50mJ/m2", "1nm")``: then the map is brought to metres, and all
+    results are in the SI.
 
     Parameters
     ----------
@@ -82,8 +83,8 @@ def solve(
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
         unless the heights bring them.
     axes : {"xy", "yx"}, optional
-        Axes of an array of heights: "xy" by default, the first is x, or "yx" for an image, [row, column]. Dimensions of a
-        DataArray that are named x and y say it themselves. Results have x along the first axis in any case.
+        Axes of an array of heights: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray
+        whose dimensions are named x and y does not need it. Results have x along the first axis in any case.
     modulus : float
         Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that deforms.
     mean_pressure : float
@@ -108,20 +109,21 @@ def solve(
         Body that deforms, a half-space by default; with a periodic boundary.
     against : array_like, Topography, SurfaceTopography, DataArray or path of a file, optional
         Heights of the surface on the other side, peaks up as they were measured, of the same shape, side lengths and
-        unit; flat without it. The other surface is turned over about the y axis as it faces this one, so that the
-        surface between both has the heights ``heights + against[::-1]``.
+        unit; flat without it. The other surface is turned over about the y axis, so that it faces this one: the
+        heights that are solved are ``heights + against[::-1]``.
     against_modulus : float, optional
         Contact modulus of the body on the other side, an elastic half-space; it is rigid without it. The compliances of
         both add.
     shift : float or (float, float), optional
-        Lengths by which the surface on the other side is moved along x and y, with a periodic boundary: any part of a
-        node, by the phases of its waves.
+        Lengths by which the surface on the other side is moved along x and y, with a periodic boundary. They need not
+        be whole nodes.
     boundary : {"periodic", "free"}
-        What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. Free
-        needs an area, and four times the memory.
+        What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. A
+        free boundary needs a map that is not a line, and takes four times the memory.
     absent_missing : bool
-        Takes missing points for absent nodes, at which nothing faces the half-space, as around a punch or in a hole.
-        There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other nodes.
+        Takes missing points for absent nodes, at which nothing faces the half-space, for example around a punch or in
+        a hole. There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other
+        nodes.
     law : Law or an object of your own, optional
         Adhesion law; none by default. `Exponential`, `MaugisDugdale`, `LennardJones`, `Morse`, `PowerLaw`,
         `VanDerWaals` and `Tabulated` are laws, `CutOff` ends one, and with `Varying` its work of adhesion differs from
@@ -143,19 +145,21 @@ def solve(
     branch : {"loading", "unloading", "both"}, optional
         Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, or that of surfaces
         pressed flat before; by default loading, and unloading under a tension or at a given mean gap. ``"both"`` finds
-        that one, and says in ``report["other_branch"]`` what the other one is, how far away, and whether it is the same.
+        this default one, and ``report["other_branch"]`` has the other one, how far away it is, and whether it is the
+        same.
     precision : {"f64", "f32"}
         Precision of the solve, and of the fields that it returns.
     start : array_like, Solution or "apart", optional
-        Gap from which to start, of the shape (Nx, Ny) of the results. With adhesion it chooses the branch. ``"apart"`` are
-        undeformed bodies that come from afar, at the ``mean_gap``, the ``approach`` or the position at rest of the
-        ``spring``: under a pull those with adhesion are found sticking otherwise.
+        Gap from which to start, of the shape (Nx, Ny) of the results. With adhesion it chooses the branch. ``"apart"``
+        starts from undeformed bodies at the ``mean_gap``, the ``approach`` or the position at rest of the ``spring``.
+        Otherwise a solve with adhesion under a pull finds the bodies sticking together.
     nested : bool, optional
         Solves on coarser grids first, where these resolve the adhesion; ``report["grid_error"]`` estimates the error of
         the grid then. None leaves it to the library, which does so where it is faster.
     observe : callable, optional
-        Called with an `Iteration` in every iteration, as ``asperity.progress()`` is. ``raise StopIteration`` in it ends
-        the solve; any other exception arrives as it was raised, with what was reached as its attribute ``solution``.
+        Called with an `Iteration` in every iteration, for example ``asperity.progress()``. ``raise StopIteration`` in
+        it ends the solve; any other exception arrives as it was raised, with what was reached as its attribute
+        ``solution``.
     stability : bool
         Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
     leave : bool
@@ -164,10 +168,11 @@ def solve(
         Finds the contact stiffness, how much the load grows as the bodies approach each other: ``contact_stiffness``
         and ``normal_stiffness`` of the solution.
     accuracy : float, optional
-        Relative error that is wanted, as 0.01. Chooses the tolerance, solves on coarser grids too, and interpolates the
-        heights on finer ones until the estimated error is as small: the fields, and ``heights`` and ``topography`` of
-        the solution, are on the finest grid. The logger ``asperity`` says before what that is likely to take, and
-        ``plan`` of the solution keeps it. A tolerance beside it may be smaller than the one that it chooses.
+        Relative error that is wanted, such as 0.01. Chooses the tolerance, solves on coarser grids too, and
+        interpolates the heights on finer ones until the estimated error is as small: the fields, and ``heights`` and
+        ``topography`` of the solution, are on the finest grid. Before the solve, the logger ``asperity`` says how much
+        time and memory that is likely to take; ``plan`` of the solution has the same. A tolerance beside it may be
+        smaller than the one that it chooses.
     accuracy_of : {"area", "gap", "pressure", "stiffness"}, optional
         Quantity that has the accuracy: the contact area corrected for its edge, by default; the mean gap or the mean
         pressure, if it is not given; or the contact stiffness.

@@ -242,7 +242,7 @@ def fourier(
 
 
 def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> SurfaceStatistics:
-    """Heights, slopes and curvatures in numbers.
+    """Computes the statistics of heights, slopes and curvatures.
 
     Parameters
     ----------
@@ -262,7 +262,7 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
 
 
 def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> PowerSpectralDensity:
-    """The power spectral density, averaged over directions.
+    """Computes the power spectral density, averaged over directions.
 
     Parameters
     ----------
@@ -287,10 +287,10 @@ def spectrum(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrde
 
 
 def knee_wavelength(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> float | None:
-    """The wavelength at which the power spectral density flattens to a floor of noise.
+    """Finds the wavelength at which the power spectral density flattens to a floor of noise.
 
-    Noise and surface have one density there, and shorter waves tell of the noise: `asperity.prepare` leaves them out by
-    ``cut_off_wavelength``.
+    Surface and noise have the same density there, and shorter waves are mostly noise. `asperity.prepare` leaves them
+    out by ``cut_off_wavelength``.
 
     Parameters
     ----------

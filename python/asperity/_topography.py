@@ -22,7 +22,7 @@ _EQUIDISTANT = 1e-3
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Topography:
-    """A map of heights with what belongs to it.
+    """A map of heights with its side lengths, its unit and its source.
 
     Every function that takes heights takes a ``Topography`` too, and needs no ``lengths`` then.
 

@@ -9,12 +9,12 @@ import warnings
 class ConvergenceWarning(UserWarning):
     """A solve that has not converged, or not to what was asked: its ``status`` and ``report`` say how it ended.
 
-    An equilibrium whose stability was asked for, and that would not last, is one too.
+    It is also given for an unstable equilibrium, if its stability was asked for.
     """
 
 
 class AccuracyWarning(UserWarning):
-    """An accuracy that was asked for and not reached: ``report["grid_error"]`` says how far it got."""
+    """An accuracy that was asked for and not reached: ``report["grid_error"]`` has the estimated error."""
 
 
 class InputWarning(UserWarning):

@@ -1,4 +1,4 @@
-"""Exact solutions, at many loads at once: what a solve should come to.
+"""Exact solutions, at many loads at once, to compare solves with.
 
 A solution gives states at given loads, contact radii, approaches or mean gaps, of any shape; a state gives its numbers
 in that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``.

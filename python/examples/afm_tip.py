@@ -39,7 +39,6 @@ cycle = asperity.cycle(
     boundary="free",
     springs=[(stiffness, position) for position in (-6e-9, 1e-9, -12e-9)],
     steps=40,
-    smallest_step=1e-3,
 )
 columns = cycle.columns
 for event in cycle.events:

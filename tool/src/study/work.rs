@@ -112,7 +112,8 @@ pub fn solve(
     };
     let left: Vec<_> = chosen.iter().copied().filter(is_left).collect();
     let [next, done] = [(); 2].map(|()| AtomicUsize::new(0));
-    let refusals = Mutex::new(HashMap::new());
+    // a warning with a code is said of one case, and not again of the next: the file of warnings has the cases
+    let (refusals, said) = (Mutex::new(HashMap::new()), Mutex::new(HashSet::new()));
     let told = |number: usize| format!("case {}: {}", number + 1, study.told(&study.cases[number]));
     let stand = |done: usize| {
         let (done, all) = (before + done, before + left.len());
@@ -125,7 +126,10 @@ pub fn solve(
             Ok(None) => return false,
             Ok(Some(warnings)) => {
                 let name = told(number);
-                warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
+                let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
+                let new = warnings.into_iter().filter(|line| !line.contains(": ") || said.insert(line.clone()));
+                new.for_each(|line| complain("warning", &format!("{name}: {line}")));
+                drop(said);
                 let done = done.fetch_add(1, Relaxed) + 1;
                 stand(done);
                 let width = left.len().to_string().len();
