@@ -421,7 +421,7 @@ fn nested_grids_take_a_hardness_that_varies_also_with_a_free_boundary() {
     let constraint = Hardness::varying(field).unwrap();
     let solver = Solver { settings: Settings::default().tolerance(1e-7), constraint };
     let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
-    let control = Control::Force(5e-4);
+    let control = Control::Force(4e-3);
     let mut problem = Problem::new(&surface, half_space(grid).unwrap(), NoAdhesion).unwrap();
     let alone = solver.clone().solve(&mut problem, control).unwrap();
     assert!(alone.report.plastic.unwrap().fraction > 0.0);

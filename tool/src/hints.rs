@@ -81,12 +81,16 @@ fn of_value(command: &Command, value: &str, before: &str) -> Vec<String> {
     hints
 }
 
-/// For several values in the place of one, or in one word.
+/// For several values in the place of one, in one word or in a file.
 fn of_several(tool: &Command, command: &Command, word: &str, value: &str) -> Vec<String> {
     let name = word.trim_start_matches('-');
     let several = |option: &Arg| option.get_num_args().is_some_and(|count| count.max_values() > 1);
     if value.contains(',') && find(command, name).is_some_and(several) {
         return vec![format!("give its values with spaces between, '{word} {}'", value.replace(',', " "))];
+    }
+    let map = format!("{name}-map");
+    if !is_number(value) && find(command, &map).is_some() {
+        return vec![format!("values at the nodes are in a file, by '--{map} {value}'")];
     }
     let list = |option: &&Arg| option.get_long().is_some_and(|long| is_plural(long, name));
     let has = |command: &&Command| command.get_arguments().any(|option| list(&option));

@@ -160,6 +160,10 @@ fn what_does_not_fit_a_hardness_is_refused_by_name_before_the_solve() {
         "solve --heights heights.npy --mean-pressure 0.1 --out none --hardness 2GPa",
         &["without a unit"],
     );
+    bench.refused_with(
+        "solve --heights heights.npy --mean-pressure 0.1 --out none --hardness h.npy",
+        &["--hardness-map h.npy"],
+    );
     for command in ["sweep --mean-pressures 0.01 --stiffness", "sweep --mean-pressures 0.01 --method rey2017"] {
         let run = format!("{command} --heights heights.npy --hardness 0.2 --out none.csv");
         bench.refused_with(&run, &["and --hardness"]);

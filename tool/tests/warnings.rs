@@ -272,14 +272,14 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     );
     bench.run("study rough.toml");
     let found = listed("rough.csv");
-    assert!(found.len() == 1 && found[0].starts_with("all cases"), "{found:?}");
+    assert!(found.len() == 2 && found.iter().all(|one| one.starts_with("all cases")), "{found:?}");
     // with those of the worst of its cases
     let alone = [2, 3, 1].map(|seed| {
         bench.said(&format!("surface --size 16 --rms-slope 2 --k-s 4 --seed {seed} --quiet --force --out made.npy"));
         bench.run("sweep --heights made.npy --mean-pressures 0.01 --force --out made.csv");
-        let (severity, message) =
-            bench.read("made.csv.warnings.txt").split_once("]: ").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
-        (severity.split_once('[').unwrap().1.parse::<f64>().unwrap(), message)
+        let said = bench.read("made.csv.warnings.txt");
+        let (severity, message) = said.lines().next().unwrap().split_once("]: ").unwrap();
+        (severity.split_once('[').unwrap().1.parse::<f64>().unwrap(), message.to_owned())
     });
     let worst = (0..3).max_by(|i, j| alone[*i].0.total_cmp(&alone[*j].0)).unwrap();
     let figures = format!("with the figures of case {}, the worst: {}", worst + 1, alone[worst].1);

@@ -45,10 +45,6 @@ const FLAT: f64 = 4.0 * f64::EPSILON;
 /// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
 const UNLIKE: f64 = 0.05;
 
-/// The pressure over the contact modulus E* that few solids bear, and the share of the load above it that is most.
-const BORNE: f64 = 0.1;
-const MOST: f64 = 0.5;
-
 /// The resolution measure μ_ρ that the grid resolves.
 const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
@@ -322,22 +318,7 @@ impl Warning {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn of_hardness<T: Real>(solution: &Solution<T>) -> Option<Self> {
-        let modulus = solution.report.modulus;
-        let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
-        let (all, above) = pressures().fold((0.0, 0.0), |(all, above), pressure| {
-            (all + pressure, if pressure > BORNE * modulus { above + pressure } else { above })
-        });
-        if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
-            return None;
-        }
-        let mut text = Text::default();
-        let message = format!(
-            "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which most \
-             solids yield: if the slopes are right, give the hardness of the softer body (hardness)",
-            Self::figure(100.0 * above / all),
-            text.pressure(BORNE * modulus)
-        );
-        Some(Self { code: WarningCode::Hardness, text: text.with(message).of_severity(above / all) })
+        load::of_hardness(solution)
     }
 
     /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images):

@@ -1,4 +1,4 @@
-//! The warnings about the load: a large share of it stands on single scan lines, or on single nodes.
+//! The warnings about the load: a large share of it stands on single scan lines, on single nodes, or above a hardness.
 
 use asperity::{Real, Solution};
 
@@ -16,6 +16,10 @@ const LENGTH: usize = 8;
 const MUCH: [f64; 2] = [0.2, 1.0 / 3.0];
 /// Fewer nodes in contact tell nothing: they may be alone by chance.
 const LEAST_NODES: usize = 100;
+
+/// The pressure over the contact modulus E* that few solids bear, and the share of the load above it that is most.
+const BORNE: f64 = 0.1;
+const MOST: f64 = 0.5;
 
 /// Nodes that stand alone: their number, their load, and the greatest pressure.
 #[derive(Clone, Copy, Default)]
@@ -103,4 +107,24 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
         ),
     };
     Some(Warning { code, text: text.with(message).of_severity(share) })
+}
+
+/// The warning that most of the load of an elastic solution stands above what most solids bear.
+pub(super) fn of_hardness<T: Real>(solution: &Solution<T>) -> Option<Warning> {
+    let modulus = solution.report.modulus;
+    let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
+    let (all, above) = pressures().fold((0.0, 0.0), |(all, above), pressure| {
+        (all + pressure, if pressure > BORNE * modulus { above + pressure } else { above })
+    });
+    if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
+        return None;
+    }
+    let mut text = Text::default();
+    let message = format!(
+        "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which most \
+         solids yield: if the slopes are right, give the hardness of the softer body (--hardness)",
+        Warning::figure(100.0 * above / all),
+        text.pressure(BORNE * modulus)
+    );
+    Some(Warning { code: WarningCode::Hardness, text: text.with(message).of_severity(above / all) })
 }
