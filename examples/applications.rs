@@ -5,8 +5,8 @@
 //! `.ci/constants` measures by it how much the constants of the driver matter.
 
 use asperity::{
-    AdhesionLaw, ContactConstraint, Control, Exponential, Grid, MaugisDugdale, Nested, NoAdhesion, Penalty, Problem,
-    Projection, Real, Result, Settings, Solver, Status, Surface, Sweep, Uzawa, Westergaard,
+    AdhesionLaw, ContactConstraint, Control, Exponential, Grid, Hardness, MaugisDugdale, Nested, NoAdhesion, Penalty,
+    Problem, Projection, Real, Result, Settings, Solver, Status, Surface, Sweep, Uzawa, Westergaard,
 };
 use clap::Parser;
 use common::{arguments, rough};
@@ -16,10 +16,13 @@ struct Arguments {
     /// Nodes along a side of the squares
     #[arg(default_value_t = 256, value_parser = arguments::nodes::<32>)]
     size: usize,
+    /// Take scenes of surfaces that yield at a hardness in the place of the others
+    #[arg(long)]
+    yielding: bool,
 }
 
 fn main() -> Result<()> {
-    let Arguments { size } = arguments::read(include_str!("applications.rs"));
+    let Arguments { size, yielding } = arguments::read(include_str!("applications.rs"));
     let (square, line) = (Grid::square(size, 1.0)?, Grid::line(16 * size, 1.0)?);
     let rough = rough::rough(square, (size / 4).min(64) as i32, 1);
     let mut bowed = rough.heights().clone();
@@ -36,6 +39,16 @@ fn main() -> Result<()> {
     let jump = MaugisDugdale::new(1e-4, 2e-3)?;
 
     let mut sum = 0;
+    if yielding {
+        for hardness in [0.3, 1.0, 3.0] {
+            let name = format!("rough, hardness {hardness}");
+            for control in [Control::MeanPressure(0.0125), Control::MeanPressure(0.1), Control::MeanGap(rms)] {
+                sum += count(&name, &rough, NoAdhesion, Hardness::new(hardness)?, control)?;
+            }
+        }
+        println!("{:<44} {sum:>6}", "sum");
+        return Ok(());
+    }
     for pressure in [0.002, 0.0125, 0.2] {
         let load = Control::MeanPressure(pressure);
         sum += count("rough", &rough, NoAdhesion, Projection, load)?;

@@ -226,6 +226,8 @@ class Report(TypedDict):
     solved_shape: list[int] | None
     shape: list[int]
     lengths: list[float]
+    rms_slope: float | None
+    rms_slope_differences: float | None
     length_unit: str | None
     pressure_unit: str | None
     given: dict[str, str | list[str]] | None

@@ -3,7 +3,7 @@
 use asperity_scene::legs::value;
 use serde_json::Value;
 
-use crate::numbers::{percent, plain};
+use crate::numbers::{percent, rounded};
 use crate::quantity::{Dimension, ENERGY, ENERGY_PER_AREA};
 use crate::units::{Units, dimension_of};
 
@@ -72,8 +72,8 @@ pub fn number(name: &str, value: f64, dimension: Option<Dimension>, units: &Unit
     match dimension {
         Some(dimension) => units.number(value, dimension),
         None if name == "seconds" => format!("{value:.3} s"),
-        None if name.ends_with("_fraction") => format!("{} %", percent(value)),
+        None if name.ends_with("_fraction") || name == "relative" => format!("{} %", percent(value)),
         None if name.ends_with("_error") => format!("{value:.1e}"),
-        None => plain(value),
+        None => rounded(value, 4, 1e6),
     }
 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
+use asperity_scene::{Boundary, Inputs, Slopes};
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
@@ -96,7 +97,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         si(RANGE, "m"),
         side = si(SIDE, "m"),
     ));
-    let heights = surface.heights().clone();
+    let (heights, slopes) = (surface.heights().clone(), Slopes::of(&surface, Boundary::Periodic));
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let part = Part::all(grid);
     let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
@@ -111,7 +112,8 @@ pub fn run(options: &Options) -> Outcome<bool> {
                 ControlFlow::Continue(())
             },
         )?;
-        let mut account = found.account("solve", &options.inputs(&part, &units, scene), None, Vec::new())?;
+        let inputs = Inputs { slopes, ..options.inputs(&part, &units, scene) };
+        let mut account = found.account("solve", &inputs, None, Vec::new())?;
         found.sight.look_at(&mut account, &found.solution)?;
         Ok((found.solution, account))
     };

@@ -110,6 +110,11 @@ impl Page {
         }
     }
 
+    /// Pictures side by side, as many as there is room for.
+    fn pictures(&mut self, figures: &str) {
+        let _ = writeln!(self.text, "<div class=\"pictures\">\n{figures}</div>");
+    }
+
     /// A picture.
     fn figure(&mut self, svg: &str) {
         let _ = writeln!(self.text, "<figure class=\"chart\">\n{svg}</figure>");

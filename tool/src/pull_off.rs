@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use asperity::{PullOff, Status};
-use asperity_scene::{Precision, Skin};
+use asperity_scene::{Inputs, Precision, Skin, Slopes};
 use clap::Args;
 use serde_json::json;
 
@@ -93,6 +93,7 @@ impl Options {
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let mut warnings = Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, problem, &units)?;
         warnings.say()?;
+        let slopes = Slopes::of(&surface, self.surface.beyond.boundary);
         let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), None, part.wanted())?;
         let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
         let mut progress = Progress::new("", posed.tolerance(None)?, nodes, printing.without_bars());
@@ -103,7 +104,7 @@ impl Options {
         drop((posed, progress));
         check_finite(&found.solution)?;
         warnings.look_at(&found.solution, &part)?;
-        let inputs = report::inputs(problem, &part, &units, scene);
+        let inputs = Inputs { slopes, ..report::inputs(problem, &part, &units, scene) };
         let mut last = found.account("pull-off", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
         found.sight.look_at(&mut last, &found.solution)?;
 

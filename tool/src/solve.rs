@@ -12,7 +12,7 @@ use std::sync::Arc;
 use asperity::contact::PressureDistribution;
 use asperity::{AdhesionLaw, Solution, Status};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
-use asperity_scene::{Account, Asked, Load, Precision, gap_to_write, write_fields};
+use asperity_scene::{Account, Asked, Inputs, Load, Precision, Slopes, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
 use serde_json::json;
@@ -253,6 +253,7 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
+        let slopes = Slopes::of(&surface, self.options.surface.beyond.boundary);
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
         let mut posed = self.options.problem().scene().posed::<T>(
@@ -281,7 +282,7 @@ impl Job<'_> {
         let whole = if fits { found.solution.gathered() } else { None };
         let look = |whole: &Cow<'_, _>| warnings.look_at(whole, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
-        let inputs = self.options.inputs(&self.part, &self.units, self.scene);
+        let inputs = Inputs { slopes, ..self.options.inputs(&self.part, &self.units, self.scene) };
         let mut account = found.account("solve", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
         found.sight.look_at(&mut account, &found.solution)?;
         let surface = kept.map(|kept| refined.unwrap_or(kept));
@@ -304,18 +305,20 @@ impl Job<'_> {
         for (_, field) in beside.iter_mut().filter(|_| fits && grid.is_shared()) {
             *field = grid.gathered(field).map(CowArray::into_owned).unwrap_or_default();
         }
+        let mut beyond = None;
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
             let law = whole_adhesion.as_ref().map(Adhesion::law);
             let whole = whole.as_deref().zip(law.as_ref());
             let written = self.write(&folder, whole, &beside, &account);
-            written.map_err(|error| at_destination(error, out))?;
+            beyond = written.map_err(|error| at_destination(error, out))?;
             Ok(folder.commit()?)
         })?;
 
         if printing.for_people() {
             say(&table(&[], &[&account], &self.units));
             say(&format!("results in {}: {}", name(out), self.names.join(", ")));
+            beyond.iter().for_each(|load| say(&format!("beyond the colours of the pressure: {load}")));
         }
         printing.report(|| json!(account));
         warn("", &account);
@@ -347,18 +350,18 @@ impl Job<'_> {
     }
 
     /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
-    /// with its law, where there is one.
+    /// with its law, where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
     fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
         whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
         beside: &[Named],
         account: &Account,
-    ) -> asperity::Result<()> {
+    ) -> asperity::Result<Option<String>> {
         let path = |name: &str| folder.path(name);
         write_text(&path(REPORT), &format!("{:#}\n", json!(account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
-        let Some((whole, law)) = whole else { return Ok(()) };
+        let Some((whole, law)) = whole else { return Ok(None) };
         let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
         let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
@@ -393,7 +396,8 @@ impl Job<'_> {
             let limits = self.options.colours.limits();
             let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
             picture.write(path(pressure_name))?;
+            return Ok(picture.load_beyond().map(str::to_owned));
         }
-        Ok(())
+        Ok(None)
     }
 }

@@ -57,9 +57,13 @@ fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
     // high enough to press far harder than the contact beside it
     (4..12).for_each(|i| heights[[i, 20]] = 0.04);
     write_npy(bench.path("scarred.npy"), &heights).unwrap();
-    let solve = "solve --heights scarred.npy --mean-pressure 0.02 --pressure-unit Pa --picture-format svg --quiet";
-    let warned = |arguments: &str| assert_eq!(bench.run(arguments).status.code(), Some(0), "{arguments}");
-    warned(&format!("{solve} --out plain"));
+    let solve = "solve --heights scarred.npy --mean-pressure 0.02 --pressure-unit Pa --picture-format svg";
+    let warned = |arguments: &str| {
+        let run = bench.run(arguments);
+        assert_eq!(run.status.code(), Some(0), "{arguments}");
+        text(&run.stdout)
+    };
+    let said = warned(&format!("{solve} --out plain"));
     let pressures = read_field(bench.path("plain/contact_pressure.npy")).unwrap();
     let scale = LoadScale::of(&pressures, None);
     assert!(scale.end < 0.7 * scale.greatest && scale.beyond > 0.05, "{scale:?}");
@@ -68,11 +72,13 @@ fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
     for picture in ["plain/pressure.svg", "plain/report.html"] {
         assert!(bench.read(picture).contains(&caption), "{picture}: {caption}");
     }
+    assert!(said.contains(&format!("beyond the colours of the pressure: {caption}")), "{said}");
     assert!(bench.read("plain/pressure.svg").contains(">max "));
     // all of it on demand, and clusters in the number of the table
     let clusters = Clusters::of(pressures.mapv(|pressure| pressure > 0.0).view()).sizes.len();
     let caption = format!("in {clusters} clusters, the largest with ");
-    warned(&format!("{solve} --colour-limits 0 10 --colour-clusters --out limited"));
+    let said = warned(&format!("{solve} --colour-limits 0 10 --colour-clusters --out limited"));
+    assert!(!said.contains("beyond the colours"), "{said}");
     bench.said("report plain --colour-limits 0 10 --colour-clusters --force");
     assert!(bench.read("limited/contact.svg").contains(&caption));
     let page = bench.read("plain/report.html");
@@ -145,6 +151,13 @@ fn a_report_is_one_page_that_loads_nothing() {
     bench.said("report results");
     let page = bench.read("results/report.html");
     assert_eq!((unbalanced(&page), loaded(&page)), (vec![], vec![]));
+    // the figures come first, and the slopes are those of the report and of `stats`
+    assert!(page.find("<h2>Figures").unwrap() < page.find("<h2>Maps").unwrap());
+    let (found, stats) = (bench.report("results"), bench.reported("stats heights.npy --lengths 1"));
+    for (key, name) in [("rms_slope", "rms slope"), ("rms_slope_differences", "rms slope differences")] {
+        assert_eq!(found[key], stats[key], "{key}");
+        assert!(page.contains(&format!("<th>{name}</th>")), "{key}");
+    }
     assert_eq!(
         (page.matches("<figure class=\"map\" data-map=").count(), page.matches("<figure class=\"chart\">").count()),
         (3, 2)

@@ -18,7 +18,7 @@ pub fn plain(value: f64) -> String {
 }
 
 /// A number to so many digits, with an exponent below 1e-3 and from `most` on.
-pub(crate) fn rounded(value: f64, digits: usize, most: f64) -> String {
+pub fn rounded(value: f64, digits: usize, most: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {
         return "0".to_owned();

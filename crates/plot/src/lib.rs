@@ -79,6 +79,8 @@ pub struct Picture {
     shapes: Vec<Shape>,
     /// The colours of a map, and what each stands for.
     key: Vec<([u8; 3], String)>,
+    /// The load beyond the ends of the colour bars of a map.
+    beyond: Option<String>,
 }
 
 impl Picture {
@@ -86,6 +88,12 @@ impl Picture {
     /// classes, by which a value can be read off the picture; none of a chart.
     pub fn key(&self) -> &[([u8; 3], String)] {
         &self.key
+    }
+
+    /// The share of the load on nodes beyond the ends of the colour bars of a map, in words, as in its caption; none
+    /// where the bars have all of it, and none of a chart.
+    pub fn load_beyond(&self) -> Option<&str> {
+        self.beyond.as_deref()
     }
 
     /// Writes the picture to a file, which it replaces, in the format that its name asks for: `.png`, `.svg`, `.pdf`.
@@ -121,7 +129,7 @@ impl Picture {
             return Err(Error::Value { name, value: dpi, requirement });
         }
         let title = if title.is_empty() { "asperity" } else { title };
-        Ok(Self { title: printable(title), width, height, dpi, shapes: Vec::new(), key: Vec::new() })
+        Ok(Self { title: printable(title), width, height, dpi, shapes: Vec::new(), key: Vec::new(), beyond: None })
     }
 
     fn fill(&mut self, area: Area, colour: Colour) {

@@ -155,6 +155,7 @@ impl<'a> Map<'a> {
         }
         texts.draw(&mut picture, left, bottom, across);
         picture.key = self.key(&colours);
+        picture.beyond = beyond;
         Ok((picture, plot))
     }
 

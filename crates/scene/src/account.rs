@@ -12,6 +12,7 @@ use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, 
 use crate::found::{Found, Sight};
 use crate::record::record;
 use crate::scene::Precision;
+use crate::slopes::Slopes;
 use crate::told::Told;
 use crate::units::Units;
 
@@ -234,6 +235,9 @@ pub struct Inputs {
     /// The side lengths of the results.
     #[serde(serialize_with = "list")]
     pub lengths: (f64, f64),
+    /// The rms slopes of the surface.
+    #[serde(flatten)]
+    pub slopes: Slopes,
     /// The unit of lengths, if it is known.
     pub length_unit: Option<String>,
     /// The unit of pressures, if it is known.

@@ -11,6 +11,7 @@ use crate::account::Inputs;
 use crate::adhesion::Adhesion;
 use crate::elastic::Elastic;
 use crate::posed::Posed;
+use crate::slopes::Slopes;
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
 /// has the keys of a report, which are left out where they have their defaults.
@@ -120,6 +121,7 @@ impl Scene {
             solved_shape: None,
             shape,
             lengths,
+            slopes: Slopes::default(),
             length_unit: None,
             pressure_unit: None,
             given: None,

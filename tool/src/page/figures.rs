@@ -50,9 +50,11 @@ pub fn shown(name: &str, value: &Value, number: &dyn Fn(&str, f64) -> String) ->
         Value::Object(values) => {
             let part = |(name, value): (&String, &Value)| match value {
                 Value::Bool(is_so) => is_so.then(|| spaced(name)),
+                _ if name == "relative" => shown(name, value, number),
                 _ => Some(format!("{} {}", spaced(name), shown(name, value, number)?)),
             };
-            all(values.iter().filter_map(part).collect(), ", ")
+            let between = if values.values().any(Value::is_object) { "; " } else { ", " };
+            all(values.iter().filter_map(part).collect(), between)
         }
         other => Some(other.to_string()),
     }

@@ -48,10 +48,6 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         maps = Page::default();
     }
     page.warnings(&warnings);
-    if !maps.text.is_empty() {
-        page.heading("Maps and curves");
-        page.text.push_str(&maps.text);
-    }
     page.heading("Figures");
     let on_line = report["shape"][1] == 1;
     let counted = report["contact_fraction"].as_f64().unwrap_or_default();
@@ -75,6 +71,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         _ if word("law") == "none" => !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key),
         _ => true,
     };
+    page.text.push_str("<div class=\"groups\">\n");
     for (heading, keys) in GROUPS {
         let keys = keys.split_whitespace().filter(|key| once(key));
         let found = keys.filter_map(|key| all.iter().find(|(known, _)| *known == key));
@@ -88,11 +85,17 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
             page.text.push_str("</section>\n");
         }
     }
+    page.text.push_str("</div>\n");
+    if !maps.text.is_empty() {
+        page.heading("Maps and curves");
+        page.pictures(&maps.text);
+    }
+    page.heading("Surface and settings");
     let (levels, others): (Vec<_>, Vec<_>) = all
         .iter()
         .filter(|(key, _)| *key != "warnings" && place(key) == usize::MAX)
         .partition(|(key, _)| *key == "levels");
-    page.figures(Some("Surface and settings"), &others.into_iter().filter_map(figure).collect::<Vec<_>>());
+    page.figures(Some("All inputs"), &others.into_iter().filter_map(figure).collect::<Vec<_>>());
     for (_, levels) in levels {
         let level = |level: &Value| {
             let shape = shown("shape", &level["shape"], &number)?;

@@ -92,8 +92,9 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
             format!(
                 "{percent} % of the load stands on single lines along {axis}, on nodes that press more than {ALONE} \
                  times as hard as those of both lines beside them, with up to {greatest}: scars, if {axis} is the \
-                 scan axis of a measurement; remove them (prepare --remove-scars --scan-axis {axis}), or leave out what \
-                 is shorter than a wavelength (--cut-off-wavelength)"
+                 scan axis of a measurement; look at these lines in the map, and remove them (prepare --remove-scars \
+                 --scan-axis {axis}); where that has left them, leave out what is shorter than a wavelength \
+                 (--cut-off-wavelength), or use a lower threshold of scars"
             ),
         ),
         None => (
