@@ -29,6 +29,7 @@ mod sweep;
 // the parts of which commands are made
 mod accuracy;
 mod adhesion;
+mod after;
 mod against;
 mod body;
 mod boundary;

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use asperity::{Control, Error, Status};
-use asperity_scene::{Format, Way};
+use asperity_scene::{After, Format, Way};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
 use crate::adhesion::AdhesionOptions;
+use crate::after::{ConductorOptions, LeakageOptions};
 use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
 use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
@@ -63,6 +64,10 @@ pub struct Options {
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
     #[command(flatten)]
+    conductors: ConductorOptions,
+    #[command(flatten)]
+    leakage: LeakageOptions,
+    #[command(flatten)]
     manner: Manner,
 }
 
@@ -94,12 +99,18 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
         scene,
         processes,
         manner: &options.manner,
-        stiffness: options.stiffness,
+        after: options.after(),
     };
     table.fill(options)
 }
 
 impl Options {
+    /// The findings that are asked for after each row.
+    fn after(&self) -> After {
+        let (conductors, leakage) = (self.conductors.conductors(), self.leakage.leakage);
+        After { stiffness: self.stiffness, conductors, percolation: false, leakage }
+    }
+
     /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
     fn control(&self) -> Control {
         match self.fractions.values() {

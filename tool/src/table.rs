@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use asperity::Control;
 use asperity_scene::pace::Pace;
-use asperity_scene::{Account, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
+use asperity_scene::{Account, After, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use crate::after;
 use crate::boundary::{LoadsOptions, check_load};
 use crate::fields::check_finite;
 use crate::interruption;
@@ -57,7 +58,8 @@ pub struct TableOptions<'a> {
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
     pub manner: &'a Manner,
-    pub stiffness: bool,
+    /// The findings that are asked for after each row
+    pub after: After,
 }
 
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
@@ -88,6 +90,7 @@ impl<'a> TableOptions<'a> {
         let ProblemOptions { surface, solver, .. } = self.problem;
         solver.check_table()?;
         check_load(surface.beyond.boundary, self.loads.control(0.0))?;
+        after::check(&self.after, self.problem, self.processes)?;
         let given = self.problem.read(self.scene.is_si(), self.processes)?;
         match solver.precision {
             Precision::F32 => by.fill(&mut self.open::<f32>(given, by)?),
@@ -103,7 +106,7 @@ impl<'a> TableOptions<'a> {
         let listed = loads.values(problem.surface.full_pressure(&surface, loads.are_reduced())?);
         part.check(self.control)?;
         let controls = loads.controls(&listed);
-        let course = Course::new(by.way::<T>(controls.clone())?, self.stiffness);
+        let course = Course::new(by.way::<T>(controls.clone())?, self.after);
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let inputs = report::inputs(problem, &part, &units, scene);
         let surface = Arc::new(surface);

@@ -3,6 +3,7 @@
 use asperity::{Control, Method};
 
 use crate::accuracy::Goal;
+use crate::after::After;
 
 /// The load of a solve, and the findings that are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +20,8 @@ pub struct Asked {
     pub stability: bool,
     /// Whether to go on from an unstable solution.
     pub leave: bool,
-    /// Whether to find the contact stiffness of the solution.
-    pub stiffness: bool,
+    /// The findings that are asked for after it.
+    pub after: After,
     /// The accuracy, if one is asked for.
     pub goal: Option<Goal>,
 }
@@ -28,8 +29,8 @@ pub struct Asked {
 impl Asked {
     /// The solution under a load, without anything beside it.
     pub fn under(control: Control) -> Self {
-        let (fraction, nested, goal) = (None, None, None);
-        Self { control, fraction, nested, other_branch: false, stability: false, leave: false, stiffness: false, goal }
+        let (fraction, nested, after, goal) = (None, None, After::default(), None);
+        Self { control, fraction, nested, other_branch: false, stability: false, leave: false, after, goal }
     }
 
     /// Refuses what excludes each other, in a solve by a method with adhesion or without it, from a start that is given

@@ -13,10 +13,11 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::account::{Account, stiffness};
+use crate::after::After;
 use crate::boundary::Boundary;
 use crate::compiled::compiled;
 use crate::entries::{Search, Step};
-use crate::found::{Found, check_finite};
+use crate::found::Found;
 use crate::identity::Identity;
 use crate::pace::Pace;
 use crate::posed::Posed;
@@ -36,8 +37,8 @@ pub enum Way {
 #[derive(Clone, Debug)]
 pub struct Course<T> {
     way: Way,
-    /// Whether the contact stiffness of each state is found
-    stiffness: bool,
+    /// The findings that are asked for after each state
+    after: After,
     start: Option<Array2<T>>,
     /// The number of states so far
     states: usize,
@@ -69,6 +70,9 @@ pub struct Row {
     /// The place on a cycle.
     #[serde(flatten)]
     pub step: Option<Step>,
+    /// The cells of the columns for what is asked for after each state.
+    #[serde(flatten)]
+    pub after: Map<String, Value>,
 }
 
 const STATE: &str = "control control_value mean_pressure mean_contact_pressure mean_gap normal_force approach \
@@ -102,11 +106,11 @@ impl Way {
 }
 
 impl<T: Real> Course<T> {
-    /// A course from its beginning, with the contact stiffness of each state or without.
-    pub fn new(way: Way, stiffness: bool) -> Self {
+    /// A course from its beginning, with the findings that are asked for after each state.
+    pub fn new(way: Way, after: After) -> Self {
         let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
         let pace = way.least_states().map(|least| Pace::new(least, 0, 0));
-        Self { way, stiffness, start: None, states: 0, place, leg_ends: false, pace }
+        Self { way, after, start: None, states: 0, place, leg_ends: false, pace }
     }
 
     /// The course from a gap in the place of the default start.
@@ -143,8 +147,7 @@ impl<T: Real> Course<T> {
             Way::Search(_) => [STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", ""],
             Way::Cycle(..) => ["leg direction", STATE, BALANCE, OUTCOME, INPUTS],
         };
-        let stiffness = if self.stiffness { "contact_stiffness normal_stiffness" } else { "" };
-        all.into_iter().chain([stiffness]).flat_map(str::split_whitespace).collect()
+        all.into_iter().flat_map(str::split_whitespace).chain(self.after.columns()).collect()
     }
 
     /// The loads of the rows, where these are known before.
@@ -169,10 +172,12 @@ impl<T: Real> Course<T> {
             }),
             way => json!({
                 "control": if let Way::Sweep(loads) = way { kind(loads) } else { "contact-fraction".to_owned() },
-                "stiffness": if self.stiffness { "asked for" } else { "left out" },
+                "stiffness": if self.after.stiffness { "asked for" } else { "left out" },
             }),
         };
-        entries.as_object().cloned().unwrap_or_default()
+        let mut entries = entries.as_object().cloned().unwrap_or_default();
+        entries.extend(self.after.identity().into_iter().map(|(key, value)| (key.to_owned(), value.into())));
+        entries
     }
 
     /// Refuses a cycle that the problem does not have.
@@ -265,9 +270,8 @@ impl<T: Real> Course<T> {
             }
         };
         this.states += 1;
-        let wanted = this.stiffness && check_finite(&solution).is_ok();
-        let stiffness = if wanted { posed.stiffness(&solution)? } else { None };
-        Ok(Some(Found { search, step, stiffness, ..posed.found(solution, clock)? }))
+        let found = Found { search, step, ..posed.found(solution, clock)? };
+        posed.followed(found, &this.after).map(Some)
     }
 
     /// The row of the state that was found last, with its account, which a look completes. A withdrawal in which it is
@@ -289,6 +293,7 @@ impl<T: Real> Course<T> {
             wanted_contact_fraction: account.search.map(|search| search.wanted),
             reached: account.search.map(|search| search.reached),
             step,
+            after: found.after.cells(),
             account,
         })
     }

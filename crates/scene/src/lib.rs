@@ -6,6 +6,7 @@
 mod account;
 mod accuracy;
 mod adhesion;
+mod after;
 #[cfg(feature = "options")]
 pub mod allowed;
 mod asked;
@@ -58,6 +59,7 @@ pub use asperity_maps::numbers;
 pub use account::{Account, Inputs};
 pub use accuracy::Goal;
 pub use adhesion::Adhesion;
+pub use after::{After, Conducted, Conductors, Findings};
 pub use asked::Asked;
 pub use body::{Body, BodyForm, Roughness};
 pub use boundary::Boundary;
