@@ -61,6 +61,8 @@ __all__ = [
 VERSION: str
 
 _Field = NDArray[np.float64]
+_Pair = tuple[float, float] | None
+_Following = tuple[bool, _Pair, _Pair, float | None]
 _Narrowest = tuple[float, tuple[int, int], NDArray[np.int64]]
 _Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
 _Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, int | None]
@@ -251,7 +253,7 @@ class Problem:
         observe: Callable[[Iteration], object] | None,
         stability: bool,
         leave: bool,
-        stiffness: bool,
+        after: _Following,
         accuracy: tuple[float | None, str | None, float | None],
     ) -> dict[str, Any]: ...
     def pull_off(
@@ -265,7 +267,8 @@ class Problem:
         self,
         loads: list[tuple[str, list[float]]],
         start: str | _Field | None,
-        stiffness: bool,
+        after: _Following,
+        interface: bool,
         path: tuple[int, float, float, bool] | None,
         seed: int | None,
         table: tuple[str, str | None, bool, _Field | None, _Field | None, bool] | None,
@@ -275,6 +278,13 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
+def interface_files(
+    code: str,
+    rows: list[dict[str, Any]],
+    adhesive: bool,
+    name: str,
+    units: tuple[str | None, str | None],
+) -> list[tuple[str, str]]: ...
 def has_dimension(key: str) -> bool: ...
 def quantity(key: str, text: str) -> float: ...
 def in_metres(given: _Given) -> _Map: ...

@@ -5,12 +5,12 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Grid, PullOff, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
+use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::inputs::{Accuracy, Begin, Given, goal, keys, load, named};
+use crate::inputs::{Accuracy, Begin, Following, Given, after, goal, keys, load, named};
 use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -123,7 +123,7 @@ impl Problem {
     }
 
     /// The equilibrium at a load.
-    #[pyo3(signature = (load, start, observe, stability, leave, stiffness, accuracy))]
+    #[pyo3(signature = (load, start, observe, stability, leave, after, accuracy))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn solve<'py>(
         &mut self,
@@ -133,7 +133,7 @@ impl Problem {
         observe: Option<Py<PyAny>>,
         stability: bool,
         leave: bool,
-        stiffness: bool,
+        after: Following,
         accuracy: Accuracy,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (load, goal) = (self::load(&load)?, goal(accuracy)?);
@@ -145,7 +145,7 @@ impl Problem {
             other_branch,
             stability,
             leave,
-            stiffness,
+            after: self::after(after, &self.inputs.elastic, &self.inputs.adhesion)?,
             goal,
             ..Asked::under(load.control(1.0))
         };
@@ -175,14 +175,15 @@ impl Problem {
 
     /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.
     /// Returns the names of its columns, and the cells of the rows that the table has.
-    #[pyo3(signature = (loads, start, stiffness, path, seed, table))]
+    #[pyo3(signature = (loads, start, after, interface, path, seed, table))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn begin<'py>(
         &mut self,
         py: Python<'py>,
         loads: Vec<Given>,
         start: Option<Begin<'py>>,
-        stiffness: bool,
+        after: Following,
+        interface: bool,
         path: Option<(usize, f64, f64, bool)>,
         seed: Option<u64>,
         table: Option<File<'py>>,
@@ -200,8 +201,14 @@ impl Problem {
             None => Way::Search(fractions),
         };
         self.begins(start.as_ref());
+        let after = self::after(after, &self.inputs.elastic, &self.inputs.adhesion)?;
+        if interface && self.inputs.elastic.boundary == Boundary::Free {
+            return Err(PyValueError::new_err(
+                "boundary is 'free': an interface has its law per area of a periodic cell",
+            ));
+        }
         let (pool, inputs, solves) = self.parts()?;
-        solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, stiffness, seed), start, table)
+        solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, (after, interface), seed), start, table)
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.

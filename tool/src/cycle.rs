@@ -114,6 +114,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
         processes,
         manner: &options.manner,
         after: After::default(),
+        interface: false,
     };
     table.fill(options)
 }

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
-use asperity::Control;
+use asperity::{Control, Status};
+use asperity_scene::interface::touch;
 use asperity_scene::pace::Pace;
 use asperity_scene::{Account, After, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
 use clap::Args;
@@ -60,6 +61,8 @@ pub struct TableOptions<'a> {
     pub manner: &'a Manner,
     /// The findings that are asked for after each row
     pub after: After,
+    /// Whether the table is that of an interface
+    pub interface: bool,
 }
 
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
@@ -107,6 +110,7 @@ impl<'a> TableOptions<'a> {
         part.check(self.control)?;
         let controls = loads.controls(&listed);
         let course = Course::new(by.way::<T>(controls.clone())?, self.after);
+        let course = if self.interface { course.of_interface(touch(&surface)) } else { course };
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let inputs = report::inputs(problem, &part, &units, scene);
         let surface = Arc::new(surface);
@@ -228,6 +232,22 @@ impl<T: Scalar> Table<'_, T> {
         self.rows.append(&self.course, &found, &row, processes)?;
         self.stands();
         Ok(Some(row))
+    }
+
+    /// Solves all rows that are left, says each in a line, and returns those of the file.
+    pub fn solve(&mut self, out: &Path, printing: Printing) -> Outcome<Vec<Value>> {
+        let count = self.of_rows().unwrap_or_default();
+        let width = count.to_string().len();
+        while let Some(row) = self.extend()? {
+            let (rows, account) = (self.rows(), &row.account);
+            printing.say(&format!("{rows:>width$}/{count}  {}", self.brief(account)));
+            let converged = account.status == Status::Converged;
+            if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
+                complain("warning", &format!("row {rows}: {}", searched.jump()));
+            }
+        }
+        printing.say(&format!("{count} rows in {}", name(out)));
+        self.read()
     }
 
     /// The row for people.

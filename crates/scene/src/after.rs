@@ -1,5 +1,6 @@
 //! The findings that are asked for after a solve: the contact stiffness, and the conductance and the flow that follow.
 
+use asperity::stability::ContactStiffness;
 use asperity::{Grid, Real, Result};
 use asperity_flow::{Conductance, Gap, Leakage};
 use serde::Serialize;
@@ -132,12 +133,10 @@ impl After {
         all.into_iter().find_map(|(asked, name)| asked.then_some(name))
     }
 
-    /// The columns of a table for what is asked for.
+    /// The columns of a table for what is asked for, beside those of the stiffness.
     pub fn columns(&self) -> Vec<&'static str> {
-        let mut names = if self.stiffness { vec!["contact_stiffness", "normal_stiffness"] } else { Vec::new() };
-        names.extend(self.conductors.into_iter().flat_map(|conductors| [conductors.column(), ERROR]));
-        names.extend(self.leakage.into_iter().flat_map(|_| LEAKAGE));
-        names
+        let conductance = self.conductors.into_iter().flat_map(|conductors| [conductors.column(), ERROR]);
+        conductance.chain(self.leakage.into_iter().flat_map(|_| LEAKAGE)).collect()
     }
 
     /// The inputs on which these columns depend, beside the stiffness.
@@ -152,7 +151,7 @@ impl After {
 }
 
 const ERROR: &str = "conductance_error";
-const LEAKAGE: [&str; 4] =
+pub(crate) const LEAKAGE: [&str; 4] =
     ["transmissivity_x_lower", "transmissivity_x_upper", "transmissivity_y_lower", "transmissivity_y_upper"];
 
 /// The conductance of a contact, as its report has it.
@@ -178,6 +177,8 @@ pub struct Conducted {
 /// The findings after a solve, beside the contact stiffness.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
+    /// The relative error of the contact stiffness, the estimated one of the grid included; none where that is unknown.
+    pub stiffness_error: Option<f64>,
     /// The conductance.
     pub conductance: Option<Conducted>,
     /// Whether open nodes connect the sides.
@@ -192,6 +193,7 @@ impl Findings {
     /// The cells of the columns of a table.
     pub(crate) fn cells(&self) -> Map<String, Value> {
         let mut cells = Map::new();
+        cells.insert("stiffness_error".to_owned(), json!(self.stiffness_error));
         if let Some(found) = &self.conductance {
             cells.insert(found.conductors.column().to_owned(), json!(found.value));
             cells.insert(ERROR.to_owned(), json!(found.relative_error));
@@ -214,10 +216,11 @@ impl<T: Real> Found<T> {
         if check_finite(&self.solution).is_err() {
             return Ok(Findings::default());
         }
+        let stiffness_error = self.stiffness.as_ref().and_then(stiffness_error);
         let conductance = after.conductors.map(|conductors| self.conductance(conductors, elastic));
         let conductance = conductance.transpose()?.flatten();
         if !after.percolation && after.leakage.is_none() {
-            return Ok(Findings { conductance, ..Findings::default() });
+            return Ok(Findings { stiffness_error, conductance, ..Findings::default() });
         }
         let part = self.part()?;
         let free = elastic.boundary == Boundary::Free || self.sight.original.is_some();
@@ -227,7 +230,7 @@ impl<T: Real> Found<T> {
             let percolation = if free { gap.free() } else { gap }.percolation();
             let constriction = Some(Along::of(|axis| percolation.along(axis).map(Narrowest::of)));
             let percolates = Some(Along::of(|axis| percolation.along(axis).is_some()));
-            return Ok(Findings { conductance, percolates, constriction, transmissivity: None });
+            return Ok(Findings { stiffness_error, conductance, percolates, constriction, transmissivity: None });
         };
         let asked = LeakAsked {
             boundary: if free { Boundary::Free } else { Boundary::Periodic },
@@ -237,7 +240,8 @@ impl<T: Real> Found<T> {
         };
         let (_, leaked) = asked.find(gap)?;
         let (percolates, constriction) = (Some(leaked.percolates), Some(leaked.constriction));
-        Ok(Findings { conductance, percolates, constriction, transmissivity: Some(leaked.transmissivity) })
+        let transmissivity = Some(leaked.transmissivity);
+        Ok(Findings { stiffness_error, conductance, percolates, constriction, transmissivity })
     }
 
     /// The conductance by the contact stiffness; with adhesion, whose slope between the spots conducts nothing, by that of
@@ -245,14 +249,15 @@ impl<T: Real> Found<T> {
     fn conductance(&self, conductors: Conductors, elastic: &Elastic) -> Result<Option<Conducted>> {
         let (solution, resistivities) = (&self.solution, conductors.resistivities());
         let Some(stiffness) = &self.stiffness else { return Ok(None) };
-        let (found, known) = if !self.sight.law.hints().zero {
+        let (found, relative_error) = if !self.sight.law.hints().zero {
             let contact = solution.gap.mapv(|gap| gap <= T::zero());
             let grid = Grid::new(contact.dim(), solution.grid.lengths())?;
             let periodic = elastic.boundary == Boundary::Periodic;
-            (Conductance::of_spots(contact.view(), grid, periodic, resistivities)?, false)
+            let found = Conductance::of_spots(contact.view(), grid, periodic, resistivities)?;
+            (found, (found.per_area == 0.0).then_some(0.0))
         } else {
             let found = Conductance::of(stiffness, solution.report.modulus, resistivities)?;
-            (found, stiffness.edge.is_some())
+            (found, stiffness_error(stiffness))
         };
         let share = self.sight.original.map_or(1.0, |original| original.share());
         let (resistivities, conductivities) = match conductors {
@@ -262,10 +267,19 @@ impl<T: Real> Found<T> {
         Ok(Some(Conducted {
             value: found.per_area,
             whole: share * found.whole,
-            relative_error: (known || found.per_area == 0.0).then_some(found.relative_error),
+            relative_error,
             resistivities,
             conductivities,
             conductors,
         }))
     }
+}
+
+/// The relative error of a contact stiffness, as far as that of the grid is known; none without any contact.
+fn stiffness_error(stiffness: &ContactStiffness) -> Option<f64> {
+    let ContactStiffness { pressure_per_length, relative_error, edge, .. } = *stiffness;
+    if pressure_per_length == 0.0 {
+        return Some(relative_error);
+    }
+    Some(relative_error + (edge?.stiffness / pressure_per_length).abs())
 }

@@ -19,6 +19,7 @@ use crate::compiled::compiled;
 use crate::entries::{Search, Step};
 use crate::found::Found;
 use crate::identity::Identity;
+use crate::interface;
 use crate::pace::Pace;
 use crate::posed::Posed;
 
@@ -39,6 +40,8 @@ pub struct Course<T> {
     way: Way,
     /// The findings that are asked for after each state
     after: After,
+    /// The mean gap at first touch, if its table is that of an interface
+    touch: Option<f64>,
     start: Option<Array2<T>>,
     /// The number of states so far
     states: usize,
@@ -55,6 +58,8 @@ pub struct Row {
     /// The account, complete.
     #[serde(flatten)]
     pub account: Account,
+    /// The approach of the mean planes since first touch, in the table of an interface.
+    pub closure: Option<f64>,
     /// The number of separate contacts.
     pub clusters: usize,
     /// The nodes of the largest one.
@@ -110,7 +115,12 @@ impl<T: Real> Course<T> {
     pub fn new(way: Way, after: After) -> Self {
         let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
         let pace = way.least_states().map(|least| Pace::new(least, 0, 0));
-        Self { way, after, start: None, states: 0, place, leg_ends: false, pace }
+        Self { way, after, touch: None, start: None, states: 0, place, leg_ends: false, pace }
+    }
+
+    /// The course with the table of an interface whose surfaces first touch at a mean gap.
+    pub fn of_interface(self, touch: f64) -> Self {
+        Self { touch: Some(touch), ..self }
     }
 
     /// The course from a gap in the place of the default start.
@@ -137,17 +147,24 @@ impl<T: Real> Course<T> {
 
     /// The name of the command.
     pub fn command(&self) -> &'static str {
-        if let Way::Cycle(..) = self.way { "cycle" } else { "sweep" }
+        match self.way {
+            Way::Cycle(..) => "cycle",
+            _ if self.touch.is_some() => "interface",
+            _ => "sweep",
+        }
     }
 
     /// The names of the columns of its table.
     pub fn columns(&self) -> Vec<&'static str> {
-        let all = match self.way {
-            Way::Sweep(_) => [STATE, OUTCOME, INPUTS, "", ""],
-            Way::Search(_) => [STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", ""],
-            Way::Cycle(..) => ["leg direction", STATE, BALANCE, OUTCOME, INPUTS],
+        let stiffness = if self.after.stiffness { "contact_stiffness normal_stiffness" } else { "" };
+        let (before, behind) = match self.way {
+            _ if self.touch.is_some() => (vec![interface::COLUMNS], interface::OUTCOME),
+            Way::Sweep(_) => (vec![STATE, OUTCOME, INPUTS, stiffness], ""),
+            Way::Search(_) => (vec![STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", stiffness], ""),
+            Way::Cycle(..) => (vec!["leg direction", STATE, BALANCE, OUTCOME, INPUTS, stiffness], ""),
         };
-        all.into_iter().flat_map(str::split_whitespace).chain(self.after.columns()).collect()
+        let before = before.into_iter().flat_map(str::split_whitespace);
+        before.chain(self.after.columns()).chain(behind.split_whitespace()).collect()
     }
 
     /// The loads of the rows, where these are known before.
@@ -176,6 +193,7 @@ impl<T: Real> Course<T> {
             }),
         };
         let mut entries = entries.as_object().cloned().unwrap_or_default();
+        entries.extend(self.touch.map(|_| ("table".to_owned(), "interface".into())));
         entries.extend(self.after.identity().into_iter().map(|(key, value)| (key.to_owned(), value.into())));
         entries
     }
@@ -286,6 +304,7 @@ impl<T: Real> Course<T> {
         self.leg_ends = is_apart(step.as_ref().map(|step| step.direction), shares);
         let heights = account.inputs.heights.as_deref().and_then(|path| File::new(path).file_name());
         Ok(Row {
+            closure: self.touch.map(|touch| touch - account.mean_gap),
             clusters: sizes.len(),
             largest_cluster: sizes.first().copied().unwrap_or(0),
             heights: heights.map(OsStr::to_string_lossy).map(Into::into),

@@ -24,6 +24,7 @@ mod formula;
 mod found;
 mod hash;
 mod identity;
+pub mod interface;
 pub mod journal;
 mod kept;
 mod laws;

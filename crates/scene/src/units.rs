@@ -4,8 +4,9 @@ use asperity_maps::warning::Warning;
 
 use crate::numbers::{plain, si};
 use crate::quantity::{
-    Dimension, ELECTRICAL_CONDUCTANCE, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH,
-    PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH, THERMAL_CONDUCTANCE, TRANSMISSIVITY, VISCOSITY,
+    CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH,
+    PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH, RESISTIVITY, THERMAL_CONDUCTANCE, TRANSMISSIVITY,
+    VISCOSITY,
 };
 use crate::told::Told;
 
@@ -117,6 +118,8 @@ pub fn dimension_of_key(key: &str) -> Option<Dimension> {
         "radius" | "amplitude" | "rms_height" | "fourier_unit" | "cut_off_wavelength" => Some(LENGTH),
         "spring_position" | "distance" | "absent_gap" => Some(LENGTH),
         "young" | "other_young" => Some(PRESSURE),
+        "resistivities" => Some(RESISTIVITY),
+        "conductivities" => Some(CONDUCTIVITY),
         _ => dimension_of(key, "", false),
     }
 }
