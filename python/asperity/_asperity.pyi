@@ -278,6 +278,9 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
+def contact_tables(
+    gap: _Field, contact_pressure: _Field, lengths: tuple[float, float], boundary: str
+) -> dict[str, Any]: ...
 def interface_files(
     code: str,
     rows: list[dict[str, Any]],

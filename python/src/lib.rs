@@ -36,7 +36,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::command::command;
     #[pymodule_export]
-    use crate::contact::{cluster_colours, clusters, load_scale, pressure_distribution};
+    use crate::contact::{cluster_colours, clusters, contact_tables, load_scale, pressure_distribution};
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]

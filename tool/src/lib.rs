@@ -1,6 +1,6 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
 //! many loads, `asperity cycle` a path with jumps, `asperity pull-off` the greatest tension, and `asperity study` every
-//! combination of options; `asperity leak` tells what leaks through the gap of a solve, and `asperity interface` makes
+//! combination of options; `asperity contact` tabulates the contact of a solve, `asperity leak` tells what leaks through the gap of a solve, and `asperity interface` makes
 //! tables for finite elements. `asperity surface` makes files of
 //! heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the
 //! adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any of these by a scene file,
@@ -12,6 +12,7 @@
 // the commands
 mod columns;
 mod completions;
+mod contact;
 mod cycle;
 mod demo;
 mod interface;
@@ -48,6 +49,7 @@ mod printing;
 mod progress;
 mod report;
 mod scene;
+mod solved;
 mod summary;
 mod table;
 mod threads;
@@ -91,6 +93,7 @@ const EXAMPLES: &str = "\
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
+  asperity contact results --out contact
   asperity leak results
   asperity interface --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --for abaqus --out law.csv
   asperity study study.toml --jobs 4
@@ -113,6 +116,7 @@ enum Command {
     Stats(stats::Options),
     Leak(Box<leak::Options>),
     Interface(Box<interface::Options>),
+    Contact(contact::Options),
     Laws(Box<laws::Options>),
     Selftest(selftest::Options),
     Completions(completions::Options),
@@ -190,6 +194,7 @@ fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: 
         Command::Surface(options) => surface::run(&options, scene),
         Command::Stats(options) => stats::run(&options, scene),
         Command::Leak(options) => leak::run(&options, scene),
+        Command::Contact(options) => contact::run(&options, scene),
         Command::Interface(options) => interface::run(&options, scene, processes),
         Command::Laws(options) => laws::run(&options, scene),
         Command::Selftest(options) => selftest::run(&options),

@@ -9,6 +9,7 @@ mod branch_tool;
 
 #[cfg(unix)]
 mod commands;
+mod contact_tool;
 mod fraction_tool;
 mod free_tool;
 mod hints;

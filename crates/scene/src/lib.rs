@@ -13,6 +13,7 @@ mod asked;
 mod body;
 mod boundary;
 mod compiled;
+pub mod contact;
 mod course;
 pub mod csv;
 mod displacement;

@@ -65,6 +65,8 @@ const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32
 
 /// A length.
 pub const LENGTH: Dimension = dimension("length, as 20um", "m", 0, 1);
+/// An area.
+pub const AREA: Dimension = dimension("area", "m²", 0, 2);
 /// A wave number.
 pub const PER_LENGTH: Dimension = dimension("wave number, as 2/um", "1/m", 0, -1);
 /// A pressure.

@@ -4,7 +4,7 @@ use asperity_maps::warning::Warning;
 
 use crate::numbers::{plain, si};
 use crate::quantity::{
-    CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH,
+    AREA, CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH,
     PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH, RESISTIVITY, THERMAL_CONDUCTANCE, TRANSMISSIVITY,
     VISCOSITY,
 };
@@ -58,6 +58,7 @@ impl Units {
         let length = if lengths == 0 { "" } else { length? };
         Some(match (pressures, lengths) {
             (0, -1) => format!("1/{length}"),
+            (0, 2) => format!("{length}²"),
             (0, 3) => format!("{length}³"),
             (-1, 0) => format!("1/{pressure}"),
             (_, -1) => format!("{pressure}/{length}"),
@@ -71,7 +72,7 @@ impl Units {
     /// A number of a dimension for people, with its unit as far as that is known, and with a prefix in the SI.
     pub fn number(&self, value: f64, dimension: Dimension) -> String {
         match self.of(dimension) {
-            Some(unit) if unit == dimension.si && ![PER_LENGTH, TRANSMISSIVITY].contains(&dimension) => {
+            Some(unit) if unit == dimension.si && ![PER_LENGTH, AREA, TRANSMISSIVITY].contains(&dimension) => {
                 si(value, &unit)
             }
             Some(unit) => format!("{} {unit}", plain(value)),
@@ -138,7 +139,10 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
         ("modulus" | "coating_modulus" | "against_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
         ("pull_off_pressure" | "lost_pressure" | "preload", _) => PRESSURE,
         ("pull_off_force", _) => FORCE,
-        ("density", _) => PER_PRESSURE,
+        ("from_gap" | "to_gap" | "distance", _) => LENGTH,
+        ("gap_density", _) => PER_LENGTH,
+        ("area", _) => AREA,
+        ("density" | "pressure_density", _) => PER_PRESSURE,
         ("normal_force", _) => FORCE,
         ("elastic_energy" | "adhesive_energy" | "work" | "dissipated" | "energy_drop" | "work_of_adhesion", _) => {
             ENERGY_PER_AREA
