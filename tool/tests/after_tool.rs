@@ -9,7 +9,8 @@ const PRESSED: &str = "--heights heights.npz --modulus 1GPa";
 fn the_conductance_is_that_of_the_stiffness_with_its_error_and_unit() {
     let bench = Bench::new();
     bench.said(ROUGH);
-    let solve = format!("solve {PRESSED} --mean-pressure 4MPa --stiffness --no-pictures --force --out pressed");
+    let solve =
+        format!("solve {PRESSED} --mean-pressure 4MPa --nested --stiffness --no-pictures --force --out pressed");
     let report = bench.reported(&format!("{solve} --resistivities 17nOhm·m 2.4uOhm*cm"));
     let found = &report["conductance"];
     let stiffness = report["contact_stiffness"].as_f64().unwrap();

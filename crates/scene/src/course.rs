@@ -7,7 +7,7 @@ use std::path::Path as File;
 use std::time::Instant;
 
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
-use asperity::{ContactSearch, Control, Iteration, Real, Result, Sweep};
+use asperity::{Branch, ContactSearch, Control, Iteration, Real, Result, Sweep};
 use ndarray::Array2;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -292,6 +292,16 @@ impl<T: Real> Course<T> {
         posed.followed(found, &this.after).map(Some)
     }
 
+    /// The branch of a state in the table of an interface: its own, or that of the first one, on which the others follow.
+    fn branch(&mut self, own: Option<Branch>) -> Option<Branch> {
+        let values = &mut self.place.values;
+        if let Some(own) = own {
+            values.insert("branch".to_owned(), vec![f64::from(u8::from(own == Branch::Unloading))]);
+        }
+        let unloads = values.get("branch")?.first()? > &0.0;
+        Some(if unloads { Branch::Unloading } else { Branch::Loading })
+    }
+
     /// The row of the state that was found last, with its account, which a look completes. A withdrawal in which it is
     /// apart ends there.
     ///
@@ -300,6 +310,9 @@ impl<T: Real> Course<T> {
     pub fn row(&mut self, found: &mut Found<T>, mut account: Account, seed: Option<u64>) -> Result<Row> {
         let statistics = found.sight.look_at(&mut account, &found.solution)?;
         let (sizes, step) = (&statistics.cluster_sizes, found.step.clone());
+        if self.touch.is_some() {
+            account.branch = self.branch(account.branch);
+        }
         let shares = [Some(account.contact_fraction), account.attractive_fraction];
         self.leg_ends = is_apart(step.as_ref().map(|step| step.direction), shares);
         let heights = account.inputs.heights.as_deref().and_then(|path| File::new(path).file_name());

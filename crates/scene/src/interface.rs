@@ -129,8 +129,16 @@ fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
         Some((at.0, at.1, kind.and_then(|kind| number(row, kind))))
     };
     let mut states: Vec<_> = rows.iter().filter_map(state).collect();
-    states.sort_by(|a, b| a.0.total_cmp(&b.0));
-    states.dedup();
+    if states.windows(2).all(|two| two[1].0 < two[0].0) {
+        states.reverse();
+    }
+    if let Some(two) = states.windows(2).find(|two| two[1].0 <= two[0].0 || two[1].1 <= two[0].1) {
+        return Err(format!(
+            "the pressure is no function of the closure: {:e} at {:e} comes before {:e} at {:e}: give loads that grow, \
+             or loads that fall",
+            two[0].1, two[0].0, two[1].1, two[1].0
+        ));
+    }
     let first = states.iter().position(|state| state.1 > 0.0).ok_or("no row has a pressure: give {mean_pressures}")?;
     let origin = match first.checked_sub(1).map(|before| (states[before], states[first])) {
         _ if !adhesive => (0.0, 0.0, kind.map(|_| 0.0)),
@@ -147,13 +155,6 @@ fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
         }
     };
     let states: Vec<_> = std::iter::once(origin).chain(states.split_off(first)).collect();
-    if let Some(two) = states.windows(2).find(|two| two[1].0 <= two[0].0 || two[1].1 <= two[0].1) {
-        return Err(format!(
-            "the pressure is no function of the closure: it is {:e} at {:e}, and {:e} at {:e}: give loads that grow, on \
-             one {{branch}}",
-            two[0].1, two[0].0, two[1].1, two[1].0
-        ));
-    }
     let pressure = Function {
         name: "pressure",
         columns: vec!["closure", "mean_pressure"],
