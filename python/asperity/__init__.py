@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _flow, _pair, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
+from . import _cycle, _flow, _interface, _pair, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -33,6 +33,7 @@ from ._asperity import (
 from ._body import Coating, Layer, Symbol
 from ._cycle import Cycle, Step
 from ._flow import Flow, Leakage
+from ._interface import Interface
 from ._progress import progress
 from ._pull_off import PullOff
 from ._solution import (
@@ -53,6 +54,7 @@ from ._words import checked as _checked
 
 contact_modulus = _checked(_pair.contact_modulus)
 cycle = _checked(_cycle.cycle)
+interface = _checked(_interface.interface)
 leakage = _checked(_flow.leakage)
 prepare = _checked(_prepare.prepare)
 pull_off = _checked(_pull_off.pull_off)
@@ -72,6 +74,7 @@ __all__ = [
     "Exponential",
     "Flow",
     "InputWarning",
+    "Interface",
     "Iteration",
     "Law",
     "Layer",
@@ -104,6 +107,7 @@ __all__ = [
     "cycle",
     "exact",
     "from_topography",
+    "interface",
     "leakage",
     "prepare",
     "progress",

@@ -41,9 +41,11 @@ __all__ = [
     "command",
     "conductance",
     "contact_modulus",
+    "contact_tables",
     "fourier",
     "has_dimension",
     "in_metres",
+    "interface_files",
     "knee_wavelength",
     "leakage",
     "load_scale",
@@ -61,6 +63,8 @@ __all__ = [
 VERSION: str
 
 _Field = NDArray[np.float64]
+_Pair = tuple[float, float] | None
+_Following = tuple[bool, _Pair, _Pair, float | None]
 _Narrowest = tuple[float, tuple[int, int], NDArray[np.int64]]
 _Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
 _Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, int | None]
@@ -252,7 +256,7 @@ class Problem:
         observe: Callable[[Iteration], object] | None,
         stability: bool,
         leave: bool,
-        stiffness: bool,
+        after: _Following,
         accuracy: tuple[float | None, str | None, float | None],
     ) -> dict[str, Any]: ...
     def pull_off(
@@ -266,7 +270,8 @@ class Problem:
         self,
         loads: list[tuple[str, list[float]]],
         start: str | _Field | None,
-        stiffness: bool,
+        after: _Following,
+        interface: bool,
         path: tuple[int, float, float, bool] | None,
         seed: int | None,
         table: tuple[str, str | None, bool, _Field | None, _Field | None, bool] | None,
@@ -276,6 +281,16 @@ class Problem:
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float
     ) -> dict[str, Any]: ...
 
+def contact_tables(
+    gap: _Field, contact_pressure: _Field, lengths: tuple[float, float], boundary: str
+) -> dict[str, Any]: ...
+def interface_files(
+    code: str,
+    rows: list[dict[str, Any]],
+    adhesive: bool,
+    name: str,
+    units: tuple[str | None, str | None],
+) -> list[tuple[str, str]]: ...
 def has_dimension(key: str) -> bool: ...
 def quantity(key: str, text: str) -> float: ...
 def in_metres(given: _Given) -> _Map: ...

@@ -10,13 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _law
-from ._control import Load
+from ._control import Load, Pair
 from ._progress import progress
 from ._scene import Scene
 from ._solution import Solution
 
 #: A file for the rows, a folder for fields, and whether to start over.
 File = tuple[str | os.PathLike[str] | None, str | os.PathLike[str] | None, bool]
+
+#: The findings after each state: whether the stiffness is one, resistivities, conductivities, and bounds of the leakage.
+Following = tuple[bool, Pair, Pair, float | None]
 
 T = TypeVar("T")
 R = TypeVar("R", bound="Rows[Any]")
@@ -31,7 +34,8 @@ class Rows(Iterator[T]):
         loads: list[Load],
         start: Any,
         observe: Any,
-        stiffness: bool = False,
+        after: Following = (False, None, None, None),
+        interface: bool = False,
         path: tuple[int, float, float, bool] | None = None,
         file: File = (None, None, False),
     ) -> None:
@@ -42,7 +46,7 @@ class Rows(Iterator[T]):
         kept = fields if fields is None else os.path.abspath(fields)
         table = None if out is None else (os.path.abspath(out), kept, force, *_law.fields(scene.adhesion))
         start, seed = scene.start(start), scene.topography.seed
-        names, rows = scene.problem.begin(loads, start, stiffness, path, seed, table)
+        names, rows = scene.problem.begin(loads, start, after, interface, path, seed, table)
         #: the names of the columns, as in the tool's table
         self.names = tuple(names)
         self.rows: list[dict[str, Any]] = [dict(zip(self.names, row, strict=True)) for row in rows]
@@ -76,12 +80,12 @@ class Rows(Iterator[T]):
 
         The rows that a file had come first; what is not finite in them is NaN.
 
-        Numbers that do not apply are NaN. An event that did not happen is None, and so is the part of a map that was not
-        mirrored.
+        Numbers that do not apply are NaN. An event that did not happen is None, and so are the part of a map that was not
+        mirrored, and the branch of an equilibrium that has none.
         """
         self.run()
         return {name: np.array([_cell(name, row[name]) for row in self.rows]) for name in self.names}
 
 
 def _cell(name: str, value: Any) -> Any:
-    return np.nan if value is None and name not in ("event", "part") else value
+    return np.nan if value is None and name not in ("branch", "event", "part") else value

@@ -12,6 +12,9 @@ from ._types import Branch, Branches
 #: A load as the compiled core takes it: the name of its keyword, and its numbers.
 Load = tuple[str, list[float]]
 
+#: The numbers of two bodies.
+Pair = tuple[float, float] | None
+
 #: The names of loads by the keywords of their sequences.
 PLURALS = {
     "mean_pressures": "mean_pressure",
@@ -32,6 +35,17 @@ def number(name: str, value: Any) -> float:
     except (TypeError, ValueError):
         pass
     raise TypeError(f"{name} is {value!r}: it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa")
+
+
+def pair(name: str, value: Any) -> Pair:
+    """The numbers of two bodies."""
+    if value is None:
+        return None
+    try:
+        first, second = value
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}: it must be two numbers, one of each body") from None
+    return (number(name, first), number(name, second))
 
 
 def one(given: dict[str, Any]) -> Load:

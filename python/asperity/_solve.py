@@ -60,6 +60,8 @@ def solve(
     stability: bool = False,
     leave: bool = False,
     stiffness: bool = False,
+    resistivities: tuple[Quantity, Quantity] | None = None,
+    conductivities: tuple[Quantity, Quantity] | None = None,
     accuracy: float | None = None,
     accuracy_of: AccuracyOf | None = None,
     memory: float | None = None,
@@ -167,6 +169,11 @@ def solve(
     stiffness : bool
         Finds the contact stiffness, how much the load grows as the bodies approach each other: ``contact_stiffness``
         and ``normal_stiffness`` of the solution.
+    resistivities : (float, float), optional
+        Electrical resistivities of both half-spaces: with ``stiffness`` the conductance of the contact per area, in
+        ``report["conductance"]`` with its relative error, that of the grid included as far as it is known.
+    conductivities : (float, float), optional
+        Thermal conductivities of both half-spaces: the same for heat.
     accuracy : float, optional
         Relative error that is wanted, such as 0.01. Chooses the tolerance, solves on coarser grids too, and
         interpolates the heights on finer ones until the estimated error is as small: the fields, and ``heights`` and
@@ -229,6 +236,8 @@ def solve(
         raise ValueError("start chooses the branch: leave out branch, or start")
     scene = Scene.of(given)
     goal = (accuracy, accuracy_of, memory)
-    found = scene.problem.solve(load, scene.start(start), observe, stability, leave, stiffness, goal)
+    pairs = (_control.pair("resistivities", resistivities), _control.pair("conductivities", conductivities))
+    after = (stiffness, *pairs, None)
+    found = scene.problem.solve(load, scene.start(start), observe, stability, leave, after, goal)
     plan = found["plan"]
     return scene.solution({**found, "plan": None if plan is None else Plan(*plan)})

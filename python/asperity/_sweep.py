@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from . import _control, _plot
 from ._asperity import Iteration
 from ._body import Body
-from ._columns import Rows
+from ._columns import Following, Rows
 from ._pair import Shift
 from ._scene import Scene
 from ._solution import Solution, Start
@@ -85,6 +85,9 @@ def sweep(
     start: Start = None,
     observe: Callable[[Iteration], object] | None = None,
     stiffness: bool = False,
+    resistivities: tuple[Quantity, Quantity] | None = None,
+    conductivities: tuple[Quantity, Quantity] | None = None,
+    leakage: float | None = None,
     threads: int | None = None,
     whole: bool = False,
     out: str | PathLike[str] | None = None,
@@ -117,6 +120,12 @@ def sweep(
         ``wanted_contact_fraction`` and ``reached``.
     stiffness : bool
         Finds the contact stiffness under each load: two more columns, ``contact_stiffness`` and ``normal_stiffness``.
+    resistivities, conductivities : (float, float), optional
+        Electrical resistivities, or thermal conductivities, of both half-spaces: with ``stiffness`` the columns
+        ``electrical_conductance`` or ``thermal_conductance``, per area, and ``conductance_error``.
+    leakage : float, optional
+        Relative distance of two bounds between which the transmissivity of the gap is found, as by `leakage`: columns
+        ``transmissivity_x_lower``, ``transmissivity_x_upper`` and the same along y.
     out : str or path, optional
         File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
         comes. The same call goes on with a file that is there, also with loads added to the end of the list, and ends
@@ -146,4 +155,11 @@ def sweep(
     given = locals()
     loads = _control.many(given)
     scene = Scene.of({**given, "branch": _control.only(branch)})
-    return Sweep(scene, loads, start, observe, stiffness, file=(out, fields, force))
+    return Sweep(scene, loads, start, observe, _after(given), file=(out, fields, force))
+
+
+def _after(given: dict[str, Any]) -> Following:
+    """The findings after each state among the keywords of a function."""
+    first, second = (_control.pair(name, given[name]) for name in ("resistivities", "conductivities"))
+    leakage = given["leakage"]
+    return (given["stiffness"], first, second, None if leakage is None else _control.number("leakage", leakage))

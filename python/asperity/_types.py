@@ -14,6 +14,7 @@ Precision: TypeAlias = Literal["f64", "f32"]
 Branch: TypeAlias = Literal["loading", "unloading"]
 Branches: TypeAlias = Literal["loading", "unloading", "both"]
 AccuracyOf: TypeAlias = Literal["area", "gap", "pressure", "stiffness"]
+Code: TypeAlias = Literal["abaqus", "comsol", "moose"]
 AxisOrder: TypeAlias = Literal["xy", "yx"]
 ScanAxis: TypeAlias = Literal["x", "y"]
 RowAlignment: TypeAlias = Literal["median", "median-difference"]
@@ -147,6 +148,16 @@ Steadiness = TypedDict(
 )
 
 
+class Conducted(TypedDict):
+    """The conductance of a contact per area and of the whole; no relative error where that of the grid is unknown."""
+
+    value: float
+    whole: float
+    relative_error: float | None
+    resistivities: list[float] | None
+    conductivities: list[float] | None
+
+
 class Departure(TypedDict):
     """An unstable equilibrium that was left."""
 
@@ -210,6 +221,10 @@ class Report(TypedDict):
     stability: Steadiness | None
     contact_stiffness: float | None
     normal_stiffness: float | None
+    conductance: Conducted | None
+    percolates: dict[str, bool] | None
+    constriction: dict[str, Any] | None
+    transmissivity: dict[str, Any] | None
     departures: list[Departure] | None
     mu_rho: float
     mu_rho_node: list[int] | None

@@ -1,4 +1,4 @@
-"""The contact map: clusters of nodes that hang together."""
+"""The contact map: clusters of nodes that hang together, and the contact in tables."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
-from ._solution import ContactStatistics
+from ._solution import ContactStatistics, Solution
 
-__all__ = ["Clusters", "ContactStatistics", "clusters"]
+__all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
 
 
 class Clusters(NamedTuple):
@@ -51,3 +51,75 @@ def clusters(contact: Any) -> Clusters:
         raise ValueError(f"contact has shape {given.shape}: it must be (Nx, Ny), or (N,) on a line")
     sizes, labels = _asperity.clusters(given.astype(bool).reshape(given.shape[0], -1), True)
     return Clusters(sizes, labels.reshape(given.shape))
+
+
+class Density(NamedTuple):
+    """Probability density of a gap or a pressure over the nodes, in bins that are equally wide in its logarithm.
+
+    Attributes
+    ----------
+    density : ndarray
+        Share of the nodes in each bin over its width.
+    edges : ndarray
+        Edges of the bins: one more than there are bins.
+    exponent : dict or None
+        Power as which the density grows near the edge of the contact: ``exponent``, the window ``from`` and ``to``, and
+        the ``nodes`` in it. At a hard wall without adhesion it is −1/3 for the gap and 1 for the contact pressure. None
+        where the nodes do not reach that near.
+    """
+
+    density: NDArray[np.float64]
+    edges: NDArray[np.float64]
+    exponent: dict[str, Any] | None
+
+
+class ContactTables(NamedTuple):
+    """The contact of a solution in tables.
+
+    Attributes
+    ----------
+    gap, pressure : Density
+        Distributions of the gap, where it is open, and of the contact pressure, where there is one.
+    autocorrelation : ndarray, shape (n, 2)
+        Distance, and the autocorrelation of the contact pressure about its mean over its variance, averaged over
+        directions; empty where opposite sides do not meet.
+    clusters : ndarray, shape (n, 4)
+        Nodes, area, perimeter and force of each cluster of contact, the largest first.
+    figures : dict
+        Numbers of the tables, with the keys of ``asperity contact --json``.
+    """
+
+    gap: Density
+    pressure: Density
+    autocorrelation: NDArray[np.float64]
+    clusters: NDArray[np.float64]
+    figures: dict[str, Any]
+
+
+def tables(solution: Solution) -> ContactTables:
+    """Tabulates the contact of a solution, as ``asperity contact`` does.
+
+    Parameters
+    ----------
+    solution : Solution
+
+    Returns
+    -------
+    ContactTables
+
+    Examples
+    --------
+    >>> import asperity
+    >>> rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_s=16, seed=1)
+    >>> solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    >>> found = asperity.contact.tables(solution)
+    >>> bool(abs(found.clusters[:, 3].sum() / 0.01 - 1) < 1e-5)  # the clusters carry the load
+    True
+    """
+    gap, pressure = (
+        np.asarray(field, dtype=float).reshape(field.shape[0], -1)
+        for field in (solution.gap, solution.contact_pressure)
+    )
+    found = _asperity.contact_tables(gap, pressure, solution.lengths, solution.flow_boundary)
+    densities = [Density(*found[name]) for name in ("gap", "pressure")]
+    return ContactTables(densities[0], densities[1], found["autocorrelation"], found["clusters"], found["figures"])

@@ -1,10 +1,15 @@
 //! The contact of a solution: the clusters of a map, the distribution of its pressure, and the colours of both.
 
+use asperity::Grid;
 use asperity::contact::{Clusters, PressureDistribution};
 use asperity_plot::{LoadScale, cluster_colour};
-use numpy::ndarray::Array3;
+use asperity_scene::Boundary;
+use asperity_scene::contact::{ContactTables, Density as Tabulated};
+use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_pyobject::to_pyobject;
 
 use crate::numbers::Field;
 use crate::refusal::refusal;
@@ -55,4 +60,40 @@ pub fn pressure_distribution<'py>(
     let bins = usize::try_from(bins).unwrap_or(0);
     let found = py.detach(|| PressureDistribution::of_fields(gap, pressure, bins)).map_err(refusal)?;
     Ok((found.density.into_pyarray(py), found.edges.into_pyarray(py)))
+}
+
+/// The tables of a contact: for gap and pressure density, edges and exponent, the autocorrelation by rows of distance and
+/// value, and the clusters by rows of nodes, area, perimeter and force.
+#[pyfunction]
+pub fn contact_tables<'py>(
+    py: Python<'py>,
+    gap: Field<'_>,
+    contact_pressure: Field<'_>,
+    lengths: (f64, f64),
+    boundary: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (gap, pressure) = (gap.as_array(), contact_pressure.as_array());
+    let boundary = if boundary == "free" { Boundary::Free } else { Boundary::Periodic };
+    let find = || ContactTables::of(gap, pressure, Grid::new(gap.dim(), lengths)?, boundary);
+    let tables = py.detach(find).map_err(refusal)?;
+    let found = PyDict::new(py);
+    let tabulated = |of: Tabulated| {
+        let exponent = of.exponent.map(|exponent| to_pyobject(py, &exponent)).transpose()?;
+        PyResult::Ok((of.density.into_pyarray(py), of.edges.into_pyarray(py), exponent))
+    };
+    found.set_item("figures", to_pyobject(py, &tables.figures())?)?;
+    let ContactTables { gap, pressure, autocorrelation, spots, .. } = tables;
+    found.set_item("gap", tabulated(gap)?)?;
+    found.set_item("pressure", tabulated(pressure)?)?;
+    let rows = Array2::from_shape_fn((autocorrelation.len(), 2), |(k, part)| {
+        let (distance, value) = autocorrelation[k];
+        [distance, value][part]
+    });
+    found.set_item("autocorrelation", rows.into_pyarray(py))?;
+    let rows = Array2::from_shape_fn((spots.len(), 4), |(k, part)| {
+        let spot = spots[k];
+        [spot.nodes as f64, spot.area, spot.perimeter, spot.force][part]
+    });
+    found.set_item("clusters", rows.into_pyarray(py))?;
+    Ok(found)
 }

@@ -1,7 +1,7 @@
 //! The inputs of a problem by the names of their keywords. The law has a file of its own.
 
 use asperity_scene::units::dimension_of_key;
-use asperity_scene::{Goal, Load};
+use asperity_scene::{Adhesion, After, Conductors, Elastic, Goal, Load};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -10,6 +10,7 @@ use serde::de::{DeserializeOwned, IntoDeserializer};
 use serde_pyobject::from_pyobject;
 
 use crate::numbers::Field;
+use crate::refusal::reason;
 
 /// The value of a keyword by its name, which is one of `names`.
 pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
@@ -72,6 +73,23 @@ impl Begin<'_> {
 pub enum Hardness<'py> {
     Number(f64),
     Map(Field<'py>),
+}
+
+/// The findings after a solve as Python passes them: whether the stiffness is one, resistivities or conductivities of
+/// both bodies, and the relative distance of the bounds of the transmissivity.
+pub type Following = (bool, Option<(f64, f64)>, Option<(f64, f64)>, Option<f64>);
+
+/// The findings that are asked for after a solve.
+pub fn after(given: Following, elastic: &Elastic, adhesion: &Adhesion) -> PyResult<After> {
+    let (stiffness, resistivities, conductivities, leakage) = given;
+    if leakage.is_some_and(|share| !(share > 0.0 && share < 1.0)) {
+        let given = leakage.unwrap_or_default();
+        return Err(PyValueError::new_err(format!("leakage is {given}: it must be a share between 0 and 1")));
+    }
+    let conductors = Conductors::of(resistivities, conductivities).map_err(reason)?;
+    let after = After { stiffness, conductors, percolation: false, leakage };
+    after.check(elastic, adhesion).map_err(reason)?;
+    Ok(after)
 }
 
 /// An accuracy as Python passes it: the relative error, the name of the quantity, and the memory in GiB.

@@ -10,6 +10,7 @@ mod formulas;
 mod functions;
 mod given;
 mod inputs;
+mod interface;
 mod jumps;
 mod law;
 mod look;
@@ -35,7 +36,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::command::command;
     #[pymodule_export]
-    use crate::contact::{cluster_colours, clusters, load_scale, pressure_distribution};
+    use crate::contact::{cluster_colours, clusters, contact_tables, load_scale, pressure_distribution};
     #[pymodule_export]
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
@@ -44,6 +45,8 @@ mod _asperity {
     use crate::formulas::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
     #[pymodule_export]
     use crate::inputs::{has_dimension, quantity};
+    #[pymodule_export]
+    use crate::interface::interface_files;
     #[pymodule_export]
     use crate::law::{CutOff, Law, Tabulated, Varying, check_law};
     #[pymodule_export]

@@ -5,12 +5,12 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Control, Grid, PullOff, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Branches, Elastic, Inputs, Load, Precision, Scene, Slopes, Way};
+use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Slopes, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::inputs::{Accuracy, Begin, Given, Hardness, goal, keys, load, named};
+use crate::inputs::{Accuracy, Begin, Following, Given, Hardness, after, goal, keys, load, named};
 use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -130,7 +130,7 @@ impl Problem {
     }
 
     /// The equilibrium at a load.
-    #[pyo3(signature = (load, start, observe, stability, leave, stiffness, accuracy))]
+    #[pyo3(signature = (load, start, observe, stability, leave, after, accuracy))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn solve<'py>(
         &mut self,
@@ -140,7 +140,7 @@ impl Problem {
         observe: Option<Py<PyAny>>,
         stability: bool,
         leave: bool,
-        stiffness: bool,
+        after: Following,
         accuracy: Accuracy,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (load, goal) = (self::load(&load)?, goal(accuracy)?);
@@ -152,7 +152,7 @@ impl Problem {
             other_branch,
             stability,
             leave,
-            stiffness,
+            after: self::after(after, &self.inputs.elastic, &self.inputs.adhesion)?,
             goal,
             ..Asked::under(load.control(1.0))
         };
@@ -181,20 +181,22 @@ impl Problem {
 
     /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.
     /// Returns the names of its columns, and the cells of the rows that the table has.
-    #[pyo3(signature = (loads, start, stiffness, path, seed, table))]
+    #[pyo3(signature = (loads, start, after, interface, path, seed, table))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn begin<'py>(
         &mut self,
         py: Python<'py>,
         loads: Vec<Given>,
         start: Option<Begin<'py>>,
-        stiffness: bool,
+        after: Following,
+        interface: bool,
         path: Option<(usize, f64, f64, bool)>,
         seed: Option<u64>,
         table: Option<File<'py>>,
     ) -> PyResult<(Vec<&'static str>, Bound<'py, PyAny>)> {
         let loads = loads.iter().map(load).collect::<PyResult<Vec<_>>>()?;
-        let asked = Asked { stiffness, ..Asked::under(Control::MeanPressure(0.0)) };
+        let after = self::after(after, &self.inputs.elastic, &self.inputs.adhesion)?;
+        let asked = Asked { after, ..Asked::under(Control::MeanPressure(0.0)) };
         asked.check(&self.inputs.adhesion, self.inputs.method, false).map_err(reason)?;
         let full = self.full_pressure(py, &loads)?;
         let controls = loads.iter().map(|load| load.control(full)).collect();
@@ -208,8 +210,13 @@ impl Problem {
             None => Way::Search(fractions),
         };
         self.begins(start.as_ref());
+        if interface && self.inputs.elastic.boundary == Boundary::Free {
+            return Err(PyValueError::new_err(
+                "boundary is 'free': an interface has its law per area of a periodic cell",
+            ));
+        }
         let (pool, inputs, solves) = self.parts()?;
-        solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, stiffness, seed), start, table)
+        solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, (after, interface), seed), start, table)
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.

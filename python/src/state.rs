@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use asperity::contact::Original;
 use asperity::{Control, PullOff, Status, Surface};
+use asperity_scene::interface::touch;
 use asperity_scene::output::{check_apart, check_free, with_suffix};
 use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Skin, Table,
-    Told, Way, check_finite, warnings_of_input,
+    Account, After, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Skin,
+    Table, Told, Way, check_finite, warnings_of_input,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
@@ -66,7 +67,7 @@ pub trait Solves: Send {
         &mut self,
         py: Python<'py>,
         run: Run<'_>,
-        course: (Way, bool, Option<u64>),
+        course: (Way, (After, bool), Option<u64>),
         start: Option<Begin<'py>>,
         file: Option<File<'py>>,
     ) -> Columns<'py>;
@@ -176,14 +177,18 @@ impl<T: Scalar> Solves for State<T> {
         &mut self,
         py: Python<'py>,
         at: Run<'_>,
-        (way, stiffness, seed): (Way, bool, Option<u64>),
+        (way, (after, interface), seed): (Way, (After, bool), Option<u64>),
         start: Option<Begin<'py>>,
         file: Option<File<'py>>,
     ) -> Columns<'py> {
         let (loads, adhesive) = (way.loads(), at.inputs.adhesion.adheres());
         let control = loads.first().copied().unwrap_or_else(|| at.inputs.elastic.boundary.searched_by(adhesive));
         let start = self.start(start, loads)?;
-        let course = Course::new(way, stiffness).yielding(at.inputs.adhesion.yields());
+        let course = Course::new(way, after).yielding(at.inputs.adhesion.yields());
+        let course = match interface {
+            true => course.of_interface(touch(self.posed.surface().map_err(refusal)?)),
+            false => course,
+        };
         let names = course.columns();
         self.seed = seed;
         let Some((out, fields, force, law_table, works, law_differs)) = file else {

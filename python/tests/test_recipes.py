@@ -76,6 +76,28 @@ def penalty_uzawa_and_the_default(found):
     assert all(pressed.converged for pressed in found["found"])
 
 
+def a_seal(found):
+    lower, upper, seal = found["lower"], found["upper"], found["seal"]
+    assert [f"{1e12 * flow:.2g}" for flow in upper] == ["40", "2.7", "0.0052", "0"]
+    assert (lower <= upper).all() and (upper - lower <= 1e-3 * upper).all()
+    assert [f"{share:.2f}" for share in seal["contact_fraction"][2:]] == ["0.33", "0.58"]
+
+
+def a_thermal_joint(found):
+    law = found["law"]
+    assert [f"{value / 1e3:.1f}" for value in law["thermal_conductance"][[0, -1]]] == ["4.8", "205.6"]
+    assert f"{found['power']:.2f}" == "0.82" and law["conductance_error"].max() < 0.02
+    assert [file.name for file in found["files"]] == ["joint.inp"]
+    assert "*GAP CONDUCTANCE, PRESSURE" in found["files"][0].read_text()
+
+
+def an_electrical_contact_with_adhesion(found):
+    light, heavy = (found["gain"][pressure] for pressure in (1e6, 100e6))
+    assert [f"{100 * (gain - 1):.0f}" for gain in (*light, *heavy)] == ["34", "9", "11", "4"]
+    # the grid resolves the adhesion
+    assert all(not sticky.report["under_resolved"] for _, sticky in found["found"].values())
+
+
 @pytest.mark.parametrize("title", RECIPES)
 def test_the_recipe_runs(title, tmp_path, monkeypatch):
     pytest.importorskip("matplotlib")

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use asperity::path::PathSettings;
 use asperity::{Control, Error};
-use asperity_scene::{Boundary, Format, Way};
+use asperity_scene::{After, Boundary, Format, Way};
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
@@ -114,7 +114,8 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
         scene,
         processes,
         manner: &options.manner,
-        stiffness: false,
+        after: After::default(),
+        interface: false,
     };
     table.fill(options)
 }

@@ -1,13 +1,12 @@
 //! `asperity leak`: percolation of a gap, and what leaks through it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use asperity::{Error, Grid};
+use asperity::Grid;
 use asperity_flow::{Axis, Flow, Gap, Leak, Leakage};
 use asperity_maps::Topography;
-use asperity_maps::io::{OutputFolder, read_field, write_npy};
+use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
 use asperity_scene::{Boundary, LeakAsked, Skin};
 use clap::Args;
@@ -23,6 +22,7 @@ use crate::printing::{Printing, complain, name, say};
 use crate::quantity::{LENGTH, Quantity, VISCOSITY};
 use crate::report;
 use crate::scene::{self, SceneFile};
+use crate::solved::{GAP, Solved};
 use crate::units::Units;
 
 /// Find out whether a gap is open from side to side, and how much leaks through it.
@@ -115,7 +115,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let Options { gap, out, force, printing, .. } = options;
     if let Some(out) = out {
         scene.check(&out.join(scene::NAME))?;
-        let read = if gap.is_dir() { SOLVED.map(|name| gap.join(name)).to_vec() } else { vec![gap.clone()] };
+        let read = if gap.is_dir() { Solved::files(gap, &[GAP]) } else { vec![gap.clone()] };
         FILES.iter().try_for_each(|name| check_apart(&out.join(name), read.iter().map(PathBuf::as_path)))?;
         drop(output_folder(out, &FILES, *force)?);
     }
@@ -163,15 +163,13 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     Ok(leaked.reached)
 }
 
-/// The files of a solve that are read.
-const SOLVED: [&str; 2] = ["report.json", "gap.npy"];
-
 impl Options {
     /// The gap, with the side lengths as far as they are known, and what is beyond it.
     fn read(&self, si: bool) -> Outcome<(Topography, Boundary)> {
         let path = &self.gap;
         if path.is_dir() {
-            let (map, boundary) = of_solve(path)?;
+            let solved = Solved::read(path)?;
+            let (map, boundary) = (solved.map(GAP)?, solved.boundary());
             if self.lengths.is_some() {
                 return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
             }
@@ -213,28 +211,6 @@ impl Options {
         folder.commit()?;
         Ok(names)
     }
-}
-
-/// The gap of a solve, and what is beyond it: of the original of a mirrored map sides through which nothing flows, or
-/// which have one pressure, as those of a free one.
-fn of_solve(folder: &Path) -> Outcome<(Topography, Boundary)> {
-    let [report, gap] = SOLVED.map(|name| folder.join(name));
-    let refuse = |reason: &str| Error::file(folder, reason);
-    let text = fs::read_to_string(&report).map_err(|_| refuse("has no report.json: name the folder of a solve"))?;
-    let report: Value =
-        serde_json::from_str(&text).map_err(|_| refuse("has a report.json that is no report of a solve"))?;
-    if report["command"] != "solve" && report["command"] != "demo" {
-        return Err(refuse("has the results of another command: name the folder of a solve").into());
-    }
-    if !gap.exists() {
-        return Err(refuse("has no gap.npy: solve with --format npy").into());
-    }
-    let mut map = Topography::new(read_field(&gap)?);
-    let side = |k: usize| report["lengths"][k].as_f64();
-    map.lengths = side(0).zip(side(1));
-    map.unit = report["length_unit"].as_str().map(str::to_owned);
-    let free = report["boundary"] == "free" || report["solved_shape"].is_array();
-    Ok((map, if free { Boundary::Free } else { Boundary::Periodic }))
 }
 
 /// The flow at the nodes, per width.

@@ -1,6 +1,7 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
 //! many loads, `asperity cycle` a path with jumps, `asperity pull-off` the greatest tension, and `asperity study` every
-//! combination of options; `asperity leak` tells what leaks through the gap of a solve. `asperity surface` makes files of
+//! combination of options; `asperity contact` tabulates the contact of a solve, `asperity leak` tells what leaks through the gap of a solve, and `asperity interface` makes
+//! tables for finite elements. `asperity surface` makes files of
 //! heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the
 //! adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any of these by a scene file,
 //! which every run leaves beside its results, and `asperity report` puts the results on a page for a browser.
@@ -11,8 +12,10 @@
 // the commands
 mod columns;
 mod completions;
+mod contact;
 mod cycle;
 mod demo;
+mod interface;
 mod laws;
 mod leak;
 mod page;
@@ -29,6 +32,7 @@ mod sweep;
 // the parts of which commands are made
 mod accuracy;
 mod adhesion;
+mod after;
 mod against;
 mod body;
 mod boundary;
@@ -45,6 +49,7 @@ mod printing;
 mod progress;
 mod report;
 mod scene;
+mod solved;
 mod summary;
 mod table;
 mod threads;
@@ -88,7 +93,9 @@ const EXAMPLES: &str = "\
   asperity cycle --heights heights.npy --law exponential --work-of-adhesion 1e-4 \\
     --range 4e-3 --mean-gaps 0.05,0.02,0.05 --out cycle.csv --plot cycle.png
   asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
+  asperity contact results --out contact
   asperity leak results
+  asperity interface --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --for abaqus --out law.csv
   asperity study study.toml --jobs 4
   asperity laws
   asperity selftest
@@ -108,6 +115,8 @@ enum Command {
     Surface(surface::Options),
     Stats(stats::Options),
     Leak(Box<leak::Options>),
+    Interface(Box<interface::Options>),
+    Contact(contact::Options),
     Laws(Box<laws::Options>),
     Selftest(selftest::Options),
     Completions(completions::Options),
@@ -168,8 +177,8 @@ where
 }
 
 fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: &[OsString]) -> u8 {
-    if !matches!(command, Command::Solve(_) | Command::Sweep(_) | Command::Cycle(_))
-        && let Err(error) = processes.alone("every command but solve, sweep and cycle")
+    if !matches!(command, Command::Solve(_) | Command::Sweep(_) | Command::Cycle(_) | Command::Interface(_))
+        && let Err(error) = processes.alone("every command but solve, sweep, interface and cycle")
     {
         return agreed(processes, Err(error));
     }
@@ -185,6 +194,8 @@ fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: 
         Command::Surface(options) => surface::run(&options, scene),
         Command::Stats(options) => stats::run(&options, scene),
         Command::Leak(options) => leak::run(&options, scene),
+        Command::Contact(options) => contact::run(&options, scene),
+        Command::Interface(options) => interface::run(&options, scene, processes),
         Command::Laws(options) => laws::run(&options, scene),
         Command::Selftest(options) => selftest::run(&options),
         Command::Completions(options) => completions::run(&options, Tool::command()),

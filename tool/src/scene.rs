@@ -55,7 +55,8 @@ const FIRST: &str = "# Written by asperity ";
 const LEFT_OUT: [&str; 3] = ["force", "quiet", "json"];
 
 /// The commands that a scene may have.
-pub const COMMANDS: [&str; 8] = ["solve", "sweep", "cycle", "leak", "prepare", "surface", "stats", "demo"];
+pub const COMMANDS: [&str; 10] =
+    ["solve", "sweep", "cycle", "interface", "contact", "leak", "prepare", "surface", "stats", "demo"];
 
 /// The name of the scene in a folder of results.
 pub const NAME: &str = "scene.toml";

@@ -20,6 +20,7 @@ use serde_json::json;
 use self::beside::{BESIDE, Beside, Named};
 use crate::accuracy::AccuracyOptions;
 use crate::adhesion::{Adhesion, AdhesionOptions};
+use crate::after::ConductorOptions;
 use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions};
 use crate::fields::check_finite;
@@ -83,6 +84,11 @@ pub struct Options {
     /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
+    #[command(flatten)]
+    conductors: ConductorOptions,
+    /// Find out whether the gap is open along x and along y, and where the widest passage is narrowest
+    #[arg(long, help_heading = "Output")]
+    percolation: bool,
     /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as the
     /// other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy that of
     /// the other
@@ -180,7 +186,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     let problem = options.problem();
     options.check_shared(processes)?;
     problem.adhesion.check()?;
-    options.check_asked()?;
+    options.check_asked(processes)?;
     in_options(options.load.load().check(problem.surface.beyond.boundary, false))?;
     options.colours.check()?;
     let pictures = options.picture_format.of(PICTURES);

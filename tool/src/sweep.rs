@@ -2,17 +2,17 @@
 
 use std::path::PathBuf;
 
-use asperity::{Control, Error, Status};
-use asperity_scene::{Format, Way};
+use asperity::{Control, Error};
+use asperity_scene::{After, Format, Way};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
 use crate::adhesion::AdhesionOptions;
+use crate::after::{ConductorOptions, LeakageOptions};
 use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
 use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
-use crate::printing::{complain, name};
 use crate::processes::Processes;
 use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
@@ -63,6 +63,10 @@ pub struct Options {
     #[arg(long, help_heading = "Output")]
     stiffness: bool,
     #[command(flatten)]
+    conductors: ConductorOptions,
+    #[command(flatten)]
+    leakage: LeakageOptions,
+    #[command(flatten)]
     manner: Manner,
 }
 
@@ -94,12 +98,19 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
         scene,
         processes,
         manner: &options.manner,
-        stiffness: options.stiffness,
+        after: options.after(),
+        interface: false,
     };
     table.fill(options)
 }
 
 impl Options {
+    /// The findings that are asked for after each row.
+    fn after(&self) -> After {
+        let (conductors, leakage) = (self.conductors.conductors(), self.leakage.leakage);
+        After { stiffness: self.stiffness, conductors, percolation: false, leakage }
+    }
+
     /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
     fn control(&self) -> Control {
         match self.fractions.values() {
@@ -114,29 +125,24 @@ impl Options {
     }
 }
 
+/// The sweep of loads, which the precision of its solves has to hold.
+pub fn sweep_of<T: Scalar>(loads: Vec<Control>) -> Outcome<Way> {
+    if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
+        let (name, requirement) = ("load", "finite in the precision of the fields");
+        return Err(Error::Value { name, value, requirement }.into());
+    }
+    Ok(Way::Sweep(loads))
+}
+
 impl Fill for Options {
     fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way> {
-        if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
-            let (name, requirement) = ("load", "finite in the precision of the fields");
-            return Err(Error::Value { name, value, requirement }.into());
-        }
-        Ok(self.fractions.values().map_or(Way::Sweep(loads), |fractions| Way::Search(fractions.to_vec())))
+        let searched = self.fractions.values().map(|fractions| Way::Search(fractions.to_vec()));
+        searched.map_or_else(|| sweep_of::<T>(loads), Ok)
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
-        let count = table.of_rows().unwrap_or_default();
-        let width = count.to_string().len();
-        while let Some(row) = table.extend()? {
-            let (rows, account) = (table.rows(), &row.account);
-            self.manner.printing.say(&format!("{rows:>width$}/{count}  {}", table.brief(account)));
-            let converged = account.status == Status::Converged;
-            if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
-                complain("warning", &format!("row {rows}: {}", searched.jump()));
-            }
-        }
-        let rows = table.read()?;
+        let rows = table.solve(&self.out, self.manner.printing)?;
         table.first(|| self.plot.draw(&rows, &table.units))?;
-        self.manner.printing.say(&format!("{count} rows in {}", name(&self.out)));
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match self.fractions.values() {
             Some(_) => "or leave out the contact fractions past which the contact jumps",

@@ -4,12 +4,14 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
-use asperity::Control;
+use asperity::{Control, Status};
+use asperity_scene::interface::touch;
 use asperity_scene::pace::Pace;
-use asperity_scene::{Account, Asked, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
+use asperity_scene::{Account, After, Asked, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use crate::after;
 use crate::boundary::{LoadsOptions, check_load};
 use crate::fields::check_finite;
 use crate::interruption;
@@ -57,7 +59,10 @@ pub struct TableOptions<'a> {
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
     pub manner: &'a Manner,
-    pub stiffness: bool,
+    /// The findings that are asked for after each row
+    pub after: After,
+    /// Whether the table is that of an interface
+    pub interface: bool,
 }
 
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
@@ -88,6 +93,7 @@ impl<'a> TableOptions<'a> {
         let ProblemOptions { surface, solver, .. } = self.problem;
         solver.check_table()?;
         check_load(surface.beyond.boundary, self.loads.control(0.0))?;
+        after::check(&self.after, self.problem, self.processes)?;
         let given = self.problem.read(self.scene.is_si(), self.processes)?;
         match solver.precision {
             Precision::F32 => by.fill(&mut self.open::<f32>(given, by)?),
@@ -106,12 +112,13 @@ impl<'a> TableOptions<'a> {
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let inputs = report::inputs(problem, &part, &units, scene);
         let yields = inputs.adhesion.yields();
-        in_options(Asked { stiffness: self.stiffness, ..Asked::under(self.control) }.check(
+        in_options(Asked { after: self.after, ..Asked::under(self.control) }.check(
             &inputs.adhesion,
             inputs.method,
             false,
         ))?;
-        let course = Course::new(by.way::<T>(controls.clone())?, self.stiffness).yielding(yields);
+        let course = Course::new(by.way::<T>(controls.clone())?, self.after).yielding(yields);
+        let course = if self.interface { course.of_interface(touch(&surface)) } else { course };
         let surface = Arc::new(surface);
         let mut posed =
             problem.scene().posed::<T>(surface.clone(), adhesion.law(), adhesion.hardness(), part.wanted())?;
@@ -236,6 +243,22 @@ impl<T: Scalar> Table<'_, T> {
         self.rows.append(&self.course, &found, &row, processes)?;
         self.stands();
         Ok(Some(row))
+    }
+
+    /// Solves all rows that are left, says each in a line, and returns those of the file.
+    pub fn solve(&mut self, out: &Path, printing: Printing) -> Outcome<Vec<Value>> {
+        let count = self.of_rows().unwrap_or_default();
+        let width = count.to_string().len();
+        while let Some(row) = self.extend()? {
+            let (rows, account) = (self.rows(), &row.account);
+            printing.say(&format!("{rows:>width$}/{count}  {}", self.brief(account)));
+            let converged = account.status == Status::Converged;
+            if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
+                complain("warning", &format!("row {rows}: {}", searched.jump()));
+            }
+        }
+        printing.say(&format!("{count} rows in {}", name(out)));
+        self.read()
     }
 
     /// The row for people.

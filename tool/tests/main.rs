@@ -1,6 +1,7 @@
 //! The command-line tool, end to end, with the files that it reads and the documentation that tells how to run it.
 
 mod accuracy_tool;
+mod after_tool;
 mod areas;
 mod bench;
 mod body_tool;
@@ -8,11 +9,13 @@ mod branch_tool;
 
 #[cfg(unix)]
 mod commands;
+mod contact_tool;
 mod fraction_tool;
 mod free_tool;
 mod hardness_tool;
 mod hints;
 mod hostile;
+mod interface_tool;
 #[cfg(unix)]
 mod interruption;
 mod laws_tool;

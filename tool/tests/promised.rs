@@ -45,6 +45,7 @@ fn bench() -> Bench {
     bench.said("surface --size 32 --lengths 20um --k-l 2 --k-s 10 --rms-height 0.1um --quiet --out metres.npz");
     bench.said("surface --form sphere --radius 1 --size 32 --quiet --out tip.npz");
     bench.said("prepare heights.npy --mirror --quiet --out mirrored.npz");
+    bench.said("solve --heights heights.npy --mean-pressure 0.01 --no-pictures --quiet --out solved");
     // a wave, with noise by the digits of sines
     let wave = |i: usize| (i as f64 * std::f64::consts::TAU / 128.0).sin();
     let noisy = |i: usize, j: usize| wave(i) + ((i * 128 + j) as f64).sin() * 1e5 % 0.01;

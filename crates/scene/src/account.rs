@@ -7,9 +7,11 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::adhesion::Adhesion;
+use crate::after::Conducted;
 use crate::elastic::Elastic;
 use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
 use crate::found::{Found, Sight};
+use crate::leaked::{Along, Narrowest, Transmissivity};
 use crate::record::record;
 use crate::scene::Precision;
 use crate::slopes::Slopes;
@@ -113,6 +115,14 @@ record! {
         contact_stiffness: Option<f64> = found.stiffness.map(|found| found.pressure_per_length),
         /// The normal stiffness, a force per length, with the contact stiffness.
         normal_stiffness: Option<f64> = found.stiffness.map(|found| share * found.force_per_length),
+        /// The conductance per area, if it was asked for.
+        conductance: Option<Conducted> = found.after.conductance,
+        /// Whether open nodes connect the sides, if the percolation was asked for.
+        percolates: Option<Along<bool>> = found.after.percolates,
+        /// The widest passages, with the percolation.
+        constriction: Option<Along<Option<Narrowest>>> = found.after.constriction,
+        /// The transmissivity, if it was asked for.
+        transmissivity: Option<Along<Transmissivity>> = found.after.transmissivity,
         /// The unstable equilibria that were left, if they were to be.
         departures: Option<Vec<Left>> = found.departures.clone(),
         /// The resolution measure μ_ρ.

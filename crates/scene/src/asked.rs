@@ -4,6 +4,7 @@ use asperity::{Control, Method};
 
 use crate::accuracy::Goal;
 use crate::adhesion::Adhesion;
+use crate::after::After;
 
 /// The load of a solve, and the findings that are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +21,8 @@ pub struct Asked {
     pub stability: bool,
     /// Whether to go on from an unstable solution.
     pub leave: bool,
-    /// Whether to find the contact stiffness of the solution.
-    pub stiffness: bool,
+    /// The findings that are asked for after it.
+    pub after: After,
     /// The accuracy, if one is asked for.
     pub goal: Option<Goal>,
 }
@@ -29,8 +30,8 @@ pub struct Asked {
 impl Asked {
     /// The solution under a load, without anything beside it.
     pub fn under(control: Control) -> Self {
-        let (fraction, nested, goal) = (None, None, None);
-        Self { control, fraction, nested, other_branch: false, stability: false, leave: false, stiffness: false, goal }
+        let (fraction, nested, after, goal) = (None, None, After::default(), None);
+        Self { control, fraction, nested, other_branch: false, stability: false, leave: false, after, goal }
     }
 
     /// Refuses what excludes each other, in a solve by a method with an adhesion and a wall, from a start that is given or
@@ -76,7 +77,7 @@ impl Asked {
             _ if method == Method::Rey2017 => ("{method=rey2017}", "it has no form for a surface that yields"),
             Self { leave: true, .. } => ("{leave}", elastic),
             Self { stability: true, .. } => ("{stability}", elastic),
-            Self { stiffness: true, .. } => ("{stiffness}", elastic),
+            Self { after: After { stiffness: true, .. }, .. } => ("{stiffness}", elastic),
             Self { goal: Some(_), .. } => ("{accuracy}", "the error of the grid is known of elastic contact alone"),
             _ => return Ok(()),
         };

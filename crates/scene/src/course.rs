@@ -7,17 +7,19 @@ use std::path::Path as File;
 use std::time::Instant;
 
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
-use asperity::{ContactSearch, Control, Iteration, Real, Result, Sweep};
+use asperity::{Branch, ContactSearch, Control, Iteration, Real, Result, Sweep};
 use ndarray::Array2;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::account::{Account, stiffness};
+use crate::after::After;
 use crate::boundary::Boundary;
 use crate::compiled::compiled;
 use crate::entries::{Search, Step};
-use crate::found::{Found, check_finite};
+use crate::found::Found;
 use crate::identity::Identity;
+use crate::interface;
 use crate::pace::Pace;
 use crate::posed::Posed;
 
@@ -36,10 +38,12 @@ pub enum Way {
 #[derive(Clone, Debug)]
 pub struct Course<T> {
     way: Way,
-    /// Whether the contact stiffness of each state is found
-    stiffness: bool,
     /// Whether the surface yields
     yields: bool,
+    /// The findings that are asked for after each state
+    after: After,
+    /// The mean gap at first touch, if its table is that of an interface
+    touch: Option<f64>,
     start: Option<Array2<T>>,
     /// The number of states so far
     states: usize,
@@ -56,6 +60,8 @@ pub struct Row {
     /// The account, complete.
     #[serde(flatten)]
     pub account: Account,
+    /// The approach of the mean planes since first touch, in the table of an interface.
+    pub closure: Option<f64>,
     /// The number of separate contacts.
     pub clusters: usize,
     /// The nodes of the largest one.
@@ -71,6 +77,9 @@ pub struct Row {
     /// The place on a cycle.
     #[serde(flatten)]
     pub step: Option<Step>,
+    /// The cells of the columns for what is asked for after each state.
+    #[serde(flatten)]
+    pub after: Map<String, Value>,
 }
 
 const STATE: &str = "control control_value mean_pressure mean_contact_pressure mean_gap normal_force approach \
@@ -105,11 +114,16 @@ impl Way {
 }
 
 impl<T: Real> Course<T> {
-    /// A course from its beginning, with the contact stiffness of each state or without.
-    pub fn new(way: Way, stiffness: bool) -> Self {
+    /// A course from its beginning, with the findings that are asked for after each state.
+    pub fn new(way: Way, after: After) -> Self {
         let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
         let pace = way.least_states().map(|least| Pace::new(least, 0, 0));
-        Self { way, stiffness, yields: false, start: None, states: 0, place, leg_ends: false, pace }
+        Self { way, after, touch: None, yields: false, start: None, states: 0, place, leg_ends: false, pace }
+    }
+
+    /// The course with the table of an interface whose surfaces first touch at a mean gap.
+    pub fn of_interface(self, touch: f64) -> Self {
+        Self { touch: Some(touch), ..self }
     }
 
     /// The course of a surface that yields, or does not.
@@ -141,19 +155,25 @@ impl<T: Real> Course<T> {
 
     /// The name of the command.
     pub fn command(&self) -> &'static str {
-        if let Way::Cycle(..) = self.way { "cycle" } else { "sweep" }
+        match self.way {
+            Way::Cycle(..) => "cycle",
+            _ if self.touch.is_some() => "interface",
+            _ => "sweep",
+        }
     }
 
     /// The names of the columns of its table.
     pub fn columns(&self) -> Vec<&'static str> {
-        let all = match self.way {
-            Way::Sweep(_) => [STATE, OUTCOME, INPUTS, "", ""],
-            Way::Search(_) => [STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", ""],
-            Way::Cycle(..) => ["leg direction", STATE, BALANCE, OUTCOME, INPUTS],
+        let stiffness = if self.after.stiffness { "contact_stiffness normal_stiffness" } else { "" };
+        let (before, behind) = match self.way {
+            _ if self.touch.is_some() => (vec![interface::COLUMNS], interface::OUTCOME),
+            Way::Sweep(_) => (vec![STATE, OUTCOME, INPUTS, stiffness], ""),
+            Way::Search(_) => (vec![STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", stiffness], ""),
+            Way::Cycle(..) => (vec!["leg direction", STATE, BALANCE, OUTCOME, INPUTS, stiffness], ""),
         };
-        let stiffness = if self.stiffness { "contact_stiffness normal_stiffness" } else { "" };
         let plastic = if self.yields { PLASTIC } else { "" };
-        all.into_iter().chain([stiffness, plastic]).flat_map(str::split_whitespace).collect()
+        let before = before.into_iter().chain([plastic]).flat_map(str::split_whitespace);
+        before.chain(self.after.columns()).chain(behind.split_whitespace()).collect()
     }
 
     /// The loads of the rows, where these are known before.
@@ -178,10 +198,13 @@ impl<T: Real> Course<T> {
             }),
             way => json!({
                 "control": if let Way::Sweep(loads) = way { kind(loads) } else { "contact-fraction".to_owned() },
-                "stiffness": if self.stiffness { "asked for" } else { "left out" },
+                "stiffness": if self.after.stiffness { "asked for" } else { "left out" },
             }),
         };
-        entries.as_object().cloned().unwrap_or_default()
+        let mut entries = entries.as_object().cloned().unwrap_or_default();
+        entries.extend(self.touch.map(|_| ("table".to_owned(), "interface".into())));
+        entries.extend(self.after.identity().into_iter().map(|(key, value)| (key.to_owned(), value.into())));
+        entries
     }
 
     /// Refuses a cycle that the problem does not have.
@@ -283,9 +306,18 @@ impl<T: Real> Course<T> {
             }
         };
         this.states += 1;
-        let wanted = this.stiffness && check_finite(&solution).is_ok();
-        let stiffness = if wanted { posed.stiffness(&solution)? } else { None };
-        Ok(Some(Found { search, step, stiffness, ..posed.found(solution, clock)? }))
+        let found = Found { search, step, ..posed.found(solution, clock)? };
+        posed.followed(found, &this.after).map(Some)
+    }
+
+    /// The branch of a state in the table of an interface: its own, or that of the first one, on which the others follow.
+    fn branch(&mut self, own: Option<Branch>) -> Option<Branch> {
+        let values = &mut self.place.values;
+        if let Some(own) = own {
+            values.insert("branch".to_owned(), vec![f64::from(u8::from(own == Branch::Unloading))]);
+        }
+        let unloads = values.get("branch")?.first()? > &0.0;
+        Some(if unloads { Branch::Unloading } else { Branch::Loading })
     }
 
     /// The row of the state that was found last, with its account, which a look completes. A withdrawal in which it is
@@ -296,10 +328,14 @@ impl<T: Real> Course<T> {
     pub fn row(&mut self, found: &mut Found<T>, mut account: Account, seed: Option<u64>) -> Result<Row> {
         let statistics = found.sight.look_at(&mut account, &found.solution)?;
         let (sizes, step) = (&statistics.cluster_sizes, found.step.clone());
+        if self.touch.is_some() {
+            account.branch = self.branch(account.branch);
+        }
         let shares = [Some(account.contact_fraction), account.attractive_fraction];
         self.leg_ends = is_apart(step.as_ref().map(|step| step.direction), shares);
         let heights = account.inputs.heights.as_deref().and_then(|path| File::new(path).file_name());
         Ok(Row {
+            closure: self.touch.map(|touch| touch - account.mean_gap),
             clusters: sizes.len(),
             largest_cluster: sizes.first().copied().unwrap_or(0),
             heights: heights.map(OsStr::to_string_lossy).map(Into::into),
@@ -307,6 +343,7 @@ impl<T: Real> Course<T> {
             wanted_contact_fraction: account.search.map(|search| search.wanted),
             reached: account.search.map(|search| search.reached),
             step,
+            after: found.after.cells(),
             account,
         })
     }

@@ -175,6 +175,11 @@ impl Elastic {
         self.own().find_map(|(given, _)| BODIES.iter().find(|kind| kind.key == given))
     }
 
+    /// The key that makes the body another one than a half-space, if it is.
+    pub(crate) fn no_half_space(&self) -> Option<&'static str> {
+        self.kind().map(|kind| kind.key)
+    }
+
     /// Refuses a body without its parameters, and parameters that are not those of the body.
     ///
     /// # Errors

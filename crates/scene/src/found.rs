@@ -11,6 +11,7 @@ use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
 use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::{Array2, ArrayView2};
 
+use crate::after::Findings;
 use crate::compiled::compiled;
 use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
 use crate::told::Told;
@@ -41,6 +42,8 @@ pub struct Found<T> {
     pub departures: Option<Vec<Left>>,
     /// The contact stiffness, if it was asked for.
     pub stiffness: Option<ContactStiffness>,
+    /// The findings that follow.
+    pub after: Findings,
     /// The place on a cycle, if there is one.
     pub step: Option<Step>,
     /// The time for setting up and solving, stability included, in seconds.
@@ -49,7 +52,7 @@ pub struct Found<T> {
 
 /// The sight of a solution: all that a look at its fields needs beside them.
 pub struct Sight<T> {
-    law: Arc<dyn AdhesionLaw<T>>,
+    pub(crate) law: Arc<dyn AdhesionLaw<T>>,
     pub(crate) original: Option<Original>,
     pub(crate) grid: Grid,
     /// The report on the whole.
@@ -89,6 +92,7 @@ impl<T: Real> Found<T> {
             mode: None,
             departures: None,
             stiffness: None,
+            after: Findings::default(),
             step: None,
             seconds,
         })

@@ -1,7 +1,7 @@
 //! The leakage through a gap, with the keys of its report and the sentences for people.
 
 use asperity::Result;
-use asperity_flow::{Axis, Bounds, Gap, Leak, Leakage};
+use asperity_flow::{Axis, Bounds, Constriction, Gap, Leak, Leakage};
 use serde::Serialize;
 
 use crate::boundary::Boundary;
@@ -43,7 +43,7 @@ pub struct Along<T> {
 }
 
 impl<T> Along<T> {
-    fn of(make: impl Fn(Axis) -> T) -> Self {
+    pub(crate) fn of(make: impl Fn(Axis) -> T) -> Self {
         Self { x: make(Axis::X), y: make(Axis::Y) }
     }
 
@@ -65,6 +65,19 @@ pub struct Narrowest {
     pub node: (usize, usize),
     /// The nodes on the passage.
     pub path_nodes: usize,
+}
+
+impl Narrowest {
+    pub(crate) fn of(found: &Constriction) -> Self {
+        Self { gap: found.gap, node: found.node, path_nodes: found.path.len() }
+    }
+
+    /// Where the passage along an axis is narrowest, in words.
+    pub(crate) fn in_words(found: Option<&Self>, units: &Units) -> String {
+        found.map_or("closed".to_owned(), |Self { gap, node: (i, j), .. }| {
+            format!("open, {} wide at its constriction, node [{i}, {j}]", units.number(*gap, LENGTH))
+        })
+    }
 }
 
 /// A number between two bounds.
@@ -113,10 +126,6 @@ impl LeakAsked {
         let Self { boundary, absent_gap, settings, viscosity } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };
         let leak = settings.through(&gap.absent(absent_gap.unwrap_or(0.0))?)?;
-        let narrowest = |axis| {
-            let found = leak.percolation.along(axis)?;
-            Some(Narrowest { gap: found.gap, node: found.node, path_nodes: found.path.len() })
-        };
         let transmissivity = |axis| {
             let flow = leak.along(axis);
             let Bounds { lower, upper } = flow.transmissivity;
@@ -129,7 +138,7 @@ impl LeakAsked {
         let leaked = Leaked {
             boundary,
             percolates: Along::of(|axis| leak.percolation.along(axis).is_some()),
-            constriction: Along::of(narrowest),
+            constriction: Along::of(|axis| leak.percolation.along(axis).map(Narrowest::of)),
             transmissivity: Along::of(transmissivity),
             flow_per_pressure: Along::of(per_pressure),
             viscosity,
@@ -171,12 +180,7 @@ impl Leaked {
         };
         let volume = unit(units.length.as_ref().map(|unit| format!("{unit}³")));
         for axis in Axis::BOTH {
-            let constriction = match self.constriction.along(axis) {
-                Some(Narrowest { gap, node: (i, j), .. }) => {
-                    format!("open, {} wide at its constriction, node [{i}, {j}]", units.number(*gap, LENGTH))
-                }
-                None => "closed".to_owned(),
-            };
+            let constriction = Narrowest::in_words(self.constriction.along(axis).as_ref(), units);
             rows.push((format!("along {}", axis.name()), constriction));
             let Transmissivity { lower, upper, .. } = *self.transmissivity.along(axis);
             rows.push(("  transmissivity".to_owned(), between(lower, upper, &volume)));

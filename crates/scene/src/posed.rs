@@ -17,12 +17,13 @@ use ndarray::Array2;
 
 use crate::account::Inputs;
 use crate::accuracy::{Goal, planned};
+use crate::after::After;
 use crate::asked::Asked;
 use crate::boundary::Boundary;
 use crate::compiled::compiled;
 use crate::elastic::Elastic;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
-use crate::found::Found;
+use crate::found::{Found, check_finite};
 use crate::identity::{Fields, Identity, identity};
 use crate::load::Load;
 use crate::pulled_off::PulledOff;
@@ -171,18 +172,19 @@ impl<T: Real> Posed<T> {
     }
 
     fn solved((this, asked, start, observe): (&mut Self, &Asked, Option<Array2<T>>, Observe<'_>)) -> Result<Found<T>> {
-        if let Some(goal) = asked.goal {
-            return this.to_accuracy(goal, asked, observe);
-        }
-        let found = match this.on_nested_grids(asked, start.is_some(), &mut *observe)? {
-            Some(found) => found,
-            None => this.on_one_grid(asked, start, &mut *observe)?,
+        let found = match asked.goal {
+            Some(goal) => this.to_accuracy(goal, asked, &mut *observe)?,
+            None => match this.on_nested_grids(asked, start.is_some(), &mut *observe)? {
+                Some(found) => found,
+                None => this.on_one_grid(asked, start, &mut *observe)?,
+            },
         };
         let other_branch = match asked.other_branch {
             true => this.other_branch(&found.solution, observe)?,
             false => None,
         };
-        Ok(Found { other_branch, ..found })
+        let after = found.after(&asked.after, &this.elastic)?;
+        Ok(Found { other_branch, after, ..found })
     }
 
     /// The solution and its sight, by a solve that began at a time.
@@ -191,6 +193,15 @@ impl<T: Real> Posed<T> {
     /// [`Error::Shape`] if the solution is not one of the surface.
     pub fn found(&self, solution: Solution<T>, clock: Instant) -> Result<Found<T>> {
         Found::new(solution, self.law.clone(), self.original, clock)
+    }
+
+    /// A state on a course with the findings that are asked for after it.
+    pub(crate) fn followed(&mut self, found: Found<T>, after: &After) -> Result<Found<T>> {
+        let wanted = after.stiffness && check_finite(&found.solution).is_ok();
+        let stiffness = if wanted { self.stiffness(&found.solution)? } else { None };
+        let found = Found { stiffness, ..found };
+        let after = found.after(after, &self.elastic)?;
+        Ok(Found { after, ..found })
     }
 
     /// The contact stiffness of a solution, unless its solve was stopped.
@@ -252,7 +263,8 @@ impl<T: Real> Posed<T> {
 
     fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
         let (clock, surface) = (Instant::now(), self.surface()?);
-        let (mut wanted, tolerance) = (goal.by(self.solver.clone(), asked.stiffness), self.tolerance(Some(goal))?);
+        let (mut wanted, tolerance) =
+            (goal.by(self.solver.clone(), asked.after.stiffness), self.tolerance(Some(goal))?);
         let elastic = |grid| self.elastic.operator(grid);
         let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
         let found = wanted.solve_observed(surface, elastic, &self.law, asked.control, observe)?;
@@ -277,7 +289,7 @@ impl<T: Real> Posed<T> {
         let (finest, tolerance) = (surface.grid().nodes(), settings.tolerance_in::<T>());
         let found = Nested::with_solver(self.solver.clone())
             .coarse_tolerance(GridError::COARSE_TOLERANCE)
-            .stiffness(asked.stiffness.then_some(ContactStiffness::TOLERANCE))
+            .stiffness(asked.after.stiffness.then_some(ContactStiffness::TOLERANCE))
             .solve_observed(
                 surface,
                 |grid| self.elastic.operator(grid),
@@ -329,7 +341,7 @@ impl<T: Real> Posed<T> {
             departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
             solution = left.solution;
         }
-        let stiffness = if asked.stiffness { self.stiffness(&solution)? } else { None };
+        let stiffness = if asked.after.stiffness { self.stiffness(&solution)? } else { None };
         let found = self.found(solution, clock)?;
         let stability = verdict.as_ref().map(Steadiness::of);
         let (mode, departures) = (verdict.map(|verdict| verdict.mode), asked.leave.then_some(departures));

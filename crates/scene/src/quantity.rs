@@ -40,7 +40,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// A dimension: a product of powers of force, length and time.
+/// A dimension: a product of powers of force, length, time, electric current and temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
     /// In words, with an example as options take it.
@@ -53,14 +53,20 @@ pub struct Dimension {
     pub length: i32,
     /// The power of time.
     pub time: i32,
+    /// The power of the electric current.
+    pub current: i32,
+    /// The power of temperature.
+    pub temperature: i32,
 }
 
 const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32) -> Dimension {
-    Dimension { what, si, force, length, time: 0 }
+    Dimension { what, si, force, length, time: 0, current: 0, temperature: 0 }
 }
 
 /// A length.
 pub const LENGTH: Dimension = dimension("length, as 20um", "m", 0, 1);
+/// An area.
+pub const AREA: Dimension = dimension("area", "m²", 0, 2);
 /// A wave number.
 pub const PER_LENGTH: Dimension = dimension("wave number, as 2/um", "1/m", 0, -1);
 /// A pressure.
@@ -80,6 +86,20 @@ pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, as 50mJ/m2", 
 
 /// A dynamic viscosity.
 pub const VISCOSITY: Dimension = Dimension { time: 1, ..dimension("viscosity, as 1mPas", "Pa·s", 1, -2) };
+/// An electrical resistivity.
+pub const RESISTIVITY: Dimension =
+    Dimension { time: -1, current: -2, ..dimension("resistivity, as 17nOhm·m", "Ω·m", 1, 2) };
+/// A thermal conductivity.
+pub const CONDUCTIVITY: Dimension =
+    Dimension { time: -1, temperature: -1, ..dimension("thermal conductivity, as 400W/mK", "W/(m·K)", 1, 0) };
+/// An electrical conductance per area.
+pub const ELECTRICAL_CONDUCTANCE: Dimension =
+    Dimension { time: 1, current: 2, ..dimension("electrical conductance per area", "S/m²", -1, -3) };
+/// A thermal conductance per area.
+pub const THERMAL_CONDUCTANCE: Dimension =
+    Dimension { time: -1, temperature: -1, ..dimension("thermal conductance per area", "W/(m²·K)", 1, -1) };
+/// The transmissivity of a gap, a flow times viscosity over pressure.
+pub const TRANSMISSIVITY: Dimension = dimension("transmissivity", "m³", 0, 3);
 
 impl Dimension {
     /// The parser of quantities that are positive.
@@ -124,7 +144,7 @@ impl Dimension {
 
     /// Whether a unit is of this dimension.
     fn has(self, unit: Unit) -> bool {
-        (unit.force, unit.length, unit.time) == (self.force, self.length, self.time)
+        unit.powers == [self.force, self.length, self.time, self.current, self.temperature]
     }
 
     fn parse(self, text: &str) -> Option<Quantity> {
@@ -155,30 +175,42 @@ pub fn times_ten_to(power: i32, value: f64) -> f64 {
     if power < 0 { value / ten } else { value * ten }
 }
 
-/// A unit: powers of force, length and time, and how much it is in the SI.
+/// A unit: its powers, and how much it is in the SI.
 #[derive(Clone, Copy, Debug)]
 struct Unit {
-    force: i32,
-    length: i32,
-    time: i32,
+    /// The powers of force, length, time, electric current and temperature.
+    powers: [i32; 5],
     /// The power of ten,
     ten: i32,
     /// and what is left beside it.
     factor: f64,
 }
 
-/// The symbols of units: force, length, time, power of ten, and a factor.
-const SYMBOLS: [(&str, i32, i32, i32, i32, f64); 10] = [
-    ("m", 0, 1, 0, 0, 1.0),
-    ("s", 0, 0, 1, 0, 1.0),
-    ("Pa", 1, -2, 0, 0, 1.0),
-    ("Pas", 1, -2, 1, 0, 1.0),
-    ("N", 1, 0, 0, 0, 1.0),
-    ("J", 1, 1, 0, 0, 1.0),
-    ("eV", 1, 1, 0, -19, 1.602176634),
-    ("Å", 0, 1, 0, -10, 1.0),
-    ("\u{212b}", 0, 1, 0, -10, 1.0),
-    ("Angstrom", 0, 1, 0, -10, 1.0),
+/// The symbols of units: their powers, the power of ten, and a factor. Metre and kelvin come before millikelvin.
+const SYMBOLS: [(&str, [i32; 5], i32, f64); 23] = [
+    ("m", [0, 1, 0, 0, 0], 0, 1.0),
+    ("s", [0, 0, 1, 0, 0], 0, 1.0),
+    ("Pa", [1, -2, 0, 0, 0], 0, 1.0),
+    ("Pas", [1, -2, 1, 0, 0], 0, 1.0),
+    ("N", [1, 0, 0, 0, 0], 0, 1.0),
+    ("J", [1, 1, 0, 0, 0], 0, 1.0),
+    ("eV", [1, 1, 0, 0, 0], -19, 1.602176634),
+    ("Å", [0, 1, 0, 0, 0], -10, 1.0),
+    ("\u{212b}", [0, 1, 0, 0, 0], -10, 1.0),
+    ("Angstrom", [0, 1, 0, 0, 0], -10, 1.0),
+    ("W", [1, 1, -1, 0, 0], 0, 1.0),
+    ("mK", [0, 1, 0, 0, 1], 0, 1.0),
+    ("K", [0, 0, 0, 0, 1], 0, 1.0),
+    ("A", [0, 0, 0, 1, 0], 0, 1.0),
+    ("V", [1, 1, -1, -1, 0], 0, 1.0),
+    ("S", [-1, -1, 1, 2, 0], 0, 1.0),
+    ("Ohm", [1, 1, -1, -2, 0], 0, 1.0),
+    ("Ohmm", [1, 2, -1, -2, 0], 0, 1.0),
+    ("Ohmcm", [1, 2, -1, -2, 0], -2, 1.0),
+    ("Ω", [1, 1, -1, -2, 0], 0, 1.0),
+    ("Ωm", [1, 2, -1, -2, 0], 0, 1.0),
+    ("Ωcm", [1, 2, -1, -2, 0], -2, 1.0),
+    ("\u{2126}", [1, 1, -1, -2, 0], 0, 1.0),
 ];
 
 /// The prefixes; of µ the micro sign, the Greek letter, and what stands for them.
@@ -200,18 +232,17 @@ const PREFIXES: [(&str, i32); 14] = [
 ];
 
 impl Unit {
-    /// A product of units with powers, as `mJ/m2`, `N/m²` or `MPa µm`.
+    /// A product of units with powers, as `mJ/m2`, `N/m²`, `MPa µm` or `W/(m·K)`.
     fn parse(text: &str) -> Option<Self> {
         let (above, below) = text.split_once('/').map_or((text, None), |(above, below)| (above, Some(below)));
-        let mut unit = Self { force: 0, length: 0, time: 0, ten: 0, factor: 1.0 };
+        let below = below.map(|below| below.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(below));
+        let mut unit = Self { powers: [0; 5], ten: 0, factor: 1.0 };
         for (part, sign) in [(Some(above), 1), (below, -1)] {
             for factor in part.into_iter().flat_map(|part| part.split([' ', '·', '*'])) {
                 let (symbol, power) = powers(factor);
                 let found = Self::symbol(symbol)?;
                 let power = sign * power;
-                unit.force += power * found.force;
-                unit.length += power * found.length;
-                unit.time += power * found.time;
+                unit.powers.iter_mut().zip(found.powers).for_each(|(own, other)| *own += power * other);
                 unit.ten += power * found.ten;
                 unit.factor *= found.factor.powi(power);
             }
@@ -221,10 +252,10 @@ impl Unit {
 
     /// A symbol with a prefix or without one.
     fn symbol(text: &str) -> Option<Self> {
-        SYMBOLS.iter().find_map(|&(symbol, force, length, time, ten, factor)| {
+        SYMBOLS.iter().find_map(|&(symbol, powers, ten, factor)| {
             let prefix = text.strip_suffix(symbol)?;
             let (_, power) = PREFIXES.iter().find(|(name, _)| *name == prefix)?;
-            Some(Self { force, length, time, ten: ten + power, factor })
+            Some(Self { powers, ten: ten + power, factor })
         })
     }
 

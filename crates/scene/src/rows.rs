@@ -1,8 +1,10 @@
 //! The summary of solves for people, row by row.
 
 use asperity::{Branch, Status};
+use asperity_flow::Axis;
 
 use crate::account::Account;
+use crate::leaked::Narrowest;
 use crate::numbers::{percent, plain};
 use crate::quantity::{ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
 use crate::sentences::estimate;
@@ -90,6 +92,15 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     row("mean plastic depth", &|s| length(s.plastic_depth_mean?));
     row("plastic work per area", &|s| energy(s.plastic_energy?));
     row("contact stiffness", &|s| Some(units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)));
+    row("conductance per area", &|s| {
+        let found = s.conductance?;
+        let error = found.relative_error.map(|error| format!(", to {} %", percent(error))).unwrap_or_default();
+        Some(format!("{}{error}", units.number(found.value, found.conductors.dimension())))
+    });
+    for axis in Axis::BOTH {
+        let name = format!("gap along {}", axis.name());
+        row(&name, &|s| Some(Narrowest::in_words(s.constriction?.along(axis).as_ref(), units)));
+    }
     if adhesive {
         row("branch", &|s| of_branch(s.branch));
     }

@@ -4,8 +4,9 @@ use asperity_maps::warning::Warning;
 
 use crate::numbers::{plain, si};
 use crate::quantity::{
-    Dimension, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
-    PRESSURE_PER_LENGTH, VISCOSITY,
+    AREA, CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH,
+    PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH, RESISTIVITY, THERMAL_CONDUCTANCE, TRANSMISSIVITY,
+    VISCOSITY,
 };
 use crate::told::Told;
 
@@ -50,13 +51,15 @@ impl Units {
         if is_si {
             return Some(dimension.si.to_owned());
         }
-        if dimension.time != 0 {
+        if [dimension.time, dimension.current, dimension.temperature] != [0; 3] {
             return None;
         }
         let pressure = if pressures == 0 { "" } else { pressure? };
         let length = if lengths == 0 { "" } else { length? };
         Some(match (pressures, lengths) {
             (0, -1) => format!("1/{length}"),
+            (0, 2) => format!("{length}²"),
+            (0, 3) => format!("{length}³"),
             (-1, 0) => format!("1/{pressure}"),
             (_, -1) => format!("{pressure}/{length}"),
             (0, _) | (_, 0) => format!("{pressure}{length}"),
@@ -69,7 +72,9 @@ impl Units {
     /// A number of a dimension for people, with its unit as far as that is known, and with a prefix in the SI.
     pub fn number(&self, value: f64, dimension: Dimension) -> String {
         match self.of(dimension) {
-            Some(unit) if unit == dimension.si && dimension != PER_LENGTH => si(value, &unit),
+            Some(unit) if unit == dimension.si && ![PER_LENGTH, AREA, TRANSMISSIVITY].contains(&dimension) => {
+                si(value, &unit)
+            }
             Some(unit) => format!("{} {unit}", plain(value)),
             None => plain(value),
         }
@@ -96,11 +101,16 @@ impl Units {
         let known = self.of_table() != "none";
         let name = |name: &&str| match self.of_column(name, control, on_line).filter(|_| known) {
             // letters and digits of ASCII, as spreadsheets may take a file without a mark for another encoding
-            Some(unit) => format!("{name} [{}]", unit.replace('²', "2").replace('·', " ")),
+            Some(unit) => format!("{name} [{}]", ascii(&unit)),
             None => (*name).to_owned(),
         };
         names.iter().map(name).collect()
     }
+}
+
+/// A unit in letters and digits of ASCII.
+fn ascii(unit: &str) -> String {
+    unit.replace('²', "2").replace('³', "3").replace('·', " ")
 }
 
 /// The dimension of the numbers of a key of a scene; none for shares, numbers and words.
@@ -109,6 +119,8 @@ pub fn dimension_of_key(key: &str) -> Option<Dimension> {
         "radius" | "amplitude" | "rms_height" | "fourier_unit" | "cut_off_wavelength" => Some(LENGTH),
         "spring_position" | "distance" | "absent_gap" => Some(LENGTH),
         "young" | "other_young" => Some(PRESSURE),
+        "resistivities" => Some(RESISTIVITY),
+        "conductivities" => Some(CONDUCTIVITY),
         _ => dimension_of(key, "", false),
     }
 }
@@ -117,16 +129,21 @@ pub fn dimension_of_key(key: &str) -> Option<Dimension> {
 /// and words. The perimeter of contact on a line is the number of its ends.
 pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimension> {
     Some(match (name, control) {
-        ("mean_gap" | "min_gap" | "approach" | "range" | "cut_off" | "layer" | "coating" | "lengths" | "shift", _) => {
-            LENGTH
-        }
+        (
+            "mean_gap" | "min_gap" | "approach" | "closure" | "range" | "cut_off" | "layer" | "coating" | "lengths"
+            | "shift",
+            _,
+        ) => LENGTH,
         ("plastic_depth_max" | "plastic_depth_mean", _) => LENGTH,
         ("perimeter", _) if !on_line => LENGTH,
         ("mean_pressure" | "net_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => PRESSURE,
         ("modulus" | "coating_modulus" | "against_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
         ("pull_off_pressure" | "lost_pressure" | "preload" | "hardness", _) => PRESSURE,
         ("pull_off_force", _) => FORCE,
-        ("density", _) => PER_PRESSURE,
+        ("from_gap" | "to_gap" | "distance", _) => LENGTH,
+        ("gap_density", _) => PER_LENGTH,
+        ("area", _) => AREA,
+        ("density" | "pressure_density", _) => PER_PRESSURE,
         ("normal_force", _) => FORCE,
         ("elastic_energy" | "adhesive_energy" | "plastic_energy" | "work" | "dissipated" | "energy_drop", _) => {
             ENERGY_PER_AREA
@@ -134,6 +151,10 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
         ("work_of_adhesion", _) => ENERGY_PER_AREA,
         ("hamaker", _) => ENERGY,
         ("viscosity", _) => VISCOSITY,
+        ("electrical_conductance", _) => ELECTRICAL_CONDUCTANCE,
+        ("thermal_conductance", _) => THERMAL_CONDUCTANCE,
+        ("transmissivity_x_lower" | "transmissivity_x_upper", _) => TRANSMISSIVITY,
+        ("transmissivity_y_lower" | "transmissivity_y_upper", _) => TRANSMISSIVITY,
         ("contact_stiffness" | "wall_stiffness", _) => PRESSURE_PER_LENGTH,
         ("normal_stiffness" | "spring_stiffness", _) => FORCE_PER_LENGTH,
         ("control_value", "mean-pressure") => PRESSURE,

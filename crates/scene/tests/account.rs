@@ -7,8 +7,8 @@ use asperity::path::PathSettings;
 use asperity::{Control, Grid, Method, SelfAffine, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, Asked, Boundary, Course, Elastic, Found, Goal, Inputs, Posed, Precision, Scene, Skin, Way,
-    check_finite, rows, shortfalls, worded,
+    Account, Adhesion, After, Asked, Boundary, Course, Elastic, Found, Goal, Inputs, Posed, Precision, Scene, Skin,
+    Way, check_finite, rows, shortfalls, worded,
 };
 use serde_json::{Value, json};
 
@@ -20,6 +20,7 @@ const OUTCOME: &str = "\
     edge_traction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
     min_pressure max_pressure elastic_energy adhesive_energy plastic_fraction plastic_depth_max \
     plastic_depth_mean plastic_energy stability contact_stiffness normal_stiffness \
+    conductance percolates constriction transmissivity \
     departures mu_rho mu_rho_node under_resolved warnings seconds control control_value";
 const INPUTS: &str = "\
     heights against shift initial_gap part solved_shape shape lengths rms_slope rms_slope_differences length_unit pressure_unit given boundary modulus \
@@ -68,6 +69,11 @@ fn solved(asked: &Asked) -> (Found<f64>, Account) {
     (found, account)
 }
 
+/// The contact stiffness alone.
+fn stiff() -> After {
+    After { stiffness: true, ..After::default() }
+}
+
 #[test]
 fn the_inputs_of_a_report_describe_the_scene_of_its_run() {
     let elastic = Elastic { boundary: Boundary::Free, modulus: 2.0, ..Elastic::default() };
@@ -89,7 +95,7 @@ fn an_account_has_the_keys_of_a_report() {
         other_branch: true,
         stability: true,
         leave: true,
-        stiffness: true,
+        after: After { stiffness: true, percolation: true, ..After::default() },
         ..Asked::under(Control::MeanPressure(0.01))
     };
     let (mut found, mut account) = solved(&asked);
@@ -134,7 +140,7 @@ fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
     let wanted = ["wanted", "reached", "below", "above", "solves", "operator_applications"];
     assert_eq!(keys(&json!(account)["search"]), wanted);
 
-    let asked = Asked { stability: true, stiffness: true, ..Asked::under(Control::MeanPressure(0.01)) };
+    let asked = Asked { stability: true, after: stiff(), ..Asked::under(Control::MeanPressure(0.01)) };
     let found = posed().solve(&asked, None, &mut |_, _, _| ControlFlow::Break(())).unwrap();
     let report = json!(found.account("solve", &inputs(), None, Vec::new()).unwrap());
     assert_eq!(report["status"], "stopped");
@@ -146,7 +152,7 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
     let gaps = [0.02, 0.01, 0.04].map(Control::MeanGap).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(gaps.clone()), Way::Search(vec![0.1, 0.2, 0.15]), Way::Cycle(gaps, settings)] {
-        let names = Course::<f64>::new(way.clone(), true).columns();
+        let names = Course::<f64>::new(way.clone(), stiff()).columns();
         let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
             let mut found = course.next(posed, &mut |_| ControlFlow::Continue(())).unwrap()?;
             let account = found.account(course.command(), &inputs(), None, Vec::new()).unwrap();
@@ -158,10 +164,10 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
                 .is_some_and(|step| step.direction == "withdrawal" && json!(row)["attractive_fraction"] == 0.0);
             Some((row.cells(&names), apart))
         };
-        let (mut whole, mut problem) = (Course::new(way.clone(), true), posed());
+        let (mut whole, mut problem) = (Course::new(way.clone(), stiff()), posed());
         let (mut place, mut last, mut rows) = (whole.place().clone(), false, 0);
         while let Some((row, apart)) = next(&mut whole, &mut problem) {
-            let mut course = Course::new(way.clone(), true).continuing(rows, place, (0, last));
+            let mut course = Course::new(way.clone(), stiff()).continuing(rows, place, (0, last));
             assert_eq!(next(&mut course, &mut posed()).unwrap().0, row);
             (place, last, rows) = (course.place().clone(), apart, rows + 1);
         }
@@ -176,7 +182,7 @@ fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
     let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
-        let new = || Course::<f64>::new(way.clone(), false).yielding(true);
+        let new = || Course::<f64>::new(way.clone(), After::default()).yielding(true);
         let names = new().columns();
         assert!(names.ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
         let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {

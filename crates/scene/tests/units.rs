@@ -6,8 +6,8 @@ use asperity_scene::legs::{legs, logarithmic};
 use asperity_scene::list::{Loads, list};
 use asperity_scene::pace::Pace;
 use asperity_scene::quantity::{
-    ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH,
-    power_of_length, times_ten_to,
+    CONDUCTIVITY, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    PRESSURE_PER_LENGTH, RESISTIVITY, power_of_length, times_ten_to,
 };
 use asperity_scene::synonyms::{SYNONYMS, is_same, meant, similar};
 use asperity_scene::units::Units;
@@ -39,6 +39,14 @@ fn a_quantity_has_the_bits_of_the_number_in_si_units() {
         (ENERGY, "60zJ", 60e-21),
         (ENERGY, "2eV", 2e-19 * 1.602176634),
         (PRESSURE_PER_LENGTH, "1GPa/um", 1e15),
+        (RESISTIVITY, "17nOhm·m", 17e-9),
+        (RESISTIVITY, "17 nΩm", 17e-9),
+        (RESISTIVITY, "2.4uOhm*cm", 2.4e-8),
+        (RESISTIVITY, "2.4µΩcm", 2.4e-8),
+        (RESISTIVITY, "3V m/A", 3.0),
+        (CONDUCTIVITY, "400W/mK", 400.0),
+        (CONDUCTIVITY, "0.4 kW/(m·K)", 400.0),
+        (CONDUCTIVITY, "4W/cm K", 400.0),
         (LENGTH, "0.1", 0.1),
     ] {
         let found = dimension.finite()(text).unwrap();

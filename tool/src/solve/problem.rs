@@ -1,8 +1,9 @@
 //! The problem of a solve, as its options pose it.
 
-use asperity_scene::{Asked, Boundary, Branches, Inputs};
+use asperity_scene::{After, Asked, Boundary, Branches, Inputs};
 
 use super::Options;
+use crate::after;
 use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::printing::in_options;
@@ -21,14 +22,21 @@ impl Options {
             other_branch: self.solver.branch == Some(Branches::Both),
             stability: self.stability || self.leave,
             leave: self.leave,
-            stiffness: self.stiffness,
+            after: self.after(),
             goal: self.accuracy.goal(),
             ..Asked::under(load.control(full))
         }
     }
 
+    /// The findings that are asked for after the solve.
+    fn after(&self) -> After {
+        let (stiffness, conductors) = (self.stiffness, self.conductors.conductors());
+        After { stiffness, conductors, percolation: self.percolation, leakage: None }
+    }
+
     /// Refuses what excludes each other.
-    pub fn check_asked(&self) -> Outcome<()> {
+    pub fn check_asked(&self, processes: &Processes) -> Outcome<()> {
+        after::check(&self.after(), self.problem(), processes)?;
         let (adhesion, started) = (self.adhesion.described(), self.solver.initial_gap.is_some());
         in_options(self.asked(1.0).check(&adhesion, self.solver.method.method(), started))
     }

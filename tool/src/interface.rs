@@ -1,0 +1,164 @@
+//! `asperity interface`: the law of an interface over the load, for codes of finite elements.
+
+use std::path::PathBuf;
+
+use asperity::{Control, Error};
+use asperity_scene::interface::Code;
+use asperity_scene::{After, Boundary, Format, Way};
+use clap::{ArgGroup, Args};
+use serde_json::json;
+
+use crate::adhesion::AdhesionOptions;
+use crate::after::{ConductorOptions, LeakageOptions};
+use crate::boundary::{LOADS, LoadsOptions};
+use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::outcome::Outcome;
+use crate::output::{OutputFile, check_apart, check_free, write_text};
+use crate::printing::{complain, in_options};
+use crate::processes::Processes;
+use crate::scene::SceneFile;
+use crate::sweep::sweep_of;
+use crate::table::{Fill, Manner, Table, TableOptions};
+use crate::units::UnitOptions;
+
+/// Tabulate the law of an interface over the load, for finite elements.
+///
+/// Solves as asperity sweep does, and writes a row for each load: the mean pressure, the mean gap, the closure, which
+/// is the approach of the mean planes since the undeformed surfaces first touched, the contact area, the contact
+/// stiffness, which is the slope of the pressure over the closure, with its relative error, and with --resistivities,
+/// --conductivities or --leakage conductance and transmissivity. --for adds files that a code of finite elements reads,
+/// beside the table: pressure over closure, conductance and transmissivity over pressure, from no pressure on. With
+/// adhesion the rows are those of one branch, and one of them needs a pressure of zero, or less. Exits with 0 if all
+/// rows converged, 2 if not (then there is the table alone), and 1 if the input is refused.
+#[derive(Args)]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
+pub struct Options {
+    #[command(flatten)]
+    surface: SurfaceOptions,
+
+    #[command(flatten)]
+    loads: LoadsOptions,
+
+    #[command(flatten)]
+    adhesion: AdhesionOptions,
+    #[command(flatten)]
+    solver: SolverOptions,
+
+    /// File for the table, .csv
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    out: PathBuf,
+    /// Codes to write files for, beside the table and named as it is: law.inp; law.pressure.txt and law.conductance.txt;
+    /// law.pressure.csv and law.conductance.csv
+    #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
+    codes: Vec<Code>,
+    #[command(flatten)]
+    conductors: ConductorOptions,
+    #[command(flatten)]
+    leakage: LeakageOptions,
+    #[command(flatten)]
+    units: UnitOptions,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+const EXAMPLES: &str = "\
+\u{1b}[1;4mExamples:\u{1b}[0m
+  Pressure and thermal conductance of a joint of steel over the closure, for Abaqus and MOOSE:
+    asperity interface --heights heights.npy --lengths 20um --modulus 115GPa \\
+      --mean-pressures 1MPa:1GPa:12:log --conductivities 15W/mK 15W/mK \\
+      --for abaqus,moose --out joint.csv
+  A seal, whose transmissivity falls with the pressure, for COMSOL:
+    asperity interface --heights heights.npy --lengths 20um --modulus 10MPa \\
+      --mean-pressures 10kPa:1MPa:12:log --leakage --for comsol --out seal.csv";
+
+/// Runs the command; whether all rows converged.
+pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+    let Options { surface, loads, adhesion, solver, units, out, .. } = options;
+    if surface.beyond.boundary == Boundary::Free {
+        return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
+    }
+    let described = adhesion.described();
+    if described.yields() {
+        let key = if described.hardness.is_some() { "--hardness" } else { "--hardness-map" };
+        return Err(format!(
+            "{key}: the contact stiffness of an interface is known of elastic contact alone: leave it out"
+        )
+        .into());
+    }
+    if Format::of(out) != Some(Format::Csv) {
+        return Err(Error::file(out, "does not end in .csv: rename it").into());
+    }
+    let problem = ProblemOptions { surface, adhesion, solver };
+    for (_, path) in options.files() {
+        check_apart(&path, problem.files().chain([out.as_path()]))?;
+        check_free(&path, options.manner.force || out.exists(), "--out")?;
+    }
+    let table = TableOptions {
+        problem,
+        loads,
+        control: loads.control(0.0),
+        out,
+        format: Format::Csv,
+        fields: None,
+        units,
+        scene,
+        processes,
+        manner: &options.manner,
+        after: After {
+            stiffness: true,
+            conductors: options.conductors.conductors(),
+            percolation: false,
+            leakage: options.leakage.leakage,
+        },
+        interface: true,
+    };
+    table.fill(options)
+}
+
+impl Options {
+    /// The files that the codes may have, by their ends.
+    fn files(&self) -> impl Iterator<Item = (&'static str, PathBuf)> {
+        let endings = self.codes.iter().flat_map(|code| code.endings());
+        endings.map(|ending| (*ending, self.out.with_extension(&ending[1..])))
+    }
+
+    /// Writes the files for the codes, and tells their names.
+    fn write<T: Scalar>(&self, table: &Table<'_, T>) -> Outcome<Vec<String>> {
+        let (rows, adhesive) = (table.read()?, self.adhesion.adheres());
+        let name = self.out.file_stem().unwrap_or_default().to_string_lossy();
+        let mut written = Vec::new();
+        for code in &self.codes {
+            for (ending, text) in in_options(code.files(&rows, adhesive, &name, &table.units))? {
+                let path = self.out.with_extension(&ending[1..]);
+                let file = OutputFile::create(&path, true)?;
+                file.write(|path| write_text(path, &text))?;
+                file.commit()?;
+                written.push(path.to_string_lossy().into_owned());
+            }
+        }
+        Ok(written)
+    }
+}
+
+impl Fill for Options {
+    fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way> {
+        sweep_of::<T>(loads)
+    }
+
+    fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
+        let rows = table.solve(&self.out, self.manner.printing)?;
+        let converged = table.converged("or use a larger --tolerance or finer steps");
+        if !converged && !self.codes.is_empty() {
+            complain("warning", "there are no files --for codes of finite elements, as rows have not converged");
+        }
+        table.first(|| {
+            let written = if converged { self.write(table)? } else { Vec::new() };
+            if !written.is_empty() {
+                self.manner.printing.say(&format!("for finite elements: {}", written.join(", ")));
+            }
+            self.manner.printing.report(|| table.report(json!({ "last": rows.last(), "files": written })));
+            Ok(())
+        })?;
+        Ok(converged)
+    }
+}

@@ -1,0 +1,111 @@
+//! Conductance, percolation and leakage after a solve, end to end.
+
+use crate::bench::Bench;
+
+const ROUGH: &str = "surface --size 64 --lengths 20um --k-l 2 --k-s 8 --rms-height 0.1um --quiet --out heights.npz";
+const PRESSED: &str = "--heights heights.npz --modulus 1GPa";
+
+#[test]
+fn the_conductance_is_that_of_the_stiffness_with_its_error_and_unit() {
+    let bench = Bench::new();
+    bench.said(ROUGH);
+    let solve =
+        format!("solve {PRESSED} --mean-pressure 4MPa --nested --stiffness --no-pictures --force --out pressed");
+    let report = bench.reported(&format!("{solve} --resistivities 17nOhm·m 2.4uOhm*cm"));
+    let found = &report["conductance"];
+    let stiffness = report["contact_stiffness"].as_f64().unwrap();
+    let expected = 2.0 * stiffness / (1e9 * (17e-9 + 24e-9));
+    assert!((found["value"].as_f64().unwrap() / expected - 1.0).abs() < 1e-12, "{found}");
+    assert!((found["whole"].as_f64().unwrap() / (expected * 4e-10) - 1.0).abs() < 1e-12, "{found}");
+    let grid = report["grid_error"]["stiffness"]["relative"].as_f64().unwrap();
+    let error = found["relative_error"].as_f64().unwrap();
+    assert!(error >= grid && error - grid < 2e-4, "{error} {grid}");
+    assert_eq!((&found["resistivities"][1], &found["conductivities"]), (&2.4e-8.into(), &().into()));
+    let said = bench.said(&format!("{solve} --conductivities 400W/mK 15W/mK"));
+    assert!(said.contains("conductance per area") && said.contains("W/(m²·K), to "), "{said}");
+
+    // columns of a sweep, in which the same load has the same conductance
+    let sweep = format!("sweep {PRESSED} --mean-pressures 4MPa,8MPa --stiffness --resistivities 17nOhm·m 24nOhm·m");
+    bench.said(&format!("{sweep} --leakage --quiet --out sweep.csv"));
+    let text = bench.read("sweep.csv");
+    let (header, row) = (text.lines().next().unwrap(), text.lines().nth(1).unwrap());
+    assert!(header.ends_with(
+        "normal_stiffness [N/m],electrical_conductance [S/m2],conductance_error,transmissivity_x_lower [m3],\
+         transmissivity_x_upper [m3],transmissivity_y_lower [m3],transmissivity_y_upper [m3]"
+    ));
+    let cells: Vec<f64> = row.rsplit(',').take(6).map(|cell| cell.parse().unwrap()).collect();
+    assert!((cells[5] / expected - 1.0).abs() < 1e-3, "{cells:?}");
+    assert!(cells[0] >= cells[1] && cells[0] - cells[1] <= 1e-3 * cells[0] && cells[0] > 0.0);
+    // a table of other conductors, or of other bounds, is another one
+    bench.refused_with(&format!("{sweep} --leakage 1e-2 --quiet --out sweep.csv"), &["sweep.csv", "leakage"]);
+    let other = sweep.replace("24nOhm·m", "25nOhm·m");
+    bench.refused_with(&format!("{other} --leakage --quiet --out sweep.csv"), &["sweep.csv", "resistivities"]);
+}
+
+#[test]
+fn with_adhesion_the_spots_conduct_and_the_slope_of_the_law_does_not() {
+    let bench = Bench::new();
+    bench.said(ROUGH);
+    let solve = |more: &str| {
+        let solve = format!("solve {PRESSED} --mean-pressure 4MPa --stiffness --resistivities 1Ohmm 1Ohmm");
+        bench.reported(&format!("{solve} {more} --no-pictures --force --out solved"))
+    };
+    let sticky = solve("--law exponential --work-of-adhesion 20mJ/m2 --range 20nm");
+    let found = &sticky["conductance"];
+    let value = found["value"].as_f64().unwrap();
+    // the law pulls between the spots, and makes the stiffness less than that of the spots
+    assert!(value > sticky["contact_stiffness"].as_f64().unwrap() / 1e9, "{found}");
+    assert!(found["relative_error"].is_null());
+    // of weak adhesion it is that without
+    let [weak, bare] = [solve("--law exponential --work-of-adhesion 1uJ/m2 --range 20nm"), solve("--no-nested")];
+    let [weak, bare] = [&weak, &bare].map(|report| report["conductance"]["value"].as_f64().unwrap());
+    assert!((weak / bare - 1.0).abs() < 1e-3 && value > bare, "{weak} {bare} {value}");
+}
+
+#[test]
+fn a_sphere_conducts_as_holm_says() {
+    let bench = Bench::new();
+    bench.said("surface --form paraboloid --radius 2 --size 128 --lengths 1 --quiet --out sphere.npz");
+    let solve = "solve --heights sphere.npz --boundary free --approach 0.04 --stiffness --resistivities 2 3";
+    let report = bench.reported(&format!("{solve} --no-pictures --out sphere"));
+    let holm = 4.0 * (2.0_f64 * 0.04).sqrt() / 5.0; // 4a/(ρ₁ + ρ₂), a² = Rδ
+    let found = &report["conductance"];
+    assert!((found["whole"].as_f64().unwrap() / holm - 1.0).abs() < 0.02, "{found} {holm}");
+    assert!(found["relative_error"].is_null());
+}
+
+#[test]
+fn percolation_is_told_with_its_constriction() {
+    let bench = Bench::new();
+    bench.said(ROUGH);
+    let solve = format!("solve {PRESSED} --mean-pressure 4MPa --percolation --out pressed");
+    let said = bench.said(&solve);
+    assert!(said.contains("gap along x") && said.contains("wide at its constriction, node ["), "{said}");
+    let report = bench.report("pressed");
+    let leak = bench.reported("leak pressed");
+    for key in ["percolates", "constriction"] {
+        assert_eq!(report[key], leak[key]);
+    }
+    assert!(report["transmissivity"].is_null() && report["conductance"].is_null());
+}
+
+#[test]
+fn what_does_not_conduct_is_refused_by_name() {
+    let bench = Bench::new();
+    bench.said(ROUGH);
+    for (arguments, parts) in [
+        ("--resistivities 1Ohmm 2Ohmm", &["--resistivities needs --stiffness"][..]),
+        ("--stiffness --resistivities 0Ohmm 0Ohmm", &["--resistivities is 0, 0", "not both zero"]),
+        ("--stiffness --conductivities 0W/mK 1W/mK", &["--conductivities", "positive and finite"]),
+        (
+            "--stiffness --conductivities 1W/mK 1W/mK --resistivities 1Ohmm 2Ohmm",
+            &["--conductivities", "--resistivities"],
+        ),
+        ("--stiffness --resistivities 1Ohmm 2Ohmm --layer 1um --poisson 0.3", &["half-spaces", "--layer"]),
+        ("--stiffness --resistivities 1Ohmm 2Ohmm --wall penalty --wall-stiffness 1GPa/nm", &["hard wall", "--wall"]),
+        ("--stiffness --resistivities 1 2", &["--resistivities is 1 2, without a unit"]),
+        ("--stiffness --resistivities 1W/mK 2W/mK", &["a unit of something else", "17nOhm·m"]),
+    ] {
+        bench.refused_with(&format!("solve {PRESSED} --mean-pressure 4MPa --out out {arguments}"), parts);
+    }
+}
