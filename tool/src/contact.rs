@@ -20,9 +20,10 @@ use crate::scene::{self, SceneFile};
 use crate::solved::{CONTACT_PRESSURE, GAP, Solved};
 use crate::units::Units;
 
-/// Tabulate and chart the contact of a solve: distributions of gap and pressure, their exponents, and clusters.
+/// Tabulate and chart the contact of a solve.
 ///
-/// SOLVED is the folder of a solve, of which gap.npy, contact_pressure.npy and report.json are taken. Near the edge of
+/// Distributions of gap and contact pressure, the autocorrelation of the pressure, and clusters. SOLVED is the folder of
+/// a solve, of which gap.npy, contact_pressure.npy and report.json are taken. Near the edge of
 /// the contact the densities of gap and contact pressure are powers of them, of -1/3 and 1 at a hard wall without
 /// adhesion; the exponents are told in a window above the nodes at the edge itself, whose density the grid makes
 /// uniform, and not where the nodes do not reach that near. The autocorrelation of the contact pressure is about its
