@@ -262,14 +262,14 @@ fn draw_density(
     (unit, density_unit): (Option<&str>, Option<&str>),
     dpi: f64,
 ) -> asperity::Result<Picture> {
-    // a bin without a node breaks the curve
-    let shown = |(at, density): (f64, f64)| if density > 0.0 { (at, density) } else { (f64::NAN, f64::NAN) };
-    let points: Vec<_> = found.points().into_iter().map(shown).collect();
+    // below a bin without a node there are single nodes, which the table has
+    let mut points: Vec<_> = found.points().into_iter().rev().take_while(|(_, density)| *density > 0.0).collect();
+    points.reverse();
     let caption = found.exponent.map(|found| format!("exponent {:.3} in the window of the line", found.exponent));
     let guide = found.exponent.and_then(|window| {
-        let known = points.iter().filter(|point| point.0.is_finite());
-        let nearest = |at: f64| known.clone().min_by(|a, b| (a.0 / at).ln().abs().total_cmp(&(b.0 / at).ln().abs()));
-        let (at, density) = *nearest((window.from * window.to).sqrt())?;
+        let middle = (window.from * window.to).sqrt();
+        let beside = |point: &(f64, f64)| (point.0 / middle).ln().abs();
+        let (at, density) = *points.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
         Some([window.from, window.to].map(|value| (value, density * (value / at).powf(power))).to_vec())
     });
     let chart = Chart {
