@@ -22,12 +22,12 @@ use crate::units::Units;
 
 /// Tabulate and chart the contact of a solve.
 ///
-/// Distributions of gap and contact pressure, the autocorrelation of the pressure, and clusters. SOLVED is the folder of
-/// a solve, of which gap.npy, contact_pressure.npy and report.json are taken. Near the edge of
-/// the contact the densities of gap and contact pressure are powers of them, of -1/3 and 1 at a hard wall without
-/// adhesion; the exponents are told in a window above the nodes at the edge itself, whose density the grid makes
-/// uniform, and not where the nodes do not reach that near. The autocorrelation of the contact pressure is about its
-/// mean and over its variance, in a periodic cell.
+/// Distributions of gap and contact pressure, the autocorrelation of the pressure, and clusters. SOLVED is the folder
+/// of a solve, of which gap.npy, contact_pressure.npy and report.json are taken. Near the edge of the contact the
+/// densities of gap and contact pressure are powers of them, of -1/3 and 1 at a hard wall without adhesion; the
+/// exponents are told in a window above the nodes at the edge itself, whose density the grid makes uniform, and not
+/// where the nodes do not reach that near. The autocorrelation of the contact pressure is about its mean and over its
+/// variance, in a periodic cell.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -255,7 +255,8 @@ const DRAWN: [Draw; 4] = [
     },
 ];
 
-/// The chart of a density, beside its power near the edge of the contact in the window of its exponent, if there is one.
+/// The chart of a density, beside its power near the edge of the contact in the window of its exponent, if there is
+/// one.
 fn draw_density(
     found: &Density,
     (title, label, law, power): (&str, &str, &str, f64),

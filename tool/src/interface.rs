@@ -47,8 +47,8 @@ pub struct Options {
     /// File for the table, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
-    /// Codes to write files for, beside the table and named as it is: law.inp; law.pressure.txt and law.conductance.txt;
-    /// law.pressure.csv and law.conductance.csv
+    /// Codes to write files for, beside the table and named as it is: law.inp; law.pressure.txt and
+    /// law.conductance.txt; law.pressure.csv and law.conductance.csv
     #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
     codes: Vec<Code>,
     #[command(flatten)]
