@@ -18,7 +18,7 @@ from ._solution import Solution
 #: A file for the rows, a folder for fields, and whether to start over.
 File = tuple[str | os.PathLike[str] | None, str | os.PathLike[str] | None, bool]
 
-#: The findings after each state: whether the stiffness is one, resistivities, conductivities, and bounds of the leakage.
+#: The findings after each state: whether the stiffness is one, resistivities, conductivities, and bounds of leakage.
 Following = tuple[bool, Pair, Pair, float | None]
 
 T = TypeVar("T")
@@ -80,8 +80,8 @@ class Rows(Iterator[T]):
 
         The rows that a file had come first; what is not finite in them is NaN.
 
-        Numbers that do not apply are NaN. An event that did not happen is None, and so are the part of a map that was not
-        mirrored, and the branch of an equilibrium that has none.
+        Numbers that do not apply are NaN. An event that did not happen is None, and so are the part of a map that was
+        not mirrored, and the branch of an equilibrium that has none.
         """
         self.run()
         return {name: np.array([_cell(name, row[name]) for row in self.rows]) for name in self.names}

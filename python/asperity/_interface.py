@@ -25,14 +25,14 @@ class Interface(Sweep):
     def write(self, name: str | PathLike[str], code: Code) -> list[Path]:
         """Writes the files that a code of finite elements reads; solves what is left.
 
-        Pressure over closure, and conductance and transmissivity over pressure, from no pressure on: with adhesion a row
-        needs a pressure of zero, or less.
+        Pressure over closure, and conductance and transmissivity over pressure, from no pressure on: with adhesion a
+        row needs a pressure of zero, or less.
 
         Parameters
         ----------
         name : str or path
-            Name of the interface, with a folder before it: ``steel`` becomes ``steel.inp``, or ``steel.pressure.txt`` and
-            ``steel.conductance.txt``.
+            Name of the interface, with a folder before it: ``steel`` becomes ``steel.inp``, or ``steel.pressure.txt``
+            and ``steel.conductance.txt``.
         code : {"abaqus", "comsol", "moose"}
             Surface interaction of Abaqus, interpolation functions of COMSOL Multiphysics, or data files of
             PiecewiseLinear in MOOSE.
@@ -44,7 +44,8 @@ class Interface(Sweep):
         self.run()
         failed = [k for k, row in enumerate(self.rows, 1) if row["status"] != "converged"]
         if failed:
-            raise ValueError(f"row {failed[0]} has not converged: solve it again with more max_iterations or finer loads")
+            remedy = "solve it again with more max_iterations or finer loads"
+            raise ValueError(f"row {failed[0]} has not converged: {remedy}")
         path, adhesive = Path(name), self._scene.adhesion is not None
         units = (self._scene.topography.unit, self._scene.pressure_unit)
         files = _asperity.interface_files(code, self.rows, adhesive, path.name, units)
@@ -87,9 +88,10 @@ def interface(
 ) -> Interface:
     """Tabulates the law of an interface over the load, for finite elements.
 
-    Columns are the mean pressure, the mean gap, the closure, which is the approach of the mean planes since the undeformed
-    surfaces first touched, the contact area, the contact stiffness, which is the slope of the pressure over the closure,
-    with its relative error, and conductance and transmissivity where they are asked for. Parameters are those of `sweep`.
+    Columns are the mean pressure, the mean gap, the closure, which is the approach of the mean planes since the
+    undeformed surfaces first touched, the contact area, the contact stiffness, which is the slope of the pressure over
+    the closure, with its relative error, and conductance and transmissivity where they are asked for. Parameters are
+    those of `sweep`.
 
     Returns
     -------

@@ -62,8 +62,8 @@ pub fn pressure_distribution<'py>(
     Ok((found.density.into_pyarray(py), found.edges.into_pyarray(py)))
 }
 
-/// The tables of a contact: for gap and pressure density, edges and exponent, the autocorrelation by rows of distance and
-/// value, and the clusters by rows of nodes, area, perimeter and force.
+/// The tables of a contact: for gap and pressure density, edges and exponent, the autocorrelation by rows of distance
+/// and value, and the clusters by rows of nodes, area, perimeter and force.
 #[pyfunction]
 pub fn contact_tables<'py>(
     py: Python<'py>,

@@ -23,8 +23,8 @@ def asked(tool, folder, *words):
 def test_the_table_and_its_files_are_those_of_the_tool(tmp_path, tool, rough):
     np.save(tmp_path / "heights.npy", rough.heights)
     # fmt: off
-    asked(tool, tmp_path, "interface", "--heights", "heights.npy", "--lengths", 2, "--mean-pressures", "0.005,0.01,0.02",
-          "--conductivities", 1, 2, "--leakage", "--for", "abaqus,comsol,moose", "--out", "law.csv")
+    asked(tool, tmp_path, "interface", "--heights", "heights.npy", "--lengths", 2, "--mean-pressures",
+          "0.005,0.01,0.02", "--conductivities", 1, 2, "--leakage", "--for", "abaqus,comsol,moose", "--out", "law.csv")
     # fmt: on
     law = asperity.interface(rough.heights, 2.0, conductivities=(1.0, 2.0), leakage=1e-3, **PRESSED)
     assert (len(law), law.columns["status"].tolist()) == (3, ["converged"] * 3)
@@ -59,13 +59,14 @@ def test_units_are_told(tmp_path):
 
 
 def test_the_conductance_of_a_report_is_that_of_the_solution(rough):
-    solution = asperity.solve(rough, modulus=2.0, mean_pressure=0.02, stiffness=True, resistivities=(1.0, 3.0), nested=True)
+    pressed = {"modulus": 2.0, "mean_pressure": 0.02, "stiffness": True}
+    solution = asperity.solve(rough, resistivities=(1.0, 3.0), nested=True, **pressed)
     found = solution.report["conductance"]
     assert found["value"] == pytest.approx(solution.conductance((1.0, 3.0)).per_area, rel=1e-4)
     assert found["whole"] == pytest.approx(4.0 * found["value"], rel=1e-12)
     assert found["relative_error"] >= solution.report["grid_error"]["stiffness"]["relative"]
     law = asperity.Exponential(1e-4, 2e-2)
-    sticky = asperity.solve(rough, modulus=2.0, mean_pressure=0.02, law=law, stiffness=True, conductivities=(1.0, 1 / 3))
+    sticky = asperity.solve(rough, law=law, conductivities=(1.0, 1 / 3), **pressed)
     found = sticky.report["conductance"]
     assert found["value"] == pytest.approx(sticky.conductance((1.0, 3.0)).per_area, rel=1e-9)
     assert found["relative_error"] is None and found["conductivities"] == [1.0, 1 / 3]
@@ -123,6 +124,7 @@ def test_the_contact_in_tables_is_that_of_the_tool(tmp_path, tool, rough):
     assert np.array_equal(found.autocorrelation, theirs["autocorrelation"])
     for name in ("gap", "pressure"):
         density = getattr(found, name)
-        assert np.array_equal(density.density, theirs[name][:, 2]) and np.array_equal(density.edges[1:], theirs[name][:, 1])
+        assert np.array_equal(density.density, theirs[name][:, 2])
+        assert np.array_equal(density.edges[1:], theirs[name][:, 1])
     assert found.clusters[:, 0].astype(int).tolist() == solution.statistics.cluster_sizes.tolist()
     assert found.figures["clusters"] == len(found.clusters)

@@ -20,13 +20,14 @@ use crate::scene::{self, SceneFile};
 use crate::solved::{CONTACT_PRESSURE, GAP, Solved};
 use crate::units::Units;
 
-/// Tabulate and chart the contact of a solve: distributions of gap and pressure, their exponents, and clusters.
+/// Tabulate and chart the contact of a solve.
 ///
-/// SOLVED is the folder of a solve, of which gap.npy, contact_pressure.npy and report.json are taken. Near the edge of
-/// the contact the densities of gap and contact pressure are powers of them, of -1/3 and 1 at a hard wall without
-/// adhesion; the exponents are told in a window above the nodes at the edge itself, whose density the grid makes
-/// uniform, and not where the nodes do not reach that near. The autocorrelation of the contact pressure is about its
-/// mean and over its variance, in a periodic cell.
+/// Distributions of gap and contact pressure, the autocorrelation of the pressure, and clusters. SOLVED is the folder
+/// of a solve, of which gap.npy, contact_pressure.npy and report.json are taken. Near the edge of the contact the
+/// densities of gap and contact pressure are powers of them, of -1/3 and 1 at a hard wall without adhesion; the
+/// exponents are told in a window above the nodes at the edge itself, whose density the grid makes uniform, and not
+/// where the nodes do not reach that near. The autocorrelation of the contact pressure is about its mean and over its
+/// variance, in a periodic cell.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -254,21 +255,22 @@ const DRAWN: [Draw; 4] = [
     },
 ];
 
-/// The chart of a density, beside its power near the edge of the contact in the window of its exponent, if there is one.
+/// The chart of a density, beside its power near the edge of the contact in the window of its exponent, if there is
+/// one.
 fn draw_density(
     found: &Density,
     (title, label, law, power): (&str, &str, &str, f64),
     (unit, density_unit): (Option<&str>, Option<&str>),
     dpi: f64,
 ) -> asperity::Result<Picture> {
-    // a bin without a node breaks the curve
-    let shown = |(at, density): (f64, f64)| if density > 0.0 { (at, density) } else { (f64::NAN, f64::NAN) };
-    let points: Vec<_> = found.points().into_iter().map(shown).collect();
+    // below a bin without a node there are single nodes, which the table has
+    let mut points: Vec<_> = found.points().into_iter().rev().take_while(|(_, density)| *density > 0.0).collect();
+    points.reverse();
     let caption = found.exponent.map(|found| format!("exponent {:.3} in the window of the line", found.exponent));
     let guide = found.exponent.and_then(|window| {
-        let known = points.iter().filter(|point| point.0.is_finite());
-        let nearest = |at: f64| known.clone().min_by(|a, b| (a.0 / at).ln().abs().total_cmp(&(b.0 / at).ln().abs()));
-        let (at, density) = *nearest((window.from * window.to).sqrt())?;
+        let middle = (window.from * window.to).sqrt();
+        let beside = |point: &(f64, f64)| (point.0 / middle).ln().abs();
+        let (at, density) = *points.iter().min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
         Some([window.from, window.to].map(|value| (value, density * (value / at).powf(power))).to_vec())
     });
     let chart = Chart {

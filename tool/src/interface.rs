@@ -6,7 +6,7 @@ use asperity::{Control, Error};
 use asperity_scene::interface::Code;
 use asperity_scene::{After, Boundary, Format, Way};
 use clap::{ArgGroup, Args};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::adhesion::AdhesionOptions;
 use crate::after::{ConductorOptions, LeakageOptions};
@@ -19,7 +19,7 @@ use crate::processes::Processes;
 use crate::scene::SceneFile;
 use crate::sweep::sweep_of;
 use crate::table::{Fill, Manner, Table, TableOptions};
-use crate::units::UnitOptions;
+use crate::units::{UnitOptions, Units};
 
 /// Tabulate the law of an interface over the load, for finite elements.
 ///
@@ -47,8 +47,8 @@ pub struct Options {
     /// File for the table, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
-    /// Codes to write files for, beside the table and named as it is: law.inp; law.pressure.txt and law.conductance.txt;
-    /// law.pressure.csv and law.conductance.csv
+    /// Codes to write files for, beside the table and named as it is: law.inp; law.pressure.txt and
+    /// law.conductance.txt; law.pressure.csv and law.conductance.csv
     #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
     codes: Vec<Code>,
     #[command(flatten)]
@@ -122,13 +122,13 @@ impl Options {
         endings.map(|ending| (*ending, self.out.with_extension(&ending[1..])))
     }
 
-    /// Writes the files for the codes, and tells their names.
-    fn write<T: Scalar>(&self, table: &Table<'_, T>) -> Outcome<Vec<String>> {
-        let (rows, adhesive) = (table.read()?, self.adhesion.adheres());
+    /// Writes the files of all rows for the codes, and tells their names.
+    fn write(&self, rows: &[Value], units: &Units) -> Outcome<Vec<String>> {
+        let adhesive = self.adhesion.adheres();
         let name = self.out.file_stem().unwrap_or_default().to_string_lossy();
         let mut written = Vec::new();
         for code in &self.codes {
-            for (ending, text) in in_options(code.files(&rows, adhesive, &name, &table.units))? {
+            for (ending, text) in in_options(code.files(rows, adhesive, &name, units))? {
                 let path = self.out.with_extension(&ending[1..]);
                 let file = OutputFile::create(&path, true)?;
                 file.write(|path| write_text(path, &text))?;
@@ -152,7 +152,7 @@ impl Fill for Options {
             complain("warning", "there are no files --for codes of finite elements, as rows have not converged");
         }
         table.first(|| {
-            let written = if converged { self.write(table)? } else { Vec::new() };
+            let written = if converged { self.write(&rows, &table.units)? } else { Vec::new() };
             if !written.is_empty() {
                 self.manner.printing.say(&format!("for finite elements: {}", written.join(", ")));
             }

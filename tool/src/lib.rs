@@ -1,10 +1,11 @@
 //! The command-line tool: `asperity demo` solves a built-in case, `asperity solve` one given by files, `asperity sweep`
 //! many loads, `asperity cycle` a path with jumps, `asperity pull-off` the greatest tension, and `asperity study` every
-//! combination of options; `asperity contact` tabulates the contact of a solve, `asperity leak` tells what leaks through the gap of a solve, and `asperity interface` makes
-//! tables for finite elements. `asperity surface` makes files of
-//! heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity laws` lists the
-//! adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any of these by a scene file,
-//! which every run leaves beside its results, and `asperity report` puts the results on a page for a browser.
+//! combination of options; `asperity contact` tabulates the contact of a solve, `asperity leak` tells what leaks
+//! through the gap of a solve, and `asperity interface` makes tables for finite elements. `asperity surface` makes
+//! files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity
+//! laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any of these
+//! by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a page for a
+//! browser.
 
 // the report of a solve has more keys than serde_json's macro expands otherwise
 #![recursion_limit = "256"]
@@ -95,7 +96,8 @@ const EXAMPLES: &str = "\
   asperity pull-off --heights heights.npy --law exponential --work-of-adhesion 1e-4 --range 4e-3
   asperity contact results --out contact
   asperity leak results
-  asperity interface --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --for abaqus --out law.csv
+  asperity interface --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --for abaqus \\
+    --out law.csv
   asperity study study.toml --jobs 4
   asperity laws
   asperity selftest

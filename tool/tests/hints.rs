@@ -31,9 +31,9 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
         ),
         (
             format!("{solve} --mean-pressures 1,2"),
-            &["did you mean '--mean-pressure',", "is an option of sweep and cycle"],
+            &["did you mean '--mean-pressure',", "is an option of sweep, cycle and interface"],
         ),
-        (format!("{solve} --mean-pressure 1,2"), &["a list is for sweep and cycle, by '--mean-pressures'"]),
+        (format!("{solve} --mean-pressure 1,2"), &["a list is for sweep, cycle and interface, by '--mean-pressures'"]),
         (format!("{sweep} --mean-pressure 1"), &["did you mean '--mean-pressures',", "is an option of solve"]),
         // a list of one load that is wrong is no list for another command
         (format!("{sweep} --mean-pressures 1:2"), &["FROM:TO:COUNT or FROM:TO:COUNT:log; see --help"]),
@@ -65,7 +65,7 @@ fn keys_of_scenes_and_studies_by_other_names_get_the_same() {
     for (load, parts) in [
         ("pressure = 0.1", &["scene.toml: ", "'--pressure'", "did you mean '--mean-pressure'"][..]),
         ("force = \"5nN\"", &["scene.toml: ", "force is \"5nN\"", "did you mean 'normal-force', normal force"]),
-        ("mean-pressures = [1, 2]", &["scene.toml: ", "did you mean '--mean-pressure',", "sweep and cycle"]),
+        ("mean-pressures = [1, 2]", &["scene.toml: ", "did you mean '--mean-pressure',", "sweep, cycle and interface"]),
     ] {
         bench.write("scene.toml", &format!("command = \"solve\"\nout = \"r\"\nheights = \"h.npy\"\n{load}\n"));
         bench.refused_with("run scene.toml", parts);

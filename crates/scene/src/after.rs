@@ -207,8 +207,8 @@ impl Findings {
 }
 
 impl<T: Real> Found<T> {
-    /// The findings that are asked for after the solve, beside the contact stiffness; none if it was stopped, or has run
-    /// away.
+    /// The findings that are asked for after the solve, beside the contact stiffness; none if it was stopped, or has
+    /// run away.
     ///
     /// # Errors
     /// Those of [`Conductance::of`], [`Conductance::of_spots`] and [`LeakAsked::find`].
@@ -244,8 +244,8 @@ impl<T: Real> Found<T> {
         Ok(Findings { stiffness_error, conductance, percolates, constriction, transmissivity })
     }
 
-    /// The conductance by the contact stiffness; with adhesion, whose slope between the spots conducts nothing, by that of
-    /// the spots alone.
+    /// The conductance by the contact stiffness; with adhesion, whose slope between the spots conducts nothing, by
+    /// that of the spots alone.
     fn conductance(&self, conductors: Conductors, elastic: &Elastic) -> Result<Option<Conducted>> {
         let (solution, resistivities) = (&self.solution, conductors.resistivities());
         let Some(stiffness) = &self.stiffness else { return Ok(None) };

@@ -310,7 +310,8 @@ impl<T: Real> Course<T> {
         posed.followed(found, &this.after).map(Some)
     }
 
-    /// The branch of a state in the table of an interface: its own, or that of the first one, on which the others follow.
+    /// The branch of a state in the table of an interface: its own, or that of the first one, on which the others
+    /// follow.
     fn branch(&mut self, own: Option<Branch>) -> Option<Branch> {
         let values = &mut self.place.values;
         if let Some(own) = own {

@@ -58,8 +58,8 @@ impl Code {
     /// that of the interface.
     ///
     /// Pressure over closure, conductance over pressure, and transmissivity over pressure, each a function by points.
-    /// Closure and conductance count from no pressure: without adhesion from first touch, with adhesion between the rows
-    /// around it.
+    /// Closure and conductance count from no pressure: without adhesion from first touch, with adhesion between the
+    /// rows around it.
     ///
     /// # Errors
     /// The reason why the rows are no function, and a remedy, for [`worded`](crate::worded).
