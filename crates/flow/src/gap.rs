@@ -97,6 +97,14 @@ impl<'a> Gap<'a> {
         Ok(self)
     }
 
+    /// The gap at every second node along both axes, from one near the first corner on.
+    pub(crate) fn every_second(&self, first: usize) -> Result<Gap<'static>> {
+        let (nx, ny) = self.grid.shape();
+        let places = (first..nx).step_by(2).flat_map(|i| (first..ny).step_by(2).map(move |j| i * ny + j));
+        let values = places.map(|node| self.values[node]).collect();
+        Ok(Gap { values, grid: Grid::new((nx / 2, ny / 2), self.grid.lengths())?, ..*self })
+    }
+
     /// The grid of the nodes.
     pub fn grid(&self) -> Grid {
         self.grid
