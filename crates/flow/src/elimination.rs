@@ -163,23 +163,23 @@ impl Graph {
         let n = names.len();
         let (mut starts, mut ground) = (vec![0_usize; n + 2], vec![0.0; n]);
         let inner = |edge: &(u32, u32, f64)| (edge.0.max(edge.1) as usize) < n;
-        for edge in edges.clone() {
+        edges.clone().for_each(|edge| {
             let (a, b, weight) = edge;
             if inner(&edge) {
                 [a, b].into_iter().for_each(|end| starts[end as usize + 2] += 1);
             } else {
                 ground[a.min(b) as usize] += weight;
             }
-        }
+        });
         (2..n + 2).for_each(|k| starts[k] += starts[k - 1]);
         let mut links = vec![(0, 0.0); starts[n + 1]];
-        for (a, b, weight) in edges.filter(inner) {
+        edges.filter(inner).for_each(|(a, b, weight)| {
             for (from, to) in [(a, b), (b, a)] {
                 let at = &mut starts[from as usize + 1];
                 links[*at] = (to, weight);
                 *at += 1;
             }
-        }
+        });
         starts.pop();
         let (mut seen, mut end, mut first) = (vec![usize::MAX; n], 0, 0);
         for vertex in 0..n {

@@ -5,7 +5,7 @@ use asperity::Result;
 use crate::gap::{Axis, Gap};
 use crate::leakage::{Leak, Leakage};
 
-/// The distance of the bounds on the coarser grids, as far as it is not asked for wider: far below what a grid leaves.
+/// The least distance of the bounds on the coarser grids: far below what a grid leaves.
 const COARSE: f64 = 1e-4;
 
 impl Leakage {

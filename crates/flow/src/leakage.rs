@@ -9,9 +9,6 @@ use crate::network::Network;
 use crate::percolation::Percolation;
 use crate::tree::Tree;
 
-/// The iterations from one look at the upper bound to the next.
-const EVERY: usize = 8;
-
 /// The share of the tolerance from which on an error that brings the bounds no closer is rounding.
 const LEAST_SHARE: f64 = 1e-7;
 
@@ -286,18 +283,15 @@ impl Enclosed {
             flow: Vec::new(),
             iterations: 0,
         };
-        // the share of the upper bound, times the tolerance, below which the square of the error in the energy norm is, by the
-        // preconditioner, when both bounds are computed
-        let mut share = 0.1;
-        let (mut upper, mut first, mut before) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        // both bounds are computed when the square of the error in the energy norm, by the preconditioner, is below a share of
+        // the tolerance of the upper bound, which each step lowers
+        let (mut share, mut upper) = (0.1, network.upper(&pressure, axis));
+        let (mut first, mut before) = (f64::INFINITY, f64::INFINITY);
         for iterations in 0.. {
             elimination.solve(&residual[..n], &mut preconditioned, &mut work);
             let error = dot(&preconditioned, &residual[..n]);
             if before.is_infinite() {
                 first = error;
-            }
-            if iterations % EVERY == 0 {
-                upper = network.upper(&pressure, axis);
             }
             let again = error / before;
             direction.iter_mut().zip(&preconditioned).for_each(|(d, z)| *d = z + again * *d);
@@ -314,6 +308,7 @@ impl Enclosed {
                 (share, stale) = (0.1 * share, true);
             }
             before = error;
+            upper -= step * error;
             pressure.iter_mut().zip(&direction).for_each(|(p, d)| *p += step * d);
             if stale {
                 network.gained(&pressure, axis, &mut residual);

@@ -184,11 +184,14 @@ impl Network {
         weighted / weights
     }
 
-    /// The pressure that falls along each edge.
-    pub fn falls<'a>(&'a self, pressure: &'a [f64], axis: Axis) -> impl Iterator<Item = f64> + 'a {
-        self.stars().zip(self.hubs(pressure, axis)).flat_map(move |(star, hub)| {
-            star.map(move |k| hub - pressure[self.edges[k].rim as usize] + self.held(k, axis))
-        })
+    /// Visits each edge, by its number, with the pressure that falls along it.
+    pub fn fall(&self, pressure: &[f64], axis: Axis, mut visit: impl FnMut(usize, &Edge, f64)) {
+        for star in self.stars() {
+            let hub = self.mean(star.clone(), pressure, |edge| self.held(edge, axis));
+            for (k, edge) in star.clone().zip(&self.edges[star]) {
+                visit(k, edge, hub - pressure[edge.rim as usize] + self.held(k, axis));
+            }
+        }
     }
 
     /// What each rim, and the ground, gains from the flow that a pressure drives.
@@ -213,16 +216,17 @@ impl Network {
 
     /// An upper bound of the conductance: that of any pressure, by Dirichlet's principle, Σ c (Δp)².
     pub fn upper(&self, pressure: &[f64], axis: Axis) -> f64 {
-        let power = |((k, edge), fall): ((usize, &Edge), f64)| {
+        let mut power = Total::default();
+        self.fall(pressure, axis, |k, edge, fall| {
             // the bound of what a driven fall may have lost to rounding, beside the relative error of all falls
             let lost = if self.held(k, axis) == 0.0 {
                 0.0
             } else {
                 f64::EPSILON * (2.0 + fall.abs() + 2.0 * pressure[edge.rim as usize].abs())
             };
-            edge.conductance * (fall.abs() + lost).powi(2)
-        };
-        total(self.edges.iter().enumerate().zip(self.falls(pressure, axis)).map(power)) * (1.0 + ROUNDING)
+            power.add(edge.conductance * (fall.abs() + lost).powi(2));
+        });
+        power.get() * (1.0 + ROUNDING)
     }
 
     /// A lower bound of the conductance: that of any flow that is conserved, by Thomson's principle, F²/Σ(f²/c) with the
@@ -230,7 +234,9 @@ impl Network {
     pub fn lower(&self, flow: &[i64], axis: Axis) -> f64 {
         let ways = self.ways.iter().zip(flow);
         let along: i128 = ways.map(|(way, flow)| i128::from(way.held[axis as usize]) * i128::from(*flow)).sum();
-        let power = total(self.edges.iter().zip(flow).map(|(edge, flow)| (*flow as f64).powi(2) / edge.conductance));
+        let mut power = Total::default();
+        self.edges.iter().zip(flow).for_each(|(edge, flow)| power.add((*flow as f64).powi(2) / edge.conductance));
+        let power = power.get();
         // a flow backwards bounds nothing
         let along = along.max(0) as f64;
         if power > 0.0 { along * along / power * (1.0 - ROUNDING) } else { 0.0 }
@@ -241,12 +247,20 @@ impl Network {
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// A sum of numbers that are not negative, to two roundings (Neumaier).
-fn total(terms: impl Iterator<Item = f64>) -> f64 {
-    let (mut sum, mut rest) = (0.0_f64, 0.0);
-    for term in terms {
-        let next = sum + term;
-        rest += if sum >= term { (sum - next) + term } else { (term - next) + sum };
-        sum = next;
+#[derive(Default)]
+struct Total {
+    sum: f64,
+    rest: f64,
+}
+
+impl Total {
+    fn add(&mut self, term: f64) {
+        let next = self.sum + term;
+        self.rest += if self.sum >= term { (self.sum - next) + term } else { (term - next) + self.sum };
+        self.sum = next;
     }
-    sum + rest
+
+    fn get(&self) -> f64 {
+        self.sum + self.rest
+    }
 }

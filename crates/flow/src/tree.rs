@@ -67,10 +67,10 @@ impl Tree {
     /// The flow that a pressure drives, in integers, and conserved; the second is the flow of a unit. None if the numbers
     /// leave the range of integers, as of a pressure that has nothing of the solution.
     pub fn conserved(&self, network: &Network, pressure: &[f64], axis: Axis) -> Option<(Vec<i64>, f64)> {
-        let driven =
-            || network.edges.iter().zip(network.falls(pressure, axis)).map(|(edge, fall)| edge.conductance * fall);
-        let unit = driven().map(f64::abs).fold(0.0, f64::max) / GREATEST;
-        let mut flow: Vec<i64> = driven().map(|driven| (driven / unit).round() as i64).collect();
+        let mut driven = Vec::with_capacity(network.edges.len());
+        network.fall(pressure, axis, |_, edge, fall| driven.push(edge.conductance * fall));
+        let unit = driven.iter().copied().map(f64::abs).fold(0.0, f64::max) / GREATEST;
+        let mut flow: Vec<i64> = driven.into_iter().map(|driven| (driven / unit).round() as i64).collect();
         let mut gained = vec![0_i64; network.vertices()];
         for (edge, flow) in network.edges.iter().zip(&flow) {
             gained[edge.hub as usize] = gained[edge.hub as usize].checked_sub(*flow)?;
