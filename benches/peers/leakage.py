@@ -64,17 +64,17 @@ def measured(command, limit, memory):
         resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
 
     threads = {name: "1" for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")}
-    with tempfile.TemporaryFile() as told:
-        child = subprocess.Popen(
-            command, stdout=told, stderr=subprocess.DEVNULL, preexec_fn=bounded, env=os.environ | threads
-        )
+    with tempfile.TemporaryFile() as told, tempfile.TemporaryFile() as said:
+        child = subprocess.Popen(command, stdout=told, stderr=said, preexec_fn=bounded, env=os.environ | threads)
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         used = usage.ru_utime + usage.ru_stime
         if used >= limit:
             raise Failed(f"more than {limit} s")
         if child.returncode:
-            raise Failed(f"fails at {memory} GiB ({usage.ru_maxrss >> 10} MiB taken)")
+            said.seek(0)
+            last = said.read().decode().strip().rpartition("\n")[2]
+            raise Failed(f"{last or 'killed'} ({used:.0f} s, {usage.ru_maxrss >> 10} MiB)")
         told.seek(0)
         return json.loads(told.read()), used, usage.ru_maxrss >> 10
 

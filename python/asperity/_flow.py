@@ -136,5 +136,5 @@ def leakage(
 def _flow(bounds: dict[str, Any], fields: tuple[Any, Any, Any], narrowest: tuple[Any, Any, Any] | None) -> Flow:
     pressure, x, y = fields
     constriction = None if narrowest is None else Constriction(*narrowest)
-    told = (bounds[key] for key in ("lower", "upper", "grid_error", "reached"))
-    return Flow(*told, constriction, pressure, np.stack((x, y)))
+    lower, upper, grid_error, reached = (bounds[key] for key in ("lower", "upper", "grid_error", "reached"))
+    return Flow(lower, upper, grid_error, reached, constriction, pressure, np.stack((x, y)))
