@@ -3,10 +3,11 @@
 #
 #     benches/peers/setup.sh [DIR]        (default: ${XDG_CACHE_HOME:-~/.cache}/asperity-peers)
 #
-# By pip, in a virtual environment: tamaas, ContactMechanics, aspher, numpy, scipy. aspher comes as source: it is built here, for any
-# machine and for this one (-march=native), with the header-only Eigen of the distribution, unpacked, not installed. By
-# apt: FFTW, both as it is packaged (3.3.10 on Debian 12), and built from the same source with AVX2 and, where the
-# processor has it, AVX-512, which the package lacks. All from where this machine's pip and apt are told to take it.
+# By pip, in a virtual environment: tamaas, ContactMechanics, reynoldsflow, aspher, numpy, scipy. aspher comes as
+# source: it is built here, for any machine and for this one (-march=native), with the header-only Eigen of the
+# distribution, unpacked, not installed. By apt: FFTW, both as it is packaged (3.3.10 on Debian 12), and built from the
+# same source with AVX2 and, where the processor has it, AVX-512, which the package lacks. All from where this machine's
+# pip and apt are told to take it.
 # Needs python3 with venv, gcc, g++, make and, on Debian or Ubuntu, apt-get; no root. Takes some ten minutes.
 set -euo pipefail
 
@@ -61,7 +62,8 @@ gcc -O3 -march=native -DREAL=float -o fftw32 "$here/fftw.c" -lm -ldl
 
 echo "== Python, in $dir/venv"
 [ -e venv ] || python3 -m venv venv
-venv/bin/pip install --quiet numpy==2.4.6 scipy==1.17.1 tamaas==2.9.0 ContactMechanics==1.8.3
+venv/bin/pip install --quiet numpy==2.4.6 scipy==1.17.1 tamaas==2.9.0 ContactMechanics==1.8.3 \
+    reynoldsflow==0.1.3 pyamg==5.4.1 pypardiso==0.4.7
 # as pip builds it, and for this machine; each is the faster in one of the two precisions
 for build in portable:OFF native:ON; do
     rm -rf "aspher-${build%:*}"
@@ -69,7 +71,7 @@ for build in portable:OFF native:ON; do
         --config-settings=cmake.define.Eigen3_DIR="$eigen" --config-settings=cmake.define.ASPHER_NATIVE="${build#*:}"
     PYTHONPATH="aspher-${build%:*}" venv/bin/python -c 'import aspher'
 done
-venv/bin/python -c 'import numpy, scipy, tamaas, ContactMechanics'
+venv/bin/python -c 'import numpy, scipy, tamaas, ContactMechanics, reynoldsflow'
 
 {
     printf '%s\n' "$libraries/libfftw3.so.3" "$dir/fftw/lib/libfftw3.so.3"

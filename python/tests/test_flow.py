@@ -31,6 +31,9 @@ def test_slots_leak_as_their_cubes_say():
         np.testing.assert_allclose(found.x.flow[0], gap**3 / 12 / 3, rtol=1e-4)
     assert np.isnan(found.y.pressure).all()
     # a list, a line, and a cell of 1 by 1
+    found = asperity.leakage(np.ones((8, 6)))
+    assert found.x.grid_error < 2e-4 and found.report["transmissivity"]["x"]["grid_error"] == found.x.grid_error
+    assert asperity.leakage(np.ones((7, 6))).x.grid_error is None
     assert asperity.leakage([1.0, 2.0, 4.0]).x.upper > 0
     assert asperity.leakage(gap.astype("f4")[::-1]).report["boundary"] == "periodic"
 

@@ -1,35 +1,57 @@
 //! Clusters of nodes that grow together: union–find with the cell in which each node lies.
 
-/// Clusters of nodes, each in its tree; a node knows how many cells it is from its parent.
-pub(crate) struct Clusters {
-    parent: Vec<u32>,
+/// Clusters of nodes, each in its tree.
+pub(crate) struct Clusters(Vec<Member>);
+
+/// A node of a cluster.
+#[derive(Clone, Copy)]
+struct Member {
+    parent: u32,
+    /// The number of nodes below a root; zero of a node without a cluster.
+    size: u32,
     /// The cells from the parent to the node, along x and along y.
-    cells: Vec<[i32; 2]>,
-    size: Vec<u32>,
+    cells: [i32; 2],
 }
 
 impl Clusters {
     /// As many nodes, each a cluster of its own.
     pub fn new(nodes: usize) -> Self {
-        Self { parent: (0..nodes as u32).collect(), cells: vec![[0; 2]; nodes], size: vec![1; nodes] }
+        Self::of(nodes, 1)
     }
 
-    /// The root of the cluster of a node, and the cells from the root to the node. On the way there all become children of
-    /// the root.
-    pub fn root(&mut self, node: usize) -> (usize, [i32; 2]) {
-        let (mut root, mut away) = (node, [0, 0]);
-        while self.parent[root] as usize != root {
-            away = sum(away, self.cells[root]);
-            root = self.parent[root] as usize;
+    /// As many nodes, none of which is in a cluster.
+    pub fn closed(nodes: usize) -> Self {
+        Self::of(nodes, 0)
+    }
+
+    fn of(nodes: usize, size: u32) -> Self {
+        Self((0..nodes as u32).map(|parent| Member { parent, size, cells: [0; 2] }).collect())
+    }
+
+    /// Makes a node a cluster of its own.
+    pub fn open(&mut self, node: usize) {
+        self.0[node].size = 1;
+    }
+
+    /// Whether a node is in a cluster.
+    pub fn is_open(&self, node: usize) -> bool {
+        self.0[node].size > 0
+    }
+
+    /// The root of the cluster of a node, and the cells from the root to the node. On the way each other node becomes a
+    /// child of its grandparent.
+    pub fn root(&mut self, mut node: usize) -> (usize, [i32; 2]) {
+        let mut away = [0, 0];
+        loop {
+            let Member { parent, cells, .. } = self.0[node];
+            let above = self.0[parent as usize];
+            let to_above = sum(above.cells, cells);
+            if above.parent == parent {
+                return (parent as usize, sum(away, to_above));
+            }
+            (self.0[node].parent, self.0[node].cells) = (above.parent, to_above);
+            (node, away) = (above.parent as usize, sum(away, to_above));
         }
-        let (mut next, mut rest) = (node, away);
-        while self.parent[next] as usize != root {
-            let (after, own) = (self.parent[next] as usize, self.cells[next]);
-            (self.parent[next], self.cells[next]) = (root as u32, rest);
-            rest = difference(rest, own);
-            next = after;
-        }
-        (root, away)
     }
 
     /// Makes one cluster of those of two nodes, the second of which is so many cells from the first.
@@ -40,9 +62,9 @@ impl Clusters {
             return Joined::Loop { root: a, cells: between };
         }
         let (root, child, from_root) =
-            if self.size[a] >= self.size[b] { (a, b, between) } else { (b, a, between.map(|cells| -cells)) };
-        (self.parent[child], self.cells[child]) = (root as u32, from_root);
-        self.size[root] += self.size[child];
+            if self.0[a].size >= self.0[b].size { (a, b, between) } else { (b, a, between.map(|cells| -cells)) };
+        (self.0[child].parent, self.0[child].cells) = (root as u32, from_root);
+        self.0[root].size += self.0[child].size;
         Joined::Clusters { root, child }
     }
 }

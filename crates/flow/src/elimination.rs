@@ -1,21 +1,21 @@
-//! Approximate elimination of the pressures: a preconditioner for networks of any contrast.
+//! Elimination of the pressures, exact for the hubs and approximate for the rims: a preconditioner for networks of any
+//! contrast.
 
-use crate::network::{NONE, Network};
+use crate::network::Network;
 
-/// The degrees from this one on share a queue.
-const DEGREES: usize = 32;
-
-/// An approximate Cholesky factorisation of the matrix of a network, by elimination of one vertex after the other.
+/// An approximate Cholesky factorisation of the matrix of the rims of a network, by elimination of one after the other.
 ///
-/// Without a vertex its d neighbours are a clique of d(d − 1)/2 edges, w_i w_j/Σw each. In its place stand d − 1 edges
+/// Without its hub a star is a clique of its rims. Without a rim its d neighbours are a clique of d(d − 1)/2 edges, w_i w_j/Σw each. In its place stand d − 1 edges
 /// that are drawn at random such that the mean is the clique: each neighbour, from the least weight on, gets an edge to one
 /// of those after it, drawn by their weights. The factor stays as sparse as the matrix, and its quality hardly depends on
-/// the contrast: R. Kyng, S. Sachdeva, FOCS 2016, 573; Y. Gao, R. Kyng, D. A. Spielman, arXiv:2303.00709 (2023). The
-/// vertices go by their degrees, the least first. Chains and trees are eliminated exactly.
+/// the contrast: R. Kyng, S. Sachdeva, FOCS 2016, 573; Y. Gao, R. Kyng, D. A. Spielman, arXiv:2303.00709 (2023).
+///
+/// The vertices go in rounds. In each go some of which none is a neighbour of another one, of no more neighbours than the
+/// mean, and the others are numbered anew: neighbours stay near each other in memory.
 pub(crate) struct Elimination {
     /// The vertices in the order of their elimination.
     order: Vec<u32>,
-    /// The sum of the weights of each at its elimination.
+    /// The reciprocal of the sum of the weights of each at its elimination.
     pivots: Vec<f64>,
     /// Where the column of each begins.
     starts: Vec<usize>,
@@ -28,8 +28,6 @@ impl Elimination {
     /// The factorisation of a network.
     pub fn new(network: &Network) -> Self {
         let n = network.ground();
-        let mut graph = Graph::new(n, network);
-        let mut random = Random(0);
         let mut made = Self {
             order: Vec::with_capacity(n),
             pivots: Vec::with_capacity(n),
@@ -37,18 +35,65 @@ impl Elimination {
             rows: Vec::with_capacity(4 * n),
             shares: Vec::with_capacity(4 * n),
         };
-        let (mut star, mut after) = (Vec::new(), Vec::new());
-        while let Some(vertex) = graph.queue.pop() {
-            graph.take(vertex, &mut star);
-            let pivot: f64 = star.iter().map(|(_, weight)| weight).sum();
-            made.order.push(vertex as u32);
-            made.pivots.push(pivot);
-            for (to, weight) in star.iter().filter(|(to, _)| *to as usize != n) {
-                made.rows.push(*to);
-                made.shares.push(weight / pivot);
+        let mut random = Random(0);
+        let mut graph = Graph::new((0..n as u32).collect(), cliques(network));
+        while !graph.names.is_empty() {
+            let (names, edges) = made.round(&graph, &mut random);
+            graph = Graph::new(names, edges.into_iter());
+        }
+        let mut place = vec![0; n];
+        made.order.iter().enumerate().for_each(|(k, vertex)| place[*vertex as usize] = k as u32);
+        made.rows.iter_mut().for_each(|row| *row = place[*row as usize]);
+        made
+    }
+
+    /// Eliminates some vertices of a graph; the others, and the edges between them.
+    fn round(&mut self, graph: &Graph, random: &mut Random) -> (Vec<u32>, Vec<(u32, u32, f64)>) {
+        let n = graph.names.len();
+        let most = graph.links.len().div_ceil(n);
+        let mut fates = vec![Fate::Open; n + 1];
+        for vertex in 0..n {
+            let links = graph.links(vertex);
+            if fates[vertex] == Fate::Open && links.len() <= most {
+                links.iter().for_each(|(to, _)| fates[*to as usize] = Fate::Stays);
+                fates[vertex] = Fate::Goes;
             }
-            made.starts.push(made.rows.len());
+        }
+        // the numbers of those that stay; the ground stays
+        let mut names = Vec::with_capacity(n / 2);
+        let mut number = vec![0_u32; n + 1];
+        for vertex in (0..n).filter(|vertex| fates[*vertex] != Fate::Goes) {
+            number[vertex] = names.len() as u32;
+            names.push(graph.names[vertex]);
+        }
+        number[n] = names.len() as u32;
+        let mut edges = Vec::with_capacity(graph.links.len() / 2);
+        let (mut star, mut after) = (Vec::new(), Vec::new());
+        for vertex in 0..n {
+            let (links, ground) = (graph.links(vertex), graph.ground[vertex]);
+            if fates[vertex] != Fate::Goes {
+                let kept = links.iter().filter(|(to, _)| *to as usize > vertex && fates[*to as usize] != Fate::Goes);
+                edges.extend(kept.map(|(to, weight)| (number[vertex], number[*to as usize], *weight)));
+                if ground > 0.0 {
+                    edges.push((number[vertex], number[n], ground));
+                }
+                continue;
+            }
+            star.clear();
+            star.extend_from_slice(links);
+            if ground > 0.0 {
+                star.push((n as u32, ground));
+            }
             star.sort_unstable_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+            let per_pivot = star.iter().map(|(_, weight)| weight).sum::<f64>().recip();
+            self.order.push(graph.names[vertex]);
+            // the last vertex of a network without ground has no neighbour: its pressure is zero
+            self.pivots.push(if star.is_empty() { 0.0 } else { per_pivot });
+            for (to, weight) in links {
+                self.rows.push(graph.names[*to as usize]);
+                self.shares.push(weight * per_pivot);
+            }
+            self.starts.push(self.rows.len());
             // the sum of the weights from each neighbour on
             after.clear();
             after.resize(star.len() + 1, 0.0);
@@ -56,13 +101,10 @@ impl Elimination {
             for (i, (from, weight)) in star.iter().enumerate().take(star.len().saturating_sub(1)) {
                 let drawn = random.next() * after[i + 1];
                 let to = i + after[i + 1..star.len()].partition_point(|rest| *rest > drawn).max(1);
-                graph.connect(*from, star[to].0, weight * after[i + 1] / pivot);
+                edges.push((number[*from as usize], number[star[to].0 as usize], weight * after[i + 1] * per_pivot));
             }
         }
-        let mut place = vec![0; n];
-        made.order.iter().enumerate().for_each(|(k, vertex)| place[*vertex as usize] = k as u32);
-        made.rows.iter_mut().for_each(|row| *row = place[*row as usize]);
-        made
+        (names, edges)
     }
 
     /// The pressures that belong to flows out of the vertices, approximately; `work` is room for as many.
@@ -76,163 +118,92 @@ impl Elimination {
             }
         }
         for k in (0..work.len()).rev() {
-            // the last vertex of a network without ground has no neighbour: its pressure is zero
-            let own = if self.pivots[k] > 0.0 { work[k] / self.pivots[k] } else { 0.0 };
+            let own = work[k] * self.pivots[k];
             work[k] = column(k).fold(own, |sum, i| sum + self.shares[i] * work[self.rows[i] as usize]);
         }
         work.iter().zip(&self.order).for_each(|(work, vertex)| pressures[*vertex as usize] = *work);
     }
 }
 
-/// The edges of the vertices that are left, each in the lists of both of its ends.
-struct Graph {
-    ends: Vec<End>,
-    first: Vec<u32>,
-    unused: u32,
-    queue: Queue,
+/// The edges between the rims of each hub of a network once the hubs are eliminated.
+fn cliques(network: &Network) -> impl Iterator<Item = (u32, u32, f64)> + Clone + '_ {
+    network.stars().flat_map(|star| {
+        let star = &network.edges[star];
+        let sum: f64 = star.iter().map(|edge| edge.conductance).sum();
+        star.iter().enumerate().flat_map(move |(k, one)| {
+            let others = star[..k].iter().filter(|other| other.rim != one.rim);
+            others.map(move |other| (one.rim, other.rim, one.conductance / sum * other.conductance))
+        })
+    })
 }
 
-#[derive(Clone, Copy)]
-struct End {
-    to: u32,
-    next: u32,
-    weight: f64,
+/// What happens to a vertex in a round.
+#[derive(Clone, Copy, PartialEq)]
+enum Fate {
+    Open,
+    Stays,
+    Goes,
+}
+
+/// The vertices that are left.
+struct Graph {
+    /// The vertex of the network.
+    names: Vec<u32>,
+    /// Where the links of each begin.
+    starts: Vec<usize>,
+    /// The neighbours and the weights of the edges there.
+    links: Vec<(u32, f64)>,
+    /// The weights of the edges to the ground.
+    ground: Vec<f64>,
 }
 
 impl Graph {
-    fn new(n: usize, network: &Network) -> Self {
-        let mut degrees = vec![0_u32; n + 1];
-        let between = || network.edges.iter().filter(|edge| edge.tail != edge.head);
-        between().for_each(|edge| [edge.tail, edge.head].iter().for_each(|end| degrees[*end as usize] += 1));
-        degrees.truncate(n);
-        let ends = Vec::with_capacity(2 * network.edges.len());
-        let mut graph = Self { ends, first: vec![NONE; n], unused: NONE, queue: Queue::new(degrees) };
-        for edge in between() {
-            graph.push(edge.tail, edge.head, edge.conductance);
-            graph.push(edge.head, edge.tail, edge.conductance);
-        }
-        graph
-    }
-
-    /// Puts an edge into the list of one of its ends; the ground has none.
-    fn push(&mut self, from: u32, to: u32, weight: f64) {
-        let Some(&next) = self.first.get(from as usize) else { return };
-        let end = End { to, next, weight };
-        self.first[from as usize] = self.unused;
-        if let Some(free) = self.ends.get_mut(self.unused as usize) {
-            self.unused = free.next;
-            *free = end;
-        } else {
-            self.first[from as usize] = self.ends.len() as u32;
-            self.ends.push(end);
-        }
-    }
-
-    fn connect(&mut self, a: u32, b: u32, weight: f64) {
-        self.push(a, b, weight);
-        self.push(b, a, weight);
-        self.queue.change(a as usize, 1);
-        self.queue.change(b as usize, 1);
-    }
-
-    /// The neighbours of a vertex that are left, with the weights of the edges there, of which it is taken out.
-    fn take(&mut self, vertex: usize, star: &mut Vec<(u32, f64)>) {
-        star.clear();
-        let mut at = self.first[vertex];
-        while let Some(&End { to, next, weight }) = self.ends.get(at as usize) {
-            if !self.queue.is_gone(to as usize) {
-                star.push((to, weight));
-                self.queue.change(to as usize, -1);
+    /// The graph of edges; several between the same vertices become one. The number of the ground is that of the vertices.
+    fn new(names: Vec<u32>, edges: impl Iterator<Item = (u32, u32, f64)> + Clone) -> Self {
+        let n = names.len();
+        let (mut starts, mut ground) = (vec![0_usize; n + 2], vec![0.0; n]);
+        let inner = |edge: &(u32, u32, f64)| (edge.0.max(edge.1) as usize) < n;
+        edges.clone().for_each(|edge| {
+            let (a, b, weight) = edge;
+            if inner(&edge) {
+                [a, b].into_iter().for_each(|end| starts[end as usize + 2] += 1);
+            } else {
+                ground[a.min(b) as usize] += weight;
             }
-            self.ends[at as usize].next = self.unused;
-            self.unused = at;
-            at = next;
-        }
-        star.sort_unstable_by_key(|(to, _)| *to);
-        star.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
-            kept.1 += if same { next.1 } else { 0.0 };
-            same
         });
-    }
-}
-
-/// The vertices that are left, by their degrees.
-struct Queue {
-    degrees: Vec<u32>,
-    first: [u32; DEGREES],
-    /// The neighbours in the queue of a degree.
-    before: Vec<u32>,
-    next: Vec<u32>,
-    least: usize,
-}
-
-/// The degree of a vertex that was eliminated.
-const GONE: u32 = u32::MAX;
-
-impl Queue {
-    fn new(degrees: Vec<u32>) -> Self {
-        let n = degrees.len();
-        let mut queue = Self { degrees, first: [NONE; DEGREES], before: vec![NONE; n], next: vec![NONE; n], least: 0 };
-        (0..n).rev().for_each(|vertex| queue.insert(vertex));
-        queue
-    }
-
-    fn of(degree: u32) -> usize {
-        (degree as usize).min(DEGREES - 1)
-    }
-
-    fn insert(&mut self, vertex: usize) {
-        let queue = Self::of(self.degrees[vertex]);
-        let next = self.first[queue];
-        (self.before[vertex], self.next[vertex]) = (NONE, next);
-        if next != NONE {
-            self.before[next as usize] = vertex as u32;
-        }
-        self.first[queue] = vertex as u32;
-        self.least = self.least.min(queue);
-    }
-
-    fn remove(&mut self, vertex: usize) {
-        let (before, next) = (self.before[vertex], self.next[vertex]);
-        match before {
-            NONE => self.first[Self::of(self.degrees[vertex])] = next,
-            before => self.next[before as usize] = next,
-        }
-        if next != NONE {
-            self.before[next as usize] = before;
-        }
-    }
-
-    /// A vertex of the least degree, which is gone then.
-    fn pop(&mut self) -> Option<usize> {
-        while self.first[self.least] == NONE {
-            if self.least + 1 == DEGREES {
-                return None;
+        (2..n + 2).for_each(|k| starts[k] += starts[k - 1]);
+        let mut links = vec![(0, 0.0); starts[n + 1]];
+        edges.filter(inner).for_each(|(a, b, weight)| {
+            for (from, to) in [(a, b), (b, a)] {
+                let at = &mut starts[from as usize + 1];
+                links[*at] = (to, weight);
+                *at += 1;
             }
-            self.least += 1;
+        });
+        starts.pop();
+        let (mut seen, mut end, mut first) = (vec![usize::MAX; n], 0, 0);
+        for vertex in 0..n {
+            let (begin, last) = (end, starts[vertex + 1]);
+            for i in first..last {
+                let (to, weight) = links[i];
+                let at = seen[to as usize];
+                if at < end && at >= begin {
+                    links[at].1 += weight;
+                } else {
+                    seen[to as usize] = end;
+                    links[end] = (to, weight);
+                    end += 1;
+                }
+            }
+            (first, starts[vertex + 1]) = (last, end);
         }
-        let vertex = self.first[self.least] as usize;
-        self.remove(vertex);
-        self.degrees[vertex] = GONE;
-        Some(vertex)
+        links.truncate(end);
+        links.shrink_to_fit();
+        Self { names, starts, links, ground }
     }
 
-    fn is_gone(&self, vertex: usize) -> bool {
-        self.degrees.get(vertex) == Some(&GONE)
-    }
-
-    /// Changes the degree of a vertex; the ground has none.
-    fn change(&mut self, vertex: usize, by: i32) {
-        let Some(&degree) = self.degrees.get(vertex) else { return };
-        let changed = degree.saturating_add_signed(by);
-        if Self::of(degree) == Self::of(changed) {
-            self.degrees[vertex] = changed;
-        } else {
-            self.remove(vertex);
-            self.degrees[vertex] = changed;
-            self.insert(vertex);
-        }
+    fn links(&self, vertex: usize) -> &[(u32, f64)] {
+        &self.links[self.starts[vertex]..self.starts[vertex + 1]]
     }
 }
 

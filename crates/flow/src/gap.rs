@@ -1,7 +1,9 @@
 //! The gap through which a fluid flows.
 
 use asperity::{Error, Grid, Result};
-use ndarray::{ArrayView2, CowArray, Ix2};
+use ndarray::ArrayView2;
+
+use std::borrow::Cow;
 
 /// An axis of the cell, along which a pressure falls or a channel runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +54,8 @@ pub(crate) struct Step {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Gap<'a> {
-    values: CowArray<'a, f64, Ix2>,
+    /// In row-major order.
+    values: Cow<'a, [f64]>,
     grid: Grid,
     periodic: bool,
     absent: f64,
@@ -75,7 +78,7 @@ impl<'a> Gap<'a> {
             let (name, requirement) = ("number of nodes of a gap", "at most 2^30");
             return Err(Error::Value { name, value: grid.nodes() as f64, requirement });
         }
-        Ok(Self { values: to_rows(values), grid, periodic: true, absent: 0.0 })
+        Ok(Self { values: rows(values), grid, periodic: true, absent: 0.0 })
     }
 
     /// The gap on a part of a surface, whose opposite sides do not meet.
@@ -94,6 +97,14 @@ impl<'a> Gap<'a> {
         Ok(self)
     }
 
+    /// The gap at every second node along both axes, from one near the first corner on.
+    pub(crate) fn every_second(&self, first: usize) -> Result<Gap<'static>> {
+        let (nx, ny) = self.grid.shape();
+        let places = (first..nx).step_by(2).flat_map(|i| (first..ny).step_by(2).map(move |j| i * ny + j));
+        let values = places.map(|node| self.values[node]).collect();
+        Ok(Gap { values, grid: Grid::new((nx / 2, ny / 2), self.grid.lengths())?, ..*self })
+    }
+
     /// The grid of the nodes.
     pub fn grid(&self) -> Grid {
         self.grid
@@ -106,7 +117,7 @@ impl<'a> Gap<'a> {
 
     /// The gap at a node, in row-major order; zero if it is closed.
     pub(crate) fn at(&self, node: usize) -> f64 {
-        let gap = self.values[self.place(node)];
+        let gap = self.values[node];
         if gap.is_finite() { gap.max(0.0) } else { self.absent }
     }
 
@@ -121,42 +132,31 @@ impl<'a> Gap<'a> {
         (node / ny, node % ny)
     }
 
-    /// The step from a node forwards along an axis; none beyond the end of a free gap.
-    pub(crate) fn forward(&self, node: usize, axis: Axis) -> Option<Step> {
+    /// The step from a node along an axis, forwards or backwards; none beyond the end of a free gap.
+    pub(crate) fn step(&self, node: usize, axis: Axis, forward: bool) -> Option<Step> {
         let ((nx, ny), (i, j)) = (self.grid.shape(), self.place(node));
-        let (to, leaves) = match axis {
-            Axis::X if i + 1 < nx => (node + ny, false),
-            Axis::X => (j, true),
-            Axis::Y if j + 1 < ny => (node + 1, false),
-            Axis::Y => (i * ny, true),
+        let (k, n, stride) = if axis == Axis::X { (i, nx, ny) } else { (j, ny, 1) };
+        let around = (n - 1) * stride;
+        let (to, left) = match forward {
+            true if k + 1 < n => (node + stride, 0),
+            true => (node - around, 1),
+            false if k > 0 => (node - stride, 0),
+            false => (node + around, -1),
         };
-        self.step(to, axis, i32::from(leaves))
-    }
-
-    /// The step from a node backwards along an axis.
-    pub(crate) fn backward(&self, node: usize, axis: Axis) -> Option<Step> {
-        let ((nx, ny), (i, j)) = (self.grid.shape(), self.place(node));
-        let (to, leaves) = match axis {
-            Axis::X if i > 0 => (node - ny, false),
-            Axis::X => ((nx - 1) * ny + j, true),
-            Axis::Y if j > 0 => (node - 1, false),
-            Axis::Y => (i * ny + ny - 1, true),
-        };
-        self.step(to, axis, -i32::from(leaves))
-    }
-
-    fn step(&self, to: usize, axis: Axis, left: i32) -> Option<Step> {
         let cells = if axis == Axis::X { [left, 0] } else { [0, left] };
         (self.periodic || left == 0).then_some(Step { to, cells })
     }
 
     /// The steps from a node to its neighbours.
     pub(crate) fn steps(&self, node: usize) -> impl Iterator<Item = Step> + '_ {
-        let both = move |axis| [self.forward(node, axis), self.backward(node, axis)];
-        Axis::BOTH.into_iter().flat_map(both).flatten()
+        AROUND.into_iter().filter_map(move |(axis, forward)| self.step(node, axis, forward))
     }
 }
 
-fn to_rows(values: ArrayView2<'_, f64>) -> CowArray<'_, f64, Ix2> {
-    if values.is_standard_layout() { values.into() } else { values.as_standard_layout().into_owned().into() }
+/// The directions from a node to its neighbours: an axis, and whether forwards.
+pub(crate) const AROUND: [(Axis, bool); 4] = [(Axis::X, true), (Axis::X, false), (Axis::Y, true), (Axis::Y, false)];
+
+/// The values in row-major order, copied where they are in another one.
+fn rows(values: ArrayView2<'_, f64>) -> Cow<'_, [f64]> {
+    values.to_slice().map_or_else(|| values.iter().copied().collect(), Cow::Borrowed)
 }

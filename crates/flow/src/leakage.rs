@@ -9,15 +9,17 @@ use crate::network::Network;
 use crate::percolation::Percolation;
 use crate::tree::Tree;
 
-/// The iterations from one look at the upper bound to the next.
-const EVERY: usize = 8;
-
 /// The share of the tolerance from which on an error that brings the bounds no closer is rounding.
 const LEAST_SHARE: f64 = 1e-7;
 
 /// The share of the first error, squared, at which the residual is computed anew: what it has lost to rounding is then as
 /// small as the flow, and no longer as the flow that the first pressure drove through the widest gaps.
 const STALE: f64 = 1e-8;
+
+/// The memory that an open node and a closed one take at most, in bytes: a network, its cliques and its elimination, and the
+/// fields along both axes.
+const OPEN: f64 = 290.0;
+const CLOSED: f64 = 64.0;
 
 /// The leakage through a gap by Reynolds' equation, ∇·(g³∇p/12η) = 0, as settings.
 ///
@@ -35,6 +37,8 @@ const STALE: f64 = 1e-8;
 /// nothing percolates has a transmissivity of zero, both bounds.
 ///
 /// The distance of the bounds does not tell what the grid itself leaves out: compare two grids for that.
+///
+/// Memory: see [`Leakage::memory`].
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|
@@ -99,7 +103,7 @@ pub struct Flow {
     pub reached: bool,
     /// The iterations of conjugate gradients.
     pub iterations: usize,
-    /// The number of nodes through which the fluid may flow: without those of dead ends.
+    /// The number of nodes through which the fluid may flow, those of dead ends among them.
     pub nodes: usize,
 }
 
@@ -139,18 +143,35 @@ impl Leakage {
         self
     }
 
+    /// The memory that the flow through a gap takes at most, in bytes: 290 for each open node, or twice as many of a free
+    /// gap, whose axes have a network each, and 64 for each closed one. The results are among them, and the gap is not.
+    pub fn memory(gap: &Gap<'_>) -> f64 {
+        let open = if gap.is_periodic() { OPEN } else { 2.0 * OPEN };
+        (0..gap.grid().nodes()).map(|node| if gap.at(node) > 0.0 { open } else { CLOSED }).sum()
+    }
+
     /// The flow through a gap along both axes, each on a thread of its own.
     ///
     /// # Errors
-    /// [`Error::Value`] for a setting out of its range, and for an open gap below 1e-100 of the greatest.
+    /// [`Error::Value`] for a setting out of its range, and for an open gap below 1e-100 of the greatest;
+    /// [`Error::Memory`] if there is too little.
     pub fn through(&self, gap: &Gap<'_>) -> Result<Leak> {
+        self.check()?;
+        let ((nx, ny), bytes) = (gap.grid().shape(), Self::memory(gap));
+        // requested as a whole and given back, since a failed allocation of a part would end the process
+        if Vec::<u8>::new().try_reserve_exact(bytes as usize).is_err() {
+            return Err(Error::Memory { what: format!("the leakage through {nx} x {ny} nodes"), bytes });
+        }
         let percolation = gap.percolation();
-        let along = |axis| self.along(gap, &percolation, axis);
-        let [x, y] = std::thread::scope(|scope| {
-            let first = scope.spawn(|| along(Axis::X));
-            let second = along(Axis::Y);
-            [first.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), second]
-        });
+        let [x, y] = if !gap.is_periodic() {
+            at_once(|axis| self.along(gap, &percolation, axis))
+        } else if percolation.is_alike() {
+            let prepared = Prepared::new(gap, &percolation, Axis::X)?;
+            at_once(|axis| self.with(gap, &prepared, axis))
+        } else {
+            // a cluster winds along one axis alone: each has a network of its own, one after the other
+            Axis::BOTH.map(|axis| self.along(gap, &percolation, axis))
+        };
         Ok(Leak { flows: [x?, y?], percolation })
     }
 
@@ -159,13 +180,7 @@ impl Leakage {
     /// # Errors
     /// Those of [`Self::through`].
     pub fn along(&self, gap: &Gap<'_>, percolation: &Percolation, axis: Axis) -> Result<Flow> {
-        let Self { tolerance, max_iterations } = *self;
-        if !(tolerance > 0.0 && tolerance < 1.0) {
-            return Err(Error::Value { name: "tolerance", value: tolerance, requirement: "positive and below 1" });
-        }
-        if max_iterations == 0 {
-            return Err(Error::Value { name: "max_iterations", value: 0.0, requirement: "at least 1" });
-        }
+        self.check()?;
         if percolation.along(axis).is_none() {
             let zero = Array2::zeros(gap.grid().shape());
             return Ok(Flow {
@@ -177,25 +192,74 @@ impl Leakage {
                 nodes: 0,
             });
         }
-        let network = Network::new(gap, percolation, axis)?;
-        let enclosed = Enclosed::new(&network, tolerance, max_iterations, gap.is_periodic());
+        self.with(gap, &Prepared::new(gap, percolation, axis)?, axis)
+    }
+
+    fn check(&self) -> Result<()> {
+        let Self { tolerance, max_iterations } = *self;
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            return Err(Error::Value { name: "tolerance", value: tolerance, requirement: "positive and below 1" });
+        }
+        if max_iterations == 0 {
+            return Err(Error::Value { name: "max_iterations", value: 0.0, requirement: "at least 1" });
+        }
+        Ok(())
+    }
+
+    fn with(&self, gap: &Gap<'_>, prepared: &Prepared, axis: Axis) -> Result<Flow> {
+        let network = &prepared.network;
+        let mut enclosed = Enclosed::new(prepared, axis, self.tolerance, self.max_iterations);
+        let hubs: Vec<f64> = network.hubs(&enclosed.pressure, axis).collect();
+        enclosed.pressure.extend(hubs);
+        if gap.is_periodic() {
+            prepared.tree.level(network, &enclosed.flow, &mut enclosed.pressure, axis);
+        }
         let twelfth = network.unit / 12.0;
         let Bounds { lower, upper } = enclosed.bounds;
-        let [pressure, x, y] = network.fields(gap, axis, &enclosed);
+        let [pressure, x, y] = network.fields(gap, &enclosed);
         Ok(Flow {
             transmissivity: Bounds { lower: lower * twelfth, upper: upper * twelfth },
             pressure,
             flow: [x, y].map(|flow| flow * twelfth),
-            reached: enclosed.bounds.width() <= tolerance,
+            reached: enclosed.bounds.width() <= self.tolerance,
             iterations: enclosed.iterations,
-            nodes: network.nodes.len(),
+            nodes: (0..network.vertices()).filter_map(|vertex| network.node(vertex)).count(),
         })
+    }
+}
+
+/// What is found along both axes, each on a thread of its own.
+fn at_once<T: Send>(along: impl Fn(Axis) -> T + Sync) -> [T; 2] {
+    std::thread::scope(|scope| {
+        let first = scope.spawn(|| along(Axis::X));
+        let second = along(Axis::Y);
+        [first.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), second]
+    })
+}
+
+/// A network with its preconditioner and its tree.
+struct Prepared {
+    network: Network,
+    elimination: Elimination,
+    tree: Tree,
+}
+
+impl Prepared {
+    fn new(gap: &Gap<'_>, percolation: &Percolation, axis: Axis) -> Result<Self> {
+        let network = Network::new(gap, percolation, axis)?;
+        let (elimination, tree) = std::thread::scope(|scope| {
+            let tree = scope.spawn(|| Tree::new(&network));
+            let elimination = Elimination::new(&network);
+            (elimination, tree.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+        });
+        Ok(Self { network, elimination, tree })
     }
 }
 
 /// The conductance of a network between bounds, by conjugate gradients.
 pub(crate) struct Enclosed {
     pub bounds: Bounds,
+    /// The pressure of each rim and of the ground.
     pub pressure: Vec<f64>,
     /// The conserved flow on each edge.
     pub flow: Vec<f64>,
@@ -204,41 +268,39 @@ pub(crate) struct Enclosed {
 
 impl Enclosed {
     /// Iterates until the bounds are as close as the tolerance, or rounding keeps them apart.
-    fn new(network: &Network, tolerance: f64, max_iterations: usize, is_periodic: bool) -> Self {
-        let (elimination, tree) = (Elimination::new(network), Tree::new(network));
+    fn new(prepared: &Prepared, axis: Axis, tolerance: f64, max_iterations: usize) -> Self {
+        let Prepared { network, elimination, tree } = prepared;
         let n = network.ground();
-        // the pressure of the ground, behind those of the vertices, is zero
-        let mut pressure = vec![0.0; n + 1];
-        let mut residual = network.gained(&pressure);
-        let [mut preconditioned, mut work, mut direction] = [(); 3].map(|()| vec![0.0; n]);
-        direction.push(0.0);
+        // the pressure of the ground, behind those of the rims, is zero
+        let mut pressure = tree.still(network, axis);
+        pressure.truncate(n + 1);
+        let [mut residual, mut change, mut direction] = [(); 3].map(|()| vec![0.0; n + 1]);
+        let [mut preconditioned, mut work] = [(); 2].map(|()| vec![0.0; n]);
+        network.gained(&pressure, axis, &mut residual);
         let mut best = Self {
             bounds: Bounds { lower: 0.0, upper: f64::INFINITY },
             pressure: Vec::new(),
             flow: Vec::new(),
             iterations: 0,
         };
-        // the share of the upper bound, times the tolerance, below which the square of the error in the energy norm is, by the
-        // preconditioner, when both bounds are computed
-        let mut share = 0.1;
-        let (mut upper, mut first, mut before) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        // both bounds are computed when the square of the error in the energy norm, by the preconditioner, is below a share of
+        // the tolerance of the upper bound, which each step lowers
+        let (mut share, mut upper) = (0.1, network.upper(&pressure, axis));
+        let (mut first, mut before) = (f64::INFINITY, f64::INFINITY);
         for iterations in 0.. {
             elimination.solve(&residual[..n], &mut preconditioned, &mut work);
             let error = dot(&preconditioned, &residual[..n]);
             if before.is_infinite() {
                 first = error;
             }
-            if iterations % EVERY == 0 {
-                upper = network.upper(&pressure);
-            }
             let again = error / before;
             direction.iter_mut().zip(&preconditioned).for_each(|(d, z)| *d = z + again * *d);
-            let change = network.apply(&direction);
-            let step = error / dot(&direction[..n], &change[..n]);
+            network.apply(&direction, &mut change);
+            let step = -error / dot(&direction[..n], &change[..n]);
             let last = iterations == max_iterations || !(error > 0.0 && step.is_finite());
             let mut stale = error <= STALE * first;
             if error <= share * tolerance * upper || last {
-                let improved = best.look_at(network, &tree, &pressure);
+                let improved = best.look_at(network, tree, &pressure, axis);
                 best.iterations = iterations;
                 if last || best.bounds.width() <= tolerance || (!improved && share < LEAST_SHARE) {
                     break;
@@ -246,29 +308,28 @@ impl Enclosed {
                 (share, stale) = (0.1 * share, true);
             }
             before = error;
+            upper -= step * error;
             pressure.iter_mut().zip(&direction).for_each(|(p, d)| *p += step * d);
             if stale {
-                (residual, before) = (network.gained(&pressure), f64::INFINITY);
+                network.gained(&pressure, axis, &mut residual);
+                before = f64::INFINITY;
             } else {
-                residual.iter_mut().zip(&change).for_each(|(r, c)| *r -= step * c);
+                residual.iter_mut().zip(&change).for_each(|(r, c)| *r += step * c);
             }
-        }
-        if is_periodic {
-            tree.level(network, &best.flow, &mut best.pressure);
         }
         best
     }
 
     /// Computes both bounds at a pressure, and keeps the better ones; whether one is better.
-    fn look_at(&mut self, network: &Network, tree: &Tree, pressure: &[f64]) -> bool {
-        let upper = network.upper(pressure);
+    fn look_at(&mut self, network: &Network, tree: &Tree, pressure: &[f64], axis: Axis) -> bool {
+        let upper = network.upper(pressure, axis);
         let is_lower = upper < self.bounds.upper;
         if is_lower {
             self.bounds.upper = upper;
             self.pressure = pressure.to_vec();
         }
-        let Some((flow, unit)) = tree.conserved(network, pressure) else { return is_lower };
-        let lower = network.lower(&flow);
+        let Some((flow, unit)) = tree.conserved(network, pressure, axis) else { return is_lower };
+        let lower = network.lower(&flow, axis);
         let is_higher = lower > self.bounds.lower || self.flow.is_empty();
         if is_higher {
             self.bounds.lower = lower;

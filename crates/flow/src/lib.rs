@@ -13,6 +13,7 @@ mod conductance;
 mod elimination;
 mod fields;
 mod gap;
+mod grid_error;
 mod leakage;
 mod network;
 mod percolation;

@@ -48,14 +48,19 @@ impl Gap<'_> {
     /// Percolation of the gap: the widest passage along each axis.
     pub fn percolation(&self) -> Percolation {
         let nodes = self.grid().nodes();
-        let mut order: Vec<u32> = (0..nodes as u32).filter(|node| self.at(*node as usize) > 0.0).collect();
-        // the widest first, and of equal ones in row-major order
-        order.sort_unstable_by(|a, b| self.at(*b as usize).total_cmp(&self.at(*a as usize)).then(a.cmp(b)));
-        let (mut clusters, mut reach) = (Clusters::new(nodes), vec![0_u8; nodes]);
+        // the widest first, and of equal ones in row-major order: the bits of positive numbers are in their order
+        let key = |node: usize| (u128::from(!self.at(node).to_bits()) << 32) | node as u128;
+        let mut order: Vec<u128> = (0..nodes).filter(|node| self.at(*node) > 0.0).map(key).collect();
+        order.sort_unstable();
+        let (mut clusters, mut reach) = (Clusters::closed(nodes), vec![0_u8; nodes]);
         let mut last = [None; 2];
-        for node in order.into_iter().map(|node| node as usize) {
+        for node in order.into_iter().map(|key| key as u32 as usize) {
             reach[node] |= self.sides(node);
-            for step in self.steps(node).filter(|step| self.is_before(step.to, node)) {
+            clusters.open(node);
+            for step in self.steps(node) {
+                if !clusters.is_open(step.to) {
+                    continue;
+                }
                 match clusters.join(node, step.to, step.cells) {
                     Joined::Clusters { root, child } => reach[root] |= reach[child],
                     Joined::Loop { root, cells } => {
@@ -92,8 +97,7 @@ impl Gap<'_> {
     /// The sides of a free gap at which a node is.
     fn sides(&self, node: usize) -> u8 {
         let side = |axis| {
-            let [first, last] =
-                [self.backward(node, axis), self.forward(node, axis)].map(|step| u8::from(step.is_none()));
+            let [first, last] = [false, true].map(|forward| u8::from(self.step(node, axis, forward).is_none()));
             ((bits(axis) & 0b0101) * first) | ((bits(axis) & 0b1010) * last)
         };
         side(Axis::X) | side(Axis::Y)
@@ -112,8 +116,8 @@ impl Gap<'_> {
         let mut queue = VecDeque::from([through]);
         while let Some(node) = queue.pop_front() {
             let here = found[node].map_or([0; 2], |(_, cells)| cells);
-            for (end, step) in ends.iter_mut().zip([self.backward(node, axis), self.forward(node, axis)]) {
-                if end.is_none() && step.is_none() {
+            for (end, forward) in ends.iter_mut().zip([false, true]) {
+                if end.is_none() && self.step(node, axis, forward).is_none() {
                     *end = Some(node);
                 }
             }
@@ -156,6 +160,13 @@ impl Percolation {
     /// Whether the nodes with a gap above a size percolate along an axis.
     pub fn above(&self, size: f64, axis: Axis) -> bool {
         self.along(axis).is_some_and(|constriction| constriction.gap > size)
+    }
+
+    /// Whether it percolates along both axes, and each cluster along both or along none.
+    pub(crate) fn is_alike(&self) -> bool {
+        let along = |reach: &u8, axis: Axis| reach & bits(axis) == bits(axis);
+        self.constrictions.iter().all(Option::is_some)
+            && self.reach.iter().all(|reach| along(reach, Axis::X) == along(reach, Axis::Y))
     }
 
     /// Whether a node is in a cluster that percolates along an axis.

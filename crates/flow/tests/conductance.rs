@@ -77,3 +77,58 @@ fn spots_conduct_as_the_stiffness_of_their_solution_says() {
     let all = Conductance::of_spots(Array2::from_elem((64, 64), true).view(), grid, true, (1.0, 3.0));
     assert_eq!((none.unwrap().per_area, all.unwrap().per_area), (0.0, f64::INFINITY));
 }
+
+/// ∫ dA/r over a rectangle of sides `2a` and `2b` around a place at a distance of (x, y) from its middle.
+fn potential((x, y): (f64, f64), (a, b): (f64, f64)) -> f64 {
+    let part = |u: f64, v: f64| if u == 0.0 { 0.0 } else { u * (v / u.abs()).asinh() };
+    let corner = |u: f64, v: f64| part(u, v) + part(v, u);
+    corner(x + a, y + b) - corner(x - a, y + b) - corner(x + a, y - b) + corner(x - a, y - b)
+}
+
+/// The conductance between two half-spaces through spots at one potential, by Gaussian elimination: a current density j on
+/// the spots makes the potentials ρ/2π ∫ j dA/r in a body of resistivity ρ, of opposite signs in both.
+fn of_laplace(contact: &Array2<bool>, grid: Grid, (first, second): (f64, f64)) -> f64 {
+    let (dx, dy) = grid.spacing();
+    let spots: Vec<_> = contact.indexed_iter().filter(|(_, contact)| **contact).map(|(node, _)| node).collect();
+    let away = |a: usize, b: usize, spacing: f64| (a as f64 - b as f64) * spacing;
+    let mut rows: Vec<Vec<f64>> = spots
+        .iter()
+        .map(|to| {
+            let from = spots.iter().map(|from| (away(to.0, from.0, dx), away(to.1, from.1, dy)));
+            let per_current = (first + second) / std::f64::consts::TAU;
+            from.map(|away| per_current * potential(away, (dx / 2.0, dy / 2.0))).chain([1.0]).collect()
+        })
+        .collect();
+    for k in 0..rows.len() {
+        let (above, below) = rows.split_at_mut(k + 1);
+        for row in below {
+            let share = row[k] / above[k][k];
+            row[k..].iter_mut().zip(&above[k][k..]).for_each(|(own, pivot)| *own -= share * pivot);
+        }
+    }
+    let n = rows.len();
+    let mut current = vec![0.0; n];
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|i| rows[k][i] * current[i]).sum();
+        current[k] = (rows[k][n] - known) / rows[k][k];
+    }
+    current.iter().sum::<f64>() * dx * dy
+}
+
+#[test]
+fn the_stiffness_conducts_as_a_dense_solution_of_laplace_says() {
+    let grid = Grid::new((24, 20), (1.2, 0.9)).unwrap();
+    let resistivities = (0.7, 1.9);
+    let rough = SelfAffine::default().k_s(6.0).amplitude(Amplitude::RmsSlope(0.2)).seed(4).surface(grid).unwrap();
+    let mut problem = Problem::new(&rough, Boussinesq::<f64>::new(grid, MODULUS).unwrap(), NoAdhesion).unwrap();
+    for pressure in [0.005, 0.05] {
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
+        let stiffness = ContactStiffness::of(&mut problem, &solution).unwrap();
+        let conductance = Conductance::of(&stiffness, MODULUS, resistivities).unwrap();
+        let contact = solution.gap.mapv(|gap| gap <= 0.0);
+        let spots = contact.iter().filter(|contact| **contact).count();
+        assert!(spots > 10 && spots < 240, "{spots}");
+        // both are of a constant density on each node, at the potential of its middle: what is left is the solver's
+        assert_relative_eq!(conductance.whole, of_laplace(&contact, grid, resistivities), max_relative = 1e-5);
+    }
+}

@@ -1,7 +1,7 @@
 //! The leakage through a gap, with the keys of its report and the sentences for people.
 
 use asperity::Result;
-use asperity_flow::{Axis, Bounds, Constriction, Gap, Leak, Leakage};
+use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak, Leakage};
 use serde::Serialize;
 
 use crate::boundary::Boundary;
@@ -96,6 +96,8 @@ pub struct Transmissivity {
     pub lower: f64,
     /// The upper bound.
     pub upper: f64,
+    /// The estimated relative error of the grid, from grids of half the resolution.
+    pub grid_error: Option<f64>,
     /// Whether the bounds are as close as the tolerance.
     pub reached: bool,
     /// The iterations of conjugate gradients.
@@ -125,11 +127,15 @@ impl LeakAsked {
     pub fn find(&self, gap: Gap<'_>) -> Result<(Leak, Leaked)> {
         let Self { boundary, absent_gap, settings, viscosity } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };
-        let leak = settings.through(&gap.absent(absent_gap.unwrap_or(0.0))?)?;
+        let gap = gap.absent(absent_gap.unwrap_or(0.0))?;
+        let leak = settings.through(&gap)?;
+        let grid_errors = settings.grid_error(&gap, &leak)?;
         let transmissivity = |axis| {
             let flow = leak.along(axis);
             let Bounds { lower, upper } = flow.transmissivity;
-            Transmissivity { lower, upper, reached: flow.reached, iterations: flow.iterations, nodes: flow.nodes }
+            let grid_error = grid_errors[axis as usize];
+            let Flow { reached, iterations, nodes, .. } = *flow;
+            Transmissivity { lower, upper, grid_error, reached, iterations, nodes }
         };
         let per_pressure = |axis| {
             let Bounds { lower, upper } = leak.along(axis).transmissivity;
@@ -182,8 +188,11 @@ impl Leaked {
         for axis in Axis::BOTH {
             let constriction = Narrowest::in_words(self.constriction.along(axis).as_ref(), units);
             rows.push((format!("along {}", axis.name()), constriction));
-            let Transmissivity { lower, upper, .. } = *self.transmissivity.along(axis);
+            let Transmissivity { lower, upper, grid_error, .. } = *self.transmissivity.along(axis);
             rows.push(("  transmissivity".to_owned(), between(lower, upper, &volume)));
+            if let Some(error) = grid_error {
+                rows.push(("  error of the grid".to_owned(), format!("{} %", percent(error))));
+            }
             if let Some(Enclosed { lower, upper }) = *self.flow_per_pressure.along(axis) {
                 let viscous = units.of(VISCOSITY).zip(units.length.as_ref());
                 let volume = unit(viscous.map(|(viscosity, length)| format!("{length}³/({viscosity})")));
