@@ -167,7 +167,7 @@ fn floors() {
         let Solution { gap, report, .. } = solved::<T>(heights, Control::MeanPressure(load), 1e-12);
         format!("{:.1e} | {:.1e}", report.relative_error, seen_in_f64(heights, &gap.mapv(T::widen)))
     }
-    for (name, heights) in [("paraboloid 32²", paraboloid(32)), ("rough 128²", rough(128))] {
+    for (name, heights) in [("rough 128²", rough(128)), ("paraboloid 32²", paraboloid(32))] {
         println!("\n{name}\n\n| p̄/E* | f64 | f64, true | f32 | f32, true |\n|---|---|---|---|---|");
         for load in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
             let single = if load > 1e-8 { cells::<f32>(&heights, load) } else { " | ".to_owned() };
