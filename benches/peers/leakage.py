@@ -18,6 +18,7 @@ import json
 import os
 import platform
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -69,7 +70,7 @@ def measured(command, limit, memory):
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         used = usage.ru_utime + usage.ru_stime
-        if used >= limit:
+        if child.returncode == -signal.SIGXCPU:
             raise Failed(f"more than {limit} s")
         if child.returncode:
             said.seek(0)

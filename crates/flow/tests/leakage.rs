@@ -340,7 +340,7 @@ fn pressed(n: usize, k_s: f64, pressure: f64, seed: u64) -> (Array2<f64>, Grid) 
 
 /// Prints the deviation of each transmissivity from that on the finest grid, and its estimate.
 #[test]
-#[ignore = "four minutes: cargo test --release -p asperity-flow --test flow -- --ignored --nocapture error_of_the_grid"]
+#[ignore = "minutes: cargo test --release -p asperity-flow --test flow -- --ignored --nocapture error_of_the_grid"]
 fn the_error_of_the_grid_tells_when_a_rough_gap_is_not_resolved() {
     let (mut all, mut below) = (0, 0);
     for (seed, pressure) in [1, 2].into_iter().flat_map(|seed| [0.005, 0.015, 0.019, 0.0205, 0.022].map(|p| (seed, p)))
