@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::contact::PressureDistribution;
-use asperity::{AdhesionLaw, Solution, Status};
+use asperity::{AdhesionLaw, Solution, Status, Surface};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use asperity_scene::{Account, Asked, Inputs, Load, Precision, Slopes, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
@@ -251,15 +251,17 @@ impl Job<'_> {
         let strictness = self.options.strictness;
         let whole_adhesion = if fits { adhesion.gathered(processes)? } else { None };
         let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
-        let mut warnings = processes.agree(match whole {
+        let mut warnings = processes.agree(match &whole {
             Some((surface, adhesion)) => {
-                let given = (&*surface, &origin);
+                let given = (&**surface, &origin);
                 Warnings::of_input::<T>(strictness, given, adhesion, self.options.problem(), &self.units)
             }
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
-        let slopes = Slopes::of(&surface, self.options.surface.beyond.boundary);
+        // the report is the first one's
+        let slopes = |whole: &Surface| Slopes::of(whole, self.options.surface.beyond.boundary);
+        let slopes = whole.map(|(surface, _)| slopes(&surface)).unwrap_or_default();
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
         let mut posed = self.options.problem().scene().posed::<T>(

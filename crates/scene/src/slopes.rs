@@ -17,7 +17,7 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// The slopes of a surface; none of one that several processes share.
+    /// The slopes of a whole surface; none of a part that a process has of a shared one.
     pub fn of(surface: &Surface, boundary: Boundary) -> Self {
         let grid = surface.grid();
         if surface.absent_nodes() > 0 || grid.is_shared() {
