@@ -77,7 +77,8 @@ pub struct Nested<C = Projection> {
     /// The relative error to which the contact stiffness of each grid is found; `None`, the default, finds none.
     pub stiffness: Option<f64>,
     /// The share of contact of the coarsest grid, less what has yielded, above which only the finest one follows.
-    /// Default 0.8, above which nothing is gained. With 1 all grids are solved, as [`GridError`](crate::accuracy::GridError) needs.
+    /// Default 0.8, above which nothing is gained. With 1 all grids are solved, as
+    /// [`GridError`](crate::accuracy::GridError) needs.
     pub closed: f64,
 }
 

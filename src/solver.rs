@@ -11,6 +11,7 @@ use crate::real::Real;
 use crate::setters::setters;
 
 mod branch;
+mod cap;
 mod certificate;
 mod coarse;
 mod driver;

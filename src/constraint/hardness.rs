@@ -25,8 +25,9 @@ use crate::real::Real;
 /// The function ψ is convex, so that the certificate of a solve holds as for a rigid wall, and no spring regularises
 /// its corners. The model leaves out hardening, the volume of what is displaced, and yielding below the surface.
 ///
-/// The contact area corrected for its edge ([`ContactStatistics`](crate::contact::ContactStatistics)) and the error of the
-/// grid ([`GridError`](crate::accuracy::GridError)) are those of elastic contact: take none of a surface that has yielded.
+/// The contact area corrected for its edge ([`ContactStatistics`](crate::contact::ContactStatistics)) and the error of
+/// the grid ([`GridError`](crate::accuracy::GridError)) are those of elastic contact: take none of a surface that has
+/// yielded.
 ///
 /// ```
 /// use asperity::{Control, Grid, Hardness, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};

@@ -5,7 +5,8 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::potential::{Cap, Capped, Potential, Uncapped, with_caps};
+use crate::solver::cap::{Cap, Capped, Uncapped, with_caps};
+use crate::solver::potential::Potential;
 use crate::vector::sums;
 
 /// The working set by the gradient r, and the constants of r and r'.

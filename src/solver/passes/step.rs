@@ -8,7 +8,8 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::potential::{Cap, Capped, Least, Of, Potential, Uncapped, with_caps};
+use crate::solver::cap::{Cap, Capped, Uncapped, with_caps};
+use crate::solver::potential::{Least, Of, Potential};
 use crate::vector::{sums, vectors};
 
 #[derive(Clone, Copy, Debug)]
