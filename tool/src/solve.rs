@@ -3,21 +3,20 @@
 mod beside;
 mod distribution;
 mod problem;
+mod written;
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use asperity::contact::PressureDistribution;
-use asperity::{AdhesionLaw, Solution, Status, Surface};
-use asperity_maps::io::{OutputFolder, write_npz, write_vti};
-use asperity_scene::{Account, Asked, Inputs, Load, Precision, Slopes, gap_to_write, write_fields};
+use asperity::{Status, Surface};
+use asperity_scene::{Asked, Inputs, Load, Precision, Slopes, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
 use serde_json::json;
 
-use self::beside::{BESIDE, Beside, Named};
+use self::beside::{BESIDE, Beside};
 use crate::accuracy::AccuracyOptions;
 use crate::adhesion::{Adhesion, AdhesionOptions};
 use crate::after::ConductorOptions;
@@ -26,9 +25,9 @@ use crate::boundary::{LOAD, LoadOptions};
 use crate::fields::check_finite;
 use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::output::{at_destination, check_apart, output_folder, write_text};
+use crate::output::{at_destination, check_apart, output_folder};
 use crate::part::Part;
-use crate::pictures::{self, MapColours, PictureFormat, Resolution};
+use crate::pictures::{MapColours, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, in_options, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
@@ -44,8 +43,8 @@ use crate::warnings::{Strictness, Warnings};
 /// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
 /// part), with a hardness plastic_depth.npy, or files as --format says, report.json, contact.png and pressure.png (or
 /// .svg, .pdf), and scene.toml, which repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the
-/// fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are none).
-/// Probable mistakes, as a tilt, are warnings, on a line each and in the report; --strict takes them for errors.
+/// fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are
+/// none). Probable mistakes, as a tilt, are warnings, on a line each and in the report; --strict takes them for errors.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
 pub struct Options {
@@ -89,9 +88,9 @@ pub struct Options {
     /// Find out whether the gap is open along x and along y, and where the widest passage is narrowest
     #[arg(long, help_heading = "Output")]
     percolation: bool,
-    /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as the
-    /// other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy that of
-    /// the other
+    /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
+    /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
+    /// that of the other
     #[arg(long, value_enum, value_name = "FIELD", help_heading = "Output")]
     fields: Option<Beside>,
     /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0
@@ -355,57 +354,5 @@ impl Job<'_> {
         let pictures = self.options.picture_format.of(PICTURES);
         self.names.retain(|name| !pictures.contains(name));
         Ok(())
-    }
-
-    /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
-    /// with its law, where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
-    fn write<T: Scalar>(
-        &self,
-        folder: &OutputFolder,
-        whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
-        beside: &[Named],
-        account: &Account,
-    ) -> asperity::Result<Option<String>> {
-        let path = |name: &str| folder.path(name);
-        write_text(&path(REPORT), &format!("{:#}\n", json!(account)))?;
-        write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
-        let Some((whole, law)) = whole else { return Ok(None) };
-        let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
-        let gap = gap_to_write(solution);
-        let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
-        let beside = beside.iter().map(|(name, field)| Ok((*name, self.part.of_field(field.mapv(T::lit))?)));
-        let beside = beside.collect::<asperity::Result<Vec<_>>>()?;
-        let named = FIELDS.into_iter().zip(fields).chain(beside.iter().map(|(name, field)| (*name, field)));
-        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field.view())).collect();
-        if self.options.writes(Format::Npz) {
-            write_npz(path(NPZ), &shown, &named)?;
-        }
-        if self.options.writes(Format::Vti) {
-            write_vti(path(VTI), &shown, &named)?;
-        }
-        if let Some(bins) = self.options.distribution {
-            let found = PressureDistribution::of_contact_pressure(solution, bins)?;
-            write_text(&path(DISTRIBUTION), &distribution::table(&found, &self.units))?;
-        }
-        if !self.options.no_pictures {
-            let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
-            let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            let mut regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
-            let depth = solution.plastic_depth.as_ref();
-            depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
-            let contact = match self.options.colours.colour_clusters {
-                true => {
-                    pictures::draw_clusters(shown, "Contact", units, (&regions, self.part.sides_meet(whole)), *dpi)?
-                }
-                false => pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?,
-            };
-            contact.write(path(contact_name))?;
-            let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.adheres());
-            let limits = self.options.colours.limits();
-            let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
-            picture.write(path(pressure_name))?;
-            return Ok(picture.load_beyond().map(str::to_owned));
-        }
-        Ok(None)
     }
 }

@@ -1,0 +1,68 @@
+//! The files that a solve leaves in its folder.
+
+use asperity::contact::PressureDistribution;
+use asperity::{AdhesionLaw, Solution};
+use asperity_maps::io::{OutputFolder, write_npz, write_vti};
+use asperity_scene::{Account, gap_to_write};
+use serde_json::json;
+
+use super::beside::Named;
+use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, Options, PICTURES, REPORT, VTI, distribution};
+use crate::options::Scalar;
+use crate::output::write_text;
+use crate::pictures::{self, Resolution};
+use crate::scene;
+
+impl Job<'_> {
+    /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
+    /// with its law, where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
+    pub(super) fn write<T: Scalar>(
+        &self,
+        folder: &OutputFolder,
+        whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
+        beside: &[Named],
+        account: &Account,
+    ) -> asperity::Result<Option<String>> {
+        let path = |name: &str| folder.path(name);
+        write_text(&path(REPORT), &format!("{:#}\n", json!(account)))?;
+        write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
+        let Some((whole, law)) = whole else { return Ok(None) };
+        let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
+        let gap = gap_to_write(solution);
+        let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
+        let beside = beside.iter().map(|(name, field)| Ok((*name, self.part.of_field(field.mapv(T::lit))?)));
+        let beside = beside.collect::<asperity::Result<Vec<_>>>()?;
+        let named = FIELDS.into_iter().zip(fields).chain(beside.iter().map(|(name, field)| (*name, field)));
+        let named: Vec<_> = named.map(|(name, field)| (name.trim_end_matches(".npy"), field.view())).collect();
+        if self.options.writes(Format::Npz) {
+            write_npz(path(NPZ), &shown, &named)?;
+        }
+        if self.options.writes(Format::Vti) {
+            write_vti(path(VTI), &shown, &named)?;
+        }
+        if let Some(bins) = self.options.distribution {
+            let found = PressureDistribution::of_contact_pressure(solution, bins)?;
+            write_text(&path(DISTRIBUTION), &distribution::table(&found, &self.units))?;
+        }
+        if !self.options.no_pictures {
+            let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
+            let [contact_name, pressure_name] = picture_format.of(PICTURES);
+            let mut regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
+            let depth = solution.plastic_depth.as_ref();
+            depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
+            let contact = match self.options.colours.colour_clusters {
+                true => {
+                    pictures::draw_clusters(shown, "Contact", units, (&regions, self.part.sides_meet(whole)), *dpi)?
+                }
+                false => pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?,
+            };
+            contact.write(path(contact_name))?;
+            let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.adheres());
+            let limits = self.options.colours.limits();
+            let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
+            picture.write(path(pressure_name))?;
+            return Ok(picture.load_beyond().map(str::to_owned));
+        }
+        Ok(None)
+    }
+}
