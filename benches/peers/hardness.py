@@ -19,18 +19,9 @@ import warnings
 os.environ.update({name: "1" for name in ("OMP_NUM_THREADS", "RAYON_NUM_THREADS", "ASPERITY_THREADS")})
 
 import numpy as np
+from python import heights_of
 
 ERROR = 1e-3
-
-
-def heights_of(n):
-    """Self-affine heights with a Hurst exponent of 0.8 and an rms slope of 0.1, by filtering white noise."""
-    q = 2 * np.pi * np.hypot(*np.meshgrid(np.fft.fftfreq(n, 1 / n), np.fft.rfftfreq(n, 1 / n), indexing="ij"))
-    band = (q >= 2 * np.pi * 4) & (q <= 2 * np.pi * n / 8)
-    amplitude = np.where(band, np.where(q > 0, q, 1.0) ** -1.8, 0.0)
-    spectrum = np.fft.rfft2(np.random.default_rng(1).normal(size=(n, n))) * amplitude
-    rms_slope = np.fft.irfft2(spectrum * q, s=(n, n)).std()
-    return np.fft.irfft2(spectrum, s=(n, n)) * 0.1 / rms_slope
 
 
 def asperity(heights, mean_pressure, hardness, tolerance):

@@ -74,4 +74,5 @@ def main():
         print(f"{name:<17} {lines:>5} {statistics.median(times[1:]):>9.3f} {100 * scope['share']:>8.3f} %")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _law
-from ._control import Load, Pair
+from ._control import Load, Pair, number, pair
 from ._progress import progress
 from ._scene import Scene
 from ._solution import Solution
@@ -89,3 +89,10 @@ class Rows(Iterator[T]):
 
 def _cell(name: str, value: Any) -> Any:
     return np.nan if value is None and name not in ("branch", "event", "part") else value
+
+
+def following(given: dict[str, Any]) -> Following:
+    """The findings after each state among the keywords of a function."""
+    first, second = (pair(name, given[name]) for name in ("resistivities", "conductivities"))
+    leakage = given["leakage"]
+    return (given["stiffness"], first, second, None if leakage is None else number("leakage", leakage))

@@ -26,9 +26,9 @@ class Flow(NamedTuple):
         Bounds of the transmissivity Qη/Δp, a length cubed: the flow Q, a volume per time, over the pressure Δp that falls
         from side to side, times the viscosity η; g³/12 for a slot of a square cell. Zero where the gap is closed.
     grid_error : float or None
-        Estimated relative error of the grid: the largest difference from the transmissivity on the even nodes alone, and on
-        the odd ones. Three times the error where the gap is resolved, and no bound. None without a passage, and where a side
-        has an odd number of nodes.
+        Estimated relative error of the grid: the largest difference from the transmissivity on the even nodes alone,
+        and on the odd ones. Three times the error where the gap is resolved, and no bound. None without a passage, and
+        where a side has an odd number of nodes.
     reached : bool
         Whether the bounds are as close as the tolerance.
     constriction : Constriction or None

@@ -10,10 +10,11 @@ from typing import Any
 from . import _asperity, _control
 from ._asperity import Iteration
 from ._body import Body
+from ._columns import following
 from ._pair import Shift
 from ._scene import Scene
 from ._solution import Start
-from ._sweep import Sweep, _after
+from ._sweep import Sweep
 from ._topography import Heights
 from ._types import AxisOrder, Branch, Code, Lengths, Method, OwnLaw, Precision, Quantity
 from ._wall import Wall
@@ -111,4 +112,4 @@ def interface(
     given: dict[str, Any] = {**locals(), "stiffness": True, "boundary": "periodic"}
     loads = _control.many(given)
     scene = Scene.of({**given, "branch": _control.only(branch)})
-    return Interface(scene, loads, start, observe, _after(given), interface=True, file=(out, None, force))
+    return Interface(scene, loads, start, observe, following(given), interface=True, file=(out, None, force))

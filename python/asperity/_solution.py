@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -106,13 +106,13 @@ class Conductance(NamedTuple):
         Conductance over the area of the map.
     whole : float
         Conductance 1/R of the whole map.
-    relative_error : float
-        Relative error of the solve and, where nested grids tell it, the estimated one of the grid.
+    relative_error : float or None
+        Relative error, the estimated one of the grid included; None where nested grids do not tell that.
     """
 
     per_area: float
     whole: float
-    relative_error: float
+    relative_error: float | None
 
 
 class Solution:
@@ -284,13 +284,12 @@ class Solution:
             raise ValueError(f"the body is a {type(self.body).__name__.lower()}: conductance is that between half-spaces")
         first, second = (float(one) for one in resistivities)
         gap = np.asarray(self.whole_gap).reshape(self.whole_gap.shape[0], -1)
-        lengths = self.topography.lengths
-        sides = self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
-        per_area, _, error = _asperity.conductance(gap <= 0, sides, self.boundary, (first, second))
+        per_area, _, error = _asperity.conductance(gap <= 0, self._sides, self.boundary, (first, second))
         grids = self.report["grid_error"] if self.law is None else None
         grid = None if grids is None else grids["stiffness"]
         lx, ly = self.lengths
-        return Conductance(per_area, per_area * lx * ly, error + (0.0 if grid is None else grid["relative"] or 0.0))
+        of_grid = None if grid is None else grid["relative"]
+        return Conductance(per_area, per_area * lx * ly, None if of_grid is None else error + of_grid)
 
     @cached_property
     def report(self) -> Report:
@@ -298,7 +297,15 @@ class Solution:
 
         ``"heights"`` is the file that they came from, if they came from one.
         """
-        return self._looked[1]
+        heights = self.topography.heights
+        slopes = _asperity.slopes(heights.reshape(heights.shape[0], -1), self._sides, self.boundary)
+        return cast("Report", {**self._looked[1], **slopes})
+
+    @property
+    def _sides(self) -> tuple[float, float]:
+        """Side lengths of the whole map."""
+        lengths = self.topography.lengths
+        return self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
 
     @property
     def heights(self) -> NDArray[np.float64]:
@@ -465,8 +472,9 @@ class Solution:
     ) -> Figure:
         """Draws contact and pressure side by side; needs matplotlib.
 
-        Nodes that have yielded are orange. With adhesion, compression and tension have a scale each. A scale ends where most of the load is carried: where
-        a few nodes press far harder its bar has an arrow, and says how much of the load stands on them.
+        Nodes that have yielded are orange. With adhesion, compression and tension have a scale each. A scale ends where
+        most of the load is carried: where a few nodes press far harder its bar has an arrow, and says how much of the
+        load stands on them.
 
         Parameters
         ----------

@@ -136,8 +136,8 @@ def solve(
         do, or springs of a stiffness.
     hardness : float or array_like, optional
         Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
-        ``Solution.plastic_depth``. An array has it at each node, x along the first axis, in Pa where other quantities have units.
-        At a hard wall.
+        ``Solution.plastic_depth``. An array has it at each node, x along the first axis, in Pa where other quantities
+        have units. At a hard wall.
     tolerance : float, optional
         Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
     max_iterations : int, optional

@@ -84,7 +84,9 @@ def stability(
             "the solution was found with asperity.Uzawa, whose multipliers it does not have: give stability=True to its solve"
         )
     if report["hardness"] is not None:
-        raise ValueError("the solution was found with a hardness: a surface that yields does not come back, as the test takes for granted")
+        raise ValueError(
+            "the solution was found with a hardness: a surface that yields does not come back, as the test takes for granted"
+        )
     given: dict[str, Any] = {
         "mean_pressure": mean_pressure,
         "mean_gap": mean_gap,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from . import _control, _plot
 from ._asperity import Iteration
 from ._body import Body
-from ._columns import Following, Rows
+from ._columns import Rows, following
 from ._pair import Shift
 from ._scene import Scene
 from ._solution import Solution, Start
@@ -155,11 +155,4 @@ def sweep(
     given = locals()
     loads = _control.many(given)
     scene = Scene.of({**given, "branch": _control.only(branch)})
-    return Sweep(scene, loads, start, observe, _after(given), file=(out, fields, force))
-
-
-def _after(given: dict[str, Any]) -> Following:
-    """The findings after each state among the keywords of a function."""
-    first, second = (_control.pair(name, given[name]) for name in ("resistivities", "conductivities"))
-    leakage = given["leakage"]
-    return (given["stiffness"], first, second, None if leakage is None else _control.number("leakage", leakage))
+    return Sweep(scene, loads, start, observe, following(given), file=(out, fields, force))

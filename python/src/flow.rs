@@ -70,7 +70,7 @@ pub fn leakage<'py>(
         return Err(PyValueError::new_err(format!("viscosity is {given}: it must be positive and finite")));
     }
     let settings = Leakage::default().tolerance(tolerance).max_iterations(max_iterations);
-    let asked = LeakAsked { boundary, absent_gap, settings, viscosity };
+    let asked = LeakAsked { boundary, absent_gap, settings, viscosity, grid_error: true };
     let values = gap.as_array();
     let (leak, leaked) = py.detach(|| asked.find(gap_on(values, lengths)?)).map_err(refusal)?;
     let found = PyDict::new(py);

@@ -82,8 +82,7 @@ pub type Following = (bool, Option<(f64, f64)>, Option<(f64, f64)>, Option<f64>)
 /// The findings that are asked for after a solve.
 pub fn after(given: Following, elastic: &Elastic, adhesion: &Adhesion) -> PyResult<After> {
     let (stiffness, resistivities, conductivities, leakage) = given;
-    if leakage.is_some_and(|share| !(share > 0.0 && share < 1.0)) {
-        let given = leakage.unwrap_or_default();
+    if let Some(given) = leakage.filter(|share| !(*share > 0.0 && *share < 1.0)) {
         return Err(PyValueError::new_err(format!("leakage is {given}: it must be a share between 0 and 1")));
     }
     let conductors = Conductors::of(resistivities, conductivities).map_err(reason)?;

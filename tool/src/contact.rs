@@ -57,27 +57,6 @@ const EXAMPLES: &str = "\
     asperity contact pressed
     asperity contact pressed --out contact --picture-format svg";
 
-/// All files that the command may leave.
-const FILES: [&str; 18] = [
-    "report.json",
-    scene::NAME,
-    TABLES[0],
-    TABLES[1],
-    TABLES[2],
-    TABLES[3],
-    CHARTS[0][0],
-    CHARTS[0][1],
-    CHARTS[0][2],
-    CHARTS[0][3],
-    CHARTS[1][0],
-    CHARTS[1][1],
-    CHARTS[1][2],
-    CHARTS[1][3],
-    CHARTS[2][0],
-    CHARTS[2][1],
-    CHARTS[2][2],
-    CHARTS[2][3],
-];
 const TABLES: [&str; 4] = ["gap.csv", "pressure.csv", "autocorrelation.csv", "clusters.csv"];
 const CHARTS: [[&str; 4]; 3] = [
     ["gap.png", "pressure.png", "autocorrelation.png", "clusters.png"],
@@ -85,14 +64,21 @@ const CHARTS: [[&str; 4]; 3] = [
     ["gap.pdf", "pressure.pdf", "autocorrelation.pdf", "clusters.pdf"],
 ];
 
+const REPORT: &str = "report.json";
+
+/// All files that the command may leave.
+fn files() -> Vec<&'static str> {
+    [REPORT, scene::NAME].into_iter().chain(TABLES).chain(CHARTS.into_iter().flatten()).collect()
+}
+
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let Options { solved: folder, out, force, printing, .. } = options;
     if let Some(out) = out {
         scene.check(&out.join(scene::NAME))?;
         let read = Solved::files(folder, &[GAP, CONTACT_PRESSURE]);
-        FILES.iter().try_for_each(|name| check_apart(&out.join(name), read.iter().map(PathBuf::as_path)))?;
-        drop(output_folder(out, &FILES, *force)?);
+        files().iter().try_for_each(|name| check_apart(&out.join(name), read.iter().map(PathBuf::as_path)))?;
+        drop(output_folder(out, &files(), *force)?);
     }
     let solved = Solved::read(folder)?;
     let [gap, pressure] = [solved.map(GAP)?, solved.map(CONTACT_PRESSURE)?];
@@ -136,7 +122,7 @@ impl Options {
         scene: &SceneFile,
         report: &Value,
     ) -> Outcome<Vec<&'static str>> {
-        let folder = output_folder(out, &FILES, self.force)?;
+        let folder = output_folder(out, &files(), self.force)?;
         let charts = self.picture_format.of(CHARTS);
         let has = [
             !tables.gap.density.is_empty(),
@@ -146,7 +132,7 @@ impl Options {
         ];
         let chosen =
             |names: [&'static str; 4]| names.into_iter().zip(has).filter(|(_, has)| *has).map(|(name, _)| name);
-        let names: Vec<_> = [FILES[0], FILES[1]].into_iter().chain(chosen(TABLES)).chain(chosen(charts)).collect();
+        let names: Vec<_> = [REPORT, scene::NAME].into_iter().chain(chosen(TABLES)).chain(chosen(charts)).collect();
         let texts = [
             densities("gap", &tables.gap, units),
             densities("pressure", &tables.pressure, units),
@@ -154,8 +140,8 @@ impl Options {
             clusters(tables, grid, units),
         ];
         let write = || {
-            write_text(&folder.path(FILES[0]), &format!("{report:#}\n"))?;
-            write_text(&folder.path(FILES[1]), &scene.text(out))?;
+            write_text(&folder.path(REPORT), &format!("{report:#}\n"))?;
+            write_text(&folder.path(scene::NAME), &scene.text(out))?;
             for ((name, text), has) in TABLES.into_iter().zip(texts).zip(has) {
                 if has {
                     write_text(&folder.path(name), &text)?;

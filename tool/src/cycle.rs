@@ -31,11 +31,11 @@ use crate::units::UnitOptions;
 /// limit point is the greatest or least load of a branch; a cycle along pressures or forces goes on beyond it at given
 /// mean gaps (with a free boundary at given approaches). Each state gives a row of the file, with the columns of
 /// asperity sweep, the work done by the load so far and the energy dissipated in jumps so far, per area, the imbalance
-/// of energy, and the event on the way to it: jump-in, jump-out, pull-off, limit-point, bifurcation. With a hardness the
-/// surface keeps its plastic depth, and the balance has the energy that yielding dissipates. The same command again
+/// of energy, and the event on the way to it: jump-in, jump-out, pull-off, limit-point, bifurcation. With a hardness
+/// the surface keeps its plastic depth, and the balance has the energy that yielding dissipates. The same command again
 /// continues an interrupted cycle; for that it keeps FILE.state.npz beside the file, which may be deleted at the end.
-/// FILE.scene.toml beside it repeats or continues the cycle by asperity run.
-/// Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
+/// FILE.scene.toml beside it repeats or continues the cycle by asperity run. Exits with 0 if all rows converged, 2 if
+/// not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
 pub struct Options {

@@ -77,14 +77,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     if surface.beyond.boundary == Boundary::Free {
         return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
     }
-    let described = adhesion.described();
-    if described.yields() {
-        let key = if described.hardness.is_some() { "--hardness" } else { "--hardness-map" };
-        return Err(format!(
-            "{key}: the contact stiffness of an interface is known of elastic contact alone: leave it out"
-        )
-        .into());
-    }
+    adhesion.check_elastic("the contact stiffness of an interface is known of elastic contact alone")?;
     if Format::of(out) != Some(Format::Csv) {
         return Err(Error::file(out, "does not end in .csv: rename it").into());
     }

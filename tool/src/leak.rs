@@ -128,6 +128,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         absent_gap: number(options.absent_gap),
         settings: Leakage::default().tolerance(options.tolerance).max_iterations(options.max_iterations),
         viscosity: number(options.viscosity),
+        grid_error: true,
     };
     let start = Instant::now();
     let (leak, leaked) = asked.find(Gap::new(map.heights.view(), grid)?)?;

@@ -5,13 +5,14 @@ use crate::network::Network;
 
 /// An approximate Cholesky factorisation of the matrix of the rims of a network, by elimination of one after the other.
 ///
-/// Without its hub a star is a clique of its rims. Without a rim its d neighbours are a clique of d(d − 1)/2 edges, w_i w_j/Σw each. In its place stand d − 1 edges
-/// that are drawn at random such that the mean is the clique: each neighbour, from the least weight on, gets an edge to one
-/// of those after it, drawn by their weights. The factor stays as sparse as the matrix, and its quality hardly depends on
-/// the contrast: R. Kyng, S. Sachdeva, FOCS 2016, 573; Y. Gao, R. Kyng, D. A. Spielman, arXiv:2303.00709 (2023).
+/// Without its hub a star is a clique of its rims. Without a rim its d neighbours are a clique of d(d − 1)/2 edges, w_i
+/// w_j/Σw each. In its place stand d − 1 edges that are drawn at random such that the mean is the clique: each
+/// neighbour, from the least weight on, gets an edge to one of those after it, drawn by their weights. The factor stays
+/// as sparse as the matrix, and its quality hardly depends on the contrast: R. Kyng, S. Sachdeva, FOCS 2016, 573; Y.
+/// Gao, R. Kyng, D. A. Spielman, arXiv:2303.00709 (2023).
 ///
-/// The vertices go in rounds. In each go some of which none is a neighbour of another one, of no more neighbours than the
-/// mean, and the others are numbered anew: neighbours stay near each other in memory.
+/// The vertices go in rounds. In each go some of which none is a neighbour of another one, of no more neighbours than
+/// the mean, and the others are numbered anew: neighbours stay near each other in memory.
 pub(crate) struct Elimination {
     /// The vertices in the order of their elimination.
     order: Vec<u32>,
@@ -158,7 +159,8 @@ struct Graph {
 }
 
 impl Graph {
-    /// The graph of edges; several between the same vertices become one. The number of the ground is that of the vertices.
+    /// The graph of edges; several between the same vertices become one. The number of the ground is that of the
+    /// vertices.
     fn new(names: Vec<u32>, edges: impl Iterator<Item = (u32, u32, f64)> + Clone) -> Self {
         let n = names.len();
         let (mut starts, mut ground) = (vec![0_usize; n + 2], vec![0.0; n]);

@@ -9,13 +9,13 @@ use crate::leakage::{Leak, Leakage};
 const COARSE: f64 = 1e-4;
 
 impl Leakage {
-    /// The estimated relative error of the grid in the transmissivity along both axes: the largest difference from that on
-    /// the even nodes alone, and from that on the odd ones. None without a passage, and where a side has an odd number of
-    /// nodes.
+    /// The estimated relative error of the grid in the transmissivity along both axes: the largest difference from that
+    /// on the even nodes alone, and from that on the odd ones. None without a passage, and where a side has an odd
+    /// number of nodes.
     ///
     /// The network is right to second order in the spacing where the gap is resolved, and the difference is three times
-    /// its error then. Where it is not, as at a constriction of a few nodes, both differences scatter, up to one and more.
-    /// The estimate is no bound, and does not contain the error of the gap itself.
+    /// its error then. Where it is not, as at a constriction of a few nodes, both differences scatter, up to one and
+    /// more. The estimate is no bound, and does not contain the error of the gap itself.
     ///
     /// ```
     /// use asperity::Grid;

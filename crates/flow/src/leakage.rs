@@ -16,8 +16,8 @@ const LEAST_SHARE: f64 = 1e-7;
 /// small as the flow, and no longer as the flow that the first pressure drove through the widest gaps.
 const STALE: f64 = 1e-8;
 
-/// The memory that an open node and a closed one take at most, in bytes: a network, its cliques and its elimination, and the
-/// fields along both axes.
+/// The memory that an open node and a closed one take at most, in bytes: a network, its cliques and its elimination,
+/// and the fields along both axes.
 const OPEN: f64 = 290.0;
 const CLOSED: f64 = 64.0;
 
@@ -143,8 +143,9 @@ impl Leakage {
         self
     }
 
-    /// The memory that the flow through a gap takes at most, in bytes: 290 for each open node, or twice as many of a free
-    /// gap, whose axes have a network each, and 64 for each closed one. The results are among them, and the gap is not.
+    /// The memory that the flow through a gap takes at most, in bytes: 290 for each open node, or twice as many of a
+    /// free gap, whose axes have a network each, and 64 for each closed one. The results are among them, and the gap is
+    /// not.
     pub fn memory(gap: &Gap<'_>) -> f64 {
         let open = if gap.is_periodic() { OPEN } else { 2.0 * OPEN };
         (0..gap.grid().nodes()).map(|node| if gap.at(node) > 0.0 { open } else { CLOSED }).sum()
@@ -283,8 +284,8 @@ impl Enclosed {
             flow: Vec::new(),
             iterations: 0,
         };
-        // both bounds are computed when the square of the error in the energy norm, by the preconditioner, is below a share of
-        // the tolerance of the upper bound, which each step lowers
+        // both bounds are computed when the square of the error in the energy norm, by the preconditioner, is below a
+        // share of the tolerance of the upper bound, which each step lowers
         let (mut share, mut upper) = (0.1, network.upper(&pressure, axis));
         let (mut first, mut before) = (f64::INFINITY, f64::INFINITY);
         for iterations in 0.. {

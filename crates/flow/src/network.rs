@@ -40,14 +40,14 @@ pub(crate) struct Way {
 
 /// The network of the nodes through which a fluid flows along an axis, in stars: hubs, with edges to their rims.
 ///
-/// A flow f on the edges is conserved at every vertex, and a pressure p at the vertices drives f = c (p_hub − p_rim + e),
-/// where the pressure that is held falls e times. In a periodic gap the edges across the last side have e = 1, and the held
-/// pressure falls by one over the cell; both axes have the same network. In a free one those at the first side have
-/// e = −1, and lead to the *ground*, which is both sides at once. The flow along the axis is Σ f e.
+/// A flow f on the edges is conserved at every vertex, and a pressure p at the vertices drives f = c (p_hub − p_rim +
+/// e), where the pressure that is held falls e times. In a periodic gap the edges across the last side have e = 1, and
+/// the held pressure falls by one over the cell; both axes have the same network. In a free one those at the first side
+/// have e = −1, and lead to the *ground*, which is both sides at once. The flow along the axis is Σ f e.
 ///
-/// The hubs are the nodes of one colour of a checkerboard, and the rims those of the other one. The pressure of a hub at
-/// which the flow is conserved is the mean of those of its rims, by their conductances: the pressures of the rims suffice.
-/// Where two rims are neighbours, the face between them is a hub, with twice the conductance to either.
+/// The hubs are the nodes of one colour of a checkerboard, and the rims those of the other one. The pressure of a hub
+/// at which the flow is conserved is the mean of those of its rims, by their conductances: the pressures of the rims
+/// suffice. Where two rims are neighbours, the face between them is a hub, with twice the conductance to either.
 ///
 /// The vertices are the rims, the ground and the hubs, one after the other.
 pub(crate) struct Network {
@@ -92,7 +92,8 @@ impl Network {
         let half = |node: usize, way: Axis| {
             2.0 * (if way == Axis::X { dy / dx } else { dx / dy }) * (gap.at(node) / greatest).powi(3)
         };
-        // the rim, or the ground, next to a node; the conductance on the way, the harmonic mean of both cubes; and the way
+        // the rim, or the ground, next to a node; the conductance on the way, the harmonic mean of both cubes; and the
+        // way
         let link = |node: usize, way: Axis, forward: bool| {
             let mut towards = [0, 0];
             towards[way as usize] = if forward { 1 } else { -1 };

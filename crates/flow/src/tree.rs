@@ -52,8 +52,8 @@ impl Tree {
         Self { order }
     }
 
-    /// The pressure of each vertex that drives nothing along the tree, while the pressure along an axis is held: it falls
-    /// where the passages along the axis are narrowest.
+    /// The pressure of each vertex that drives nothing along the tree, while the pressure along an axis is held: it
+    /// falls where the passages along the axis are narrowest.
     pub fn still(&self, network: &Network, axis: Axis) -> Vec<f64> {
         let mut pressure = vec![0.0; network.vertices()];
         for &(vertex, edge) in self.order.iter().rev() {

@@ -85,8 +85,8 @@ fn potential((x, y): (f64, f64), (a, b): (f64, f64)) -> f64 {
     corner(x + a, y + b) - corner(x - a, y + b) - corner(x + a, y - b) + corner(x - a, y - b)
 }
 
-/// The conductance between two half-spaces through spots at one potential, by Gaussian elimination: a current density j on
-/// the spots makes the potentials ρ/2π ∫ j dA/r in a body of resistivity ρ, of opposite signs in both.
+/// The conductance between two half-spaces through spots at one potential, by Gaussian elimination: a current density j
+/// on the spots makes the potentials ρ/2π ∫ j dA/r in a body of resistivity ρ, of opposite signs in both.
 fn of_laplace(contact: &Array2<bool>, grid: Grid, (first, second): (f64, f64)) -> f64 {
     let (dx, dy) = grid.spacing();
     let spots: Vec<_> = contact.indexed_iter().filter(|(_, contact)| **contact).map(|(node, _)| node).collect();

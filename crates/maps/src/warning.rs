@@ -302,8 +302,9 @@ impl Warning {
         found
     }
 
-    /// An elastic solution with most of its load above a tenth of the contact modulus E*, [`Hardness`](WarningCode::Hardness):
-    /// most solids yield there. On a steep surface only a hardness makes its contact one of real surfaces.
+    /// An elastic solution with most of its load above a tenth of the contact modulus E*,
+    /// [`Hardness`](WarningCode::Hardness): most solids yield there. On a steep surface only a hardness makes its
+    /// contact one of real surfaces.
     ///
     /// ```
     /// use asperity_maps::warning::Warning;

@@ -37,8 +37,9 @@ pub enum Colouring {
     /// load, as a [`LoadScale`] has it. The colour bar then has an arrow and the extreme value at this end, and the
     /// caption the share of the load that is carried beyond it.
     Diverging,
-    /// Classes of contact: black where the value is positive (contact), orange where it exceeds 1 (yielded), blue where it
-    /// is negative (attractive), and white where it is zero (apart), with a legend; [`Solution::regions`](asperity::Solution::regions) has them.
+    /// Classes of contact: black where the value is positive (contact), orange where it exceeds 1 (yielded), blue where
+    /// it is negative (attractive), and white where it is zero (apart), with a legend;
+    /// [`Solution::regions`](asperity::Solution::regions) has them.
     ///
     /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
     Contact,

@@ -35,7 +35,8 @@ pub struct Adhesion {
     pub wall: Wall,
     /// The stiffness of the springs of a wall that has some, a pressure per length.
     pub wall_stiffness: Option<f64>,
-    /// The hardness at which the surface yields, a pressure, if it does; of a hardness that varies its mean, in reports.
+    /// The hardness at which the surface yields, a pressure, if it does; of a hardness that varies its mean, in
+    /// reports.
     pub hardness: Option<f64>,
     /// The file of a hardness that varies.
     pub hardness_map: Option<String>,

@@ -63,9 +63,12 @@ impl Conductors {
         }
     }
 
+    /// The columns of the conductances.
+    pub(crate) const COLUMNS: [&str; 2] = ["electrical_conductance", "thermal_conductance"];
+
     /// The column of their conductance.
     pub fn column(self) -> &'static str {
-        if let Self::Electrical(_) = self { "electrical_conductance" } else { "thermal_conductance" }
+        Self::COLUMNS[usize::from(matches!(self, Self::Thermal(_)))]
     }
 
     /// The dimension of their conductance per area.
@@ -237,6 +240,8 @@ impl<T: Real> Found<T> {
             absent_gap: None,
             settings: Leakage::default().tolerance(tolerance),
             viscosity: None,
+            // its columns are the bounds
+            grid_error: false,
         };
         let (_, leaked) = asked.find(gap)?;
         let (percolates, constriction) = (Some(leaked.percolates), Some(leaked.constriction));

@@ -34,8 +34,8 @@ impl Asked {
         Self { control, fraction, nested, other_branch: false, stability: false, leave: false, after, goal }
     }
 
-    /// Refuses what excludes each other, in a solve by a method with an adhesion and a wall, from a start that is given or
-    /// the default.
+    /// Refuses what excludes each other, in a solve by a method with an adhesion and a wall, from a start that is given
+    /// or the default.
     ///
     /// # Errors
     /// The reason and the remedy, for [`worded`](crate::worded).

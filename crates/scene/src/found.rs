@@ -167,8 +167,8 @@ fn has_yielded(report: &Report) -> bool {
     report.plastic.is_some_and(|plastic| plastic.fraction > 0.0)
 }
 
-/// The probable mistakes that a solution shows; of the whole of an `original`, whether its images differ from it, and of
-/// a surface that is steep by the warnings of its input, whether it lacks a hardness.
+/// The probable mistakes that a solution shows; of the whole of an `original`, whether its images differ from it, and
+/// of a surface that is steep by the warnings of its input, whether it lacks a hardness.
 ///
 /// # Errors
 /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.

@@ -4,7 +4,7 @@ use asperity::Surface;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::after::LEAKAGE;
+use crate::after::{Conductors, LEAKAGE};
 use crate::units::Units;
 
 /// The columns of a table of an interface, before those for what is asked for after each state.
@@ -118,12 +118,10 @@ fn label(name: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("I_{name}") }
 }
 
-const KINDS: [&str; 2] = ["electrical_conductance", "thermal_conductance"];
-
 /// The functions that the rows of a table are.
 fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
     let number = |row: &Value, name: &str| row[name].as_f64();
-    let kind = KINDS.into_iter().find(|kind| rows.iter().any(|row| number(row, kind).is_some()));
+    let kind = Conductors::COLUMNS.into_iter().find(|kind| rows.iter().any(|row| number(row, kind).is_some()));
     let state = |row: &Value| {
         let at = (number(row, "closure")?, number(row, "mean_pressure")?);
         Some((at.0, at.1, kind.and_then(|kind| number(row, kind))))

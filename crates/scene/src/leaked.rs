@@ -117,6 +117,8 @@ pub struct LeakAsked {
     pub settings: Leakage,
     /// The viscosity, if it is known.
     pub viscosity: Option<f64>,
+    /// Whether to estimate the error of the grid.
+    pub grid_error: bool,
 }
 
 impl LeakAsked {
@@ -125,11 +127,11 @@ impl LeakAsked {
     /// # Errors
     /// Those of [`Gap::absent`] and [`Leakage::through`].
     pub fn find(&self, gap: Gap<'_>) -> Result<(Leak, Leaked)> {
-        let Self { boundary, absent_gap, settings, viscosity } = *self;
+        let Self { boundary, absent_gap, settings, viscosity, grid_error } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };
         let gap = gap.absent(absent_gap.unwrap_or(0.0))?;
         let leak = settings.through(&gap)?;
-        let grid_errors = settings.grid_error(&gap, &leak)?;
+        let grid_errors = if grid_error { settings.grid_error(&gap, &leak)? } else { [None; 2] };
         let transmissivity = |axis| {
             let flow = leak.along(axis);
             let Bounds { lower, upper } = flow.transmissivity;

@@ -94,8 +94,8 @@ impl Scene {
         }
     }
 
-    /// The problem of a surface with the law of the scene, and a `hardness` at its nodes where that varies, whose results
-    /// are of the `original` of a mirrored surface, or of the whole.
+    /// The problem of a surface with the law of the scene, and a `hardness` at its nodes where that varies, whose
+    /// results are of the `original` of a mirrored surface, or of the whole.
     ///
     /// # Errors
     /// Those of [`Adhesion::constraint`].

@@ -127,7 +127,7 @@ pub fn solve(
             Ok(Some(warnings)) => {
                 let name = told(number);
                 let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
-                let new = warnings.into_iter().filter(|line| !line.contains(": ") || said.insert(line.clone()));
+                let new = warnings.into_iter().filter(|line| code(line).is_none() || said.insert(line.clone()));
                 new.for_each(|line| complain("warning", &format!("{name}: {line}")));
                 drop(said);
                 let done = done.fetch_add(1, Relaxed) + 1;
