@@ -56,7 +56,6 @@ __all__ = [
     "pressure_distribution",
     "quantity",
     "read",
-    "slopes",
     "spectrum",
     "statistics",
 ]
@@ -303,7 +302,6 @@ def made(
 def fourier(
     coefficients: str | _Field, shape: tuple[int, int], lengths: tuple[float, float], unit: float
 ) -> _Field: ...
-def slopes(heights: _Field, lengths: tuple[float, float], boundary: str) -> dict[str, float | None]: ...
 def statistics(heights: _Field, lengths: tuple[float, float] | None) -> list[float]: ...
 def knee_wavelength(heights: _Field, lengths: tuple[float, float]) -> float | None: ...
 def spectrum(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -284,7 +284,9 @@ class Solution:
             raise ValueError(f"the body is a {type(self.body).__name__.lower()}: conductance is that between half-spaces")
         first, second = (float(one) for one in resistivities)
         gap = np.asarray(self.whole_gap).reshape(self.whole_gap.shape[0], -1)
-        per_area, _, error = _asperity.conductance(gap <= 0, self._sides, self.boundary, (first, second))
+        lengths = self.topography.lengths
+        sides = self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
+        per_area, _, error = _asperity.conductance(gap <= 0, sides, self.boundary, (first, second))
         grids = self.report["grid_error"] if self.law is None else None
         grid = None if grids is None else grids["stiffness"]
         lx, ly = self.lengths
@@ -297,15 +299,7 @@ class Solution:
 
         ``"heights"`` is the file that they came from, if they came from one.
         """
-        heights = self.topography.heights
-        slopes = _asperity.slopes(heights.reshape(heights.shape[0], -1), self._sides, self.boundary)
-        return cast("Report", {**self._looked[1], **slopes})
-
-    @property
-    def _sides(self) -> tuple[float, float]:
-        """Side lengths of the whole map."""
-        lengths = self.topography.lengths
-        return self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
+        return self._looked[1]
 
     @property
     def heights(self) -> NDArray[np.float64]:

@@ -62,7 +62,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::running::Iteration;
     #[pymodule_export]
-    use crate::surface::{fourier, in_metres, knee_wavelength, made, prepare, read, slopes, spectrum, statistics};
+    use crate::surface::{fourier, in_metres, knee_wavelength, made, prepare, read, spectrum, statistics};
 
     use pyo3::prelude::*;
 

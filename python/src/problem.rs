@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Control, Grid, PullOff, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
+use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Slopes, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -114,6 +114,7 @@ impl Problem {
             shift: against.as_ref().map(|(_, shift)| *shift),
             against: against.map(|(name, _)| name),
             part,
+            slopes: Slopes::of(&surface, boundary),
             length_unit: unit,
             pressure_unit: given.as_ref().map(|_| PRESSURE.si.to_owned()),
             given: given.map(keys).transpose()?,

@@ -7,13 +7,13 @@ use asperity::{Grid, Surface};
 use asperity_maps::Topography;
 use asperity_maps::io::{check_memory, read_fourier};
 use asperity_scene::quantity::LENGTH;
-use asperity_scene::{Body, Log, Preparation, Roughness, Skin, Slopes, in_unit, worded};
+use asperity_scene::{Body, Log, Preparation, Roughness, Skin, in_unit, worded};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_pyobject::to_pyobject;
 
-use crate::inputs::{keys, named};
+use crate::inputs::keys;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
@@ -148,19 +148,6 @@ pub fn spectrum<'py>(py: Python<'py>, heights: Field<'_>, lengths: (f64, f64)) -
     let Psd { wave_numbers, densities, waves, cell, .. } = apart(py, || Ok(surface.spectrum().radial_psd()))?;
     let waves: Vec<i64> = waves.into_iter().map(|count| count as i64).collect();
     Ok((wave_numbers.into_pyarray(py), densities.into_pyarray(py), waves.into_pyarray(py), cell))
-}
-
-/// The rms slopes of the surface of a solve, by the keys of its report.
-#[pyfunction]
-pub fn slopes<'py>(
-    py: Python<'py>,
-    heights: Field<'_>,
-    lengths: (f64, f64),
-    boundary: &str,
-) -> PyResult<Bound<'py, PyAny>> {
-    let (heights, boundary) = (heights.to_array()?, named("boundary", boundary, "periodic or free")?);
-    let find = || Ok(Slopes::of(&Surface::with_absent(Grid::new(heights.dim(), lengths)?, heights)?, boundary));
-    Ok(to_pyobject(py, &apart(py, find)?)?)
 }
 
 /// A map as Python has it: heights, side lengths, unit, and the nodes of the original of a mirrored one.
