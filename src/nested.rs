@@ -1,5 +1,6 @@
 //! Nested grids: solutions on coarser grids as starts on finer ones.
 
+use std::borrow::Borrow;
 use std::ops::ControlFlow;
 
 use crate::adhesion::{AdhesionLaw, Discretisation};
@@ -52,7 +53,7 @@ const CARRIED: f64 = 0.5;
 /// or fewer with a margin, is solved first, as a window of its own, and the whole from the deformation by its pressure.
 ///
 /// [`Nested::pays`] says where nested grids are faster. Memory per node of the finest grid is that of a solve on it
-/// alone.
+/// alone; a surface that is handed over, and not lent, leaves before the solve on the finest grid.
 ///
 /// ```
 /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
@@ -151,7 +152,7 @@ impl<C> Nested<C> {
     /// not positive.
     pub fn solve<T, O, L>(
         &mut self,
-        surface: &Surface,
+        surface: impl Borrow<Surface>,
         operator: impl FnMut(Grid) -> Result<O>,
         law: L,
         control: Control,
@@ -172,7 +173,7 @@ impl<C> Nested<C> {
     /// Those of [`Nested::solve`].
     pub fn solve_observed<T, O, L>(
         &mut self,
-        surface: &Surface,
+        surface: impl Borrow<Surface>,
         operator: impl FnMut(Grid) -> Result<O>,
         law: L,
         control: Control,
@@ -191,7 +192,7 @@ impl<C> Nested<C> {
     /// As [`Nested::solve_observed`], with the gap on the operator's grid.
     pub(crate) fn run<T, O, L>(
         &mut self,
-        surface: &Surface,
+        heights: impl Borrow<Surface>,
         mut operator: impl FnMut(Grid) -> Result<O>,
         law: L,
         control: Control,
@@ -204,17 +205,19 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         Error::positive("coarse tolerance", self.coarse_tolerance)?;
+        let surface: &Surface = heights.borrow();
+        let finest = *surface.grid();
         let mut stopped = false;
         let mut watch = |grid: &Grid, iteration: &Iteration| {
             stopped = stopped || observe(grid, iteration).is_break();
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let (mut levels, coarser) = self.solve_coarser(surface, &mut operator, &law, control, &mut watch)?;
-        let mut half_space = operator(*surface.grid())?;
+        let mut half_space = operator(finest)?;
         let (rigid, touching) = (self.solver.constraint.wall().is_rigid(), Touching::of(self.solver.constraint.wall()));
         let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), touching));
         let started = prolonged.is_some();
-        let mut watch = |iteration: &Iteration| watch(surface.grid(), iteration);
+        let mut watch = |iteration: &Iteration| watch(&finest, iteration);
         let part = match &prolonged {
             Some(gap) if rigid => {
                 self.solve_part(surface, (&mut half_space, &mut operator), &law, control, gap, &mut watch)?
@@ -223,6 +226,7 @@ impl<C> Nested<C> {
         };
         let unique = law.hints().zero;
         let mut problem = Problem::new(surface, half_space, law)?;
+        drop(heights);
         let mut spent = part.as_ref().map_or(0, |part| part.applications);
         let wall = self.solver.constraint.wall();
         let load = problem.flat.load(control, wall)?;

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use asperity::path::PathSettings;
 use asperity::{Control, Grid, PullOff, Surface};
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Slopes, Way};
+use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -114,18 +114,18 @@ impl Problem {
             shift: against.as_ref().map(|(_, shift)| *shift),
             against: against.map(|(name, _)| name),
             part,
-            slopes: Slopes::of(&surface, boundary),
             length_unit: unit,
             pressure_unit: given.as_ref().map(|_| PRESSURE.si.to_owned()),
             given: given.map(keys).transpose()?,
             ..scene.inputs(surface.grid().shape(), lengths, pool.threads())
         };
         let (units, problem) = (inputs.units(), (surface, formula, map, original));
-        let solves = match precision {
+        let (solves, slopes) = match precision {
             Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units), threads)?,
             Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units), threads)?,
         };
         let other_branch = branch == Some(Branches::Both);
+        let inputs = Inputs { slopes, ..inputs };
         Ok(Self { solves: Mutex::new(solves), threads, nested, other_branch, inputs })
     }
 

@@ -10,7 +10,7 @@ use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
     Account, After, Asked, Course, Fields, Format, Formula, Found, Goal, Inputs, Load, Opening, Posed, Scene, Skin,
-    Table, Told, Way, check_finite, warnings_of_input,
+    Slopes, Table, Told, Way, check_finite, warnings_of_input,
 };
 use numpy::IntoPyArray;
 use numpy::ndarray::Array2;
@@ -286,20 +286,24 @@ impl<T: Scalar> Solves for State<T> {
     }
 }
 
-/// The problem of a surface with its law in one precision.
+/// The problem of a surface with its law in one precision, and the slopes of the surface.
 pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
     (surface, formula, hardness, original): (Surface, Formula, Option<Array2<f64>>, Option<Original>),
     (scene, units): (&Scene, Units),
     threads: Option<usize>,
-) -> PyResult<Box<dyn Solves>> {
+) -> PyResult<(Box<dyn Solves>, Slopes)> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
     let make = || {
         let warnings = warnings_of_input((&surface, None), &scene.elastic, &*law, &units);
         let varying = hardness.as_ref().map(|hardness| hardness.view());
-        let posed = scene.posed(surface, law, varying, original)?;
-        Ok(State { posed, threads, strongest, units, hardness, warnings, course: None, seed: None, table: None })
+        let mut posed = scene.posed(surface, law, varying, original)?;
+        let slopes = posed.slopes()?;
+        let state =
+            State { posed, threads, strongest, units, hardness, warnings, course: None, seed: None, table: None };
+        Ok((state, slopes))
     };
-    Ok(Box::new(py.detach(|| pool.get().install(make)).map_err(refusal)?))
+    let (state, slopes) = py.detach(|| pool.get().install(make)).map_err(refusal)?;
+    Ok((Box::new(state), slopes))
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
 use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
-use asperity_scene::{Boundary, Inputs, Slopes};
+use asperity_scene::Inputs;
 use clap::{Args, Command, FromArgMatches};
 use ndarray::Array2;
 use serde_json::json;
@@ -97,21 +97,19 @@ pub fn run(options: &Options) -> Outcome<bool> {
         si(RANGE, "m"),
         side = si(SIDE, "m"),
     ));
-    let (heights, slopes) = (surface.heights().clone(), Slopes::of(&surface, Boundary::Periodic));
+    let heights = surface.heights().clone();
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let part = Part::all(grid);
     let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
         let tolerance = options.problem().scene().tolerance();
         let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
         let asked = options.asked(1.0);
-        let mut found = options.problem().scene().posed::<f64>(surface, law, None, part.wanted())?.solve(
-            &asked,
-            None,
-            &mut |grid, state, tolerance| {
-                progress.update_on(grid, state, tolerance);
-                ControlFlow::Continue(())
-            },
-        )?;
+        let mut posed = options.problem().scene().posed::<f64>(surface, law, None, part.wanted())?;
+        let slopes = posed.slopes()?;
+        let mut found = posed.solve_last(&asked, None, &mut |grid, state, tolerance| {
+            progress.update_on(grid, state, tolerance);
+            ControlFlow::Continue(())
+        })?;
         let inputs = Inputs { slopes, ..options.inputs(&part, &units, scene) };
         let mut account = found.account("solve", &inputs, None, Vec::new())?;
         found.sight.look_at(&mut account, &found.solution)?;

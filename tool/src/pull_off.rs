@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use asperity::{PullOff, Status};
-use asperity_scene::{Inputs, Precision, Skin, Slopes};
+use asperity_scene::{Inputs, Precision, Skin};
 use clap::Args;
 use serde_json::json;
 
@@ -93,8 +93,8 @@ impl Options {
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let mut warnings = Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, problem, &units)?;
         warnings.say()?;
-        let slopes = Slopes::of(&surface, self.surface.beyond.boundary);
         let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), None, part.wanted())?;
+        let slopes = posed.slopes()?;
         let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
         let mut progress = Progress::new("", posed.tolerance(None)?, nodes, printing.without_bars());
         let (mut found, pulled_off) = posed.pull_off(asked, start.map(T::field), &mut |grid, state, tolerance| {

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use asperity::{Status, Surface};
+use asperity::Status;
 use asperity_scene::{Asked, Inputs, Load, Precision, Slopes, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
 use ndarray::CowArray;
@@ -258,9 +258,7 @@ impl Job<'_> {
             None => Warnings::none(strictness, &self.units, fits),
         })?;
         warnings.say()?;
-        // the report is the first one's
-        let slopes = |whole: &Surface| Slopes::of(whole, self.options.surface.beyond.boundary);
-        let slopes = whole.map(|(surface, _)| slopes(&surface)).unwrap_or_default();
+        drop(whole);
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
         let mut posed = self.options.problem().scene().posed::<T>(
@@ -269,17 +267,18 @@ impl Job<'_> {
             adhesion.hardness(),
             self.part.wanted(),
         )?;
+        let slopes = if fits { posed.slopes()? } else { Slopes::default() };
         let tolerance = posed.tolerance(self.asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         if let Some(goal) = self.asked.goal {
             let (plan, time) = posed.plan(self.asked.control, goal)?;
             printing.say(&goal.announced(&plan, time));
         }
-        let mut found = posed.solve(&self.asked, start, &mut |grid, state, tolerance| {
+        let mut found = posed.solve_last(&self.asked, start, &mut |grid, state, tolerance| {
             progress.update_on(grid, state, tolerance);
             ControlFlow::Continue(())
         })?;
-        drop((posed, progress));
+        drop(progress);
         check_finite(&found.solution)?;
         let refined = found.refined.take().map(Arc::new);
         if refined.is_some() {

@@ -18,9 +18,14 @@ impl Bench {
         self.0.path().join(name)
     }
 
-    pub fn run(&self, arguments: &str) -> Output {
+    pub fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        command.current_dir(&self.0).args(arguments.split_whitespace()).output().unwrap()
+        command.current_dir(&self.0).args(arguments.split_whitespace());
+        command
+    }
+
+    pub fn run(&self, arguments: &str) -> Output {
+        self.command(arguments).output().unwrap()
     }
 
     /// Runs what must succeed in silence on standard error, and returns what it prints.

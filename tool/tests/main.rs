@@ -20,6 +20,8 @@ mod interface_tool;
 mod interruption;
 mod laws_tool;
 mod leak_tool;
+#[cfg(target_os = "linux")]
+mod memory;
 mod mirror_tool;
 mod pair_tool;
 mod pictures;

@@ -200,8 +200,8 @@ impl<T: Real> Sight<T> {
     /// [`Error::Shape`](asperity::Error::Shape) if a field does not have the shape of the grid.
     pub fn look(&mut self, account: &mut Account, fields: [ArrayView2<'_, T>; 3]) -> Result<ContactStatistics> {
         let (found, (min_pressure, max_pressure)) = self.seen(fields)?;
-        if let Some((surface, levels)) = self.open.take() {
-            self.estimate(&surface, &levels);
+        if let Some((waves, levels)) = self.open.take() {
+            self.estimate(&levels, waves.nodes(self.report.boundary));
         }
         self.tell(account);
         account.corrected_contact_fraction = Some(found.corrected_contact_fraction);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use asperity::contact::{ContactStatistics, Original};
+use asperity::elastic::Boundary;
 use asperity::nested::Level;
 use asperity::stability::ContactStiffness;
 use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
@@ -57,12 +58,27 @@ pub struct Sight<T> {
     pub(crate) grid: Grid,
     /// The report on the whole.
     pub(crate) report: Report,
-    /// The surface and the nested grids, whose errors are estimated with the first look.
-    pub(crate) open: Option<(Arc<Surface>, Vec<Level>)>,
+    /// The nested grids, whose errors are estimated with the first look.
+    pub(crate) open: Option<(Waves, Vec<Level>)>,
     /// The errors that are known, and the nodes of the shortest wave.
     pub(crate) errors: Option<(GridErrors, f64)>,
     /// The findings of the first look.
     seen: Option<Seen>,
+}
+
+/// The nodes of the shortest wave of a surface, or the surface, of which they are found.
+pub(crate) enum Waves {
+    Known(f64),
+    Of(Arc<Surface>),
+}
+
+impl Waves {
+    pub(crate) fn nodes(&self, boundary: Boundary) -> f64 {
+        match self {
+            Self::Known(nodes) => *nodes,
+            Self::Of(surface) => surface.nodes_per_wave(boundary),
+        }
+    }
 }
 
 /// The statistics of the contact, and the least and the greatest elastic pressure.
@@ -154,9 +170,8 @@ impl<T: Real> Sight<T> {
         Ok((found, this.grid.extremes(extremes)))
     }
 
-    /// Estimates the errors of nested grids of a surface.
-    pub(crate) fn estimate(&mut self, surface: &Surface, levels: &[Level]) {
-        let nodes_per_wave = surface.nodes_per_wave(self.report.boundary);
+    /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.
+    pub(crate) fn estimate(&mut self, levels: &[Level], nodes_per_wave: f64) {
         self.errors = Some((GridErrors::of(levels, &self.report, nodes_per_wave), nodes_per_wave));
     }
 }

@@ -23,10 +23,11 @@ use crate::boundary::Boundary;
 use crate::compiled::compiled;
 use crate::elastic::Elastic;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
-use crate::found::{Found, check_finite};
+use crate::found::{Found, Waves, check_finite};
 use crate::identity::{Fields, Identity, identity};
 use crate::load::Load;
 use crate::pulled_off::PulledOff;
+use crate::slopes::Slopes;
 use crate::wall::Constraint;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
@@ -54,6 +55,10 @@ pub struct Posed<T: Real> {
     elastic: Elastic,
     solver: Solver<Constraint<T>>,
     original: Option<Original>,
+    /// Those of the surface, once they were asked for.
+    slopes: Slopes,
+    /// Whether no solve follows the next one.
+    last: bool,
 }
 
 compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Constraint<T>>, &'a mut AnyProblem<T>)> = Posed::parts_of);
@@ -74,7 +79,8 @@ impl<T: Real> Posed<T> {
         solver: Solver<Constraint<T>>,
         original: Option<Original>,
     ) -> Self {
-        Self { body: Body::Surface(surface.into()), law, elastic, solver, original }
+        let (slopes, last) = (Slopes::default(), false);
+        Self { body: Body::Surface(surface.into()), law, elastic, solver, original, slopes, last }
     }
 
     /// The solver, and the problem on the grid of the surface, which is made with its first use in the place of the
@@ -114,6 +120,15 @@ impl<T: Real> Posed<T> {
     /// [`Error::Control`] after it.
     pub fn surface(&self) -> Result<&Arc<Surface>> {
         if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
+    }
+
+    /// The slopes of the surface, before the first solve; those of a shared one are the first process's, and all ask.
+    ///
+    /// # Errors
+    /// [`Error::Control`] after it.
+    pub fn slopes(&mut self) -> Result<Slopes> {
+        self.slopes = Slopes::of(self.surface()?, self.elastic.boundary);
+        Ok(self.slopes)
     }
 
     /// The identity of the problem, with the units of a table: all that its solutions depend on beside the loads.
@@ -169,6 +184,15 @@ impl<T: Real> Posed<T> {
     /// Those of the solvers of the library.
     pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
         T::call::<Solved<'_>>((self, asked, start, observe))
+    }
+
+    /// [`Posed::solve`] for the last time: heights that nothing else holds leave before the solve on the finest grid.
+    ///
+    /// # Errors
+    /// Those of [`Posed::solve`].
+    pub fn solve_last(mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
+        self.last = !asked.other_branch;
+        self.solve(asked, start, observe)
     }
 
     fn solved((this, asked, start, observe): (&mut Self, &Asked, Option<Array2<T>>, Observe<'_>)) -> Result<Found<T>> {
@@ -272,13 +296,14 @@ impl<T: Real> Posed<T> {
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let reached = Reached { wanted: goal.accuracy, of: goal.of, reached, refinable, unaffordable };
         let mut found = self.found(solution, clock)?;
-        found.sight.estimate(&surface, &levels);
+        let nodes_per_wave = surface.nodes_per_wave(found.solution.report.boundary);
+        found.sight.estimate(&levels, nodes_per_wave);
         Ok(Found { refined: Some(surface), accuracy: Some(reached), ..found.by(levels, applications) })
     }
 
-    fn on_nested_grids(&self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
+    fn on_nested_grids(&mut self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
         let Body::Surface(surface) = &self.body else { return Ok(None) };
-        let (control, settings) = (asked.control, self.solver.settings);
+        let (control, settings, grid) = (asked.control, self.solver.settings, *surface.grid());
         let may =
             !started && !asked.stability && matches!(self.solver.constraint, Constraint::Hard | Constraint::Capped(_));
         let pays = || may && Nested::new(settings).pays(surface, &self.law, control);
@@ -286,7 +311,15 @@ impl<T: Real> Posed<T> {
             return Ok(None);
         }
         let clock = Instant::now();
-        let (finest, tolerance) = (surface.grid().nodes(), settings.tolerance_in::<T>());
+        let (finest, tolerance) = (grid.nodes(), settings.tolerance_in::<T>());
+        let waves = match self.slopes.nodes_per_wave {
+            Some(nodes_per_wave) if !grid.is_shared() => Waves::Known(nodes_per_wave),
+            _ => Waves::Of(surface.clone()),
+        };
+        let surface = surface.clone();
+        if self.last {
+            self.body = Body::Spent;
+        }
         let found = Nested::with_solver(self.solver.clone())
             .coarse_tolerance(GridError::COARSE_TOLERANCE)
             .stiffness(asked.after.stiffness.then_some(ContactStiffness::TOLERANCE))
@@ -304,7 +337,7 @@ impl<T: Real> Posed<T> {
         let NestedSolution { solution, levels, .. } = found;
         let mut found = self.found(solution, clock)?;
         // the error of the grid is known of elastic contact alone
-        found.sight.open = found.solution.report.plastic.is_none().then(|| (surface.clone(), levels.clone()));
+        found.sight.open = found.solution.report.plastic.is_none().then(|| (waves, levels.clone()));
         Ok(Some(found.by(levels, applications)))
     }
 
