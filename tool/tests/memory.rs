@@ -41,7 +41,7 @@ fn a_solve_on_nested_grids_takes_five_fields_of_f64_or_seven_of_f32() {
     assert!(double < 5.3 && single < 7.5, "{double:.2} fields of f64, {single:.2} of f32");
 }
 
-/// `cargo test --release -p asperity-tool --test tool -- --ignored --nocapture memory`
+/// `cargo test --release -p asperity-tool -- --ignored --nocapture memory`
 #[test]
 #[ignore = "half a minute"]
 fn a_large_solve_takes_no_more() {
