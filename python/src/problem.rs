@@ -15,7 +15,7 @@ use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal, refusal_of_heights};
-use crate::state::{File, Run, Solves, state};
+use crate::state::{File, Pace, Run, Solves, state};
 
 /// The words of Python for a key.
 fn word(key: &str) -> String {
@@ -217,6 +217,11 @@ impl Problem {
         }
         let (pool, inputs, solves) = self.parts()?;
         solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, (after, interface), seed), start, table)
+    }
+
+    /// The seconds that are left of a cycle that was begun, as far as they are known, and its pace in words.
+    fn pace(&mut self) -> PyResult<Pace> {
+        Ok(self.parts()?.2.pace())
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.

@@ -50,6 +50,9 @@ pub type File<'py> = (PathBuf, Option<PathBuf>, bool, Option<Field<'py>>, Option
 /// The names of the columns of a table, and the cells of its rows.
 type Columns<'py> = PyResult<(Vec<&'static str>, Bound<'py, PyAny>)>;
 
+/// The seconds that are left of a cycle, as far as they are known, and its pace in words.
+pub type Pace = Option<(Option<f64>, String)>;
+
 /// The dictionary of what a solve found.
 type Answered<'py> = PyResult<Bound<'py, PyDict>>;
 
@@ -72,6 +75,7 @@ pub trait Solves: Send {
         file: Option<File<'py>>,
     ) -> Columns<'py>;
     fn next<'py>(&mut self, py: Python<'py>, run: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>>;
+    fn pace(&self) -> Pace;
     fn full_pressure(&self, loads: &[Load]) -> Result<f64, String>;
     fn stability<'py>(
         &mut self,
@@ -189,6 +193,9 @@ impl<T: Scalar> Solves for State<T> {
             true => course.of_interface(touch(self.posed.surface().map_err(refusal)?)),
             false => course,
         };
+        let (posed, mut course) = (&mut self.posed, course);
+        let expect = move || course.expect(posed).map(|()| course);
+        let course = py.detach(|| at.pool.get().install(expect)).map_err(refusal)?;
         let names = course.columns();
         self.seed = seed;
         let Some((out, fields, force, law_table, works, law_differs)) = file else {
@@ -261,9 +268,12 @@ impl<T: Scalar> Solves for State<T> {
         let found = found.map(|(found, row)| (found, entries.insert(row).account.clone()));
         let found = answer(py, self.threads, (found, raised))?;
         found.set_item("row", entries.map(|row| to_pyobject(py, &row)).transpose()?)?;
-        let pace = self.course.as_ref().and_then(|course| course.pace());
-        found.set_item("pace", pace.map(|pace| (pace.seconds_left(), pace.told())))?;
+        found.set_item("pace", self.pace())?;
         Ok(Some(found))
+    }
+
+    fn pace(&self) -> Pace {
+        self.course.as_ref()?.pace().map(|pace| (pace.seconds_left(), pace.told()))
     }
 
     fn full_pressure(&self, loads: &[Load]) -> Result<f64, String> {
