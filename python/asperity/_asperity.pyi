@@ -67,7 +67,8 @@ _Pair = tuple[float, float] | None
 _Following = tuple[bool, _Pair, _Pair, float | None]
 _Narrowest = tuple[float, tuple[int, int], NDArray[np.int64]]
 _Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
-_Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, int | None]
+_Origin = tuple[int | None, float | None]
+_Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, _Origin]
 
 @disjoint_base
 class Law:
@@ -247,6 +248,7 @@ class Problem:
         part: str | None,
         unit: str | None,
         source: str | None,
+        scars_removed: float | None,
         given: dict[str, Any] | None,
     ) -> Problem: ...
     def solve(

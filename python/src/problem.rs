@@ -56,7 +56,7 @@ impl Problem {
     #[new]
     #[pyo3(signature = (
         heights, against, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, hardness, precision,
-        tolerance, max_iterations, method, branch, nested, threads, original, part, unit, source, given
+        tolerance, max_iterations, method, branch, nested, threads, original, part, unit, source, scars_removed, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -83,6 +83,7 @@ impl Problem {
         part: Option<String>,
         unit: Option<String>,
         source: Option<String>,
+        scars_removed: Option<f64>,
         given: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let method = named("method", method, "default or rey2017")?;
@@ -122,8 +123,8 @@ impl Problem {
         };
         let (units, problem) = (inputs.units(), (surface, formula, map, original));
         let solves = match precision {
-            Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units), threads)?,
-            Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units), threads)?,
+            Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units, scars_removed), threads)?,
+            Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units, scars_removed), threads)?,
         };
         let other_branch = branch == Some(Branches::Both);
         Ok(Self { solves: Mutex::new(solves), threads, nested, other_branch, inputs })

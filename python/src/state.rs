@@ -35,8 +35,9 @@ struct State<T: Scalar> {
     units: Units,
     /// where it varies
     hardness: Option<Array2<f64>>,
-    /// of the input
+    /// of the input, with the threshold of the scars that were removed from its heights
     warnings: Vec<Told>,
+    scars_removed: Option<f64>,
     course: Option<Course<T>>,
     /// of the surface
     seed: Option<u64>,
@@ -111,7 +112,8 @@ impl<T: Scalar> State<T> {
         found: Found<T>,
     ) -> asperity::Result<(Found<T>, Account)> {
         let mut warnings = self.warnings.clone();
-        warnings.extend(found.warnings(&self.warnings)?.iter().map(|warning| self.units.told(warning)));
+        warnings
+            .extend(found.warnings(&self.warnings, self.scars_removed)?.iter().map(|warning| self.units.told(warning)));
         let account = found.account(command, inputs, self.strongest, warnings)?;
         Ok((found, account))
     }
@@ -301,7 +303,7 @@ pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
     (surface, formula, hardness, original): (Surface, Formula, Option<Array2<f64>>, Option<Original>),
-    (scene, units): (&Scene, Units),
+    (scene, units, scars_removed): (&Scene, Units, Option<f64>),
     threads: Option<usize>,
 ) -> PyResult<Box<dyn Solves>> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
@@ -309,7 +311,8 @@ pub fn state<T: Scalar>(
         let warnings = warnings_of_input((&surface, None), &scene.elastic, &*law, &units);
         let varying = hardness.as_ref().map(|hardness| hardness.view());
         let posed = scene.posed(surface, law, varying, original)?;
-        Ok(State { posed, threads, strongest, units, hardness, warnings, course: None, seed: None, table: None })
+        let (course, seed, table) = (None, None, None);
+        Ok(State { posed, threads, strongest, units, hardness, warnings, scars_removed, course, seed, table })
     };
     Ok(Box::new(py.detach(|| pool.get().install(make)).map_err(refusal)?))
 }
