@@ -67,7 +67,8 @@ _Pair = tuple[float, float] | None
 _Following = tuple[bool, _Pair, _Pair, float | None]
 _Narrowest = tuple[float, tuple[int, int], NDArray[np.int64]]
 _Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
-_Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, int | None]
+_Origin = tuple[int | None, float | None]
+_Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, _Origin]
 
 @disjoint_base
 class Law:
@@ -247,6 +248,7 @@ class Problem:
         part: str | None,
         unit: str | None,
         source: str | None,
+        scars_removed: float | None,
         given: dict[str, Any] | None,
     ) -> Problem: ...
     def solve(
@@ -276,6 +278,7 @@ class Problem:
         seed: int | None,
         table: tuple[str, str | None, bool, _Field | None, _Field | None, bool] | None,
     ) -> tuple[list[str], list[list[Any]]]: ...
+    def pace(self) -> tuple[float | None, str] | None: ...
     def next(self, observe: Callable[[Iteration], object] | None) -> dict[str, Any] | None: ...
     def stability(
         self, load: tuple[str, list[float]], gap: _Field, relative_error: float

@@ -51,6 +51,7 @@ class Rows(Iterator[T]):
         self.names = tuple(names)
         self.rows: list[dict[str, Any]] = [dict(zip(self.names, row, strict=True)) for row in rows]
         self._seconds_left: float | None = None
+        self._keep(scene.problem.pace())
 
     def _solve(self) -> Solution:
         """The next solution, whose row is kept."""
@@ -62,11 +63,15 @@ class Rows(Iterator[T]):
             self.rows.append({name: found["row"][name] for name in self.names})
             # ended by the observer: it goes no further
             self._ended = found["row"]["status"] == "stopped"
-        if found["pace"] is not None:
-            self._seconds_left, told = found["pace"]
+        self._keep(found["pace"])
+        return self._scene.solution(found)
+
+    def _keep(self, pace: tuple[float | None, str] | None) -> None:
+        """Keeps the time that is left of a cycle, and shows its pace."""
+        if pace is not None:
+            self._seconds_left, told = pace
             if isinstance(self._observe, progress):
                 self._observe._tell(told)
-        return self._scene.solution(found)
 
     def run(self: R) -> R:
         """Solves what is left, and returns itself."""

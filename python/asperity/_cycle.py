@@ -75,10 +75,11 @@ class Cycle(Rows[Step]):
 
     @property
     def seconds_left(self) -> float | None:
-        """An estimate of the time until the end, in seconds, while the cycle is solved; None before the first state.
+        """An estimate of the time until the end, in seconds; None at the end.
 
-        After the first state it is that of the least number of states, and jumps take further ones; after a twentieth of
-        the way it is that of the rest at the speed so far.
+        At first it is that of the least number of states, and jumps take further ones. Before the first state it comes
+        from the time of one application of the elastic operator, and is right as to the order of magnitude. After a
+        twentieth of the way it is that of the rest at the speed so far.
         """
         return self._seconds_left
 

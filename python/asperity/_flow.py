@@ -1,4 +1,4 @@
-"""What follows a solve: percolation and leakage of the gap, and conductance of the contact."""
+"""Percolation and leakage of the gap, and conductance of the contact, after a solve."""
 
 from __future__ import annotations
 
@@ -23,20 +23,21 @@ class Flow(NamedTuple):
     Attributes
     ----------
     lower, upper : float
-        Bounds of the transmissivity Qη/Δp, a length cubed: the flow Q, a volume per time, over the pressure Δp that falls
-        from side to side, times the viscosity η; g³/12 for a slot of a square cell. Zero where the gap is closed.
+        Bounds of the transmissivity Qη/Δp, a length cubed. Q is the flow, a volume per time, Δp is the difference of
+        pressure between the two sides, and η is the viscosity. A slot of width g in a square cell has g³/12. Both bounds
+        are zero where the gap is closed.
     grid_error : float or None
-        Estimated relative error of the grid: the largest difference from the transmissivity on the even nodes alone,
-        and on the odd ones. Three times the error where the gap is resolved, and no bound. None without a passage, and
-        where a side has an odd number of nodes.
+        Estimated relative error of the grid: the largest difference from the transmissivity of every second node, the
+        even ones alone or the odd ones. Where the grid resolves the gap this is about three times the error. It is not
+        a bound. None where there is no passage, and where a side has an odd number of nodes.
     reached : bool
-        Whether the bounds are as close as the tolerance.
+        Whether the distance of the bounds is within the tolerance.
     constriction : Constriction or None
-        Narrowest place of the widest passage; None where the gap is closed.
+        Narrowest place of the widest passage. None where the gap is closed.
     pressure : ndarray
-        Pressure over Δp at the nodes through which the fluid flows; NaN elsewhere.
+        Pressure of the fluid over Δp, at the nodes through which it flows. NaN at the others.
     flow : ndarray, shape (2, Nx, Ny)
-        Flow at the nodes along x and along y, per width, times η/Δp: a length squared.
+        Flow per width along x and along y at the nodes, times η/Δp: a length squared.
     """
 
     lower: float
@@ -56,7 +57,7 @@ class Leakage(NamedTuple):
     x, y : Flow
         Flow along x and along y.
     report : dict
-        Report with the keys of the program's, ``asperity leak --json``.
+        Report with the keys of ``asperity leak --json``.
     """
 
     x: Flow
@@ -74,33 +75,36 @@ def leakage(
     tolerance: float = 1e-6,
     max_iterations: int = 1000,
 ) -> Leakage:
-    """Finds what leaks through a gap by Reynolds' equation, between two bounds.
+    """Transmissivity of a gap by Reynolds' equation, between two bounds.
 
-    The transmissivity of the network of the nodes is no more than any pressure says, and no less than any flow that is
-    conserved says; both bounds hold whatever the tolerance. A gap that is closed along an axis has none.
+    The nodes are a network of channels. Any field of pressures gives an upper bound of its transmissivity, and any
+    conserved flow a lower one. Both bounds hold at every tolerance. The transmissivity is zero along an axis where the
+    gap is closed.
 
     Parameters
     ----------
     gap : Solution or array_like, shape (Nx, Ny)
-        Solution, or gaps: open where they are positive. Nodes that are not finite are absent.
+        Solution, or an array of gaps. The gap is open at nodes where it is positive, and a node is absent where it is
+        not finite.
     lengths : float or (float, float), optional
-        Side lengths, Lx alone for square cells; of a solution they are known, and otherwise 1 by 1 by default.
+        Side lengths; Lx alone means square cells. 1 by 1 by default. A solution has its own.
     boundary : {"periodic", "free"}, optional
-        What is beyond the map. Of a free one each axis is fed at one side and drained at the other, and the two other sides
-        are tight. By default that of the solution, or periodic; of the original of a mirrored map free, which is the same.
+        What is beyond the map. With a free boundary the fluid enters along one side and leaves along the opposite one,
+        and the two other sides are tight. By default the boundary is that of the solution, and periodic for an array.
+        The original of a mirrored map has a free boundary, by which it leaks as the whole map does.
     absent_gap : float or str, optional
-        Gap of absent nodes, which are closed without it.
+        Gap of absent nodes. They are closed by default.
     viscosity : float or str, optional
-        Dynamic viscosity, as "1mPas", for ``report["flow_per_pressure"]``.
+        Dynamic viscosity, for example "1mPas". The report then has ``flow_per_pressure``.
     tolerance : float
-        Distance of the bounds at which to stop, relative to the upper one.
+        Distance of the bounds, relative to the upper one, at which the iteration ends.
     max_iterations : int
-        The most iterations along each axis.
+        Greatest number of iterations along each axis.
 
     Returns
     -------
     Leakage
-        Also where the bounds are further apart than the tolerance: then with a `ConvergenceWarning`.
+        Flow along both axes. A `ConvergenceWarning` is given where the bounds are further apart than the tolerance.
 
     Examples
     --------

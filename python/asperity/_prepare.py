@@ -126,10 +126,11 @@ def prepare(
     both = None if lengths is None else _lengths(lengths, given.heights.shape)
     cut_off = None if cut_off_wavelength is None else number("cut_off_wavelength", cut_off_wavelength)
     prepared = _asperity.prepare(known(given), both, cut_off, units.get() is not None, plain(keys))
-    (made, both, name, original, _), log, warnings = prepared
+    (made, both, name, original, (_, scars)), log, warnings = prepared
     for warning in warnings:
         warn_of_input(warning)
     periodic = True if mirror or window else given.periodic
     is_line = given._is_line and made.shape[1] == 1
     lines = (*given.log, *log)
-    return Topography(made, both, name, periodic, given.source, original, given.seed, lines, _is_line=is_line)
+    scars = given.scars_removed if scars is None else scars
+    return Topography(made, both, name, periodic, given.source, original, given.seed, lines, scars, is_line)

@@ -88,6 +88,7 @@ class Scene:
             None if original is None else "whole" if self.original is None else "original",
             self.topography.unit,
             self.topography.source,
+            self.topography.scars_removed,
             given.get(),
         )
         self.pressure_unit = None if given.get() is None else "Pa"

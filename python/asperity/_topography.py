@@ -42,6 +42,8 @@ class Topography:
         Nodes of the original, from the first on, if the others are its mirror images.
     seed : int, optional
         Seed of the random surface that the map was made from.
+    scars_removed : float, optional
+        Threshold of the scars that `prepare` removed, if it did.
     log : tuple of str
         Steps that `prepare` took to make the map, each with its effect in numbers.
 
@@ -60,6 +62,7 @@ class Topography:
     original: tuple[int, int] | None = None
     seed: int | None = None
     log: tuple[str, ...] = ()
+    scars_removed: float | None = None
     _is_line: bool = field(default=False, compare=False)
 
     @property
@@ -131,8 +134,9 @@ def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topo
         If there is no such file or channel, or it cannot be understood.
     """
     found = _asperity.read(os.fspath(path), None if channel is None else str(channel))
-    heights, lengths, unit, original, seed = found
-    return Topography(heights, lengths, unit, source=os.fspath(path), original=original, seed=seed)
+    heights, lengths, unit, original, (seed, scars) = found
+    source = os.fspath(path)
+    return Topography(heights, lengths, unit, source=source, original=original, seed=seed, scars_removed=scars)
 
 
 def from_topography(topography: HeightMap) -> Topography:

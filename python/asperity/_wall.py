@@ -1,4 +1,4 @@
-"""Walls that are made of springs, and the hardness of a wall that yields."""
+"""Walls of springs, and the hardness of a wall that yields."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ class _Springs(Measured):
 
 
 class Penalty(_Springs):
-    """A wall of springs, into which the surfaces sink by the contact pressure over the stiffness.
+    """A wall of springs: the surfaces overlap by the contact pressure over the stiffness.
 
-    A stiffer wall takes more iterations. `cycle` refuses springs.
+    A stiffer wall takes more iterations. `cycle` takes no wall of springs.
 
     Parameters
     ----------
     stiffness : float
-        Stiffness k > 0 of the springs, a pressure per length: contact pressures are k times the depth.
+        Stiffness k > 0 of the springs, a pressure per length. The contact pressure is k times the overlap.
 
     Examples
     --------
@@ -47,14 +47,15 @@ class Penalty(_Springs):
 
 
 class Uzawa(_Springs):
-    """A wall of springs with multipliers, which take over the contact pressure in rounds until the wall is hard.
+    """A wall by Uzawa's method: springs, with multipliers that take over the contact pressure in rounds.
 
-    The augmented Lagrangian method of Uzawa, for comparison with the hard wall, which is faster. `cycle` refuses springs.
+    This is the augmented Lagrangian method. It ends at the same contact as the hard wall, which is faster, and is there
+    for comparison. `cycle` takes no wall of springs.
 
     Parameters
     ----------
     stiffness : float
-        Stiffness k > 0 of the springs of the first round, a pressure per length; the result hardly depends on it.
+        Stiffness k > 0 of the springs in the first round, a pressure per length. The result hardly depends on it.
 
     Examples
     --------
@@ -69,7 +70,7 @@ class Uzawa(_Springs):
 #: A wall as functions take it.
 Wall: TypeAlias = RigidWall | Penalty | Uzawa
 
-#: A hardness as functions take it: one for all, or one at each node.
+#: A hardness as functions take it: one number, or one at each node.
 Hardness: TypeAlias = Quantity | ArrayLike
 
 

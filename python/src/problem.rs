@@ -15,7 +15,7 @@ use crate::law::Law;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal, refusal_of_heights};
-use crate::state::{File, Run, Solves, state};
+use crate::state::{File, Pace, Run, Solves, state};
 
 /// The words of Python for a key.
 fn word(key: &str) -> String {
@@ -56,7 +56,7 @@ impl Problem {
     #[new]
     #[pyo3(signature = (
         heights, against, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, hardness, precision,
-        tolerance, max_iterations, method, branch, nested, threads, original, part, unit, source, given
+        tolerance, max_iterations, method, branch, nested, threads, original, part, unit, source, scars_removed, given
     ))]
     #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
     fn new(
@@ -83,6 +83,7 @@ impl Problem {
         part: Option<String>,
         unit: Option<String>,
         source: Option<String>,
+        scars_removed: Option<f64>,
         given: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let method = named("method", method, "default or rey2017")?;
@@ -121,8 +122,8 @@ impl Problem {
         };
         let (units, problem) = (inputs.units(), (surface, formula, map, original));
         let (solves, slopes) = match precision {
-            Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units), threads)?,
-            Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units), threads)?,
+            Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units, scars_removed), threads)?,
+            Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units, scars_removed), threads)?,
         };
         let other_branch = branch == Some(Branches::Both);
         let inputs = Inputs { slopes, ..inputs };
@@ -217,6 +218,11 @@ impl Problem {
         }
         let (pool, inputs, solves) = self.parts()?;
         solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, (after, interface), seed), start, table)
+    }
+
+    /// The seconds that are left of a cycle that was begun, as far as they are known, and its pace in words.
+    fn pace(&mut self) -> PyResult<Pace> {
+        Ok(self.parts()?.2.pace())
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.

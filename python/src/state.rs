@@ -35,8 +35,9 @@ struct State<T: Scalar> {
     units: Units,
     /// where it varies
     hardness: Option<Array2<f64>>,
-    /// of the input
+    /// of the input, with the threshold of the scars that were removed from its heights
     warnings: Vec<Told>,
+    scars_removed: Option<f64>,
     course: Option<Course<T>>,
     /// of the surface
     seed: Option<u64>,
@@ -49,6 +50,9 @@ pub type File<'py> = (PathBuf, Option<PathBuf>, bool, Option<Field<'py>>, Option
 
 /// The names of the columns of a table, and the cells of its rows.
 type Columns<'py> = PyResult<(Vec<&'static str>, Bound<'py, PyAny>)>;
+
+/// The seconds that are left of a cycle, as far as they are known, and its pace in words.
+pub type Pace = Option<(Option<f64>, String)>;
 
 /// The dictionary of what a solve found.
 type Answered<'py> = PyResult<Bound<'py, PyDict>>;
@@ -72,6 +76,7 @@ pub trait Solves: Send {
         file: Option<File<'py>>,
     ) -> Columns<'py>;
     fn next<'py>(&mut self, py: Python<'py>, run: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>>;
+    fn pace(&self) -> Pace;
     fn full_pressure(&self, loads: &[Load]) -> Result<f64, String>;
     fn stability<'py>(
         &mut self,
@@ -107,7 +112,8 @@ impl<T: Scalar> State<T> {
         found: Found<T>,
     ) -> asperity::Result<(Found<T>, Account)> {
         let mut warnings = self.warnings.clone();
-        warnings.extend(found.warnings(&self.warnings)?.iter().map(|warning| self.units.told(warning)));
+        warnings
+            .extend(found.warnings(&self.warnings, self.scars_removed)?.iter().map(|warning| self.units.told(warning)));
         let account = found.account(command, inputs, self.strongest, warnings)?;
         Ok((found, account))
     }
@@ -189,6 +195,9 @@ impl<T: Scalar> Solves for State<T> {
             true => course.of_interface(touch(self.posed.surface().map_err(refusal)?)),
             false => course,
         };
+        let (posed, mut course) = (&mut self.posed, course);
+        let expect = move || course.expect(posed).map(|()| course);
+        let course = py.detach(|| at.pool.get().install(expect)).map_err(refusal)?;
         let names = course.columns();
         self.seed = seed;
         let Some((out, fields, force, law_table, works, law_differs)) = file else {
@@ -261,9 +270,12 @@ impl<T: Scalar> Solves for State<T> {
         let found = found.map(|(found, row)| (found, entries.insert(row).account.clone()));
         let found = answer(py, self.threads, (found, raised))?;
         found.set_item("row", entries.map(|row| to_pyobject(py, &row)).transpose()?)?;
-        let pace = self.course.as_ref().and_then(|course| course.pace());
-        found.set_item("pace", pace.map(|pace| (pace.seconds_left(), pace.told())))?;
+        found.set_item("pace", self.pace())?;
         Ok(Some(found))
+    }
+
+    fn pace(&self) -> Pace {
+        self.course.as_ref()?.pace().map(|pace| (pace.seconds_left(), pace.told()))
     }
 
     fn full_pressure(&self, loads: &[Load]) -> Result<f64, String> {
@@ -291,7 +303,7 @@ pub fn state<T: Scalar>(
     py: Python<'_>,
     pool: &Pool,
     (surface, formula, hardness, original): (Surface, Formula, Option<Array2<f64>>, Option<Original>),
-    (scene, units): (&Scene, Units),
+    (scene, units, scars_removed): (&Scene, Units, Option<f64>),
     threads: Option<usize>,
 ) -> PyResult<(Box<dyn Solves>, Slopes)> {
     let (strongest, law) = (formula.strongest(), formula.law::<T>());
@@ -300,8 +312,8 @@ pub fn state<T: Scalar>(
         let varying = hardness.as_ref().map(|hardness| hardness.view());
         let mut posed = scene.posed(surface, law, varying, original)?;
         let slopes = posed.slopes()?;
-        let state =
-            State { posed, threads, strongest, units, hardness, warnings, course: None, seed: None, table: None };
+        let (course, seed, table) = (None, None, None);
+        let state = State { posed, threads, strongest, units, hardness, warnings, scars_removed, course, seed, table };
         Ok((state, slopes))
     };
     let (state, slopes) = py.detach(|| pool.get().install(make)).map_err(refusal)?;

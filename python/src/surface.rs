@@ -18,8 +18,10 @@ use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
 
-/// Heights, side lengths and unit of a map, the nodes of the original of a mirrored one, and the seed of a random one.
-type Made<'py> = (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>, Option<u64>);
+/// Heights, side lengths and unit of a map, the nodes of the original of a mirrored one, and the seed of a random one
+/// with the threshold of the scars that were removed.
+type Made<'py> =
+    (Bound<'py, PyArray2<f64>>, Option<(f64, f64)>, Option<String>, Option<(usize, usize)>, (Option<u64>, Option<f64>));
 
 /// Calls a function without the interpreter's lock, on the shared pool.
 fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Send) -> PyResult<R> {
@@ -28,8 +30,8 @@ fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Se
 }
 
 fn map(py: Python<'_>, topography: Topography) -> Made<'_> {
-    let Topography { heights, lengths, unit, original, seed, .. } = topography;
-    (heights.into_pyarray(py), lengths, unit, original, seed)
+    let Topography { heights, lengths, unit, original, seed, scars_removed, .. } = topography;
+    (heights.into_pyarray(py), lengths, unit, original, (seed, scars_removed))
 }
 
 fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {

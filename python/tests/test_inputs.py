@@ -398,6 +398,20 @@ def test_functions_of_the_package_travel_to_other_processes():
         assert "Parameters" in function.__doc__ and "kwargs" not in inspect.signature(function).parameters
 
 
+def test_a_warning_of_scars_knows_whether_some_were_removed():
+    scan = 0.2 * np.array(asperity.surface.self_affine(128, 1.0, rms_height=0.01, k_l=2, k_s=60, seed=9))
+    for first, last, line in ((10, 30, 40), (60, 100, 7), (20, 60, 90), (80, 110, 64), (5, 40, 120)):
+        scan[first:last, line] += 8e-3
+    left = asperity.prepare(scan, 1.0, remove_scars=1000.0, mirror=True)
+    removed = asperity.prepare(scan, 1.0, remove_scars=True)
+    assert (removed.scars_removed, left.scars_removed) == (0.667, 1000.0)
+    asperity.solve(removed, modulus=1.0, mean_pressure=4e-3)
+    raw = asperity.prepare(scan, 1.0)
+    for heights, remedy in ((raw, "remove them"), (left, "as prepare --remove-scars 1000 has left them")):
+        with pytest.warns(asperity.InputWarning, match=f"scars: .*{remedy}"):
+            asperity.solve(heights, modulus=1.0, mean_pressure=4e-3)
+
+
 def test_scars_and_noise_are_left_out():
     rough = asperity.surface.self_affine(128, 1.0, rms_height=0.01, k_l=2, k_s=60, seed=2)
     clean = np.array(rough)

@@ -14,6 +14,11 @@ use crate::setters::setters;
 /// The square of the solver's tolerance must be well below the imbalance. Without adhesion, its square times the
 /// energy of the surface pressed flat is no imbalance between surfaces that are apart, nor is rounding: in `f32` jumps
 /// below a millionth of that energy are lost in it. [`Path`](super::Path) has an example.
+///
+/// A jump takes a solve for each halving of the step down to the smallest, and about as many steps until the step has
+/// grown again. With one or two jumps, `smallest_step` = 1e-3 changes the dissipated energy by some 10 %, and the
+/// default takes a tenth to a half more iterations. With dozens of jumps, 1e-3 changes that energy by 1 % and takes half
+/// the iterations.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {

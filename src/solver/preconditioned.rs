@@ -27,9 +27,6 @@ const ADAPT: (f64, f64) = (0.7, 1.3);
 /// The same where the surface yields: nodes that yield or stop doing so change the curvature by more.
 const ADAPT_YIELDING: (f64, f64) = (0.5, 2.0);
 
-/// The length taken for the best one where nodes that pass their corners leave none along the tangent.
-const BACK: f64 = 0.1;
-
 /// The multiple of the last change c₀ in the next step.
 #[derive(Clone, Copy)]
 struct Momentum {
@@ -300,7 +297,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let stiff = quadratic + slopes > LEAST_CURVATURE * quadratic;
         let curvature = if stiff { quadratic + slopes } else { LEAST_CURVATURE * quadratic };
         let best = (-(trial.slope + trial.kink) / curvature).min(FARTHEST);
-        let best = if trial.kink > 0.0 && best <= 0.0 { BACK } else { best };
+        // nodes that pass their corners leave none along the tangent: the whole step, which the search halves
+        let best = if trial.kink > 0.0 && best <= 0.0 { 1.0 } else { best };
         let mut length = match trial.clipped {
             true if best >= WHOLE => 1.0,
             true => best,

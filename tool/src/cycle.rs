@@ -130,6 +130,7 @@ impl Fill for Options {
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
+        table.announce();
         while let Some(row) = table.extend()? {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
             self.manner.printing.say(&format!("{:>4}  {}{event}", table.rows(), table.brief(&row.account)));

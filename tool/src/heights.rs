@@ -29,6 +29,8 @@ pub struct Origin {
     pub original: Option<(usize, usize)>,
     /// The seed of a random surface.
     pub seed: Option<u64>,
+    /// The threshold of the scars that were removed.
+    pub scars_removed: Option<f64>,
     /// The unit of the file, if its heights were converted from it.
     pub converted_from: Option<String>,
 }
@@ -36,7 +38,8 @@ pub struct Origin {
 impl Origin {
     /// That of a map which was converted from the unit of its file, or was not.
     fn of(map: &Topography, converted_from: Option<String>) -> Self {
-        Self { unit: map.unit.clone(), original: map.original, seed: map.seed, converted_from }
+        let &Topography { original, seed, scars_removed, .. } = map;
+        Self { unit: map.unit.clone(), original, seed, scars_removed, converted_from }
     }
 }
 

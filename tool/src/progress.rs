@@ -56,11 +56,6 @@ impl Progress {
         self.pace = pace;
     }
 
-    /// Leaves a line on the terminal that outlives the bar.
-    pub fn leave(&self, text: &str) {
-        self.bar.println(text);
-    }
-
     /// Shows the state of a solve on nested grids, each to a tolerance of its own; the bar goes on from one grid to the
     /// next, as the error does.
     pub fn update_on(&mut self, grid: &Grid, state: &Iteration, tolerance: f64) {

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use asperity::{Control, Status};
 use asperity_scene::interface::touch;
-use asperity_scene::pace::Pace;
 use asperity_scene::{Account, After, Asked, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -118,11 +117,14 @@ impl<'a> TableOptions<'a> {
             false,
         ))?;
         let course = Course::new(by.way::<T>(controls.clone())?, self.after).yielding(yields);
-        let course = if self.interface { course.of_interface(touch(&surface)) } else { course };
+        let mut course = if self.interface { course.of_interface(touch(&surface)) } else { course };
         let surface = Arc::new(surface);
         let mut posed =
             problem.scene().posed::<T>(surface.clone(), adhesion.law(), adhesion.hardness(), part.wanted())?;
         let afar = if start.is_none() { posed.start_afar(&controls) } else { None };
+        if !printing.is_quiet() {
+            course.expect(&posed)?;
+        }
         let nodes = *posed.parts()?.1.operator().grid();
         course.check(&mut posed)?;
         let grid = *surface.grid();
@@ -214,6 +216,12 @@ impl<T: Scalar> Table<'_, T> {
         self.rows.read(self.options.processes)
     }
 
+    /// Says what is asked of a cycle and what that is likely to take, before its first row.
+    pub fn announce(&self) {
+        let asked = self.course.pace().and_then(|pace| pace.asked(self.posed.adheres()));
+        asked.iter().for_each(|asked| self.options.manner.printing.say(asked));
+    }
+
     /// Solves the next row, while a bar has its number, and appends it. Refuses a solution that ran away, and says its
     /// warnings; returns no row at the end of the course.
     pub fn extend(&mut self) -> Outcome<Option<Row>> {
@@ -230,9 +238,6 @@ impl<T: Scalar> Table<'_, T> {
             progress.update(state);
             ControlFlow::Continue(())
         });
-        if let Some(expected) = self.course.pace().and_then(Pace::expected) {
-            progress.leave(&expected);
-        }
         drop(progress);
         let Some(mut found) = found? else { return Ok(None) };
         check_finite(&found.solution)?;

@@ -65,6 +65,8 @@ pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
 pub struct Warnings {
     strictness: Strictness,
     units: Units,
+    /// The threshold of the scars that were removed from the heights
+    scars_removed: Option<f64>,
     found: Vec<Told>,
     said: usize,
     /// Whether some have become worse since they were written
@@ -83,7 +85,7 @@ impl Warnings {
         units: &Units,
     ) -> Outcome<Self> {
         let (law, surface) = (adhesion.law::<T>(), (surface, origin.converted_from.as_deref()));
-        let mut warnings = Self::empty(strictness, units);
+        let mut warnings = Self { scars_removed: origin.scars_removed, ..Self::empty(strictness, units) };
         warnings.add(warnings_of_input(surface, &options.surface.elastic(), &*law, units))?;
         Ok(warnings)
     }
@@ -99,12 +101,13 @@ impl Warnings {
     }
 
     fn empty(strictness: Strictness, units: &Units) -> Self {
-        Self { strictness, units: units.clone(), found: Vec::new(), said: 0, worse: false, table: None }
+        let (units, found) = (units.clone(), Vec::new());
+        Self { strictness, units, scars_removed: None, found, said: 0, worse: false, table: None }
     }
 
     /// Looks at an answer, and prints its warnings; of many answers, the worst counts.
     pub fn look_at<T: Scalar>(&mut self, solution: &Solution<T>, part: &Part) -> Outcome<()> {
-        let found = warnings_of(solution, part.wanted(), &self.found)?;
+        let found = warnings_of(solution, part.wanted(), (&self.found, self.scars_removed))?;
         self.add(found.iter().map(|warning| self.units.told(warning)).collect())?;
         self.say()
     }

@@ -301,6 +301,12 @@ fn scars_and_noise_are_found_told_and_left_out() {
     assert_eq!(warned("clean.npz"), "");
     let told = warned("scan.npz");
     assert!(told.contains("warning: scars: ") && told.contains("along x") && told.contains(" GPa"), "{told}");
+    assert!(told.contains("remove them (prepare --remove-scars --scan-axis x)"), "{told}");
+    // a high threshold leaves them, which a map with its images remembers, too
+    let said = bench.said("prepare scan.npz --remove-scars 1000 --mirror --out left.npz");
+    assert!(said.contains("no scars along x"), "{said}");
+    let told = warned("left.npz");
+    assert!(told.contains("as prepare --remove-scars 1000 has left them, use a lower threshold"), "{told}");
 
     let said = bench.said("prepare scan.npz --remove-scars --out removed.npz");
     let on_scars: usize = scars.iter().map(|(from, to, _)| to - from).sum();

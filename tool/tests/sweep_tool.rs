@@ -374,6 +374,30 @@ fn a_cycle_has_its_jumps_and_a_picture() {
 }
 
 #[test]
+fn what_a_cycle_asks_for_is_said_before_its_first_state() {
+    let bench = bench_with_a_wave();
+    let loads = "--mean-gaps 0.05,0.02,0.05 --steps 4 --smallest-step 0.1";
+    let adhesive = format!("{loads} --law exponential --work-of-adhesion 1e-4 --range 4e-3");
+    let first = |arguments: &str| {
+        let said = text(&bench.cycle(arguments, 0).stdout);
+        said.lines().next().unwrap_or_default().to_owned()
+    };
+    let asked = "9 states or more, 2 legs of 4 steps: about ";
+    let said = first(&format!("{loads} --out wall.csv"));
+    assert!(said.starts_with(asked) && !said.contains("jump"), "{said}");
+    // from a quarter to a tenth of a leg in two halvings
+    let said = first(&format!("{adhesive} --out a.csv"));
+    assert!(said.starts_with(asked) && said.contains("; each jump takes 2 to 4 more, and about "), "{said}");
+    assert_eq!(first(&format!("{adhesive} --out b.csv --quiet")), "");
+    assert_eq!(bench.read("a.csv"), bench.read("b.csv"));
+    // a cycle that goes on says how far it was, and a report has no time
+    assert!(first(&format!("{adhesive} --out a.csv")).starts_with("a.csv has "));
+    let report = text(&bench.cycle(&format!("{adhesive} --out c.csv --json"), 0).stdout);
+    assert!(report.starts_with('{') && !report.contains("about"), "{report}");
+    assert_eq!(bench.read("a.csv"), bench.read("c.csv"));
+}
+
+#[test]
 fn an_interrupted_cycle_goes_on_to_the_same_file() {
     let bench = bench_with_a_wave();
     bench.cycle(&format!("{CYCLE} --quiet --out whole.csv"), 0);

@@ -131,7 +131,7 @@ fn strict_takes_warnings_for_errors_and_writes_nothing() {
     // an answer that is refused before the first row of a table leaves no table
     for table in [
         "sweep --mean-pressures 5,6 --out s.csv",
-        "cycle --mean-pressures 5,6 --steps 2 --smallest-step 0.1 --out c.csv",
+        "cycle --mean-pressures 5,6 --steps 2 --smallest-step 0.1 --quiet --out c.csv",
     ] {
         bench.refused_with(&format!("{table} --heights clean.npy --strict"), &["beyond-modulus"]);
     }

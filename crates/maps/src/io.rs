@@ -231,21 +231,21 @@ pub fn write_npy_rows<'a, T: WritableElement + Clone + 'a>(
 
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.
 ///
-/// - `.npz`: `heights`, and if they are known `lengths`, `unit`, `original` (two numbers of nodes), and `seed` (a
-///   text). Nothing is lost.
+/// - `.npz`: `heights`, and if they are known `lengths`, `unit`, `original` (two numbers of nodes), `seed` (a text), and
+///   `scars_removed` (a number). Nothing is lost.
 /// - `.gsf`, for Gwyddion: the heights are rounded to `f32`.
 /// - `.npy`: the heights alone.
 ///
 /// ```
 /// use asperity_maps::io::{read_topography, write_topography};
 /// use asperity::{Grid, Surface};
-/// use asperity_maps::Topography;
+/// use asperity_maps::{ScanAxis, Topography};
 ///
 /// let folder = tempfile::tempdir()?;
 /// let path = folder.path().join("wave.npz");
 /// let mut wave = Topography::from(Surface::wave(Grid::new((8, 4), (2e-6, 1e-6))?, 1e-9, 1)?);
 /// (wave.unit, wave.seed) = (Some("m".into()), Some(7));
-/// let wave = wave.mirror();
+/// let wave = wave.remove_scars(0.7, ScanAxis::X)?.mirror();
 /// write_topography(&path, &wave)?;
 /// assert_eq!(read_topography(&path)?, wave);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -64,6 +64,8 @@ pub struct Topography {
     pub original: Option<(usize, usize)>,
     /// The seed of the [`SelfAffine`](asperity::SelfAffine) surface from which the map was made, if there is one.
     pub seed: Option<u64>,
+    /// The threshold of the scars that were [removed](Self::remove_scars), if that was done.
+    pub scars_removed: Option<f64>,
     /// The names of the arrays that stand beside the heights in a file, and that reading it did not take.
     pub unread: Vec<String>,
 }
@@ -71,7 +73,7 @@ pub struct Topography {
 impl Topography {
     /// A map of shape (Nx, Ny) with unknown side lengths and unit.
     pub fn new(heights: Array2<f64>) -> Self {
-        Self { heights, lengths: None, unit: None, original: None, seed: None, unread: Vec::new() }
+        Self { heights, lengths: None, unit: None, original: None, seed: None, scars_removed: None, unread: Vec::new() }
     }
 
     /// The number of missing heights: NaN or infinite.

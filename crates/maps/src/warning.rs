@@ -71,7 +71,7 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 /// }
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
 /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
-/// assert!(Warning::of_solution(&solution).is_empty());
+/// assert!(Warning::of_solution(&solution, None).is_empty());
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
@@ -277,15 +277,16 @@ impl Warning {
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
     /// is positive, [`WindowEdge`](WarningCode::WindowEdge) with a free boundary, and [`Scars`](WarningCode::Scars) or
     /// [`Noise`](WarningCode::Noise) where more than 20 % of the load of at least 100 nodes stands on lines, or 33 % on
-    /// single nodes, that press three times as hard as those beside them.
-    pub fn of_solution<T: Real>(solution: &Solution<T>) -> Vec<Self> {
+    /// single nodes, that press three times as hard as those beside them. The remedy for scars depends on the threshold
+    /// of those that were [removed](Topography::scars_removed) from the heights.
+    pub fn of_solution<T: Real>(solution: &Solution<T>, scars_removed: Option<f64>) -> Vec<Self> {
         let modulus = solution.report.modulus;
         let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
         let count = pressures().filter(|pressure| *pressure > modulus).count();
         let greatest = pressures().fold(f64::NEG_INFINITY, f64::max);
         let mut found = Vec::new();
         found.extend(window_edge(solution));
-        found.extend(load::of_load(solution));
+        found.extend(load::of_load(solution, scars_removed));
         if count == 0 || modulus <= 0.0 {
             return found;
         }

@@ -294,7 +294,7 @@ fn a_contact_pressure_above_the_modulus_is_told() {
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 2.0).unwrap(), NoAdhesion).unwrap();
     let mut found = |pressure| {
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
-        Warning::of_solution(&solution)
+        Warning::of_solution(&solution, None)
     };
     assert!(found(0.01).is_empty());
     let warnings = found(3.0);
@@ -434,7 +434,7 @@ fn a_punch_reaches_the_edge_of_its_window_and_a_sphere_does_not() {
     let codes = |surface: &Surface, load: f64| {
         let mut problem = Problem::new(surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
         let found = Solver::default().solve(&mut problem, Control::Force(load)).unwrap();
-        Warning::of_solution(&found).iter().map(|warning| warning.code).collect::<Vec<_>>()
+        Warning::of_solution(&found, None).iter().map(|warning| warning.code).collect::<Vec<_>>()
     };
     assert_eq!(codes(&Surface::from_fn(grid, |_, _| 0.0).unwrap(), 1e-4), [WarningCode::WindowEdge]);
     assert!(codes(&Surface::paraboloid(grid, 1.0).unwrap(), 1e-4).is_empty());

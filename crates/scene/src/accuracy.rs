@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use asperity::accuracy::{Accuracy, Plan, Quantity};
 use asperity::stability::ContactStiffness;
-use asperity::{AdhesionLaw, Control, Real, Result, Solver, Surface};
+use asperity::{AdhesionLaw, Control, ElasticOperator, Real, Result, Solver, Surface};
 use asperity_maps::io::available_memory;
 use ndarray::Array2;
 
@@ -48,10 +48,18 @@ pub(crate) fn planned<T: Real>(
 ) -> Result<(Plan, f64)> {
     let mut operator = elastic.operator::<T>(*surface.grid())?;
     let plan = wanted.plan(surface, &mut operator, &law, control)?;
-    let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().shape()));
+    Ok((plan, plan.applications * seconds_of(&mut operator)?))
+}
+
+/// The seconds of an application of an operator, of which the first is a trial.
+///
+/// # Errors
+/// Those of the operator.
+pub(crate) fn seconds_of<T: Real>(operator: &mut impl ElasticOperator<T>) -> Result<f64> {
+    let mut fields = [(); 2].map(|()| Array2::<T>::zeros(operator.grid().field_shape()));
     let [u, p] = &mut fields;
     operator.pressure(u.view(), p.view_mut())?;
     let clock = Instant::now();
     operator.pressure(u.view(), p.view_mut())?;
-    Ok((plan, plan.applications * clock.elapsed().as_secs_f64()))
+    Ok(clock.elapsed().as_secs_f64())
 }

@@ -22,17 +22,7 @@ use crate::identity::Identity;
 use crate::interface;
 use crate::pace::Pace;
 use crate::posed::Posed;
-
-/// The way through the loads of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Way {
-    /// An equilibrium under each load.
-    Sweep(Vec<Control>),
-    /// An equilibrium with each contact fraction, under a load that is found.
-    Search(Vec<f64>),
-    /// A path from load to load in small steps.
-    Cycle(Vec<Control>, PathSettings),
-}
+use crate::way::Way;
 
 /// The course of a sweep or a cycle: its way, and the place on it from which the next state follows.
 #[derive(Clone, Debug)]
@@ -97,27 +87,11 @@ type See<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
 compiled!(Checked: (&'a Course<T>, &'a mut Posed<T>) => Result<()> = Course::checked);
 compiled!(Next: (&'a mut Course<T>, &'a mut Posed<T>, See<'a>) => Result<Option<Found<T>>> = Course::following);
 
-impl Way {
-    /// The loads, where they are given.
-    pub fn loads(&self) -> &[Control] {
-        match self {
-            Self::Sweep(loads) | Self::Cycle(loads, _) => loads,
-            Self::Search(_) => &[],
-        }
-    }
-
-    /// The least number of states of a cycle.
-    fn least_states(&self) -> Option<usize> {
-        let Self::Cycle(loads, settings) = self else { return None };
-        Some(1 + loads.len().saturating_sub(1) * settings.steps)
-    }
-}
-
 impl<T: Real> Course<T> {
     /// A course from its beginning, with the findings that are asked for after each state.
     pub fn new(way: Way, after: After) -> Self {
         let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
-        let pace = way.least_states().map(|least| Pace::new(least, 0, 0));
+        let pace = way.pace();
         Self { way, after, touch: None, yields: false, start: None, states: 0, place, leg_ends: false, pace }
     }
 
@@ -139,13 +113,23 @@ impl<T: Real> Course<T> {
     /// The course continued behind as many states from the [place](Self::place) of the last one, bit for bit; of a
     /// cycle, behind as many events, and whether its surfaces are apart there.
     pub fn continuing(self, states: usize, place: PathCheckpoint<T>, (events, apart): (usize, bool)) -> Self {
-        let pace = self.way.least_states().map(|least| Pace::new(least, states, events));
+        let pace = self.pace.map(|pace| pace.behind(states, events));
         Self { states, place, leg_ends: apart, pace, ..self }
     }
 
     /// The pace of a cycle.
     pub fn pace(&self) -> Option<&Pace> {
         self.pace.as_ref()
+    }
+
+    /// Takes the time of an operator application of the problem for what a cycle is likely to take.
+    ///
+    /// # Errors
+    /// Those of [`Posed::seconds_of_application`].
+    pub fn expect(&mut self, posed: &Posed<T>) -> Result<()> {
+        let Some(pace) = &mut self.pace else { return Ok(()) };
+        pace.expect(posed.seconds_of_application()?);
+        Ok(())
     }
 
     /// The place from which the next state follows.

@@ -123,12 +123,13 @@ impl<T: Real> Found<T> {
         Self { levels: Some(levels), equivalent_applications: Some(applications), stiffness, ..self }
     }
 
-    /// The probable mistakes that the solution shows, beside those of its input.
+    /// The probable mistakes that the solution shows, beside those of its input, on heights from which scars may have
+    /// been removed beyond a threshold.
     ///
     /// # Errors
     /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
-    pub fn warnings(&self, of_input: &[Told]) -> Result<Vec<Warning>> {
-        warnings_of(&self.solution, self.sight.original, of_input)
+    pub fn warnings(&self, of_input: &[Told], scars_removed: Option<f64>) -> Result<Vec<Warning>> {
+        warnings_of(&self.solution, self.sight.original, (of_input, scars_removed))
     }
 
     /// The solution on the part of a mirrored map of which results are.
@@ -183,16 +184,17 @@ fn has_yielded(report: &Report) -> bool {
 }
 
 /// The probable mistakes that a solution shows; of the whole of an `original`, whether its images differ from it, and
-/// of a surface that is steep by the warnings of its input, whether it lacks a hardness.
+/// of a surface that is steep by the warnings of its input, whether it lacks a hardness. From the heights scars may have
+/// been removed beyond a threshold.
 ///
 /// # Errors
 /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
 pub fn warnings_of<T: Real>(
     solution: &Solution<T>,
     original: Option<Original>,
-    of_input: &[Told],
+    (of_input, scars_removed): (&[Told], Option<f64>),
 ) -> Result<Vec<Warning>> {
-    let mut found = Warning::of_solution(solution);
+    let mut found = Warning::of_solution(solution, scars_removed);
     let steep = of_input.iter().any(|told| told.code == WarningCode::Steep.name());
     found.extend(if steep { Warning::of_hardness(solution) } else { None });
     let images = original.map(|original| Warning::of_images(&original, solution)).transpose()?;

@@ -16,7 +16,7 @@ use asperity::{
 use ndarray::Array2;
 
 use crate::account::Inputs;
-use crate::accuracy::{Goal, planned};
+use crate::accuracy::{Goal, planned, seconds_of};
 use crate::after::After;
 use crate::asked::Asked;
 use crate::boundary::Boundary;
@@ -63,6 +63,7 @@ pub struct Posed<T: Real> {
 
 compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Constraint<T>>, &'a mut AnyProblem<T>)> = Posed::parts_of);
 compiled!(Planned: (&'a Posed<T>, Control, Goal) => Result<(Plan, f64)> = Posed::planned);
+compiled!(Timed: &'a Posed<T> => Result<f64> = Posed::timed);
 compiled!(Solved: (&'a mut Posed<T>, &'a Asked, Option<Array2<T>>, Observe<'a>) => Result<Found<T>> = Posed::solved);
 compiled!(Pulled: (&'a mut Posed<T>, PullOff, Option<Array2<T>>, Observe<'a>) => Result<(Found<T>, PulledOff)> =
     Posed::pulled);
@@ -134,6 +135,23 @@ impl<T: Real> Posed<T> {
     /// The identity of the problem, with the units of a table: all that its solutions depend on beside the loads.
     pub fn identity(&self, inputs: &Inputs, units: &str, given: Fields<'_>) -> Identity {
         identity(inputs, self.solver.settings.branch, units, given, &*self.law)
+    }
+
+    /// Whether the surfaces attract each other.
+    pub fn adheres(&self) -> bool {
+        !self.law.hints().zero
+    }
+
+    /// The seconds that an operator application takes here and now, before the first solve.
+    ///
+    /// # Errors
+    /// Those of [`Elastic::operator`] and of the operator; [`Error::Control`] after the first solve.
+    pub fn seconds_of_application(&self) -> Result<f64> {
+        T::call::<Timed<'_>>(self)
+    }
+
+    fn timed(this: &Self) -> Result<f64> {
+        seconds_of(&mut this.elastic.operator::<T>(*this.surface()?.grid())?)
     }
 
     /// The boundary of the half-space.

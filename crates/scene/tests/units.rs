@@ -1,6 +1,7 @@
 //! Quantities have the bits of their numbers in the SI, figures their units, and names that are none what they mean; lists,
 //! legs of tables and the time that is left are read as people mean them.
 
+use asperity::path::PathSettings;
 use asperity_scene::fall::{Fall, time};
 use asperity_scene::legs::{legs, logarithmic};
 use asperity_scene::list::{Loads, list};
@@ -227,24 +228,38 @@ fn a_steady_fall_tells_its_rate_and_the_time_that_is_left() {
 
 #[test]
 fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
-    // two states were there, with one event; a hundred there are at least
-    let mut pace = Pace::new(100, 2, 1);
-    assert_eq!((pace.seconds_left(), pace.expected()), (None, None));
+    // two states were there, with one event; 101 there are at least
+    let settings = PathSettings::default();
+    let begun = Pace::new(2, &settings);
+    let mut pace = begun.behind(2, 1);
+    assert_eq!((pace.seconds_left(), pace.asked(true)), (None, None));
     pace.begin(0.2);
     pace.add(0.21, false, 2.0);
-    assert_eq!(pace.seconds_left(), Some(97.0 * 2.0));
+    assert_eq!(pace.seconds_left(), Some(98.0 * 2.0));
     // from a twentieth of the way on by the way
     pace.add(0.4, true, 4.0);
     assert!((pace.seconds_left().unwrap() - 18.0).abs() < 1e-12);
     assert_eq!(pace.told(), "4 states, 2 events, 40 % of the way, about 18 s left");
-    let mut fresh = Pace::new(101, 0, 0);
+    // before the first state by the time of an operator application
+    let mut fresh = begun;
+    assert_eq!((fresh.seconds_left(), fresh.asked(true)), (None, None));
+    fresh.expect(1e-3);
+    assert_eq!(fresh.told(), "0 states, 0 events, 0 % of the way, about 6.1 s left");
+    let asked = "101 states or more, 2 legs of 50 steps: about 6.1 s";
+    assert_eq!(fresh.asked(false).unwrap(), asked);
+    // from a fiftieth of a leg to a ten-thousandth in eight halvings
+    assert_eq!(fresh.asked(true).unwrap(), format!("{asked}; each jump takes 8 to 16 more, and about 6.4 s"));
+    assert_eq!(fresh.behind(3, 0).asked(true), None);
+    let mut short = Pace::new(1, &settings.steps(1).smallest_step(0.9));
+    short.expect(0.1);
+    let text = "2 states or more, 1 leg of 1 step: about 12 s; each jump takes 1 to 2 more, and about 80 s";
+    assert_eq!(short.asked(true).unwrap(), text);
     fresh.add(0.0, false, 0.5);
-    assert_eq!(fresh.expected().unwrap(), "101 states and 50 s at least; each jump takes further ones");
+    assert_eq!(fresh.asked(true), None);
     // past a limit point the load falls again, the way does not
     fresh.add(0.5, false, 0.5);
     fresh.add(0.4, false, 0.5);
     assert_eq!(fresh.share(), 0.5);
-    assert_eq!(fresh.expected(), None);
 }
 
 #[test]

@@ -24,7 +24,7 @@ const MAX_COMPRESSION: u64 = 1032;
 const ENTRY: usize = 1024;
 
 /// The arrays that an archive of a map may have.
-const ARRAYS: [&str; 5] = ["heights", "lengths", "unit", "original", "seed"];
+const ARRAYS: [&str; 6] = ["heights", "lengths", "unit", "original", "seed", "scars_removed"];
 
 /// Reads the array `heights`, or the only one, of an archive of `size` bytes; beside it what else a map has.
 pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topography> {
@@ -81,6 +81,15 @@ pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topogra
         let seed = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
         let wrong = || format!("has the seed {}, expected a whole number: leave the array out", quoted(&seed));
         map.seed = Some(seed.parse().map_err(|_| wrong())?);
+    }
+    if let Some(index) = archive.index_for_name("scars_removed.npy")
+        && archive.len() > 1
+    {
+        let threshold = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
+        match threshold.as_slice() {
+            Some(&[threshold]) if threshold > 0.0 && threshold.is_finite() => map.scars_removed = Some(threshold),
+            _ => return refuse("has an array scars_removed that is not a positive number: leave the array out"),
+        }
     }
     if archive.len() > 1 {
         let unread = archive.file_names().map(array).filter(|name| !ARRAYS.contains(name));
@@ -155,8 +164,9 @@ pub fn write_npz<T: WritableElement>(
 pub(super) fn write_map(path: &Path, map: &Topography) -> Result<()> {
     let heights = [("heights", map.heights.view())];
     let seed = map.seed.map(|seed| seed.to_string());
-    let &Topography { lengths, original, .. } = map;
-    write(path, &heights, &Known { lengths, unit: map.unit.as_deref(), original, seed: seed.as_deref() })
+    let &Topography { lengths, original, scars_removed, .. } = map;
+    let unit = map.unit.as_deref();
+    write(path, &heights, &Known { lengths, unit, original, seed: seed.as_deref(), scars_removed })
 }
 
 /// The entries of an archive that describe its fields.
@@ -166,6 +176,7 @@ struct Known<'a> {
     unit: Option<&'a str>,
     original: Option<(usize, usize)>,
     seed: Option<&'a str>,
+    scars_removed: Option<f64>,
 }
 
 fn write<T: WritableElement>(path: &Path, fields: &[(&str, ArrayView2<'_, T>)], known: &Known<'_>) -> Result<()> {
@@ -196,6 +207,9 @@ fn archive<T: WritableElement>(
     }
     if let Some((nx, ny)) = known.original {
         npz.add_array("original", &arr1(&[nx as u64, ny as u64]))?;
+    }
+    if let Some(threshold) = known.scars_removed {
+        npz.add_array("scars_removed", &arr1(&[threshold]))?;
     }
     npz.finish().map(Cursor::into_inner)
 }
@@ -358,6 +372,7 @@ mod tests {
             ("original.npy", npy("'<f8'", "False", "(2,)", &f8(&[1.0, 3.0])), "numbers of nodes"),
             ("original.npy", npy("'<f8'", "False", "(2,)", &f8(&[0.5, 1.0])), "numbers of nodes"),
             ("seed.npy", text_as_npy("-1"), "a whole number"),
+            ("scars_removed.npy", npy("'<f8'", "False", "(1,)", &f8(&[-1.0])), "a positive number"),
             ("unit.npy", npy("'<U1'", "False", "()", &[0, 0, 0xff, 0xff]), "damaged"),
             ("unit.npy", npy("'<U9999999999999999999'", "False", "()", &[0; 4]), "a text"),
             ("unit.npy", npy("'<U1'", "False", "(1,)", &[b'm', 0, 0, 0]), "a text"),

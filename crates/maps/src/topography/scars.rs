@@ -21,7 +21,9 @@ pub struct Scars {
     pub count: usize,
     /// Whether each node is on a scar.
     pub map: Array2<bool>,
-    /// The height beyond the lines beside it from which a piece of a line is a scar.
+    /// The threshold, in rms differences of neighbouring lines.
+    pub threshold: f64,
+    /// The same in height: that beyond the lines beside it from which a piece of a line is a scar.
     pub limit: f64,
 }
 
@@ -57,7 +59,7 @@ impl Topography {
         }
         let map = if along == ScanAxis::X { on_scar } else { on_scar.reversed_axes() };
         let count = Clusters::of_part(map.view()).sizes.len();
-        Ok(Scars { count, map, limit })
+        Ok(Scars { count, map, threshold, limit })
     }
 
     /// Gives the nodes on [`scars`](Self::scars) the heights of a membrane between those beside them, as
@@ -84,12 +86,13 @@ impl Topography {
         self.without(&scars)
     }
 
-    /// The map with the heights on scars from those beside them.
+    /// The map with the heights on scars from those beside them, which [remembers](Self::scars_removed) their threshold.
     ///
     /// # Errors
     /// [`Error::Shape`] if the scars are of another map, [`Error::Value`] if all heights are missing or on scars.
     pub fn without(mut self, scars: &Scars) -> Result<Self> {
         Error::shape("map of scars", scars.map.dim(), self.heights.dim())?;
+        self.scars_removed = Some(scars.threshold);
         if scars.count == 0 {
             return Ok(self);
         }

@@ -52,7 +52,8 @@ impl Nodes {
 }
 
 /// The warning that much of the load stands on lines along one axis, or on single nodes, by one pass over the pressure.
-pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
+/// From the heights scars may have been removed beyond a threshold.
+pub(super) fn of_load<T: Real>(solution: &Solution<T>, scars_removed: Option<f64>) -> Option<Warning> {
     let pressures = &solution.contact_pressure;
     let (nx, ny) = pressures.dim();
     let [mut all, mut along_x, mut along_y, mut single] = [Nodes::default(); 4];
@@ -92,9 +93,8 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
             format!(
                 "{percent} % of the load stands on single lines along {axis}, on nodes that press more than {ALONE} \
                  times as hard as those of both lines beside them, with up to {greatest}: scars, if {axis} is the \
-                 scan axis of a measurement; look at these lines in the map, and remove them (prepare --remove-scars \
-                 --scan-axis {axis}); where that has left them, leave out what is shorter than a wavelength \
-                 (--cut-off-wavelength), or use a lower threshold of scars"
+                 scan axis of a measurement; look at these lines in the map, and {}",
+                remedy(axis, scars_removed)
             ),
         ),
         None => (
@@ -108,6 +108,17 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>) -> Option<Warning> {
         ),
     };
     Some(Warning { code, text: text.with(message).of_severity(share) })
+}
+
+/// The remedy for scars along an axis, where some may have been removed beyond a threshold.
+fn remedy(axis: &str, scars_removed: Option<f64>) -> String {
+    match scars_removed {
+        None => format!("remove them (prepare --remove-scars --scan-axis {axis})"),
+        Some(threshold) => format!(
+            "as prepare --remove-scars {threshold} has left them, use a lower threshold, with --scan-axis {axis}, or \
+             leave out what is shorter than a wavelength (--cut-off-wavelength)"
+        ),
+    }
 }
 
 /// The warning that most of the load of an elastic solution stands above what most solids bear.
