@@ -22,13 +22,23 @@ pub(super) fn read_gwy(reader: &mut impl Read, size: u64, channel: Option<&str>)
     let mut bytes = Vec::new();
     reserve(&mut bytes, usize::try_from(size).unwrap_or(usize::MAX))?;
     reader.take(size).read_to_end(&mut bytes).map_err(unreadable)?;
+    let channels = fields(&bytes)?;
+    let number = chosen(&channels, channel)?;
+    let field = channels.get(&number).and_then(|channel| channel.field).ok_or(DAMAGED)?;
+    let mut map = Field::new(field)?.map()?;
+    map.unread = channels.iter().filter(|(n, _)| **n != number).map(|(n, channel)| channel.name(*n)).collect();
+    Ok(map)
+}
+
+/// The channels of a file of heights by their numbers.
+fn fields(bytes: &[u8]) -> Parsed<BTreeMap<usize, Titled<'_>>> {
     let mut start = Bytes(bytes.get(GWY.len()..).unwrap_or_default());
     let (kind, container) = start.object()?;
     if kind != b"GwyContainer" {
         return refuse(format!("holds a {}, expected a GwyContainer: save it again", quoted(&text(kind))));
     }
 
-    let mut channels = BTreeMap::<usize, Channel>::new();
+    let mut channels = BTreeMap::<usize, Titled<'_>>::new();
     for item in Bytes(container) {
         let (name, value) = item?;
         // as /0/data and /0/data/title; what is deeper, or named otherwise, is how the channel is shown
@@ -42,15 +52,32 @@ pub(super) fn read_gwy(reader: &mut impl Read, size: u64, channel: Option<&str>)
         }
     }
     channels.retain(|_, channel| channel.field.is_some());
-    let number = chosen(&channels, channel)?;
-    let field = channels.get(&number).and_then(|channel| channel.field).ok_or(DAMAGED)?;
-    let mut map = Field::new(field)?.map()?;
-    map.unread = channels.iter().filter(|(n, _)| **n != number).map(|(n, channel)| channel.name(*n)).collect();
-    Ok(map)
+    Ok(channels)
+}
+
+/// A channel of a Gwyddion file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// The number.
+    pub number: usize,
+    /// The title; empty if it has none.
+    pub title: String,
+    /// Whether heights and sides both are in units of length.
+    pub is_of_heights: bool,
+}
+
+/// The channels of a Gwyddion file.
+pub(super) fn channels(bytes: &[u8]) -> Parsed<Vec<Channel>> {
+    let named = |(number, channel): (usize, Titled<'_>)| Channel {
+        number,
+        is_of_heights: channel.is_of_heights(),
+        title: channel.title,
+    };
+    Ok(fields(bytes)?.into_iter().map(named).collect())
 }
 
 /// The number of the channel that is asked for, or of the only one that it can be.
-fn chosen(channels: &BTreeMap<usize, Channel>, asked: Option<&str>) -> Parsed<usize> {
+fn chosen(channels: &BTreeMap<usize, Titled<'_>>, asked: Option<&str>) -> Parsed<usize> {
     let fits: Vec<usize> = match asked {
         Some(asked) => {
             let number = asked.parse().ok().filter(|number| channels.contains_key(number));
@@ -79,12 +106,12 @@ fn chosen(channels: &BTreeMap<usize, Channel>, asked: Option<&str>) -> Parsed<us
 
 /// A channel: its title, and its field.
 #[derive(Default)]
-struct Channel<'a> {
+struct Titled<'a> {
     title: String,
     field: Option<&'a [u8]>,
 }
 
-impl Channel<'_> {
+impl Titled<'_> {
     /// Whether heights and sides both are in units of length.
     fn is_of_heights(&self) -> bool {
         let field = self.field.and_then(|field| Field::new(field).ok());
