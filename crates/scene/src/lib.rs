@@ -12,6 +12,7 @@ pub mod allowed;
 mod asked;
 mod body;
 mod boundary;
+mod clock;
 mod compiled;
 pub mod contact;
 mod course;
