@@ -49,6 +49,7 @@ mod scalar;
 mod scene;
 mod sentences;
 mod slopes;
+pub mod statistics;
 mod symbol;
 pub mod synonyms;
 mod table;
