@@ -1,0 +1,303 @@
+/* The page: what is asked for goes to the engine, the newest of it alone, and what is found goes to the screen. */
+
+import { Curves, distribution, loop } from "./charts.js";
+import { Engine } from "./engine.js";
+import { Load } from "./load.js";
+import { FieldMap, colouring } from "./map.js";
+import { read, typed, written } from "./quantity.js";
+import { Settings } from "./settings.js";
+import { files, takeAway } from "./files.js";
+
+const at = id => document.getElementById(id);
+
+/* The rows of a summary that stand beside the maps. */
+const FIGURES = ["contact", "corrected for its edge", "mean pressure", "mean gap", "normal force", "approach",
+  "certified error", "error of the grid", "time"];
+
+/* What may be asked for, in the order in which it is done. */
+const ORDER = ["surface", "steps", "scene", "solve", "cycle", "rest"];
+
+const status = text => (at("status").textContent = text);
+
+/* Sentences as a list, which is hidden if there are none. */
+const list = (id, sentences) => {
+  at(id).replaceChildren(...sentences.map(text => Object.assign(document.createElement("li"), { textContent: text })));
+  at(id).hidden = !sentences.length;
+};
+
+const table = (id, rows) => at(id).replaceChildren(...rows.map(([name, text]) => {
+  const row = document.createElement("tr"), head = document.createElement("th"), cell = document.createElement("td");
+  [head.scope, head.textContent, cell.textContent] = ["row", name, text];
+  row.append(head, cell);
+  return row;
+}));
+
+class Page {
+  constructor(engine) {
+    this.engine = engine;
+    this.wanted = new Set();
+    this.curves = new Curves();
+    const probe = (node, by) => this.probe(node, by);
+    const map = title => new FieldMap(at("maps"), title, probe);
+    this.maps = { contact: map("Contact"), pressure: map("Pressure"), gap: map("Gap") };
+    this.heights = new FieldMap(at("picture"), "Heights", probe);
+    this.settings = new Settings(at("settings"), engine.about.laws, what => this.want(what));
+    this.load = new Load(at("load"), () => this.want("solve"));
+    at("version").textContent = `asperity ${engine.about.version}`;
+    at("cancel").addEventListener("click", () => {
+      this.wanted.clear();
+      engine.cancel();
+    });
+    at("legs").addEventListener("submit", event => {
+      event.preventDefault();
+      this.want("cycle");
+    });
+    for (const input of at("legs").querySelectorAll(".quantity")) input.addEventListener("input", () => (this.legsTyped = true));
+    at("forget").addEventListener("click", () => {
+      this.curves.forget();
+      at("area").replaceChildren();
+    });
+    files(file => this.open(file));
+    takeAway(engine, error => this.failed(error));
+    this.want("surface");
+  }
+
+  /* Asks for something: at once, or when what runs has ended, and then as it is by then. */
+  async want(what) {
+    this.wanted.add(what);
+    if (this.isBusy) return;
+    this.isBusy = true;
+    document.body.classList.add("busy");
+    at("cancel").disabled = false;
+    while (this.wanted.size) {
+      const next = ORDER.find(name => this.wanted.delete(name));
+      try {
+        if (next !== "rest") this.clear();
+        await this[next]();
+      } catch (error) {
+        this.failed(error, next);
+      }
+    }
+    this.isBusy = false;
+    document.body.classList.remove("busy");
+    at("cancel").disabled = true;
+    at("progress").value = 0;
+  }
+
+  /* Forgets what was wrong with what was asked for before. */
+  clear() {
+    Settings.clearFaults();
+    at("failure").hidden = true;
+  }
+
+  /* What was asked for is refused or cancelled: what is shown is not the answer to it. */
+  failed(error, what) {
+    this.wanted.clear();
+    at("stage").classList.add("stale");
+    if (error.name === "AbortError") return status("Cancelled. What is shown is what was found before.");
+    status("");
+    const place = { surface: this.settings.isFile ? "heights" : "make", steps: "prepare", solve: "load" }[what] ?? what;
+    if (Settings.fault(error.message, place)) return;
+    at("failure").textContent = error.message;
+    at("failure").hidden = false;
+  }
+
+  async open(file) {
+    this.file = { name: file.name, bytes: await file.arrayBuffer(), isNew: true };
+    this.settings.takeFile(file.name);
+    this.want("surface");
+  }
+
+  /* The map: as it was measured, or made. */
+  async surface() {
+    const { engine, settings, file } = this;
+    status("Reading the surface");
+    if (!settings.isFile) {
+      const made = settings.made(), isOther = made.form !== this.form;
+      const map = await engine.make(made);
+      this.form = made.form;
+      at("steps").replaceChildren();
+      return this.found(map, isOther);
+    }
+    const channel = file.isNew ? undefined : settings.channel;
+    let map = await engine.open(file.name, file.bytes, { channel });
+    if (!map.heights) map = { ...(await engine.open(file.name, file.bytes, { channel: map.channels[0].split(":")[0] })), channels: map.channels };
+    this.form = "file";
+    if (file.isNew) settings.takeMap(map);
+    this.measured = map;
+    const isOther = file.isNew;
+    file.isNew = false;
+    return this.steps(isOther);
+  }
+
+  /* The surface: the map after the steps of its preparation. */
+  async steps(isOther = false) {
+    const { engine, settings, measured } = this;
+    const map = await engine.prepare(settings.steps(measured.shape));
+    const { log } = map;
+    list("steps", log.map(([step, what]) => `${step}: ${what}`));
+    return this.found(map, isOther);
+  }
+
+  /* Takes a surface, which may be one of another kind, and asks for its contact. */
+  async found(map, isOther) {
+    const { colours } = this.engine.about;
+    const lengths = map.lengths ?? map.shape;
+    this.heights.show({
+      values: map.heights, shape: map.shape, lengths, unit: map.unit ?? "",
+      colours: colouring.sequential(colours, [map.lowest - map.mean, map.highest - map.mean], map.unit ?? ""),
+    });
+    list("doubts", map.warnings.map(({ message }) => message));
+    this.map = map;
+    if (!map.lengths) throw new Error("lengths: the file has no side lengths, type them, as 20um, or 20um 10um");
+    const { figures, rows } = await this.engine.statistics();
+    table("statistics", rows);
+    this.slope = figures.rms_slope ?? figures.rms_slope_differences;
+    this.isOther ||= isOther;
+    this.wanted.add("scene");
+  }
+
+  /* Fits the loads to surface and body. */
+  scene() {
+    const { map, settings } = this;
+    if (!map?.lengths) return;
+    const modulus = typed(settings.value("modulus"));
+    if (!modulus) throw new Error(`modulus: ${settings.value("modulus")} is no pressure: type it as 70GPa`);
+    // lengths in metres where they have units
+    const scale = modulus.unit ? typed(`1${map.unit ?? "m"}`)?.value ?? 1 : 1, length = modulus.unit && "m";
+    const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
+    const area = map.lengths[0] * (map.lengths[1] || 1) * scale ** 2;
+    this.load.fit({ lowest, highest, slope: this.slope, area, length }, modulus, settings.value("boundary"), this.isOther);
+    if (this.isOther || !this.legsTyped) this.fitLegs(lowest, highest, length);
+    this.isOther = false;
+    this.curves.begin(JSON.stringify([settings.made(), this.file?.name, settings.steps([1, 1]), settings.scene()]));
+    this.wanted.add("solve");
+  }
+
+  /* A cycle from where the surfaces are apart. */
+  fitLegs(lowest, highest, length) {
+    const range = typed(this.settings.scene().range ?? "0")?.value ?? 0, high = highest - lowest;
+    const [from, to] = this.settings.value("boundary") === "free" ? [-5 * range, 0.2 * high] : [highest + 5 * range, 0.3 * highest];
+    [at("legs").cycle_from.value, at("legs").cycle_to.value] = [from, to].map(value => written(value, length));
+    this.legsTyped = false;
+  }
+
+  async solve() {
+    if (!this.map?.lengths) return;
+    const asked = Object.values(this.load.scene)[0];
+    status(`Solving at ${asked}`);
+    const found = await this.engine.solve({ ...this.settings.scene(), ...this.load.scene }, {
+      start: "last", fields: ["contact", "pressure", "gap"], histograms: 60,
+      onprogress: ({ iteration, error, tolerance, nodes }) => {
+        at("progress").value = Math.min(1, Math.max(0, Math.log(error) / Math.log(tolerance)));
+        status(`Solving at ${asked}: error ${error.toExponential(1)} of ${tolerance}, ${iteration} iterations`);
+      },
+    });
+    if (found) this.show(found, asked);
+  }
+
+  show({ account, rows, shortfalls, started, shape, lengths, unit, fields, limits, extremes, histograms }, asked) {
+    const { about } = this.engine, { colours } = about, length = unit ?? "", pressure = account.pressure_unit ?? "";
+    const classes = [{ name: "apart", colour: [255, 255, 255] }, { name: "contact", colour: [0, 0, 0] },
+      { name: "nothing there", colour: colours.missing }, { name: "attractive", colour: colours.attractive },
+      { name: "yielded", colour: colours.yielded }];
+    const field = (values, colours) => ({ values, shape, lengths, unit: length, colours });
+    this.maps.contact.show(field(fields.contact, colouring.classes(classes)));
+    this.maps.pressure.show(field(fields.pressure, colouring.diverging(colours, limits.pressure, pressure)));
+    this.maps.gap.show(field(fields.gap, colouring.sequential(colours, extremes.gap, length)));
+    this.solution = { shape, lengths, length, pressure, fields };
+    this.load.found = account;
+    this.histograms = histograms;
+    this.curves.add(account);
+    table("rows", rows);
+    at("figures").replaceChildren(...FIGURES.flatMap(name => rows.filter(row => row[0] === name)).map(([name, text]) => {
+      const entry = document.createElement("div"), term = document.createElement("dt"), value = document.createElement("dd");
+      [term.textContent, value.textContent] = [name, text];
+      entry.append(term, value);
+      return entry;
+    }));
+    list("warnings", [...shortfalls, ...account.warnings.map(({ message }) => message)]);
+    at("stage").classList.remove("stale");
+    this.probe(this.node);
+    const from = started === "last" ? ", from the contact before" : "";
+    status(`${account.status[0].toUpperCase()}${account.status.slice(1)} at ${asked}: ${account.iterations} iterations${from}`);
+    this.chart("area", this.curves.chart());
+    this.wanted.add("rest");
+  }
+
+  /* What may wait while the load is dragged. */
+  async rest() {
+    const { histograms: { gap, contact_pressure }, solution: { length, pressure } } = this;
+    await this.chart("pressures", distribution(contact_pressure, "contact pressure", pressure, "nodes in contact"));
+    await this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
+    const { shell, python } = await this.engine.lines();
+    [at("command").textContent, at("python").textContent] = [shell.join("\n"), python];
+  }
+
+  async chart(id, chart) {
+    at(id).innerHTML = await this.engine.chart({ title: "", ...chart });
+  }
+
+  async cycle() {
+    const { settings, engine } = this, { cycle_from: from, cycle_to: to, cycle_steps: steps } = at("legs");
+    const isFree = settings.value("boundary") === "free", rows = [];
+    const units = { length: this.solution?.length, pressure: this.solution?.pressure, force: this.solution?.length && "N" };
+    const scene = {
+      ...settings.scene(), [isFree ? "approaches" : "mean_gaps"]: `${from.value},${to.value},${from.value}`, steps: Number(steps.value),
+    };
+    let isDrawing = false;
+    const drawn = async () => {
+      if (isDrawing) return;
+      isDrawing = true;
+      await this.chart("loop", loop(rows, isFree, units));
+      isDrawing = false;
+    };
+    at("jumps").textContent = "";
+    const { shortfalls } = await engine.follow(scene, {
+      command: "cycle",
+      onstate: row => {
+        rows.push(row);
+        status(`Following the cycle: ${rows.length} states, ${row.direction}`);
+        drawn();
+      },
+    });
+    await this.chart("loop", loop(rows, isFree, units));
+    const jumps = rows.filter(row => row.energy_drop > 0);
+    const energy = units.length ? value => `${read(1e3 * value, "")} mJ/m²` : value => read(value, "");
+    const told = jumps.slice(0, 8).map(row => `${row.event} at ${read(row[isFree ? "approach" : "mean_gap"], units.length)}: ${energy(row.energy_drop)}`);
+    at("jumps").textContent = [
+      jumps.length ? `${jumps.length} jumps, by the energy per area that each dissipates: ${told.join("; ")}${jumps.length > 8 ? "; …" : ""}.`
+        : "No jump: approach and withdrawal are one curve.",
+      ...shortfalls].join(" ");
+    status(`The cycle has ${rows.length} states.`);
+    at("files").querySelector("[data-file='table.csv']").hidden = false;
+  }
+
+  /* Reads all maps at a node. */
+  probe(node, by = "pointer") {
+    this.node = node;
+    const { map, solution } = this, shape = this.solution?.shape ?? map?.shape;
+    at("probe").setAttribute("aria-live", by === "keys" ? "polite" : "off");
+    for (const shown of [...Object.values(this.maps), this.heights]) shown.mark(node && String(shown.shape) === String(shape) ? node : null);
+    at("probe").textContent = "";
+    if (!node || !shape || node.some((k, axis) => k >= shape[axis])) return;
+    const at_ = node[0] * shape[1] + node[1];
+    const lengths = solution?.lengths ?? map.lengths, length = solution?.length ?? map.unit ?? "";
+    const [x, y] = node.map((k, axis) => read(k * lengths[axis] / shape[axis], length));
+    const told = [];
+    if (String(map.shape) === String(shape)) told.push(`height ${read(map.heights[at_], map.unit ?? "")}`);
+    if (solution) {
+      const { fields: { contact, pressure, gap } } = solution;
+      told.push(`gap ${read(gap[at_], length)}`, `pressure ${read(pressure[at_], solution.pressure)}`,
+        ["apart", "contact", "nothing there", "attractive", "yielded"][contact[at_]]);
+    }
+    at("probe").textContent = `x ${x}, y ${y}: ${told.join(", ")}`;
+  }
+}
+
+try {
+  new Page(await Engine.start());
+} catch (error) {
+  at("failure").textContent = `The solver did not start: ${error.message}`;
+  at("failure").hidden = false;
+}

@@ -1,0 +1,197 @@
+/* The settings: what the form asks for, in the words of the engine, and the places of its faults. */
+
+import { read, typed, written } from "./quantity.js";
+
+/* The parameters of laws: their names, and the quantities to begin with. */
+const PARAMETERS = {
+  work_of_adhesion: ["Work of adhesion w", "50mJ/m2"],
+  range: ["Range ρ", "2nm"],
+  exponent: ["Exponent n", "3"],
+  hamaker: ["Hamaker’s constant A", "1e-19J"],
+};
+
+/* What a key without an input of its own belongs to. */
+const PLACES = {
+  load: ["mean_pressure", "mean_gap", "normal_force", "approach"],
+  cycle: ["mean_gaps", "approaches", "steps"],
+  make: ["rms_slope", "rms_height", "hurst", "k_l", "k_r", "k_s", "seed", "size", "shape"],
+  prepare: ["align_rows", "remove_scars", "despike", "remove_form", "detrend", "fill", "window", "mirror", "resample"],
+};
+
+/* The nodes along y of a map that gets so many along x. */
+const resampled = (nodes, [nx, ny]) => [nodes, Math.max(1, Math.round(nodes * ny / nx))];
+
+export class Settings {
+  /* `onchange(what)` is called with what has changed: "surface", "steps" or "scene". */
+  constructor(form, laws, onchange) {
+    this.form = form;
+    this.laws = laws.filter(({ needs }) => !needs.includes("law_table"));
+    form.law.replaceChildren(...this.laws.map(({ name }) => new Option(name)));
+    this.chooseLaw();
+    this.show();
+    form.addEventListener("submit", event => event.preventDefault());
+    form.addEventListener("input", ({ target }) => {
+      if (target.dataset.for) this.slide(target);
+      if (target.name === "law") this.chooseLaw();
+      this.show();
+      // a text is complete when it is left or entered
+      if (target.matches("input.quantity, [type=number]")) return;
+      this.changed(target, onchange);
+    });
+    form.addEventListener("change", ({ target }) => {
+      if (target.matches("input.quantity, [type=number]")) this.changed(target, onchange);
+    });
+  }
+
+  changed(input, onchange) {
+    const isStep = input.closest("[data-form=file]") && input.name !== "channel";
+    onchange(isStep ? "steps" : input.closest("#surface") ? "surface" : "scene");
+  }
+
+  value(name) {
+    const input = this.form[name];
+    return input.type === "checkbox" ? input.checked : input.value.trim();
+  }
+
+  get isFile() {
+    return this.value("form") === "file";
+  }
+
+  /* The number of the channel that is read. */
+  get channel() {
+    return this.value("channel") || undefined;
+  }
+
+  /* Turns to a file that is opened. */
+  takeFile(name) {
+    const { form } = this;
+    form.querySelector("option[value=file]").hidden = false;
+    form.form.value = "file";
+    document.getElementById("opened").textContent = name;
+    this.show();
+  }
+
+  /* Takes what a file has, and the steps that its warnings ask for. */
+  takeMap({ name, shape, lengths, unit, missing, channels, unread, warnings }) {
+    const { form } = this, has = code => warnings.some(warning => warning.code === code);
+    for (const input of form.querySelectorAll("[data-form=file] :is(input, select)")) {
+      if (input.type === "checkbox") input.checked = false;
+      else input.value = "";
+    }
+    form.channel.replaceChildren(...channels.map(text => new Option(text, text.split(":")[0])));
+    form.channel.parentElement.hidden = channels.length < 2;
+    if (has("tilt")) form.detrend.value = "plane";
+    if (missing) form.holes.value = "fill";
+    const told = [name, `${shape.join(" × ")} nodes`];
+    if (lengths) told.push(lengths.map(side => read(side, unit ?? "")).join(" × "));
+    if (missing) told.push(`${missing} missing points`);
+    if (unread.length) told.push(`beside it ${unread.join(", ")}`);
+    document.getElementById("opened").textContent = told.join(", ");
+  }
+
+  /* Shows the inputs that belong to what is chosen, and the numbers of the sliders. */
+  show() {
+    const { form } = this, of = this.value("form"), size = Number(this.value("size"));
+    for (const part of form.querySelectorAll("[data-form]")) {
+      const which = part.dataset.form;
+      part.hidden = which !== of && !(which === "made" && of !== "file");
+    }
+    for (const part of form.querySelectorAll("[data-body]")) part.hidden = !part.dataset.body.split(" ").includes(this.value("body"));
+    form.k_s.max = size / 4;
+    for (const slider of form.querySelectorAll("input[type=range][name]")) {
+      slider.parentElement.querySelector("output").textContent = this.number(slider);
+    }
+    for (const slider of form.querySelectorAll("[data-for]")) {
+      const input = form[slider.dataset.for], side = typed(this.value(input.dataset.scale)), found = typed(input.value);
+      if (side && found?.value > 0) slider.value = Math.log10(found.value / side.value);
+    }
+  }
+
+  /* The number of a slider; of one for powers of ten to two digits. */
+  number({ value, dataset }) {
+    return "power" in dataset ? Number((10 ** value).toPrecision(2)) : Number(value);
+  }
+
+  /* A slider of a quantity, in powers of ten of another one. */
+  slide(slider) {
+    const input = this.form[slider.dataset.for], side = typed(this.value(input.dataset.scale));
+    if (side) input.value = written(side.value * 10 ** slider.value, side.unit);
+  }
+
+  chooseLaw() {
+    const law = this.laws.find(({ name }) => name === this.value("law"));
+    const kept = new Map([...document.querySelectorAll("#parameters input")].map(input => [input.name, input.value]));
+    this.kept = new Map([...this.kept ?? [], ...kept]);
+    const input = (name, text, value, hint = "") => {
+      const label = document.createElement("label"), made = document.createElement("input"), error = document.createElement("output");
+      label.append(text, " ", made);
+      Object.assign(made, { name, className: "quantity", value: this.kept.get(name) ?? value, placeholder: hint, spellcheck: false });
+      error.className = "error";
+      error.dataset.of = name;
+      return [label, error];
+    };
+    const all = law.needs.flatMap(name => input(name, PARAMETERS[name][0], PARAMETERS[name][1]));
+    if (law.never_ends) all.push(...input("cut_off", "Cut off at a gap of", "", "nowhere"));
+    document.getElementById("parameters").replaceChildren(...all);
+  }
+
+  /* The parameters of a surface to be made. */
+  made() {
+    const form = this.value("form"), number = name => this.number(this.form[name]);
+    const common = { form, size: Number(this.value("size")), lengths: this.value("made_lengths") };
+    switch (form) {
+      case "sphere": return { ...common, radius: this.value("radius") };
+      case "wave": return { ...common, amplitude: this.value("amplitude"), periods: [number("periods_x"), number("periods_y")] };
+      default: return {
+        ...common, rms_slope: number("rms_slope"), hurst: number("hurst"), k_l: number("k_l"), k_s: number("k_s"),
+        seed: Number(this.value("seed")),
+      };
+    }
+  }
+
+  /* The steps of the preparation of an opened map of this shape. */
+  steps(shape) {
+    const given = name => this.value(name) || undefined, edges = this.value("edges");
+    const several = text => text?.split(/[\s,;×]+/);
+    const mirrored = edges === "mirror" ? shape.map(n => n === 1 ? 1 : 2 * n) : shape;
+    const nodes = Number(this.value("resample"));
+    return {
+      lengths: several(given("lengths")), unit: given("unit"), missing: several(given("missing"))?.map(Number),
+      align_rows: given("align_rows"), remove_scars: given("remove_scars") && 0.667, despike: given("despike") && 10,
+      remove_form: given("remove_form"), detrend: given("detrend"), fill: this.value("holes") === "fill" || undefined,
+      mirror: edges === "mirror" || undefined, window: edges === "window" ? 0.1 : undefined,
+      cut_off_wavelength: given("cut_off_wavelength"), resample: nodes ? resampled(nodes, mirrored) : undefined,
+    };
+  }
+
+  /* Body, adhesion and solver. */
+  scene() {
+    const scene = {};
+    const body = { "half-space": [], layer: ["layer", "poisson", "base"], coating: ["coating", "coating_modulus", "coating_poisson", "poisson"] };
+    const names = ["modulus", "boundary", "hardness", "law", "precision", ...body[this.value("body")]];
+    const law = [...document.querySelectorAll("#parameters input")].map(input => input.name);
+    for (const name of [...names, ...law]) if (this.value(name) !== "") scene[name] = this.value(name);
+    // a sphere ends beyond its radius
+    if (this.value("form") === "sphere" || this.isFile && this.value("holes") === "absent") scene.absent_missing = true;
+    return scene;
+  }
+
+  /* Puts a sentence at the input that it names, else at this one; false if the page has no place for it. */
+  static fault(message, otherwise) {
+    const outputs = [...document.querySelectorAll("output.error")].filter(output => !output.parentElement.closest("[hidden]"));
+    const words = message.match(/\w+/g) ?? [];
+    const place = name => Object.keys(PLACES).find(place => PLACES[place].includes(name)) ?? name;
+    const of = name => outputs.find(({ dataset }) => dataset.of === `made_${name}`) ?? outputs.find(({ dataset }) => dataset.of === name);
+    const output = words.map(place).map(of).find(Boolean) ?? of(otherwise);
+    if (!output) return false;
+    output.textContent = message;
+    const name = output.dataset.of;
+    document.getElementsByName(name === "load" ? "value" : name)[0]?.setAttribute("aria-invalid", "true");
+    return true;
+  }
+
+  static clearFaults() {
+    for (const output of document.querySelectorAll("output.error")) output.textContent = "";
+    for (const input of document.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
+  }
+}
