@@ -86,7 +86,7 @@ class Browser:
         answer = self("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             sys.exit(f"{answer['exceptionDetails']}")
-        return answer["result"]["value"]
+        return answer["result"].get("value")
 
     def mouse(self, kind, at, **params):
         self("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], **params)
@@ -99,11 +99,11 @@ class Browser:
     def wheel(self, at, turn):
         self.mouse("mouseWheel", at, deltaX=0, deltaY=turn)
 
-    def comes_true(self, condition):
-        """Whether a condition comes true within five seconds: scrolling takes a while."""
+    def comes_true(self, condition, times=100):
+        """Whether a condition comes true within so many twentieths of a second: scrolling takes a while."""
         return self.value(f"""new Promise(done => {{
           const look = times => ({condition}) || !times ? done(times > 0) : setTimeout(look, 50, times - 1);
-          look(100);
+          look({times});
         }})""")
 
     def drag(self, at, by):
@@ -114,7 +114,10 @@ class Browser:
         self.mouse("mouseReleased", to, button="left", clickCount=1)
 
     def key(self, key):
-        self("Input.dispatchKeyEvent", type="keyDown", key=key, text=key)
+        """Presses a key: a character, or an arrow such as ArrowLeft."""
+        arrows = ["ArrowLeft", "ArrowUp", "ArrowRight", "ArrowDown"]
+        more = {"windowsVirtualKeyCode": 37 + arrows.index(key), "code": key} if key in arrows else {"text": key}
+        self("Input.dispatchKeyEvent", type="keyDown", key=key, **more)
         self("Input.dispatchKeyEvent", type="keyUp", key=key)
 
     def picture(self, path):

@@ -2,8 +2,12 @@
 
 const FILES = {
   "fields.npz": "Fields", "contact.png": "Picture of the contact", "pressure.png": "Picture of the pressure",
-  "heights.npz": "Heights", "scene.toml": "Scene", "report.json": "Report", "table.csv": "Table of the cycle",
+  "heights.npz": "Heights", "scene.toml": "Scene", "report.json": "Report", "start.npy": "Gap at the start",
+  "table.csv": "Table of the cycle",
 };
+
+/* Those that are not always there. */
+const SOMETIMES = ["start.npy", "table.csv"];
 
 /* Takes files that are chosen, or dropped anywhere on the page. */
 export function files(onfile) {
@@ -33,7 +37,7 @@ export function files(onfile) {
 export function takeAway(engine, onerror) {
   const buttons = Object.entries(FILES).map(([file, text]) => {
     const button = document.createElement("button");
-    Object.assign(button, { type: "button", textContent: text, title: file, hidden: file === "table.csv" });
+    Object.assign(button, { type: "button", textContent: text, title: file, hidden: SOMETIMES.includes(file) });
     button.dataset.file = file;
     button.addEventListener("click", () => save(engine, file).catch(onerror));
     return button;

@@ -95,7 +95,7 @@ class Page {
     this.wanted.clear();
     at("stage").classList.add("stale");
     if (error.name === "AbortError") return status("Cancelled. What is shown is what was found before.");
-    status("");
+    status("What is shown is the contact before.");
     const place = { surface: this.settings.isFile ? "heights" : "make", steps: "prepare", solve: "load" }[what] ?? what;
     if (Settings.fault(error.message, place)) return;
     at("failure").textContent = error.message;
@@ -193,10 +193,10 @@ class Page {
         status(`Solving at ${asked}: error ${error.toExponential(1)} of ${tolerance}, ${iteration} iterations`);
       },
     });
-    if (found) this.show(found, asked);
+    if (found) await this.show(found, asked);
   }
 
-  show({ account, rows, shortfalls, started, shape, lengths, unit, fields, limits, extremes, histograms }, asked) {
+  async show({ account, rows, shortfalls, started, shape, lengths, unit, fields, limits, extremes, histograms }, asked) {
     const { about } = this.engine, { colours } = about, length = unit ?? "", pressure = account.pressure_unit ?? "";
     const classes = [{ name: "apart", colour: [255, 255, 255] }, { name: "contact", colour: [0, 0, 0] },
       { name: "nothing there", colour: colours.missing }, { name: "attractive", colour: colours.attractive },
@@ -221,7 +221,8 @@ class Page {
     this.probe(this.node);
     const from = started === "last" ? ", from the contact before" : "";
     status(`${account.status[0].toUpperCase()}${account.status.slice(1)} at ${asked}: ${account.iterations} iterations${from}`);
-    this.chart("area", this.curves.chart());
+    await this.chart("area", this.curves.chart());
+    performance.mark("contact");
     this.wanted.add("rest");
   }
 
@@ -232,6 +233,7 @@ class Page {
     await this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
     const { shell, python } = await this.engine.lines();
     [at("command").textContent, at("python").textContent] = [shell.join("\n"), python];
+    this.offer("start.npy", shell.join().includes("start.npy"));
   }
 
   async chart(id, chart) {
@@ -266,11 +268,16 @@ class Page {
     const energy = units.length ? value => `${read(1e3 * value, "")} mJ/m²` : value => read(value, "");
     const told = jumps.slice(0, 8).map(row => `${row.event} at ${read(row[isFree ? "approach" : "mean_gap"], units.length)}: ${energy(row.energy_drop)}`);
     at("jumps").textContent = [
-      jumps.length ? `${jumps.length} jumps, by the energy per area that each dissipates: ${told.join("; ")}${jumps.length > 8 ? "; …" : ""}.`
+      jumps.length ? `Jumps: ${jumps.length}, with the energy per area that each dissipates: ${told.join("; ")}${jumps.length > 8 ? "; …" : ""}.`
         : "No jump: approach and withdrawal are one curve.",
       ...shortfalls].join(" ");
     status(`The cycle has ${rows.length} states.`);
-    at("files").querySelector("[data-file='table.csv']").hidden = false;
+    this.offer("table.csv", true);
+  }
+
+  /* Offers a file to take away, or no longer. */
+  offer(file, is) {
+    at("files").querySelector(`[data-file="${file}"]`).hidden = !is;
   }
 
   /* Reads all maps at a node. */
