@@ -1,13 +1,13 @@
 /* Files that come and go, and lines to copy. */
 
 const FILES = {
-  "fields.npz": "Fields", "contact.png": "Picture of the contact", "pressure.png": "Picture of the pressure",
-  "heights.npz": "Heights", "scene.toml": "Scene", "report.json": "Report", "start.npy": "Gap at the start",
+  "fields.npz": "Fields", "contact.png": "Picture",
+  "heights.npz": "Heights", "scene.toml": "Scene", "report.json": "Report", "start.npz": "Gap at the start",
   "table.csv": "Table of the cycle",
 };
 
 /* Those that are not always there. */
-const SOMETIMES = ["start.npy", "table.csv"];
+const SOMETIMES = ["start.npz", "table.csv"];
 
 /* Takes files that are chosen, or dropped anywhere on the page. */
 export function files(onfile) {
@@ -33,13 +33,13 @@ export function files(onfile) {
   });
 }
 
-/* The buttons that save files and copy lines. */
-export function takeAway(engine, onerror) {
+/* The buttons that save files, of which `get` has the content, and copy lines. */
+export function takeAway(get, onerror) {
   const buttons = Object.entries(FILES).map(([file, text]) => {
     const button = document.createElement("button");
     Object.assign(button, { type: "button", textContent: text, title: file, hidden: SOMETIMES.includes(file) });
     button.dataset.file = file;
-    button.addEventListener("click", () => save(engine, file).catch(onerror));
+    button.addEventListener("click", () => save(get, file).catch(onerror));
     return button;
   });
   document.getElementById("files").replaceChildren(...buttons);
@@ -48,8 +48,8 @@ export function takeAway(engine, onerror) {
   }
 }
 
-async function save(engine, file) {
-  const { name, type, bytes } = await engine.download(file);
+async function save(get, file) {
+  const { name, type, bytes } = await get(file);
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   Object.assign(document.createElement("a"), { href: url, download: name }).click();
   setTimeout(URL.revokeObjectURL, 60_000, url);

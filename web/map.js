@@ -18,11 +18,8 @@ const shade = (scale, share) => {
   return scale.subarray(at, at + 3);
 };
 
-/* A part of a scale as a strip. */
-const strip = (scale, from, to) => {
-  const stops = Array.from({ length: 17 }, (_, k) => css(shade(scale, from + (to - from) * k / 16)));
-  return `linear-gradient(to right, ${stops.join(",")})`;
-};
+/* The colours along a part of a scale. */
+const along = (scale, from, to) => Array.from({ length: 33 }, (_, k) => css(shade(scale, from + (to - from) * k / 32)));
 
 /* How values become colours: `index` of 256 that are packed in `table`, and the key of the map. */
 export const colouring = {
@@ -46,7 +43,7 @@ const scaled = (scale, missing, share, ranges, unit) => {
   const table = Uint32Array.from({ length: 256 }, (_, k) => packed(k < 255 ? shade(scale, k / 254) : missing));
   const index = value => Number.isFinite(value) ? Math.round(254 * Math.min(1, Math.max(0, share(value)))) : 255;
   const key = () => ranges.map(([low, high, from, to]) =>
-    ({ low: read(low, unit), high: read(high, unit), strip: strip(scale, from, to) }));
+    ({ low: read(low, unit), high: read(high, unit), colours: along(scale, from, to) }));
   return { table, index, key };
 };
 
@@ -54,8 +51,8 @@ export class FieldMap {
   /* `onprobe(node, by)` is called with the node under the pointer, or that the arrow keys reach; null where there is none. */
   constructor(parent, title, onprobe) {
     this.figure = element("figure", "map", parent);
-    this.caption = element("figcaption", "", this.figure);
-    this.caption.textContent = title;
+    this.title = title;
+    element("figcaption", "", this.figure).textContent = title;
     this.field = element("div", "field", this.figure);
     this.field.tabIndex = 0;
     this.field.setAttribute("role", "img");
@@ -97,10 +94,12 @@ export class FieldMap {
     if (values instanceof Uint8Array) for (const value of values) found.add(value);
     context.putImageData(image, 0, 0);
     // up to 5 : 1, as the pictures
-    canvas.style.aspectRatio = Math.min(5, Math.max(0.2, ny === 1 ? 5 : lx / ly));
+    this.aspect = Math.min(5, Math.max(0.2, ny === 1 ? 5 : lx / ly));
+    canvas.style.aspectRatio = this.aspect;
     canvas.style.imageRendering = nx > canvas.clientWidth * devicePixelRatio ? "auto" : "pixelated";
     this.measure(lx, unit);
-    this.key.replaceChildren(...colours.key(found).flatMap(entry => {
+    this.entries = colours.key(found);
+    this.key.replaceChildren(...this.entries.flatMap(entry => {
       const text = document.createElement("span");
       if (entry.name) {
         element("i", "", text).style.background = entry.colour;
@@ -108,7 +107,7 @@ export class FieldMap {
         return [text];
       }
       const bar = element("span", "ramp"), high = document.createElement("span");
-      bar.style.background = entry.strip;
+      bar.style.background = `linear-gradient(to right, ${entry.colours.join(",")})`;
       [text.textContent, high.textContent] = [entry.low, entry.high];
       return [text, bar, high];
     }));
@@ -118,9 +117,10 @@ export class FieldMap {
   measure(lx, unit) {
     const most = 0.25 * lx, power = 10 ** Math.floor(Math.log10(most));
     const nice = [5, 2, 1].find(step => step * power <= most * (1 + 1e-9)) * power;
+    this.bar = { share: nice / lx, text: read(nice, unit) };
     this.scale.hidden = !Number.isFinite(nice);
-    this.scale.style.width = `${100 * nice / lx}%`;
-    this.scale.textContent = read(nice, unit);
+    this.scale.style.width = `${100 * this.bar.share}%`;
+    this.scale.textContent = this.bar.text;
   }
 
   /* Marks a node, or none. */

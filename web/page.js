@@ -4,6 +4,7 @@ import { Curves, distribution, loop } from "./charts.js";
 import { Engine } from "./engine.js";
 import { Load } from "./load.js";
 import { FieldMap, colouring } from "./map.js";
+import { picture } from "./picture.js";
 import { read, typed, written } from "./quantity.js";
 import { Settings } from "./settings.js";
 import { files, takeAway } from "./files.js";
@@ -44,10 +45,12 @@ class Page {
     this.settings = new Settings(at("settings"), engine.about.laws, what => this.want(what));
     this.load = new Load(at("load"), () => this.want("solve"));
     at("version").textContent = `asperity ${engine.about.version}`;
-    at("cancel").addEventListener("click", () => {
+    const cancel = () => {
       this.wanted.clear();
-      engine.cancel();
-    });
+      if (this.isBusy) engine.cancel();
+    };
+    at("cancel").addEventListener("click", cancel);
+    document.addEventListener("keydown", event => event.key === "Escape" && cancel());
     at("legs").addEventListener("submit", event => {
       event.preventDefault();
       this.want("cycle");
@@ -58,7 +61,8 @@ class Page {
       at("area").replaceChildren();
     });
     files(file => this.open(file));
-    takeAway(engine, error => this.failed(error));
+    const drawn = () => picture(Object.values(this.maps), at("figures").innerText.replace(/\n+/g, "  "));
+    takeAway(file => file === "contact.png" ? drawn() : engine.download(file), error => this.failed(error));
     this.want("surface");
   }
 
@@ -233,7 +237,7 @@ class Page {
     await this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
     const { shell, python } = await this.engine.lines();
     [at("command").textContent, at("python").textContent] = [shell.join("\n"), python];
-    this.offer("start.npy", shell.join().includes("start.npy"));
+    this.offer("start.npz", shell.join().includes("start.npz"));
   }
 
   async chart(id, chart) {
@@ -305,6 +309,8 @@ class Page {
 try {
   new Page(await Engine.start());
 } catch (error) {
-  at("failure").textContent = `The solver did not start: ${error.message}`;
+  document.body.classList.remove("busy");
+  status("");
+  at("failure").textContent = `The solver does not start in this browser: ${error.message}`;
   at("failure").hidden = false;
 }

@@ -4,7 +4,7 @@
     web/tests/page.py BROWSER TOOL SITE
 
 The page is served from the folder SITE to a browser that loses its network once the page has loaded. Exits with 1 and
-the complaints if something is not as it should be. Pictures are in target/web.
+the complaints if something is not as it should be. Pictures are in target/web-pictures.
 """
 
 import functools
@@ -23,7 +23,7 @@ sys.path.insert(0, str(ROOT / ".ci"))
 from browser import Browser  # noqa: E402
 
 WINDOWS = {"desk": (1280, 900), "phone": (390, 844)}
-PICTURES = ROOT / "target" / "web"
+PICTURES = ROOT / "target" / "web-pictures"
 
 # twentieths of a second in which the page has to answer, on a loaded machine
 PATIENCE = 1000
@@ -282,8 +282,8 @@ def check_scene(page, name, given, tool, folder):
 def compare(page, state, tool, folder):
     """Runs the lines of a state in a shell, and compares the contact."""
     folder.mkdir(exist_ok=True)
-    if "start.npy" in state["command"]:
-        page.save("start.npy", folder)
+    if "start.npz" in state["command"]:
+        page.save("start.npz", folder)
     (folder / "asperity").symlink_to(tool)
     ran = subprocess.run(["bash", "-ec", f'PATH="$PWD:$PATH"; {state["command"]}'], cwd=folder, capture_output=True, text=True)
     page.told(ran.returncode == 0, f"the copied line fails: {ran.stderr}")
