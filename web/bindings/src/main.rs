@@ -1,0 +1,13 @@
+//! Writes the JavaScript module beside a WebAssembly one: `asperity-web-bindings IN.wasm DIR`.
+
+use std::env;
+use std::error::Error;
+
+use wasm_bindgen_cli_support::Bindgen;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let [input, folder] = &env::args().skip(1).collect::<Vec<_>>()[..] else {
+        return Err("give the .wasm and a folder".into());
+    };
+    Ok(Bindgen::new().input_path(input).web(true)?.typescript(false).generate(folder)?)
+}
