@@ -61,7 +61,8 @@ class Page {
       at("area").replaceChildren();
     });
     files(file => this.open(file));
-    const drawn = () => picture(Object.values(this.maps), at("figures").innerText.replace(/\n+/g, "  "));
+    const told = () => [...at("figures").children].map(entry => [...entry.children].map(part => part.textContent).join(" "));
+    const drawn = () => picture(Object.values(this.maps), told().join(", "));
     takeAway(file => file === "contact.png" ? drawn() : engine.download(file), error => this.failed(error));
     this.want("surface");
   }
@@ -117,11 +118,11 @@ class Page {
     const { engine, settings, file } = this;
     status("Reading the surface");
     if (!settings.isFile) {
-      const made = settings.made(), isOther = made.form !== this.form;
+      const made = settings.made();
+      this.isOther ||= made.form !== this.form;
       const map = await engine.make(made);
       this.form = made.form;
-      at("steps").replaceChildren();
-      return this.found(map, isOther);
+      return this.found(map);
     }
     const channel = file.isNew ? undefined : settings.channel;
     let map = await engine.open(file.name, file.bytes, { channel });
@@ -137,14 +138,16 @@ class Page {
   /* The surface: the map after the steps of its preparation. */
   async steps(isOther = false) {
     const { engine, settings, measured } = this;
-    const map = await engine.prepare(settings.steps(measured.shape));
-    const { log } = map;
-    list("steps", log.map(([step, what]) => `${step}: ${what}`));
-    return this.found(map, isOther);
+    this.isOther ||= isOther;
+    let map = await engine.prepare(settings.steps(measured.shape));
+    // the tilt is known with the side lengths
+    if (this.isOther && settings.takeWarnings(map.warnings)) map = await engine.prepare(settings.steps(measured.shape));
+    list("steps", map.log.map(([step, what]) => `${step}: ${what}`));
+    return this.found(map);
   }
 
   /* Takes a surface, which may be one of another kind, and asks for its contact. */
-  async found(map, isOther) {
+  async found(map) {
     const { colours } = this.engine.about;
     const lengths = map.lengths ?? map.shape;
     this.heights.show({
@@ -153,11 +156,10 @@ class Page {
     });
     list("doubts", map.warnings.map(({ message }) => message));
     this.map = map;
-    if (!map.lengths) throw new Error("lengths: the file has no side lengths, type them, as 20um, or 20um 10um");
+    if (!map.lengths) throw new Error("the file has no side lengths: type them, as 20um, or 20um 10um");
     const { figures, rows } = await this.engine.statistics();
     table("statistics", rows);
     this.slope = figures.rms_slope ?? figures.rms_slope_differences;
-    this.isOther ||= isOther;
     this.wanted.add("scene");
   }
 
@@ -165,8 +167,10 @@ class Page {
   scene() {
     const { map, settings } = this;
     if (!map?.lengths) return;
+    this.wanted.add("solve");
     const modulus = typed(settings.value("modulus"));
-    if (!modulus) throw new Error(`modulus: ${settings.value("modulus")} is no pressure: type it as 70GPa`);
+    // the engine says what is wrong with it
+    if (!modulus) return;
     // lengths in metres where they have units
     const scale = modulus.unit ? typed(`1${map.unit ?? "m"}`)?.value ?? 1 : 1, length = modulus.unit && "m";
     const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
@@ -175,7 +179,6 @@ class Page {
     if (this.isOther || !this.legsTyped) this.fitLegs(lowest, highest, length);
     this.isOther = false;
     this.curves.begin(JSON.stringify([settings.made(), this.file?.name, settings.steps([1, 1]), settings.scene()]));
-    this.wanted.add("solve");
   }
 
   /* A cycle from where the surfaces are apart. */
@@ -220,11 +223,14 @@ class Page {
       entry.append(term, value);
       return entry;
     }));
-    list("warnings", [...shortfalls, ...account.warnings.map(({ message }) => message)]);
+    const warnings = [...shortfalls, ...account.warnings.map(({ message }) => message)];
+    list("warnings", warnings);
     at("stage").classList.remove("stale");
     this.probe(this.node);
     const from = started === "last" ? ", from the contact before" : "";
     status(`${account.status[0].toUpperCase()}${account.status.slice(1)} at ${asked}: ${account.iterations} iterations${from}`);
+    at("warned").hidden = !warnings.length;
+    at("warned").textContent = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;
     await this.chart("area", this.curves.chart());
     performance.mark("contact");
     this.wanted.add("rest");

@@ -10,10 +10,14 @@ const PARAMETERS = {
   hamaker: ["Hamaker’s constant A", "1e-19J"],
 };
 
+/* What need not be said. */
+const DEFAULTS = { boundary: "periodic", law: "none", precision: "f64" };
+
 /* What a key without an input of its own belongs to. */
 const PLACES = {
   load: ["mean_pressure", "mean_gap", "normal_force", "approach"],
   cycle: ["mean_gaps", "approaches", "steps"],
+  lengths: ["Lx", "Ly"],
   make: ["rms_slope", "rms_height", "hurst", "k_l", "k_r", "k_s", "seed", "size", "shape"],
   prepare: ["align_rows", "remove_scars", "despike", "remove_form", "detrend", "fill", "window", "mirror", "resample"],
 };
@@ -71,22 +75,28 @@ export class Settings {
     this.show();
   }
 
-  /* Takes what a file has, and the steps that its warnings ask for. */
-  takeMap({ name, shape, lengths, unit, missing, channels, unread, warnings }) {
-    const { form } = this, has = code => warnings.some(warning => warning.code === code);
+  /* Takes what a file has; its missing points are filled. */
+  takeMap({ name, shape, lengths, unit, missing, channels, unread }) {
+    const { form } = this;
     for (const input of form.querySelectorAll("[data-form=file] :is(input, select)")) {
       if (input.type === "checkbox") input.checked = false;
       else input.value = "";
     }
     form.channel.replaceChildren(...channels.map(text => new Option(text, text.split(":")[0])));
     form.channel.parentElement.hidden = channels.length < 2;
-    if (has("tilt")) form.detrend.value = "plane";
     if (missing) form.holes.value = "fill";
     const told = [name, `${shape.join(" × ")} nodes`];
     if (lengths) told.push(lengths.map(side => read(side, unit ?? "")).join(" × "));
     if (missing) told.push(`${missing} missing points`);
     if (unread.length) told.push(`beside it ${unread.join(", ")}`);
     document.getElementById("opened").textContent = told.join(", ");
+  }
+
+  /* Takes a plane off a map that is tilted; false if there is nothing to do. */
+  takeWarnings(warnings) {
+    const is = warnings.some(({ code }) => code === "tilt") && !this.value("detrend");
+    if (is) this.form.detrend.value = "plane";
+    return is;
   }
 
   /* Shows the inputs that belong to what is chosen, and the numbers of the sliders. */
@@ -170,7 +180,10 @@ export class Settings {
     const body = { "half-space": [], layer: ["layer", "poisson", "base"], coating: ["coating", "coating_modulus", "coating_poisson", "poisson"] };
     const names = ["modulus", "boundary", "hardness", "law", "precision", ...body[this.value("body")]];
     const law = [...document.querySelectorAll("#parameters input")].map(input => input.name);
-    for (const name of [...names, ...law]) if (this.value(name) !== "") scene[name] = this.value(name);
+    for (const name of [...names, ...law]) {
+      const value = this.value(name);
+      if (value !== "" && value !== DEFAULTS[name]) scene[name] = value;
+    }
     // a sphere ends beyond its radius
     if (this.value("form") === "sphere" || this.isFile && this.value("holes") === "absent") scene.absent_missing = true;
     return scene;
