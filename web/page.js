@@ -12,8 +12,9 @@ import { files, takeAway } from "./files.js";
 const at = id => document.getElementById(id);
 
 /* The rows of a summary that stand beside the maps. */
+const GRID_ERROR = "error of the grid";
 const FIGURES = ["contact", "corrected for its edge", "mean pressure", "mean gap", "normal force", "approach",
-  "certified error", "error of the grid", "time"];
+  "certified error", "time", GRID_ERROR];
 
 /* What may be asked for, in the order in which it is done. */
 const ORDER = ["surface", "steps", "scene", "solve", "cycle", "rest"];
@@ -32,6 +33,21 @@ const table = (id, rows) => at(id).replaceChildren(...rows.map(([name, text]) =>
   row.append(head, cell);
   return row;
 }));
+
+/* A command on lines of some eighty characters; one with quoted words stays as it is. */
+const folded = command => /['"\\]/.test(command) ? command : command.split(/ (?=--)/).reduce((lines, option) => {
+  const before = lines.slice(lines.lastIndexOf("\n") + 1);
+  return before.length + option.length > 78 ? `${lines} \\\n    ${option}` : `${lines} ${option}`;
+});
+
+/* A figure under its name. */
+const figure = (name, content) => {
+  const entry = document.createElement("div"), term = document.createElement("dt"), value = document.createElement("dd");
+  term.textContent = name;
+  value.append(content);
+  entry.append(term, value);
+  return entry;
+};
 
 class Page {
   constructor(engine) {
@@ -176,15 +192,21 @@ class Page {
     const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
     const area = map.lengths[0] * (map.lengths[1] || 1) * scale ** 2;
     this.load.fit({ lowest, highest, slope: this.slope, area, length }, modulus, settings.value("boundary"), this.isOther);
+    if (this.isOther) this.curves.forget();
     if (this.isOther || !this.legsTyped) this.fitLegs(lowest, highest, length);
     this.isOther = false;
+    at("loop").replaceChildren();
+    at("jumps").textContent = "";
+    this.offer("table.csv", false);
     this.curves.begin(JSON.stringify([settings.made(), this.file?.name, settings.steps([1, 1]), settings.scene()]));
   }
 
   /* A cycle from where the surfaces are apart. */
   fitLegs(lowest, highest, length) {
     const range = typed(this.settings.scene().range ?? "0")?.value ?? 0, high = highest - lowest;
-    const [from, to] = this.settings.value("boundary") === "free" ? [-5 * range, 0.2 * high] : [highest + 5 * range, 0.3 * highest];
+    const isFree = this.settings.value("boundary") === "free";
+    at("from").textContent = isFree ? "from an approach of" : "from a gap of";
+    const [from, to] = isFree ? [-5 * range, 0.2 * high] : [highest + 5 * range, 0.3 * highest];
     [at("legs").cycle_from.value, at("legs").cycle_to.value] = [from, to].map(value => written(value, length));
     this.legsTyped = false;
   }
@@ -194,12 +216,13 @@ class Page {
     const asked = Object.values(this.load.scene)[0];
     status(`Solving at ${asked}`);
     const found = await this.engine.solve({ ...this.settings.scene(), ...this.load.scene }, {
-      start: "last", fields: ["contact", "pressure", "gap"], histograms: 60,
+      start: this.start ?? "last", fields: ["contact", "pressure", "gap"], histograms: 60,
       onprogress: ({ iteration, error, tolerance, nodes }) => {
         at("progress").value = Math.min(1, Math.max(0, Math.log(error) / Math.log(tolerance)));
         status(`Solving at ${asked}: error ${error.toExponential(1)} of ${tolerance}, ${iteration} iterations`);
       },
     });
+    this.start = null;
     if (found) await this.show(found, asked);
   }
 
@@ -217,12 +240,7 @@ class Page {
     this.histograms = histograms;
     this.curves.add(account);
     table("rows", rows);
-    at("figures").replaceChildren(...FIGURES.flatMap(name => rows.filter(row => row[0] === name)).map(([name, text]) => {
-      const entry = document.createElement("div"), term = document.createElement("dt"), value = document.createElement("dd");
-      [term.textContent, value.textContent] = [name, text];
-      entry.append(term, value);
-      return entry;
-    }));
+    this.figures(rows, started);
     const warnings = [...shortfalls, ...account.warnings.map(({ message }) => message)];
     list("warnings", warnings);
     at("stage").classList.remove("stale");
@@ -236,13 +254,28 @@ class Page {
     this.wanted.add("rest");
   }
 
+  /* The figures beside the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
+  figures(rows, started) {
+    const entries = FIGURES.flatMap(name => rows.filter(row => row[0] === name)).map(([name, text]) => figure(name, text));
+    if (started === "last" && !rows.some(([name]) => name === GRID_ERROR)) {
+      const find = Object.assign(document.createElement("button"), { type: "button", textContent: "find" });
+      find.title = "Solves once more, by way of coarser grids";
+      find.addEventListener("click", () => {
+        this.start = "default";
+        this.want("solve");
+      });
+      entries.push(figure(GRID_ERROR, find));
+    }
+    at("figures").replaceChildren(...entries);
+  }
+
   /* What may wait while the load is dragged. */
   async rest() {
     const { histograms: { gap, contact_pressure }, solution: { length, pressure } } = this;
     await this.chart("pressures", distribution(contact_pressure, "contact pressure", pressure, "nodes in contact"));
     await this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
     const { shell, python } = await this.engine.lines();
-    [at("command").textContent, at("python").textContent] = [shell.join("\n"), python];
+    [at("command").textContent, at("python").textContent] = [shell.map(folded).join("\n"), python];
     this.offer("start.npz", shell.join().includes("start.npz"));
   }
 
@@ -275,12 +308,11 @@ class Page {
     });
     await this.chart("loop", loop(rows, isFree, units));
     const jumps = rows.filter(row => row.energy_drop > 0);
-    const energy = units.length ? value => `${read(1e3 * value, "")} mJ/m²` : value => read(value, "");
-    const told = jumps.slice(0, 8).map(row => `${row.event} at ${read(row[isFree ? "approach" : "mean_gap"], units.length)}: ${energy(row.energy_drop)}`);
-    at("jumps").textContent = [
-      jumps.length ? `Jumps: ${jumps.length}, with the energy per area that each dissipates: ${told.join("; ")}${jumps.length > 8 ? "; …" : ""}.`
-        : "No jump: approach and withdrawal are one curve.",
-      ...shortfalls].join(" ");
+    const told = jumps.slice(0, 8).map(row =>
+      `${row.event} at ${read(row[isFree ? "approach" : "mean_gap"], units.length)}: ${read(row.energy_drop, units.length && "J/m²")}`);
+    const more = jumps.length > told.length ? "; …" : "";
+    const sentence = jumps.length ? `Jumps: ${jumps.length}, with the energy per area that each dissipates: ${told.join("; ")}${more}.` : "There is no jump.";
+    at("jumps").textContent = [sentence, ...shortfalls].join(" ");
     status(`The cycle has ${rows.length} states.`);
     this.offer("table.csv", true);
   }
