@@ -9,5 +9,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [input, folder] = &env::args().skip(1).collect::<Vec<_>>()[..] else {
         return Err("give the .wasm and a folder".into());
     };
-    Ok(Bindgen::new().input_path(input).web(true)?.typescript(false).generate(folder)?)
+    let mut bindgen = Bindgen::new();
+    // names of functions are a tenth of the size
+    bindgen.input_path(input).typescript(false).remove_name_section(true).remove_producers_section(true);
+    Ok(bindgen.web(true)?.generate(folder)?)
 }
