@@ -12,6 +12,9 @@ import tempfile
 # what a browser does by itself on the network
 SILENT = "disable-quic disable-background-networking disable-component-update disable-sync".split()
 
+# the numbers of keys with a name
+KEYS = {"Escape": 27, "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40}
+
 # seconds until a browser that is silent has failed
 PATIENCE = 60
 
@@ -114,9 +117,8 @@ class Browser:
         self.mouse("mouseReleased", to, button="left", clickCount=1)
 
     def key(self, key):
-        """Presses a key: a character, or an arrow such as ArrowLeft."""
-        arrows = ["ArrowLeft", "ArrowUp", "ArrowRight", "ArrowDown"]
-        more = {"windowsVirtualKeyCode": 37 + arrows.index(key), "code": key} if key in arrows else {"text": key}
+        """Presses a key: a character, or one of those with a name."""
+        more = {"windowsVirtualKeyCode": KEYS[key], "code": key} if key in KEYS else {"text": key}
         self("Input.dispatchKeyEvent", type="keyDown", key=key, **more)
         self("Input.dispatchKeyEvent", type="keyUp", key=key)
 

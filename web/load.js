@@ -30,14 +30,16 @@ export class Load {
   /* Fits the loads to a surface: its heights over their mean, slope, sides and area, all in units of `length`, and the
      modulus; `again` begins anew. */
   fit({ lowest, highest, slope, area, length }, { value: modulus, unit }, boundary, again) {
-    const free = boundary === "free", full = modulus * slope, pressures = [1e-3 * full, 2 * full];
+    // a flat surface has loads, too
+    const free = boundary === "free", full = modulus * (slope || 0.01), pressures = [1e-3 * full, 2 * full];
+    const high = highest || 0.01 * Math.sqrt(area), deep = highest - lowest || high;
     this.units = { mean_pressure: unit, mean_gap: length, normal_force: unit && "N", approach: length };
     this.ranges = {
       mean_pressure: { log: pressures },
       normal_force: { log: pressures.map(pressure => pressure * area) },
       // more load is less gap
-      mean_gap: { log: [1.3 * highest, 3e-3 * highest] },
-      approach: { linear: [-0.1 * (highest - lowest), 0.5 * (highest - lowest)] },
+      mean_gap: { log: [1.3 * high, 3e-3 * high] },
+      approach: { linear: [-0.1 * deep, 0.5 * deep] },
     };
     for (const option of this.control.options) {
       option.hidden = option.disabled = option.value === (free ? "mean_gap" : "approach");

@@ -241,7 +241,8 @@ class Page {
     this.curves.add(account);
     table("rows", rows);
     this.figures(rows, started);
-    const warnings = [...shortfalls, ...account.warnings.map(({ message }) => message)];
+    const known = this.map.warnings.map(({ message }) => message);
+    const warnings = [...shortfalls, ...account.warnings.map(({ message }) => message).filter(text => !known.includes(text))];
     list("warnings", warnings);
     at("stage").classList.remove("stale");
     this.probe(this.node);

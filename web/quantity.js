@@ -14,7 +14,7 @@ export function typed(text) {
 function parts(value, unit, digits) {
   const rounded = Number(value.toPrecision(digits));
   if (!["m", "Pa", "N", "J", "J/m²"].includes(unit) || rounded === 0 || !Number.isFinite(rounded)) return [String(rounded), unit ?? ""];
-  const power = Math.min(12, Math.max(-15, 3 * Math.floor(Math.log10(Math.abs(rounded)) / 3 + 1e-9)));
+  const power = Math.min(9, Math.max(-12, 3 * Math.floor(Math.log10(Math.abs(rounded)) / 3 + 1e-9)));
   const prefix = Object.keys(POWERS).find(name => POWERS[name] === power);
   return [String(Number((rounded / 10 ** power).toPrecision(digits))), prefix + unit];
 }
