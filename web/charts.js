@@ -42,6 +42,15 @@ export function distribution({ from, to, density }, x_label, x_unit, y_label) {
   return { x_label, x_unit, x_log: false, y_label, y_unit: "%", y_log: false, curves: [["", sum > 0 ? points : []]], jumps: [] };
 }
 
+/* The power spectral density of a surface, averaged over directions. */
+export function spectrum({ wave_numbers, densities }, unit) {
+  const points = wave_numbers.map((wave, k) => [wave, densities[k]]).filter(point => point.every(value => value > 0));
+  return {
+    x_label: "wave number", x_unit: unit && `1/${unit}`, x_log: true,
+    y_label: "spectral density", y_unit: unit && `${unit}⁴`, y_log: true, curves: [["", points]], jumps: [],
+  };
+}
+
 /* A loop of approach and withdrawal: pressure over mean gap, or force over approach, broken where the state jumps. */
 export function loop(rows, isFree, units) {
   const [x, y] = isFree ? ["approach", "normal_force"] : ["mean_gap", "mean_pressure"];

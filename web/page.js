@@ -1,6 +1,6 @@
 /* The page: what is asked for goes to the engine, the newest of it alone, and what is found goes to the screen. */
 
-import { Curves, distribution, loop } from "./charts.js";
+import { Curves, distribution, loop, spectrum } from "./charts.js";
 import { Engine } from "./engine.js";
 import { Load } from "./load.js";
 import { FieldMap, colouring } from "./map.js";
@@ -173,9 +173,11 @@ class Page {
     list("doubts", map.warnings.map(({ message }) => message));
     this.map = map;
     if (!map.lengths) throw new Error("the file has no side lengths: type them, as 20um, or 20um 10um");
-    const { figures, rows } = await this.engine.statistics();
-    table("statistics", rows);
-    this.slope = figures.rms_slope ?? figures.rms_slope_differences;
+    const { figures, rows, histogram, spectrum } = await this.engine.statistics();
+    // of a map with missing points there are none
+    table("statistics", rows ?? []);
+    this.statistics = { histogram, spectrum };
+    this.slope = figures?.rms_slope ?? figures?.rms_slope_differences;
     this.wanted.add("scene");
   }
 
@@ -272,9 +274,11 @@ class Page {
 
   /* What may wait while the load is dragged. */
   async rest() {
-    const { histograms: { gap, contact_pressure }, solution: { length, pressure } } = this;
+    const { histograms: { gap, contact_pressure }, solution: { length, pressure }, statistics, map } = this;
     await this.chart("pressures", distribution(contact_pressure, "contact pressure", pressure, "nodes in contact"));
     await this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
+    if (statistics.histogram) await this.chart("heights", distribution(statistics.histogram, "height", map.unit, "nodes"));
+    if (statistics.spectrum) await this.chart("spectrum", spectrum(statistics.spectrum, map.unit));
     const { shell, python } = await this.engine.lines();
     [at("command").textContent, at("python").textContent] = [shell.map(folded).join("\n"), python];
     this.offer("start.npz", shell.join().includes("start.npz"));

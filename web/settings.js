@@ -109,7 +109,7 @@ export class Settings {
     for (const part of form.querySelectorAll("[data-body]")) part.hidden = !part.dataset.body.split(" ").includes(this.value("body"));
     form.k_s.max = size / 4;
     for (const slider of form.querySelectorAll("input[type=range][name]")) {
-      slider.parentElement.querySelector("output").textContent = this.number(slider);
+      slider.parentElement.querySelector(".number").textContent = this.number(slider);
     }
     for (const slider of form.querySelectorAll("[data-for]")) {
       const input = form[slider.dataset.for], side = typed(this.value(input.dataset.scale)), found = typed(input.value);
