@@ -30,9 +30,10 @@ export class Load {
   /* Fits the loads to a surface: its heights over their mean, slope, sides and area, all in units of `length`, and the
      modulus; `again` begins anew. */
   fit({ lowest, highest, slope, area, length }, { value: modulus, unit }, boundary, again) {
-    // a flat surface has loads, too
-    const free = boundary === "free", full = modulus * (slope || 0.01), pressures = [1e-3 * full, 2 * full];
-    const high = highest || 0.01 * Math.sqrt(area), deep = highest - lowest || high;
+    // a surface that is flat, or of absurd heights, has loads, too
+    const sound = (value, otherwise) => value > 0 && value < 1e50 ? value : otherwise;
+    const free = boundary === "free", full = modulus * sound(slope, 0.01), pressures = [1e-3 * full, 2 * full];
+    const high = sound(highest, 0.01 * Math.sqrt(area)), deep = sound(highest - lowest, high);
     this.units = { mean_pressure: unit, mean_gap: length, normal_force: unit && "N", approach: length };
     this.ranges = {
       mean_pressure: { log: pressures },

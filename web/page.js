@@ -118,7 +118,7 @@ class Page {
     if (error.name === "AbortError") return status("Cancelled. What is shown is what was found before.");
     status("What is shown is the contact before.");
     const place = { surface: this.settings.isFile ? "heights" : "make", steps: "prepare", solve: "load" }[what] ?? what;
-    if (Settings.fault(error.message, place)) return;
+    if (Settings.fault(error.message, place, error.isOfFile)) return;
     at("failure").textContent = error.message;
     at("failure").hidden = false;
   }
@@ -140,9 +140,12 @@ class Page {
       this.form = made.form;
       return this.found(map);
     }
-    const channel = file.isNew ? undefined : settings.channel;
-    let map = await engine.open(file.name, file.bytes, { channel });
-    if (!map.heights) map = { ...(await engine.open(file.name, file.bytes, { channel: map.channels[0].split(":")[0] })), channels: map.channels };
+    const read = channel => engine.open(file.name, file.bytes, { channel }).catch(error => {
+      throw Object.assign(error, { isOfFile: true });
+    });
+    let map = await read(file.isNew ? undefined : settings.channel);
+    // of several channels the first one
+    if (!map.heights) map = { ...await read(map.channels[0].split(":")[0]), channels: map.channels };
     this.form = "file";
     if (file.isNew) settings.takeMap(map);
     this.measured = map;

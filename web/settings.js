@@ -189,10 +189,10 @@ export class Settings {
     return scene;
   }
 
-  /* Puts a sentence at the input that it names, else at this one; false if the page has no place for it. */
-  static fault(message, otherwise) {
+  /* Puts a sentence at the input that it names, else, or if it is of a file, at this one; false if there is no place. */
+  static fault(message, otherwise, isOfFile) {
     const outputs = [...document.querySelectorAll("output.error")].filter(output => !output.parentElement.closest("[hidden]"));
-    const words = message.match(/\w+/g) ?? [];
+    const words = isOfFile ? [] : message.match(/\w+/g) ?? [];
     const place = name => Object.keys(PLACES).find(place => PLACES[place].includes(name)) ?? name;
     const of = name => outputs.find(({ dataset }) => dataset.of === `made_${name}`) ?? outputs.find(({ dataset }) => dataset.of === name);
     const output = words.map(place).map(of).find(Boolean) ?? of(otherwise);
