@@ -1,13 +1,14 @@
 /* The page: what is asked for goes to the engine, the newest of it alone, and what is found goes to the screen. */
 
-import { Curves, distribution, loop, spectrum } from "./charts.js";
+import { Curves, distribution, spectrum } from "./charts.js";
+import { Cycle } from "./cycle.js";
 import { Engine } from "./engine.js";
+import { files, takeAway } from "./files.js";
 import { Load } from "./load.js";
 import { FieldMap, colouring } from "./map.js";
 import { picture } from "./picture.js";
-import { read, typed, written } from "./quantity.js";
+import { read, typed } from "./quantity.js";
 import { Settings } from "./settings.js";
-import { files, takeAway } from "./files.js";
 
 const at = id => document.getElementById(id);
 
@@ -17,7 +18,8 @@ const FIGURES = ["contact", "corrected for its edge", "mean pressure", "mean gap
   "certified error", "time", GRID_ERROR];
 
 /* What may be asked for, in the order in which it is done. */
-const ORDER = ["surface", "steps", "scene", "solve", "cycle", "rest"];
+const OF_SURFACE = ["surface", "steps"];
+const ORDER = [...OF_SURFACE, "scene", "solve", "cycle", "rest"];
 
 const status = text => (at("status").textContent = text);
 
@@ -67,16 +69,12 @@ class Page {
     };
     at("cancel").addEventListener("click", cancel);
     document.addEventListener("keydown", event => event.key === "Escape" && cancel());
-    at("legs").addEventListener("submit", event => {
-      event.preventDefault();
-      this.want("cycle");
-    });
-    for (const input of at("legs").querySelectorAll(".quantity")) input.addEventListener("input", () => (this.legsTyped = true));
+    this.legs = new Cycle(at("legs"), () => this.want("cycle"), (id, chart) => this.chart(id, chart));
     at("forget").addEventListener("click", () => {
       this.curves.forget();
       at("area").replaceChildren();
     });
-    files(file => this.open(file));
+    files(file => this.open(file).catch(error => this.failed(error)));
     const told = () => [...at("figures").children].map(entry => [...entry.children].map(part => part.textContent).join(" "));
     const drawn = () => picture(Object.values(this.maps), told().join(", "));
     takeAway(file => file === "contact.png" ? drawn() : engine.download(file), error => this.failed(error));
@@ -86,6 +84,8 @@ class Page {
   /* Asks for something: at once, or when what runs has ended, and then as it is by then. */
   async want(what) {
     this.wanted.add(what);
+    // what was refused may not be passed over
+    if (this.due) this.wanted.add(this.due);
     if (this.isBusy) return;
     this.isBusy = true;
     document.body.classList.add("busy");
@@ -95,7 +95,9 @@ class Page {
       try {
         if (next !== "rest") this.clear();
         await this[next]();
+        if (OF_SURFACE.includes(next)) this.due = null;
       } catch (error) {
+        if (OF_SURFACE.includes(next)) this.due = next;
         this.failed(error, next);
       }
     }
@@ -113,7 +115,6 @@ class Page {
 
   /* What was asked for is refused or cancelled: what is shown is not the answer to it. */
   failed(error, what) {
-    this.wanted.clear();
     at("stage").classList.add("stale");
     if (error.name === "AbortError") return status("Cancelled. What is shown is what was found before.");
     status("What is shown is the contact before.");
@@ -132,6 +133,7 @@ class Page {
   /* The map: as it was measured, or made. */
   async surface() {
     const { engine, settings, file } = this;
+    this.wanted.delete("steps");
     status("Reading the surface");
     if (!settings.isFile) {
       const made = settings.made();
@@ -176,10 +178,10 @@ class Page {
     list("doubts", map.warnings.map(({ message }) => message));
     this.map = map;
     if (!map.lengths) throw new Error("the file has no side lengths: type them, as 20um, or 20um 10um");
-    const { figures, rows, histogram, spectrum } = await this.engine.statistics();
+    this.statistics = await this.engine.statistics();
     // of a map with missing points there are none
+    const { figures, rows } = this.statistics;
     table("statistics", rows ?? []);
-    this.statistics = { histogram, spectrum };
     this.slope = figures?.rms_slope ?? figures?.rms_slope_differences;
     this.wanted.add("scene");
   }
@@ -195,39 +197,28 @@ class Page {
     // lengths in metres where they have units
     const scale = modulus.unit ? typed(`1${map.unit ?? "m"}`)?.value ?? 1 : 1, length = modulus.unit && "m";
     const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
-    const area = map.lengths[0] * (map.lengths[1] || 1) * scale ** 2;
-    this.load.fit({ lowest, highest, slope: this.slope, area, length }, modulus, settings.value("boundary"), this.isOther);
-    if (this.isOther) this.curves.forget();
-    if (this.isOther || !this.legsTyped) this.fitLegs(lowest, highest, length);
-    this.isOther = false;
-    at("loop").replaceChildren();
-    at("jumps").textContent = "";
+    const area = map.lengths[0] * (map.lengths[1] || 1) * scale ** 2, boundary = settings.value("boundary");
+    const surface = { lowest, highest, slope: this.slope, area, length };
+    this.load.fit(surface, modulus, boundary, this.isOther);
+    this.legs.fit(surface, settings.scene().range, boundary, this.isOther);
     this.offer("table.csv", false);
+    if (this.isOther) this.curves.forget();
+    this.isOther = false;
     this.curves.begin(JSON.stringify([settings.made(), this.file?.name, settings.steps([1, 1]), settings.scene()]));
-  }
-
-  /* A cycle from where the surfaces are apart. */
-  fitLegs(lowest, highest, length) {
-    const range = typed(this.settings.scene().range ?? "0")?.value ?? 0, high = highest - lowest;
-    const isFree = this.settings.value("boundary") === "free";
-    at("from").textContent = isFree ? "from an approach of" : "from a gap of";
-    const [from, to] = isFree ? [-5 * range, 0.2 * high] : [highest + 5 * range, 0.3 * highest];
-    [at("legs").cycle_from.value, at("legs").cycle_to.value] = [from, to].map(value => written(value, length));
-    this.legsTyped = false;
   }
 
   async solve() {
     if (!this.map?.lengths) return;
-    const asked = Object.values(this.load.scene)[0];
+    const asked = Object.values(this.load.scene)[0], start = this.start ?? "last";
+    this.start = null;
     status(`Solving at ${asked}`);
     const found = await this.engine.solve({ ...this.settings.scene(), ...this.load.scene }, {
-      start: this.start ?? "last", fields: ["contact", "pressure", "gap"], histograms: 60,
-      onprogress: ({ iteration, error, tolerance, nodes }) => {
+      start, fields: ["contact", "pressure", "gap"], histograms: 60,
+      onprogress: ({ iteration, error, tolerance }) => {
         at("progress").value = Math.min(1, Math.max(0, Math.log(error) / Math.log(tolerance)));
         status(`Solving at ${asked}: error ${error.toExponential(1)} of ${tolerance}, ${iteration} iterations`);
       },
     });
-    this.start = null;
     if (found) await this.show(found, asked);
   }
 
@@ -292,36 +283,13 @@ class Page {
   }
 
   async cycle() {
-    const { settings, engine } = this, { cycle_from: from, cycle_to: to, cycle_steps: steps } = at("legs");
-    const isFree = settings.value("boundary") === "free", rows = [];
-    const units = { length: this.solution?.length, pressure: this.solution?.pressure, force: this.solution?.length && "N" };
-    const scene = {
-      ...settings.scene(), [isFree ? "approaches" : "mean_gaps"]: `${from.value},${to.value},${from.value}`, steps: Number(steps.value),
-    };
-    let isDrawing = false;
-    const drawn = async () => {
-      if (isDrawing) return;
-      isDrawing = true;
-      await this.chart("loop", loop(rows, isFree, units));
-      isDrawing = false;
-    };
-    at("jumps").textContent = "";
-    const { shortfalls } = await engine.follow(scene, {
-      command: "cycle",
-      onstate: row => {
-        rows.push(row);
-        status(`Following the cycle: ${rows.length} states, ${row.direction}`);
-        drawn();
-      },
+    if (!this.solution) return;
+    const { length, pressure } = this.solution;
+    await this.legs.follow(this.engine, this.settings.scene(), { length, pressure, force: length && "N" }, (count, row, share) => {
+      at("progress").value = share ?? 0;
+      status(`Following the cycle: ${count} states, ${row.direction}`);
     });
-    await this.chart("loop", loop(rows, isFree, units));
-    const jumps = rows.filter(row => row.energy_drop > 0);
-    const told = jumps.slice(0, 8).map(row =>
-      `${row.event} at ${read(row[isFree ? "approach" : "mean_gap"], units.length)}: ${read(row.energy_drop, units.length && "J/m²")}`);
-    const more = jumps.length > told.length ? "; …" : "";
-    const sentence = jumps.length ? `Jumps: ${jumps.length}, with the energy per area that each dissipates: ${told.join("; ")}${more}.` : "There is no jump.";
-    at("jumps").textContent = [sentence, ...shortfalls].join(" ");
-    status(`The cycle has ${rows.length} states.`);
+    status("The cycle is complete.");
     this.offer("table.csv", true);
   }
 

@@ -241,6 +241,10 @@ def check_wrong(page, folder):
         page.told(state["stale"] and len(state["errors"]) == 1, f"{name} = {wrong}: {state['errors']} {state['failure']}")
         invalid = page.browser.value("[...document.querySelectorAll('[aria-invalid]')].map(input => input.name)")
         page.told(invalid == [name], f"{name} = {wrong}: marks {invalid}")
+        if name != "value":
+            page.drag(0.4)
+            state = page.idle()
+            page.told(state["stale"] and len(state["errors"]) == 1, f"{name} = {wrong} is forgotten under another load")
         state = page.set(**{name: right})
         page.told(not state["stale"] and not state["errors"], f"{name} = {right}: {state['errors']}")
 
