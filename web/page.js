@@ -97,7 +97,11 @@ class Page {
         await this[next]();
         if (OF_SURFACE.includes(next)) this.due = null;
       } catch (error) {
-        if (OF_SURFACE.includes(next)) this.due = next;
+        if (OF_SURFACE.includes(next)) {
+          this.due = next;
+          // there is no surface to solve on
+          ORDER.filter(name => !OF_SURFACE.includes(name)).forEach(name => this.wanted.delete(name));
+        }
         this.failed(error, next);
       }
     }
@@ -193,7 +197,7 @@ class Page {
     this.wanted.add("solve");
     const modulus = typed(settings.value("modulus"));
     // the engine says what is wrong with it
-    if (!modulus) return;
+    if (!(modulus?.value > 0)) return;
     // lengths in metres where they have units
     const scale = modulus.unit ? typed(`1${map.unit ?? "m"}`)?.value ?? 1 : 1, length = modulus.unit && "m";
     const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
