@@ -69,9 +69,11 @@ onmessage = async ({ data: { module, id, call, args } }) => {
     const found = calls[call](...args);
     postMessage({ id, found }, buffers(found));
   } catch (error) {
-    const ended = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
-    postMessage({ id, error: ended ? MEMORY : error.message, ended });
+    const memory = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+    const ended = memory || error.message.startsWith(FAULT);
+    postMessage({ id, error: memory ? MEMORY : error.message, ended });
   }
 };
 
+const FAULT = "the engine has failed";
 const MEMORY = "the memory of the page did not suffice: use fewer nodes, as by the step resample, or f32";

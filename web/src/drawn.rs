@@ -31,6 +31,9 @@ pub fn about() -> Value {
     json!({ "version": env!("CARGO_PKG_VERSION"), "laws": laws, "colours": colours })
 }
 
+/// The name of a curve and its points, of which a `null` breaks it.
+type Curve = (String, Vec<(Option<f64>, Option<f64>)>);
+
 /// A chart by the keys of `Chart`.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -43,15 +46,15 @@ struct Given {
     y_label: String,
     y_unit: Option<String>,
     y_log: bool,
-    curves: Vec<(String, Vec<(Option<f64>, Option<f64>)>)>,
+    curves: Vec<Curve>,
     jumps: Vec<[(f64, f64); 2]>,
 }
 
-/// The chart as SVG. A point with `null` breaks its curve.
+/// The chart as SVG.
 pub fn chart(given: &str) -> Outcome<String> {
     let given: Given = serde_json::from_str(given)?;
     let number = |number: Option<f64>| number.unwrap_or(f64::NAN);
-    let curve = |(name, points): &(String, Vec<(Option<f64>, Option<f64>)>)| {
+    let curve = |(name, points): &Curve| {
         (name.clone(), points.iter().map(|(x, y)| (number(*x), number(*y))).collect::<Vec<_>>())
     };
     let curves: Vec<_> = given.curves.iter().map(curve).collect();

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::given::{Given, reason};
 use crate::histogram::Histogram;
 use crate::lines::{Origin, Source};
-use crate::problem::{Observe, Problem};
+use crate::problem::{Observe, Problem, keys};
 
 /// The keys of a surface that is made.
 const BODY: [&str; 6] = ["form", "radius", "angle", "amplitude", "periods", "tilt"];
@@ -91,7 +91,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the surface.
     pub fn make(&mut self, given: &str) -> Outcome<Value> {
-        let mut given = Given::read(given)?;
+        let mut given = Given::read(given, &[&BODY[..], &ROUGHNESS, &GRID].concat())?;
         let typed = given.typed().clone();
         let si = given.is_si();
         let (size, shape) = (given.number("size"), given.numbers("shape"));
@@ -112,7 +112,6 @@ impl Engine {
         }
         let usual = json!({ "hurst": 0.8, "k_l": 4.0, "k_s": 64.0, "random_phase": false, "seed": 0 });
         let roughness: Roughness = given.take(&ROUGHNESS, usual)?;
-        given.end(&[&BODY[..], &ROUGHNESS, &GRID].concat())?;
         let rough = roughness.self_affine();
         if rough.is_none() && (typed.contains_key("rms_height") || form == Default::default()) {
             return Err("roughness: give rms_height or rms_slope, one of the two".into());
@@ -132,14 +131,13 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the steps; then the surface stays as it was.
     pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
-        let mut given = Given::read(given)?;
+        let mut given = Given::read(given, &[&STEPS[..], &MORE_STEPS].concat())?;
         let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
         let typed = given.typed().clone();
         let si = given.is_si();
         let lengths = given.lengths(map.heights.dim());
         let cut_off = given.number("cut_off_wavelength");
         let mut steps: Preparation = given.take(&[&STEPS[..], &["resample"]].concat(), Value::Null)?;
-        given.end(&[&STEPS[..], &MORE_STEPS].concat())?;
         let unit = map.unit.as_deref();
         lengths.map_or(Ok(()), |lengths| steps.set_lengths(lengths, si, unit)).map_err(reason)?;
         cut_off.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, si, unit)).map_err(reason)?;
@@ -228,7 +226,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the solvers.
     pub fn solve(&mut self, given: &str, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
-        let given = Given::read(given)?;
+        let given = Given::read(given, &keys())?;
         let mut before = self.problem.take();
         let problem = Problem::of(&given, self.surface()?, self.origin.name(), &mut before, from_last);
         self.problem = before;
@@ -244,7 +242,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy.
     pub fn begin(&mut self, given: &str, command: &str) -> Outcome<Value> {
-        let given = Given::read(given)?;
+        let given = Given::read(given, &keys())?;
         let mut before = self.problem.take();
         let problem = Problem::of(&given, self.surface()?, self.origin.name(), &mut before, false);
         self.problem = before;

@@ -49,14 +49,21 @@ pub struct Given {
 }
 
 impl Given {
-    /// Reads an object of keys and values, of which those that are empty count as not given.
+    /// Reads an object of `known` keys and values, of which those that are empty count as not given.
     ///
     /// # Errors
-    /// The key and the remedy, if a value is none for its key, or some quantities have units and others have none.
-    pub fn read(json: &str) -> Outcome<Self> {
+    /// The key and the remedy, if it is not known or a value is none for it, and if some quantities have units and others
+    /// have none.
+    pub fn read(json: &str, known: &[&str]) -> Outcome<Self> {
         let all: Map<String, Value> = serde_json::from_str(json)?;
         let mut given = Self::default();
         for (key, value) in all {
+            if !known.contains(&key.as_str()) {
+                let names: Vec<_> = known.iter().map(|key| key.replace('_', "-")).collect();
+                let meant = similar(&key, names.iter().map(String::as_str)).map(|meant| meant.replace('-', "_"));
+                let remedy = meant.map_or("leave it out".to_owned(), |meant| format!("{meant} is"));
+                return Err(format!("{key} is no key that is known here: {remedy}").into());
+            }
             let typed = match value {
                 Value::Array(items) => Value::Array(items.iter().map(|item| text(item).into()).collect()),
                 Value::Bool(true) => Value::Bool(true),
@@ -186,17 +193,17 @@ impl Given {
     pub fn take<T: DeserializeOwned>(&mut self, keys: &[&str], defaults: Value) -> Outcome<T> {
         let mut object = defaults.as_object().cloned().unwrap_or_default();
         object.extend(keys.iter().filter_map(|key| Some(((*key).to_owned(), self.values.remove(*key)?))));
-        Ok(serde_json::from_value(object.into())?)
-    }
-
-    /// Refuses a key that is left, with the one of `known` that it may mean.
-    ///
-    /// # Errors
-    /// The key.
-    pub fn end(self, known: &[&str]) -> Outcome<()> {
-        let Some(key) = self.values.keys().next() else { return Ok(()) };
-        let meant = similar(key, known.iter().copied()).map_or(String::new(), |meant| format!(": {meant} is"));
-        Err(format!("{key} is no key that is known here{meant}").into())
+        let words: Vec<_> =
+            object.iter().filter_map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned()))).collect();
+        serde_json::from_value(object.into()).map_err(|error| {
+            // of a word that is none of its key, serde tells the word alone
+            let told = error.to_string();
+            let Some(expected) = told.strip_prefix("unknown variant ") else { return told.into() };
+            let wrong = words.iter().find(|(_, word)| expected.starts_with(&format!("`{word}`")));
+            let Some((key, word)) = wrong else { return told.into() };
+            let names = expected.split_once("expected ").map_or("", |(_, names)| names).replace('`', "");
+            format!("{key} is {word}: it must be {}", names.trim_start_matches("one of ")).into()
+        })
     }
 }
 

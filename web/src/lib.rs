@@ -19,6 +19,18 @@ use asperity_scene::outcome::Outcome;
 use js_sys::Function;
 use wasm_bindgen::prelude::*;
 
+/// Makes of a fault of the program an error of JavaScript, after which the module is of no more use.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|fault| {
+        let told = fault.to_string().replace('\n', " ");
+        wasm_bindgen::throw_str(&format!("{FAULT}: {told}; please report this as a fault of asperity"));
+    }));
+}
+
+/// The beginning of the message of a fault, by which `web/worker.js` knows it.
+const FAULT: &str = "the engine has failed";
+
 /// A value for JavaScript, or an error with its message.
 fn told<T>(outcome: Outcome<T>) -> Result<T, JsError> {
     outcome.map_err(|error| JsError::new(&error.to_string()))

@@ -149,8 +149,10 @@ impl Origin {
 const LAW: [&str; 4] = ["work_of_adhesion", "range", "exponent", "hamaker"];
 /// The keys that Python has in an object.
 const APART: [&str; 4] = ["law", "cut_off", "spring_stiffness", "spring_position"];
+/// A body: its key, its class, and the keys and keywords of its parameters.
+type BodyClass = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 /// The classes of bodies by their keys, with the keywords of their parameters.
-const BODIES: [(&str, &str, &[(&str, &str)]); 2] = [
+const BODIES: [BodyClass; 2] = [
     ("layer", "Layer", &[("layer", "thickness"), ("poisson", "poisson"), ("base", "base")]),
     (
         "coating",

@@ -59,8 +59,12 @@ const LOADS: [&str; 15] = [
     "contact_fractions",
 ];
 /// Those of a solve and of a cycle.
-const OTHERS: [&str; 8] =
-    ["absent_missing", "lengths", "nested", "steps", "smallest_step", "imbalance", "sharp", "initial_gap"];
+const OTHERS: [&str; 7] = ["absent_missing", "lengths", "nested", "steps", "smallest_step", "imbalance", "sharp"];
+
+/// The keys of a solve, and of a sweep or a cycle.
+pub fn keys() -> Vec<&'static str> {
+    [&SCENE[..], &LOADS, &OTHERS].concat()
+}
 
 /// A contact problem on a surface, with its solutions.
 pub struct Problem {
@@ -88,7 +92,7 @@ impl Problem {
         if let Some(same) = before.take_if(|before| goes_on && before.posed == posed) {
             return Ok(same);
         }
-        let before = before.as_ref().filter(|_| goes_on).and_then(|before| before.state.gap());
+        let before = before.as_ref().and_then(|before| before.state.gap());
         let mut given = given.clone();
         let (lengths, absent) = (given.lengths(map.heights.dim()), given.switch("absent_missing"));
         let scene: Scene = given.take(&SCENE, Value::Null)?;
@@ -130,7 +134,6 @@ impl Problem {
         let (typed, quantities) = (given.typed().clone(), given.quantities());
         let nested = given.has("nested").then(|| given.switch("nested"));
         let load = load(&mut given)?;
-        self.end(given)?;
         let full = self.state.full_pressure(&[load]).map_err(reason)?;
         let scene = self.state.scene();
         let asked = Asked {
@@ -158,7 +161,6 @@ impl Problem {
         let settings = settings.smallest_step(given.number("smallest_step").unwrap_or(1e-4));
         let settings = settings.imbalance(given.number("imbalance").unwrap_or(1e-4));
         let settings = settings.smooth(!given.switch("sharp"));
-        self.end(given)?;
         let full = self.state.full_pressure(&loads).map_err(reason)?;
         let controls: Vec<Control> = loads.iter().map(|load| load.control(full)).collect();
         let way = match (command, fractions) {
@@ -179,12 +181,6 @@ impl Problem {
     /// Those of the solvers.
     pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
         self.state.next(observe)
-    }
-
-    /// Refuses keys that are left, beside those that pose the problem.
-    fn end(&self, mut given: Given) -> Outcome<()> {
-        let _: Map<String, Value> = given.take(&[&SCENE[..], &OTHERS].concat(), Value::Null)?;
-        given.end(&[&SCENE[..], &LOADS, &OTHERS].concat())
     }
 
     /// What the last solve was asked, and whether it started from another equilibrium, which decides on its own with

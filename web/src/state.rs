@@ -39,8 +39,10 @@ pub struct State<T: Scalar> {
     last: Option<Last<T>>,
     /// A gap from which to start that is of another problem.
     before: Option<Array2<T>>,
+    /// The loads that are followed, to their end.
     course: Option<Course<T>>,
-    rows: Vec<Map<String, Value>>,
+    /// The lines of the table of their states; none before they are followed.
+    table: Vec<String>,
 }
 
 /// A solution with its account.
@@ -87,8 +89,8 @@ impl<T: Scalar> State<T> {
         let warnings = warnings_of_input((&surface, converted_from), &scene.elastic, &*law, &units);
         let before = before.filter(|gap| gap.dim() == surface.grid().shape()).map(T::field);
         let surface = Arc::new(surface);
-        let (posed, last, course, rows) = (None, None, None, Vec::new());
-        Ok(Self { scene, surface, formula, original, inputs, units, warnings, posed, last, before, course, rows })
+        let (posed, last, course, table) = (None, None, None, Vec::new());
+        Ok(Self { scene, surface, formula, original, inputs, units, warnings, posed, last, before, course, table })
     }
 
     /// The problem anew, as it has solved nothing yet.
@@ -190,10 +192,11 @@ impl<T: Scalar> Solves for State<T> {
         observe: Observe<'_>,
     ) -> Outcome<(Value, bool)> {
         let shape = self.surface.grid().shape();
-        let last = self.last.take();
-        let start = last.map(|last| last.found.solution.gap).or(self.before.take());
-        let start = start.filter(|gap| from_last && gap.dim() == shape && asked.nested != Some(true));
-        let started = start.is_some();
+        let known = self.last.as_ref().map(|last| &last.found.solution.gap).or(self.before.as_ref());
+        let started = known.is_some_and(|gap| from_last && gap.dim() == shape && asked.nested != Some(true));
+        asked.check(&self.scene.adhesion, self.scene.method, started).map_err(reason)?;
+        let known = self.last.take().map(|last| last.found.solution.gap).or(self.before.take());
+        let start = known.filter(|_| started);
         // of the second of them nothing is of the first, and its nested grids need the surface
         let mut posed = match self.posed.take() {
             Some(posed) if started => posed,
@@ -201,7 +204,6 @@ impl<T: Scalar> Solves for State<T> {
         };
         self.inputs.given = quantities;
         self.inputs.initial_gap = started.then(|| START.to_owned());
-        asked.check(&self.scene.adhesion, self.scene.method, started).map_err(reason)?;
         if started && self.scene.adhesion.yields() {
             let problem = posed.parts()?.1;
             let flat = Array2::zeros(problem.grid().field_shape());
@@ -233,31 +235,31 @@ impl<T: Scalar> Solves for State<T> {
         course.check(&mut posed)?;
         let columns = course.columns();
         (self.inputs.given, self.inputs.initial_gap) = (quantities, None);
-        (self.posed, self.course, self.rows) = (Some(posed), Some(course.starting_from(start)), Vec::new());
         let control = loads.first().map_or("mean-pressure", |load| load.name());
         let names = self.units.columns(&columns, control, self.surface.grid().is_line());
+        (self.posed, self.course, self.table) =
+            (Some(posed), Some(course.starting_from(start)), vec![csv::header(&names)]);
         Ok(json!({ "columns": columns, "names": names, "warnings": self.warnings }))
     }
 
     fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
-        let (Some(mut course), Some(mut posed)) = (self.course.take(), self.posed.take()) else {
+        if self.table.is_empty() {
             return Err("there are no loads to follow: begin first".into());
-        };
+        }
+        // none at the end
+        let Some((mut course, mut posed)) = self.course.take().zip(self.posed.take()) else { return Ok(None) };
         let (nodes, tolerance) = (self.surface.grid().nodes(), self.scene.tolerance());
         let found = course.next(&mut posed, &mut |state| {
             observe(nodes, state, tolerance);
             ControlFlow::Continue(())
         })?;
         self.posed = Some(posed);
-        let Some(mut found) = found else {
-            self.course = Some(course);
-            return Ok(None);
-        };
+        let Some(mut found) = found else { return Ok(None) };
         check_finite(&found.solution).map_err(reason)?;
         let account = self.account(course.command(), &found)?;
         let row = course.row(&mut found, account, None)?;
         let cells = row.cells(&course.columns());
-        self.rows.push(cells.clone());
+        self.table.push(csv::line(&cells));
         let told: Vec<_> = shortfalls(&row.account, Skin::Keywords).into_iter().map(|(_, text)| text).collect();
         let pace = course.pace();
         let answer = json!({
@@ -340,15 +342,7 @@ impl<T: Scalar> Solves for State<T> {
                 let start = self.last()?.start.as_ref().ok_or("the last solve started from the default")?;
                 Ok(npz(self.surface.grid(), &[("heights", start.view())])?)
             }
-            "table.csv" => {
-                let course = self.course.as_ref().ok_or("there is no table: follow loads first")?;
-                let control = self.rows.first().and_then(|row| row["control"].as_str()).unwrap_or("mean-pressure");
-                let columns = course.columns();
-                let names = self.units.columns(&columns, control, self.surface.grid().is_line());
-                let lines = self.rows.iter().map(csv::line);
-                let text: Vec<_> = std::iter::once(csv::header(names)).chain(lines).collect();
-                Ok((text.join("\n") + "\n").into_bytes())
-            }
+            "table.csv" if !self.table.is_empty() => Ok((self.table.join("\n") + "\n").into_bytes()),
             other => Err(format!("{other} is no file of this solution").into()),
         }
     }
