@@ -44,7 +44,9 @@ export function distribution({ from, to, density }, x_label, x_unit, y_label) {
 
 /* The power spectral density of a surface, averaged over directions. */
 export function spectrum({ wave_numbers, densities }, unit) {
-  const points = wave_numbers.map((wave, k) => [wave, densities[k]]).filter(point => point.every(value => value > 0));
+  // what is below is rounding
+  const least = 1e-12 * Math.max(...densities);
+  const points = wave_numbers.map((wave, k) => [wave, densities[k]]).filter(([wave, density]) => wave > 0 && density > least);
   return {
     x_label: "wave number", x_unit: unit && `1/${unit}`, x_log: true,
     y_label: "spectral density", y_unit: unit && `${unit}⁴`, y_log: true, curves: [["", points]], jumps: [],

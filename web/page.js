@@ -220,7 +220,7 @@ class Page {
       start, fields: ["contact", "pressure", "gap"], histograms: 60,
       onprogress: ({ iteration, error, tolerance }) => {
         at("progress").value = Math.min(1, Math.max(0, Math.log(error) / Math.log(tolerance)));
-        status(`Solving at ${asked}: error ${error.toExponential(1)} of ${tolerance}, ${iteration} iterations`);
+        status(`Solving at ${asked}: error ${error.toExponential(1)} of ${tolerance.toExponential(0)}, ${iteration} iterations`);
       },
     });
     if (found) await this.show(found, asked);
