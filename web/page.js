@@ -155,18 +155,15 @@ class Page {
     this.form = "file";
     if (file.isNew) settings.takeMap(map);
     this.measured = map;
-    const isOther = file.isNew;
+    if (file.isNew) this.isOther = this.isFresh = true;
     file.isNew = false;
-    return this.steps(isOther);
+    return this.steps();
   }
 
   /* The surface: the map after the steps of its preparation. */
-  async steps(isOther = false) {
+  async steps() {
     const { engine, settings, measured } = this;
-    this.isOther ||= isOther;
-    let map = await engine.prepare(settings.steps(measured.shape));
-    // the tilt is known with the side lengths
-    if (this.isOther && settings.takeWarnings(map.warnings)) map = await engine.prepare(settings.steps(measured.shape));
+    const map = await engine.prepare(settings.steps(measured.shape));
     list("steps", map.log.map(([step, what]) => `${step}: ${what}`));
     return this.found(map);
   }
@@ -212,18 +209,26 @@ class Page {
   }
 
   async solve() {
+    const { settings } = this;
     if (!this.map?.lengths) return;
     const asked = Object.values(this.load.scene)[0], start = this.start ?? "last";
     this.start = null;
     status(`Solving at ${asked}`);
-    const found = await this.engine.solve({ ...this.settings.scene(), ...this.load.scene }, {
+    const found = await this.engine.solve({ ...settings.scene(), ...this.load.scene }, {
       start, fields: ["contact", "pressure", "gap"], histograms: 60,
       onprogress: ({ iteration, error, tolerance }) => {
         at("progress").value = Math.min(1, Math.max(0, Math.log(error) / Math.log(tolerance)));
         status(`Solving at ${asked}: error ${error.toExponential(1)} of ${tolerance.toExponential(0)}, ${iteration} iterations`);
       },
     });
-    if (found) await this.show(found, asked);
+    if (!found) return;
+    if (this.isFresh && settings.takeWarnings(found.account.warnings)) {
+      this.wanted.add("steps");
+      this.isOther = true;
+    } else {
+      await this.show(found, asked);
+    }
+    this.isFresh = false;
   }
 
   async show({ account, rows, shortfalls, started, shape, lengths, unit, fields, limits, extremes, histograms }, asked) {

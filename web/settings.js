@@ -92,7 +92,7 @@ export class Settings {
     document.getElementById("opened").textContent = told.join(", ");
   }
 
-  /* Takes a plane off a map that is tilted; false if there is nothing to do. */
+  /* Chooses to take a plane off a map that is tilted; false if there is nothing to do. */
   takeWarnings(warnings) {
     const is = warnings.some(({ code }) => code === "tilt") && !this.value("detrend");
     if (is) this.form.detrend.value = "plane";
