@@ -192,7 +192,7 @@ export class Settings {
   /* Puts a sentence at the input that it names, else, or if it is of a file, at this one; false if there is no place. */
   static fault(message, otherwise, isOfFile) {
     const outputs = [...document.querySelectorAll("output.error")].filter(output => !output.parentElement.closest("[hidden]"));
-    const words = isOfFile ? [] : message.match(/\w+/g) ?? [];
+    const words = isOfFile ? [] : message.replace(/(mean|normal) (gap|pressure|force)/g, "$1_$2").match(/\w+/g) ?? [];
     const place = name => Object.keys(PLACES).find(place => PLACES[place].includes(name)) ?? name;
     const of = name => outputs.find(({ dataset }) => dataset.of === `made_${name}`) ?? outputs.find(({ dataset }) => dataset.of === name);
     const output = words.map(place).map(of).find(Boolean) ?? of(otherwise);
