@@ -76,8 +76,8 @@ class Page {
     });
     files(file => this.open(file).catch(error => this.failed(error)));
     const told = () => [...at("figures").children].map(entry => [...entry.children].map(part => part.textContent).join(" "));
-    const drawn = () => picture(Object.values(this.maps), told().join(", "));
-    takeAway(file => file === "contact.png" ? drawn() : engine.download(file), error => this.failed(error));
+    const kept = { "contact.png": () => picture(Object.values(this.maps), told().join(", ")), "table.csv": () => this.table };
+    takeAway(async file => kept[file]?.() ?? engine.download(file), error => this.failed(error));
     this.want("surface");
   }
 
@@ -298,8 +298,11 @@ class Page {
       at("progress").value = share ?? 0;
       status(`Following the cycle: ${count} states, ${row.direction}`);
     });
-    status("The cycle is complete.");
+    this.table = await this.engine.download("table.csv");
     this.offer("table.csv", true);
+    // the engine is at the end of the cycle: what is taken away is what is shown
+    this.start = "default";
+    this.wanted.add("solve");
   }
 
   /* Offers a file to take away, or no longer. */

@@ -259,14 +259,17 @@ def check_map(page, folder):
     return state
 
 
-def check_cycle(page):
-    """A cycle is drawn with its jumps."""
+def check_cycle(page, folder):
+    """A cycle is drawn with its jumps, and what is taken away afterwards is what is shown."""
     page.set(form="wave", size="64", made_lengths="100nm", amplitude="1nm", periods_x="1", periods_y="1", modulus="1GPa",
              law="exponential", work_of_adhesion="50mJ/m2", range="0.5nm")
     page.browser.value("document.getElementById('follow').click()")
     state = page.idle()
     page.told(state["charts"]["loop"] == 1, "draws no loop")
     page.told("jump-in" in state["jumps"] and ("jump-out" in state["jumps"] or "pull-off" in state["jumps"]), f"tells of the cycle: {state['jumps']}")
+    page.save("report.json", folder)
+    saved, shown = json.loads((folder / "report.json").read_text())["contact_nodes"], state["rows"]["nodes in contact"]
+    page.told(saved == int(shown.split()[0]), f"shows {shown} in contact after the cycle, and saves {saved}")
 
 
 # what differs from a self-affine surface of 1 µm under a half-space of 1 GPa without adhesion
@@ -373,7 +376,7 @@ def main():
         first = check_first_view(page)
         print(f"first view after {first / 1000:.2f} s")
         checks = [("drag", check_drag, []), ("probe", check_probe, []), ("cancel", check_cancel, []), ("wrong", check_wrong, [folder]),
-                  ("cycle", check_cycle, [])]
+                  ("cycle", check_cycle, [folder])]
         for page.where, check, more in checks:
             check(page, *more)
             page.quiet()
