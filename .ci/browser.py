@@ -1,4 +1,4 @@
-"""A browser without a window, led by its DevTools protocol, over a pipe: for `.ci/report.py` and `web/tests/page.py`."""
+"""A browser without a window, led by its DevTools protocol over a pipe."""
 
 import base64
 import itertools

@@ -27,7 +27,10 @@ export class Curves {
 
   chart() {
     const sorted = points => [...points].sort(([a], [b]) => a - b);
-    const curves = [["as set", sorted(this.now)], ["as set before", sorted(this.before)]].filter(([, points]) => points.length);
+    const curves = [
+      ["as set", sorted(this.now)],
+      ["as set before", sorted(this.before)],
+    ].filter(([, points]) => points.length);
     if (curves.length === 1) curves[0][0] = "";
     const x_log = curves.every(([, points]) => points[0][0] > 0);
     return { ...AREA, x_label: "mean pressure", x_unit: this.unit, x_log, curves, jumps: [] };
@@ -38,28 +41,47 @@ export class Curves {
 export function distribution({ from, to, density }, x_label, x_unit, y_label) {
   const width = (to - from) / density.length;
   const sum = density.reduce((sum, value) => sum + value, 0);
-  const points = Array.from(density, (value, k) => [from + (k + 0.5) * width, 100 * value / sum]);
-  return { x_label, x_unit, x_log: false, y_label, y_unit: "%", y_log: false, curves: [["", sum > 0 ? points : []]], jumps: [] };
+  const points = Array.from(density, (value, k) => [from + (k + 0.5) * width, (100 * value) / sum]);
+  return {
+    x_label,
+    x_unit,
+    x_log: false,
+    y_label,
+    y_unit: "%",
+    y_log: false,
+    curves: [["", sum > 0 ? points : []]],
+    jumps: [],
+  };
 }
 
 /* The power spectral density of a surface, averaged over directions. */
 export function spectrum({ wave_numbers, densities }, unit) {
   // what is below is rounding
   const least = 1e-12 * Math.max(...densities);
-  const points = wave_numbers.map((wave, k) => [wave, densities[k]]).filter(([wave, density]) => wave > 0 && density > least);
+  const points = wave_numbers
+    .map((wave, k) => [wave, densities[k]])
+    .filter(([wave, density]) => wave > 0 && density > least);
   return {
-    x_label: "wave number", x_unit: unit && `1/${unit}`, x_log: true,
-    y_label: "spectral density", y_unit: unit && `${unit}⁴`, y_log: true, curves: [["", points]], jumps: [],
+    x_label: "wave number",
+    x_unit: unit && `1/${unit}`,
+    x_log: true,
+    y_label: "spectral density",
+    y_unit: unit && `${unit}⁴`,
+    y_log: true,
+    curves: [["", points]],
+    jumps: [],
   };
 }
 
 /* A loop of approach and withdrawal: pressure over mean gap, or force over approach, broken where the state jumps. */
 export function loop(rows, isFree, units) {
   const [x, y] = isFree ? ["approach", "normal_force"] : ["mean_gap", "mean_pressure"];
-  const curves = new Map(), jumps = [];
+  const curves = new Map(),
+    jumps = [];
   let last = null;
   for (const row of rows) {
-    const point = [row[x], row[y]], name = row.direction === "withdrawal" ? "withdrawal" : "approach";
+    const point = [row[x], row[y]],
+      name = row.direction === "withdrawal" ? "withdrawal" : "approach";
     if (!curves.has(name)) curves.set(name, last ? [last] : []);
     if (row.energy_drop > 0 && last) {
       jumps.push([last, point]);
@@ -69,8 +91,13 @@ export function loop(rows, isFree, units) {
     last = point;
   }
   return {
-    x_label: x.replace("_", " "), x_unit: units.length, x_log: false,
-    y_label: y.replace("_", " "), y_unit: isFree ? units.force : units.pressure, y_log: false,
-    curves: [...curves], jumps,
+    x_label: x.replace("_", " "),
+    x_unit: units.length,
+    x_log: false,
+    y_label: y.replace("_", " "),
+    y_unit: isFree ? units.force : units.pressure,
+    y_log: false,
+    curves: [...curves],
+    jumps,
   };
 }

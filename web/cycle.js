@@ -38,18 +38,21 @@ export class Cycle {
     return { [this.isFree ? "approaches" : "mean_gaps"]: turns, steps: Number(steps.value) };
   }
 
-  /* Follows the cycle of a scene, and draws it as it grows; `onstate(count, row, share)` hears of each state. */
+  /* Follows the cycle of a scene, and draws it as it grows; `onstate` hears of each state. */
   async follow(engine, scene, units, onstate) {
     const rows = [];
     this.jumps.textContent = "";
-    const { shortfalls } = await engine.follow({ ...scene, ...this.scene }, {
-      command: "cycle",
-      onstate: (row, { share }) => {
-        rows.push(row);
-        onstate(rows.length, row, share);
-        this.draw(this.chart.id, loop(rows, this.isFree, units));
+    const { shortfalls } = await engine.follow(
+      { ...scene, ...this.scene },
+      {
+        command: "cycle",
+        onstate: (row, { share }) => {
+          rows.push(row);
+          onstate({ ...row, count: rows.length, share: share ?? 0 });
+          this.draw(this.chart.id, loop(rows, this.isFree, units));
+        },
       },
-    });
+    );
     this.jumps.textContent = [this.told(rows, units), ...shortfalls].join(" ");
   }
 

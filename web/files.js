@@ -1,8 +1,12 @@
 /* Files that come and go, and lines to copy. */
 
 const FILES = {
-  "fields.npz": "Fields", "contact.png": "Picture",
-  "heights.npz": "Heights", "scene.toml": "Scene", "report.json": "Report", "start.npz": "Gap at the start",
+  "fields.npz": "Fields",
+  "contact.png": "Picture",
+  "heights.npz": "Heights",
+  "scene.toml": "Scene",
+  "report.json": "Report",
+  "start.npz": "Gap at the start",
   "table.csv": "Table of the cycle",
 };
 
@@ -11,7 +15,8 @@ const SOMETIMES = ["start.npz", "table.csv"];
 
 /* Takes files that are chosen, or dropped anywhere on the page. */
 export function files(onfile) {
-  const input = document.getElementById("file"), over = document.getElementById("over");
+  const input = document.getElementById("file"),
+    over = document.getElementById("over");
   document.getElementById("choose").addEventListener("click", () => input.click());
   input.addEventListener("change", () => {
     if (input.files[0]) onfile(input.files[0]);

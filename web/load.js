@@ -31,9 +31,12 @@ export class Load {
      modulus; `again` begins anew. */
   fit({ lowest, highest, slope, area, length }, { value: modulus, unit }, boundary, again) {
     // a surface that is flat, or of absurd heights, has loads, too
-    const sound = (value, otherwise) => value > 0 && value < 1e50 ? value : otherwise;
-    const free = boundary === "free", full = modulus * sound(slope, 0.01), pressures = [1e-3 * full, 2 * full];
-    const high = sound(highest, 0.01 * Math.sqrt(area)), deep = sound(highest - lowest, high);
+    const sound = (value, otherwise) => (value > 0 && value < 1e50 ? value : otherwise);
+    const free = boundary === "free",
+      full = modulus * sound(slope, 0.01),
+      pressures = [1e-3 * full, 2 * full];
+    const high = sound(highest, 0.01 * Math.sqrt(area)),
+      deep = sound(highest - lowest, high);
     this.units = { mean_pressure: unit, mean_gap: length, normal_force: unit && "N", approach: length };
     this.ranges = {
       mean_pressure: { log: pressures },
@@ -60,13 +63,15 @@ export class Load {
   /* The load at a share of the way of the slider, as one types it. */
   text(share) {
     const { log, linear } = this.ranges[this.control.value];
-    const [from, to] = log ? log.map(Math.log) : linear, at = from + share * (to - from);
+    const [from, to] = log ? log.map(Math.log) : linear,
+      at = from + share * (to - from);
     return written(log ? Math.exp(at) : at, this.unit());
   }
 
   /* Puts the slider where the load is. */
   place() {
-    const { log, linear } = this.ranges[this.control.value], at = typed(this.value.value)?.value;
+    const { log, linear } = this.ranges[this.control.value],
+      at = typed(this.value.value)?.value;
     const [from, to] = log ? log.map(Math.log) : linear;
     if (Number.isFinite(at)) this.slider.value = log && at <= 0 ? 0 : ((log ? Math.log(at) : at) - from) / (to - from);
     this.tell();

@@ -1,12 +1,15 @@
 /* The maps as one picture, to be saved. */
 
-const SIDE = 512, MARGIN = 24, LINE = 22;
+const SIDE = 512,
+  MARGIN = 24,
+  LINE = 22;
 
 /* A PNG of maps side by side, each with its title, scale and key, and a line of text below. */
 export async function picture(maps, text) {
   const shown = maps.map(map => ({ map, width: SIDE, height: Math.round(SIDE / map.aspect) }));
   const height = Math.max(...shown.map(({ height }) => height));
-  const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
+  const canvas = document.createElement("canvas"),
+    context = canvas.getContext("2d");
   canvas.width = MARGIN + shown.length * (SIDE + MARGIN);
   canvas.height = 2 * MARGIN + LINE + height + 2.5 * LINE;
   context.fillStyle = "#fff";
@@ -18,7 +21,9 @@ export async function picture(maps, text) {
     context.fillText(text, x, y);
   };
   shown.forEach(({ map, width, height }, k) => {
-    const left = MARGIN + k * (SIDE + MARGIN), top = MARGIN + LINE, below = top + height + 0.7 * LINE;
+    const left = MARGIN + k * (SIDE + MARGIN),
+      top = MARGIN + LINE,
+      below = top + height + 0.7 * LINE;
     write(map.title, left, MARGIN + 0.3 * LINE);
     context.imageSmoothingEnabled = map.canvas.width > SIDE;
     context.drawImage(map.canvas, left, top, width, height);
@@ -57,8 +62,11 @@ function drawKey(context, entries, left, y, width, write) {
       box(x + 1, 12, colour);
       return write(name, x + 20, y);
     }
-    const from = x + context.measureText(low).width + 8, to = x + wide - context.measureText(high).width - 16;
-    colours.forEach((colour, n) => box(from + n * (to - from) / colours.length, (to - from) / colours.length + 1, colour));
+    const from = x + context.measureText(low).width + 8,
+      to = x + wide - context.measureText(high).width - 16;
+    colours.forEach((colour, n) =>
+      box(from + (n * (to - from)) / colours.length, (to - from) / colours.length + 1, colour),
+    );
     write(low, x, y);
     write(high, to + 8, y);
   });

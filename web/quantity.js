@@ -13,7 +13,8 @@ export function typed(text) {
 /* A value to so many digits, with the prefix of its unit that makes it readable, as parts. */
 function parts(value, unit, digits) {
   const rounded = Number(value.toPrecision(digits));
-  if (!["m", "Pa", "N", "J", "J/m²"].includes(unit) || rounded === 0 || !Number.isFinite(rounded)) return [String(rounded), unit ?? ""];
+  if (!["m", "Pa", "N", "J", "J/m²"].includes(unit) || rounded === 0 || !Number.isFinite(rounded))
+    return [String(rounded), unit ?? ""];
   const power = Math.min(9, Math.max(-12, 3 * Math.floor(Math.log10(Math.abs(rounded)) / 3 + 1e-9)));
   const prefix = Object.keys(POWERS).find(name => POWERS[name] === power);
   return [String(Number((rounded / 10 ** power).toPrecision(digits))), prefix + unit];
@@ -24,4 +25,8 @@ export const written = (value, unit, digits = 3) => parts(value, unit, digits).j
 
 /* A quantity as one reads it: "12.5 µm". */
 export const read = (value, unit, digits = 3) =>
-  parts(value, unit, digits).join(" ").replace(/ u(?=m|Pa|N|J)/, " µ").replace("-", "−").trim();
+  parts(value, unit, digits)
+    .join(" ")
+    .replace(/ u(?=m|Pa|N|J)/, " µ")
+    .replace("-", "−")
+    .trim();

@@ -23,7 +23,7 @@ const PLACES = {
 };
 
 /* The nodes along y of a map that gets so many along x. */
-const resampled = (nodes, [nx, ny]) => [nodes, Math.max(1, Math.round(nodes * ny / nx))];
+const resampled = (nodes, [nx, ny]) => [nodes, Math.max(1, Math.round((nodes * ny) / nx))];
 
 export class Settings {
   /* `onchange(what)` is called with what has changed: "surface", "steps" or "scene". */
@@ -101,18 +101,23 @@ export class Settings {
 
   /* Shows the inputs that belong to what is chosen, and the numbers of the sliders. */
   show() {
-    const { form } = this, of = this.value("form"), size = Number(this.value("size"));
+    const { form } = this,
+      of = this.value("form"),
+      size = Number(this.value("size"));
     for (const part of form.querySelectorAll("[data-form]")) {
       const which = part.dataset.form;
       part.hidden = which !== of && !(which === "made" && of !== "file");
     }
-    for (const part of form.querySelectorAll("[data-body]")) part.hidden = !part.dataset.body.split(" ").includes(this.value("body"));
+    for (const part of form.querySelectorAll("[data-body]"))
+      part.hidden = !part.dataset.body.split(" ").includes(this.value("body"));
     form.k_s.max = size / 4;
     for (const slider of form.querySelectorAll("input[type=range][name]")) {
       slider.parentElement.querySelector(".number").textContent = this.number(slider);
     }
     for (const slider of form.querySelectorAll("[data-for]")) {
-      const input = form[slider.dataset.for], side = typed(this.value(input.dataset.scale)), found = typed(input.value);
+      const input = form[slider.dataset.for],
+        side = typed(this.value(input.dataset.scale)),
+        found = typed(input.value);
       if (side && found?.value > 0) slider.value = Math.log10(found.value / side.value);
     }
   }
@@ -124,60 +129,82 @@ export class Settings {
 
   /* A slider of a quantity, in powers of ten of another one. */
   slide(slider) {
-    const input = this.form[slider.dataset.for], side = typed(this.value(input.dataset.scale));
+    const input = this.form[slider.dataset.for],
+      side = typed(this.value(input.dataset.scale));
     if (side) input.value = written(side.value * 10 ** slider.value, side.unit);
   }
 
   chooseLaw() {
     const law = this.laws.find(({ name }) => name === this.value("law"));
     const kept = new Map([...document.querySelectorAll("#parameters input")].map(input => [input.name, input.value]));
-    this.kept = new Map([...this.kept ?? [], ...kept]);
+    this.kept = new Map([...(this.kept ?? []), ...kept]);
     const input = (name, text, value, hint = "") => {
-      const label = document.createElement("label"), made = document.createElement("input"), error = document.createElement("output");
+      const label = document.createElement("label"),
+        made = document.createElement("input");
       label.append(text, " ", made);
-      Object.assign(made, { name, className: "quantity", value: this.kept.get(name) ?? value, placeholder: hint, spellcheck: false });
-      error.className = "error";
-      error.dataset.of = name;
-      return [label, error];
+      Object.assign(made, { name, className: "quantity", placeholder: hint, spellcheck: false });
+      made.value = this.kept.get(name) ?? value;
+      return label;
     };
-    const all = law.needs.flatMap(name => input(name, PARAMETERS[name][0], PARAMETERS[name][1]));
-    if (law.never_ends) all.push(...input("cut_off", "Cut off at a gap of", "", "nowhere"));
+    const all = law.needs.map(name => input(name, ...PARAMETERS[name]));
+    if (law.never_ends) all.push(input("cut_off", "Cut off at a gap of", "", "nowhere"));
     document.getElementById("parameters").replaceChildren(...all);
   }
 
   /* The parameters of a surface to be made. */
   made() {
-    const form = this.value("form"), number = name => this.number(this.form[name]);
+    const form = this.value("form"),
+      number = name => this.number(this.form[name]);
     const common = { form, size: Number(this.value("size")), lengths: this.value("made_lengths") };
     switch (form) {
-      case "sphere": return { ...common, radius: this.value("radius") };
-      case "wave": return { ...common, amplitude: this.value("amplitude"), periods: [number("periods_x"), number("periods_y")] };
-      default: return {
-        ...common, rms_slope: number("rms_slope"), hurst: number("hurst"), k_l: number("k_l"), k_s: number("k_s"),
-        seed: Number(this.value("seed")),
-      };
+      case "sphere":
+        return { ...common, radius: this.value("radius") };
+      case "wave":
+        return { ...common, amplitude: this.value("amplitude"), periods: [number("periods_x"), number("periods_y")] };
+      default:
+        return {
+          ...common,
+          rms_slope: number("rms_slope"),
+          hurst: number("hurst"),
+          k_l: number("k_l"),
+          k_s: number("k_s"),
+          seed: Number(this.value("seed")),
+        };
     }
   }
 
   /* The steps of the preparation of an opened map of this shape. */
   steps(shape) {
-    const given = name => this.value(name) || undefined, edges = this.value("edges");
+    const given = name => this.value(name) || undefined,
+      edges = this.value("edges");
     const several = text => text?.split(/[\s,;×]+/);
-    const mirrored = edges === "mirror" ? shape.map(n => n === 1 ? 1 : 2 * n) : shape;
+    const mirrored = edges === "mirror" ? shape.map(n => (n === 1 ? 1 : 2 * n)) : shape;
     const nodes = Number(this.value("resample"));
     return {
-      lengths: several(given("lengths")), unit: given("unit"), missing: several(given("missing"))?.map(Number),
-      align_rows: given("align_rows"), remove_scars: given("remove_scars") && 0.667, despike: given("despike") && 10,
-      remove_form: given("remove_form"), detrend: given("detrend"), fill: this.value("holes") === "fill" || undefined,
-      mirror: edges === "mirror" || undefined, window: edges === "window" ? 0.1 : undefined,
-      cut_off_wavelength: given("cut_off_wavelength"), resample: nodes ? resampled(nodes, mirrored) : undefined,
+      lengths: several(given("lengths")),
+      unit: given("unit"),
+      missing: several(given("missing"))?.map(Number),
+      align_rows: given("align_rows"),
+      remove_scars: given("remove_scars") && 0.667,
+      despike: given("despike") && 10,
+      remove_form: given("remove_form"),
+      detrend: given("detrend"),
+      fill: this.value("holes") === "fill" || undefined,
+      mirror: edges === "mirror" || undefined,
+      window: edges === "window" ? 0.1 : undefined,
+      cut_off_wavelength: given("cut_off_wavelength"),
+      resample: nodes ? resampled(nodes, mirrored) : undefined,
     };
   }
 
   /* Body, adhesion and solver. */
   scene() {
     const scene = {};
-    const body = { "half-space": [], layer: ["layer", "poisson", "base"], coating: ["coating", "coating_modulus", "coating_poisson", "poisson"] };
+    const body = {
+      "half-space": [],
+      layer: ["layer", "poisson", "base"],
+      coating: ["coating", "coating_modulus", "coating_poisson", "poisson"],
+    };
     const names = ["modulus", "boundary", "hardness", "law", "precision", ...body[this.value("body")]];
     const law = [...document.querySelectorAll("#parameters input")].map(input => input.name);
     for (const name of [...names, ...law]) {
@@ -185,26 +212,37 @@ export class Settings {
       if (value !== "" && value !== DEFAULTS[name]) scene[name] = value;
     }
     // a sphere ends beyond its radius
-    if (this.value("form") === "sphere" || this.isFile && this.value("holes") === "absent") scene.absent_missing = true;
+    if (this.value("form") === "sphere" || (this.isFile && this.value("holes") === "absent"))
+      scene.absent_missing = true;
     return scene;
   }
 
-  /* Puts a sentence at the input that it names, else, or if it is of a file, at this one; false if there is no place. */
+  /* Puts a sentence at the input that it names, or, if it is of a file or names none, at this place; false if that is
+     not on the page. */
   static fault(message, otherwise, isOfFile) {
-    const outputs = [...document.querySelectorAll("output.error")].filter(output => !output.parentElement.closest("[hidden]"));
-    const words = isOfFile ? [] : message.replace(/(mean|normal) (gap|pressure|force)/g, "$1_$2").match(/\w+/g) ?? [];
+    const loads = /(mean|normal) (gap|pressure|force)/g;
+    const words = isOfFile ? [] : (message.replace(loads, "$1_$2").match(/\w+/g) ?? []);
+    const shown = element => element && !element.closest("[hidden]");
     const place = name => Object.keys(PLACES).find(place => PLACES[place].includes(name)) ?? name;
-    const of = name => outputs.find(({ dataset }) => dataset.of === `made_${name}`) ?? outputs.find(({ dataset }) => dataset.of === name);
-    const output = words.map(place).map(of).find(Boolean) ?? of(otherwise);
-    if (!output) return false;
+    const inputs = name => [`made_${name}`, name].map(name => document.getElementsByName(name)[0]);
+    const outputs = name => [document.querySelector(`output[data-of="${name}"]`)];
+    const at = name => [...outputs(name), ...inputs(name)].find(shown);
+    const found = words.map(place).map(at).find(Boolean) ?? at(otherwise);
+    if (!found) return false;
+    const input = found.dataset.of === "load" ? document.getElementsByName("value")[0] : found;
+    if (input.matches("input, select")) input.setAttribute("aria-invalid", "true");
+    const output = found.matches("output") ? found : document.createElement("output");
+    output.className = "error";
     output.textContent = message;
-    const name = output.dataset.of;
-    document.getElementsByName(name === "load" ? "value" : name)[0]?.setAttribute("aria-invalid", "true");
+    if (output !== found) found.closest("label").after(output);
     return true;
   }
 
   static clearFaults() {
-    for (const output of document.querySelectorAll("output.error")) output.textContent = "";
+    for (const output of document.querySelectorAll("output.error")) {
+      if (output.dataset.of) output.textContent = "";
+      else output.remove();
+    }
     for (const input of document.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
   }
 }
