@@ -1,5 +1,9 @@
 /* The engine as the page calls it: one call after the other, on the thread of `worker.js`.
 
+   Keys are those of reports, as `work_of_adhesion`. Values are as they were typed: texts with units, as "70GPa", or
+   numbers; what is empty counts as not given. Every call is a promise, refused with the sentence of the program. Fields
+   are typed arrays, node (i, j) at index i ny + j, with i along x and j along y.
+
    A call that runs cannot be interrupted: to cancel, its thread is ended, and another one starts with the module that is
    compiled already and makes the surface again. So no shared memory is needed, which few hosts allow. */
 
@@ -105,23 +109,33 @@ export class Engine {
     });
   }
 
+  /* Opens a map. The answer has `name`, `shape`, `lengths`, `unit`, `original`, `missing`, `unread`, `channels`, `heights`
+     (f32, about their `mean`), `lowest`, `highest`, and `warnings` of `code` and `message`. Of a file whose channel has to
+     be chosen `heights` is null: call again with the number in front of one of its `channels`. */
   open(name, bytes, { channel } = {}) {
     return this.call("open", [name, bytes, channel]);
   }
 
+  /* Makes a surface by the keys of `asperity surface`; the answer is that of `open`. */
   make(parameters) {
     return this.call("make", [JSON.stringify(parameters)]);
   }
 
+  /* Makes the surface of the map by the steps of `asperity prepare`, never of a prepared one; the answer is that of
+     `open`, with `log`, pairs of a step and what it did. */
   prepare(steps) {
     return this.call("prepare", [JSON.stringify(steps)]);
   }
 
+  /* `figures` and `rows` of the surface, as of `asperity stats`, its `spectrum` and the `histogram` of its heights. */
   statistics() {
     return this.call("statistics", []);
   }
 
-  /* Solves, from the last solution or the default start. Of the solves that wait only the newest is done. */
+  /* Solves by the keys of `asperity solve`, from the last solution or the default start. Of the solves that wait only the
+     newest is done, and the others come to null. The answer has the report as `account`, its `rows` for people, its
+     `shortfalls`, how it `started`, the `fields` that are wanted on their `shape`, with `extremes`, and the `limits` of
+     the colours. Nodes of the contact are 0 apart, 1 in contact, 2 absent, 3 attractive, 4 yielded. */
   solve(scene, { start = "default", fields = ["contact", "pressure", "gap"], histograms = 0, onprogress } = {}) {
     const older = this.waiting.filter(job => job.call === "solve");
     this.waiting = this.waiting.filter(job => job.call !== "solve");
@@ -129,20 +143,24 @@ export class Engine {
     return this.call("solve", [JSON.stringify(scene), { start, fields, histograms }], { onprogress });
   }
 
-  /* Follows loads; `onstate` gets the row of each state as it is found. */
+  /* Follows loads by the keys of `asperity sweep` or `cycle`, the `command`; `onstate` gets the row of each state as it
+     is found, and beside it its fields and the share of the way. */
   follow(scene, { command, fields = [], onstate, onprogress }) {
     return this.call("follow", [JSON.stringify(scene), { command, fields }], { onstate, onprogress });
   }
 
+  /* Distributions, autocorrelation and clusters of the last solution, as of `asperity contact`. */
   contact() {
     return this.call("contact", []);
   }
 
+  /* The lines that give the same answer: of a `shell` one by one, and of `python`. */
   lines() {
     return this.call("lines", []);
   }
 
-  /* A file to take away. */
+  /* A file to take away: `heights.npz`, and of the last solution `fields.npz`, `report.json`, `scene.toml`, the gap
+     `start.npz` from which it started, or `table.csv` of the loads that were followed. */
   async download(name) {
     const types = { json: "application/json", toml: "application/toml", csv: "text/csv", npz: "application/zip" };
     const bytes = await this.call("file", [name]);

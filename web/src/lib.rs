@@ -15,6 +15,7 @@ mod state;
 pub use engine::Engine;
 pub use problem::Observe;
 
+use asperity::Error;
 use asperity_scene::outcome::Outcome;
 use js_sys::Function;
 use wasm_bindgen::prelude::*;
@@ -33,8 +34,23 @@ const FAULT: &str = "the engine has failed";
 
 /// A value for JavaScript, or an error with its message.
 fn told<T>(outcome: Outcome<T>) -> Result<T, JsError> {
-    outcome.map_err(|error| JsError::new(&error.to_string()))
+    outcome.map_err(|error| JsError::new(&message(&*error)))
 }
+
+/// The message of an error; of memory that is not there with what helps in a browser.
+fn message(error: &(dyn std::error::Error + 'static)) -> String {
+    match error.downcast_ref() {
+        Some(Error::Memory { what, bytes }) => format!(
+            "{what} takes {:.1} GiB of memory, which a page cannot have: take fewer nodes, as by the steps crop and \
+             resample, or the program, which may have more",
+            bytes / GIB
+        ),
+        _ => error.to_string(),
+    }
+}
+
+/// The bytes of a GiB.
+const GIB: f64 = 1_073_741_824.0;
 
 /// The version, the laws, and the colours of maps, as JSON.
 #[wasm_bindgen]
