@@ -56,15 +56,15 @@ export class Cycle {
     this.jumps.textContent = [this.told(rows, units), ...shortfalls].join(" ");
   }
 
-  /* The jumps in a sentence. */
+  /* The jumps in a sentence, the largest first. */
   told(rows, units) {
-    const jumps = rows.filter(row => row.energy_drop > 0);
+    const jumps = rows.filter(row => row.energy_drop > 0).sort((a, b) => b.energy_drop - a.energy_drop);
     if (!jumps.length) return "There is no jump.";
     const each = jumps.slice(0, MOST).map(row => {
       const place = read(row[this.isFree ? "approach" : "mean_gap"], units.length);
       return `${row.event} at ${place}: ${read(row.energy_drop, units.length && "J/m²")}`;
     });
-    const more = jumps.length > MOST ? "; …" : "";
-    return `Jumps: ${jumps.length}, with the energy per area that each dissipates: ${each.join("; ")}${more}.`;
+    const which = jumps.length > MOST ? ` of the largest ${MOST}` : "";
+    return `Jumps: ${jumps.length}, with the energy per area that each${which} dissipates: ${each.join("; ")}.`;
   }
 }
