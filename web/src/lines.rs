@@ -98,7 +98,10 @@ impl Origin {
         let mut rest: Vec<String> = Vec::new();
         let law = typed.get("law").and_then(Value::as_str).filter(|law| *law != "none");
         if let Some(law) = law {
-            let law = format!("asperity.{}({})", class(law), keywords(typed.iter().filter(of(&LAW))));
+            // beside a wall the program leaves out what repels of this law
+            let walled = typed.get("wall").and_then(Value::as_str) != Some("none");
+            let cut = if walled && law == "lennard-jones" { ", cut=True" } else { "" };
+            let law = format!("asperity.{}({}{cut})", class(law), keywords(typed.iter().filter(of(&LAW))));
             lines.push(format!(
                 "law = {}",
                 match typed.get("cut_off") {

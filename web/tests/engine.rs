@@ -80,6 +80,25 @@ fn another_scene_goes_on_from_the_last_solution_on_the_same_surface() {
 }
 
 #[test]
+fn the_lines_of_python_have_laws_and_bodies_as_objects() {
+    let mut engine = rough(json!({}));
+    let scene = json!({ "modulus": "1GPa", "mean_pressure": "5MPa", "law": "lennard-jones", "work_of_adhesion": "10mJ/m2",
+        "range": "3nm", "cut_off": "30nm", "layer": "100nm", "poisson": "0.3", "precision": "f32" });
+    solve(&mut engine, scene, false);
+    assert_eq!(
+        engine.lines().unwrap()["python"],
+        r#"import asperity
+
+surface = asperity.surface.self_affine(64, "1um", rms_slope=0.1, k_s=16, seed=3)
+law = asperity.CutOff(asperity.LennardJones(work_of_adhesion="10mJ/m2", range="3nm", cut=True), "30nm")
+body = asperity.Layer(thickness="100nm", poisson=0.3)
+solution = asperity.solve(surface, modulus="1GPa", mean_pressure="5MPa", precision="f32", law=law, body=body)
+solution
+"#
+    );
+}
+
+#[test]
 fn what_is_wrong_is_refused_by_its_key_and_the_last_solution_stays() {
     let mut engine = rough(json!({}));
     let good = json!({ "modulus": "1GPa", "mean_pressure": "5MPa" });

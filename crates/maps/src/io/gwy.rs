@@ -279,6 +279,17 @@ mod tests {
     }
 
     #[test]
+    fn channels_are_told_with_what_they_are_of() {
+        let file = gwy(&[channel(0, "Trace", &field("nm")), channel(3, "Error", &field("V"))]);
+        let told = super::super::channels("scan.gwy", &file).unwrap();
+        let told: Vec<_> = told.iter().map(|found| (found.number, &found.title[..], found.is_of_heights)).collect();
+        assert_eq!(told, [(0, "Trace", true), (3, "Error", false)]);
+        assert_eq!(super::super::channels("map.txt", b"1 2\n").unwrap(), []);
+        let read = super::super::read_bytes("scan.gwy", &file, None).unwrap();
+        assert_eq!(read.heights.column(1), read_map(&file, "scan.gwy").unwrap().heights.column(1));
+    }
+
+    #[test]
     fn damaged_gwy_is_refused_without_panic() {
         let file = gwy(&[channel(0, "Height", &field("nm"))]);
         for length in 0..file.len() {
