@@ -227,14 +227,7 @@ impl Engine {
     /// The key and the remedy, and those of the solvers.
     pub fn solve(&mut self, given: &str, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
         let given = Given::read(given, &keys())?;
-        let mut before = self.problem.take();
-        let problem = Problem::of(&given, self.surface()?, self.origin.name(), &mut before, from_last);
-        self.problem = before;
-        let mut problem = problem?;
-        self.problem = None;
-        let answer = problem.solve(given, from_last, observe);
-        self.problem = Some(problem);
-        answer
+        self.pose(&given, from_last)?.solve(given, from_last, observe)
     }
 
     /// Begins a sweep or a cycle along loads.
@@ -243,14 +236,15 @@ impl Engine {
     /// The key and the remedy.
     pub fn begin(&mut self, given: &str, command: &str) -> Outcome<Value> {
         let given = Given::read(given, &keys())?;
+        self.pose(&given, false)?.begin(given, command)
+    }
+
+    /// The problem that keys pose; the one before stays where they are refused.
+    fn pose(&mut self, given: &Given, goes_on: bool) -> Outcome<&mut Problem> {
         let mut before = self.problem.take();
-        let problem = Problem::of(&given, self.surface()?, self.origin.name(), &mut before, false);
+        let problem = Problem::of(given, self.surface()?, self.origin.name(), &mut before, goes_on);
         self.problem = before;
-        let mut problem = problem?;
-        self.problem = None;
-        let columns = problem.begin(given, command);
-        self.problem = Some(problem);
-        columns
+        Ok(self.problem.insert(problem?))
     }
 
     /// The next state along the loads; nothing at their end.
