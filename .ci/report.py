@@ -3,24 +3,15 @@
 
     .ci/report.py BROWSER PAGE...
 
-The browser has no window and no network. It is led by its DevTools protocol, over a pipe. Exits with 1 and the
-complaints if a page is not as it should be.
+The browser has no window and no network. Exits with 1 and the complaints if a page is not as it should be.
 """
 
-import base64
-import itertools
-import json
-import os
 import pathlib
-import select
-import subprocess
 import sys
-import tempfile
+
+from browser import Browser
 
 WIDTHS = {"wide": 1300, "narrow": 400}
-
-# seconds until a browser that is silent has failed
-PATIENCE = 60
 
 # what only a browser can tell of a page
 STATE = """(async () => {
@@ -65,109 +56,6 @@ READ = """(() => {
   const figure = document.querySelectorAll("figure.map")[%d];
   return { value: figure.querySelector("output").textContent, bar: figure.querySelector(".scale").innerText };
 })()"""
-
-
-class Browser:
-    """A browser with one tab."""
-
-    def __init__(self, path):
-        (commands, self.commands), (self.answers, answers) = os.pipe(), os.pipe()
-        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        flags = "--headless --no-sandbox --disable-gpu --no-first-run --remote-debugging-pipe".split()
-        start = f'LD_LIBRARY_PATH=$BROWSER_LIBRARIES exec "$0" "$@" 3<&{commands} 4>&{answers}'
-        self.process = subprocess.Popen(
-            ["bash", "-c", start, path, *flags, f"--user-data-dir={self.profile.name}"],
-            pass_fds=(commands, answers),
-            stdin=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        os.close(commands)
-        os.close(answers)
-        self.numbers, self.rest, self.events, self.session = itertools.count(1), b"", [], None
-        target = self("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        for domain in ["Page", "Runtime", "Log", "Network"]:
-            self(f"{domain}.enable")
-        self("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
-
-    def message(self):
-        """The next message of the browser."""
-        while b"\0" not in self.rest:
-            if not select.select([self.answers], [], [], PATIENCE)[0]:
-                sys.exit(f"the browser has said nothing for {PATIENCE} seconds")
-            read = os.read(self.answers, 1 << 16)
-            if not read:
-                sys.exit("the browser has ended: " + str(self.process.wait()))
-            self.rest += read
-        message, self.rest = self.rest.split(b"\0", 1)
-        return json.loads(message)
-
-    def __call__(self, method, **params):
-        """The answer to a command; events until then are kept."""
-        number = next(self.numbers)
-        command = {"id": number, "method": method, "params": params}
-        if self.session:
-            command["sessionId"] = self.session
-        os.write(self.commands, json.dumps(command).encode() + b"\0")
-        while (message := self.message()).get("id") != number:
-            self.events.append(message)
-        if "error" in message:
-            sys.exit(f"{method}: {message['error']}")
-        return message["result"]
-
-    def open(self, url):
-        """Opens a page, and returns when it has loaded."""
-        self.events.clear()
-        self("Page.navigate", url=url)
-        while not any(event["method"] == "Page.loadEventFired" for event in self.events):
-            self.events.append(self.message())
-
-    def close(self):
-        self("Browser.close")
-        self.process.wait()
-        self.profile.cleanup()
-
-    def value(self, script):
-        """The value of a script, or of what it promises."""
-        answer = self("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
-        if "exceptionDetails" in answer:
-            sys.exit(f"{answer['exceptionDetails']}")
-        return answer["result"]["value"]
-
-    def mouse(self, kind, at, **params):
-        self("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], **params)
-
-    def click(self, at, count=1):
-        for times in range(1, count + 1):
-            for kind in ["mousePressed", "mouseReleased"]:
-                self.mouse(kind, at, button="left", clickCount=times)
-
-    def wheel(self, at, turn):
-        self.mouse("mouseWheel", at, deltaX=0, deltaY=turn)
-
-    def comes_true(self, condition):
-        """Whether a condition comes true within five seconds: scrolling takes a while."""
-        return self.value(f"""new Promise(done => {{
-          const look = times => ({condition}) || !times ? done(times > 0) : setTimeout(look, 50, times - 1);
-          look(100);
-        }})""")
-
-    def drag(self, at, by):
-        """Moves the mouse with its button pressed."""
-        to = [at[0] + by[0], at[1] + by[1]]
-        self.mouse("mousePressed", at, button="left", clickCount=1)
-        self.mouse("mouseMoved", to, button="left", buttons=1)
-        self.mouse("mouseReleased", to, button="left", clickCount=1)
-
-    def key(self, key):
-        self("Input.dispatchKeyEvent", type="keyDown", key=key, text=key)
-        self("Input.dispatchKeyEvent", type="keyUp", key=key)
-
-    def picture(self, path):
-        """The whole page as a picture."""
-        size = self("Page.getLayoutMetrics")["cssContentSize"]
-        answer = self("Page.captureScreenshot", clip={**size, "scale": 1}, captureBeyondViewport=True)
-        path.write_bytes(base64.b64decode(answer["data"]))
 
 
 def near(some, others):

@@ -1,24 +1,23 @@
 //! `asperity stats`: statistics and spectrum of a surface.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
 use asperity_maps::Topography;
+use asperity_scene::{Skin, statistics};
 use clap::Args;
-use serde_json::{Map, Value, json};
+use serde_json::Map;
 
 use crate::csv;
 use crate::heights::{self, check_complete, check_room, warn_of_unread};
-use crate::numbers::plain;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::Printing;
-use crate::quantity::{Dimension, LENGTH, PER_LENGTH, Quantity};
+use crate::quantity::{LENGTH, Quantity};
 use crate::report;
 use crate::scene::SceneFile;
-use crate::units::Units;
 
 /// Print the statistics of a rough surface.
 ///
@@ -78,73 +77,14 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     options.printing.say(&table(&map, &found));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
-        report::report("stats", statistics(&map, &found, path), &version)
+        report::report("stats", statistics::figures(&map, &found, path), &version)
     });
     Ok(true)
 }
 
-/// The statistics of the map in a file, by name.
-pub fn statistics(map: &Topography, found: &SurfaceStatistics, heights: &Path) -> Value {
-    json!({
-        "heights": heights.to_string_lossy(),
-        "shape": map.heights.dim(),
-        "lengths": map.lengths,
-        "length_unit": map.unit,
-        "original": map.original,
-        "mean_height": found.mean,
-        "lowest": found.lowest,
-        "highest": found.highest,
-        "rms_height": found.rms_height,
-        "skewness": found.skewness,
-        "kurtosis": found.kurtosis,
-        "rms_slope": found.rms_slope,
-        "rms_slope_differences": found.rms_slope_differences,
-        "rms_curvature": found.rms_curvature,
-        "rms_curvature_differences": found.rms_curvature_differences,
-        "nayak": found.nayak,
-        "knee_wavelength": found.knee_wavelength,
-    })
-}
-
-/// The statistics of a map, one to a line, with the unit of length if it is known. Of a mirrored map they are those of
-/// all nodes.
+/// The statistics of a map, one to a line.
 pub fn table(map: &Topography, found: &SurfaceStatistics) -> String {
-    let ((nx, ny), unit) = (map.heights.dim(), map.unit.as_deref());
-    // Shape and Nayak's parameter have no meaning on a flat surface.
-    let units = Units::of_map(unit);
-    let number = |value: f64, dimension: Option<Dimension>| match dimension {
-        _ if value.is_nan() => "-".to_owned(),
-        Some(dimension) => units.number(value, dimension),
-        None => plain(value),
-    };
-    let sides = match map.lengths {
-        Some((lx, _)) if ny == 1 => units.number(lx, LENGTH),
-        Some(lengths) => heights::sides(lengths, unit),
-        None => "unknown: give --lengths for slopes, curvatures and Nayak's parameter".to_owned(),
-    };
-    let mut rows = vec![("nodes", format!("{nx} x {ny}")), ("side lengths", sides)];
-    if let Some((x, y)) = map.original {
-        rows.push(("original", format!("{x} x {y} nodes, all others are its mirror images")));
-    }
-    for (name, value, dimension) in [
-        ("mean height", found.mean, Some(LENGTH)),
-        ("lowest", found.lowest, Some(LENGTH)),
-        ("highest", found.highest, Some(LENGTH)),
-        ("rms height", found.rms_height, Some(LENGTH)),
-        ("skewness", found.skewness, None),
-        ("kurtosis", found.kurtosis, None),
-        ("rms slope, spectral", found.rms_slope, None),
-        ("  by differences", found.rms_slope_differences, None),
-        ("rms curvature, spectral", found.rms_curvature, Some(PER_LENGTH)),
-        ("  by differences", found.rms_curvature_differences, Some(PER_LENGTH)),
-        ("Nayak's parameter", found.nayak, None),
-    ] {
-        rows.push((name, number(value, dimension)));
-    }
-    if let Some(knee) = found.knee_wavelength {
-        let remedy = "shorter waves are noise, which prepare --cut-off-wavelength leaves out";
-        rows.push(("knee of the spectrum", format!("{}: {remedy}", units.number(knee, LENGTH))));
-    }
+    let rows = statistics::rows(map, found, Skin::Options);
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     let lines = rows.iter().map(|(name, value)| format!("{name:width$}  {value}"));
     lines.collect::<Vec<_>>().join("\n")

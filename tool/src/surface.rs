@@ -7,7 +7,7 @@ use asperity::{Grid, SelfAffine};
 use asperity_maps::Topography;
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
-use asperity_scene::{Body, BodyForm, Roughness};
+use asperity_scene::{Body, BodyForm, Roughness, statistics};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
@@ -19,7 +19,7 @@ use crate::printing::{Printing, name};
 use crate::quantity::{LENGTH, Quantity};
 use crate::report;
 use crate::scene::{self, SceneFile};
-use crate::stats::{density_table, statistics, table};
+use crate::stats::{density_table, table};
 use crate::threads::use_threads;
 
 /// Make a self-affine rough surface or a simple body, and print its statistics.
@@ -168,7 +168,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     options.printing.say(&format!("heights in {}", name(&options.out)));
     options.printing.report(|| {
         let figures = match &found {
-            Some(found) => statistics(&map, found, &options.out),
+            Some(found) => statistics::figures(&map, found, &options.out),
             None => json!({
                 "heights": options.out.to_string_lossy(),
                 "shape": shape,

@@ -2,9 +2,10 @@
 //!
 //! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`,
 //! `.xyz` and text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone,
-//! [`read_channel`] one of several channels, and [`read_fourier`] Fourier coefficients. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all
-//! fields of a solution into one file, for numpy and for ParaView. [`OutputFolder`] collects the files of one run and
-//! shows them only once all of them are complete.
+//! [`read_channel`] one of several [`channels`], [`read_bytes`] what is in memory, and [`read_fourier`] Fourier
+//! coefficients. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file,
+//! for numpy and for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are
+//! complete.
 
 mod foreign;
 mod fourier;
@@ -21,7 +22,7 @@ mod vti;
 mod xyz;
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 
@@ -32,11 +33,12 @@ use crate::Topography;
 use asperity::{Error, Result};
 pub use fourier::read_fourier;
 use gsf::{GSF, read_gsf, write_gsf};
+pub use gwy::Channel;
 use gwy::{GWY, read_gwy};
 pub use memory::{available_memory, check_memory};
 use npy::{NPY, read_npy, read_npy_rows};
-pub use npz::write_npz;
 use npz::{ZIP, read_npz};
+pub use npz::{map_as_npz, npz, write_npz};
 pub use output::OutputFolder;
 use refusal::{DAMAGED, Parsed, Refusal, TRUNCATED, check_room, quoted, refuse, reserve, unreadable};
 use text::read_text;
@@ -139,6 +141,33 @@ pub fn read_topography(path: impl AsRef<Path>) -> Result<Topography> {
 pub fn read_channel(path: impl AsRef<Path>, channel: &str) -> Result<Topography> {
     let path = path.as_ref();
     read_any(path, Some(channel)).map_err(|refusal| refusal.of(path))
+}
+
+/// Reads a height map from the bytes of a file of a name, or one of its channels; otherwise as [`read_topography`] and
+/// [`read_channel`], where there are no files, as in a browser.
+///
+/// ```
+/// let map = asperity_maps::io::read_bytes("heights.txt", b"1 2 3\n4 5 6\n", None)?;
+/// assert_eq!(map.heights, ndarray::array![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// As for [`read_channel`], with the name in the place of the path.
+pub fn read_bytes(name: &str, bytes: &[u8], channel: Option<&str>) -> Result<Topography> {
+    let path = Path::new(name);
+    read_from(Cursor::new(bytes), bytes.len() as u64, &ending(path), channel).map_err(|refusal| refusal.of(path))
+}
+
+/// The channels in the bytes of a file of a name; none if its format has none.
+///
+/// # Errors
+///
+/// [`Error::File`] if a `.gwy` file is truncated or damaged.
+pub fn channels(name: &str, bytes: &[u8]) -> Result<Vec<Channel>> {
+    let found = if bytes.starts_with(GWY) { gwy::channels(bytes) } else { Ok(Vec::new()) };
+    found.map_err(|refusal| refusal.of(Path::new(name)))
 }
 
 /// Reads the rows of a height map that `rows` chooses by its shape (Nx, Ny), and tells that shape; otherwise as
@@ -263,7 +292,7 @@ pub fn write_topography(path: impl AsRef<Path>, map: &Topography) -> Result<()> 
             Err(Error::file(path, format!("has a unit of {longest} characters: give one of at most {LONGEST_UNIT}")))
         }
         "npy" => write_npy(path, &map.heights),
-        "npz" => npz::write_map(path, map),
+        "npz" => fs::write(path, map_as_npz(map)?).map_err(|e| Error::unwritable(path, e)),
         "gsf" if map.heights.iter().any(|h| h.is_finite() && !(*h as f32).is_finite()) => {
             Err(Error::file(path, "cannot hold such heights, its numbers are f32: choose .npz or .npy"))
         }
@@ -308,8 +337,12 @@ fn opened(path: &Path, kinds: &str) -> Parsed<(BufReader<File>, u64)> {
 }
 
 fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
-    let ending = ending(path);
-    let (mut reader, size) = opened(path, "a .npy, .npz, .gwy, .gsf, .xyz or text file")?;
+    let (reader, size) = opened(path, "a .npy, .npz, .gwy, .gsf, .xyz or text file")?;
+    read_from(reader, size, &ending(path), channel)
+}
+
+/// Reads a map of `size` bytes from a file whose name has an ending.
+fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, channel: Option<&str>) -> Parsed<Topography> {
     let start = reader.fill_buf().map_err(unreadable)?;
     let map = if start.starts_with(GWY) {
         read_gwy(&mut reader, size, channel)
@@ -324,7 +357,7 @@ fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
     } else if let Some(reason) = foreign::by_start(start) {
         refuse(reason)
     } else {
-        let binary = foreign::by_ending(start, &ending);
+        let binary = foreign::by_ending(start, ending);
         let text = if ending == "xyz" { read_xyz(reader) } else { read_text(reader) };
         text.map_err(|refusal| binary.map_or(refusal, Refusal::Reason))
     }?;

@@ -54,6 +54,28 @@ impl Colouring {
     pub(super) fn is_of_classes(self) -> bool {
         matches!(self, Self::Contact | Self::Clusters)
     }
+
+    /// The colours of a scale in 256 steps, from the least value to the greatest; of contact those of nodes apart, in
+    /// contact, attractive and yielded; of clusters those of the labels from 0 to 9.
+    ///
+    /// ```
+    /// use asperity_plot::Colouring;
+    /// assert_eq!(Colouring::Sequential.steps().len(), 256);
+    /// assert_eq!(Colouring::Contact.steps()[..2], [[255; 3], [0; 3]]);
+    /// ```
+    pub fn steps(self) -> Vec<[u8; 3]> {
+        let (gradient, at): (_, fn(f64) -> f64) = match self {
+            Self::Sequential => (VIRIDIS, |share| share),
+            Self::Diverging => (RED_BLUE, |share| 1.0 - share),
+            Self::Contact => return vec![WHITE, BLACK, ATTRACTIVE, YIELDED],
+            Self::Clusters => return (0..10).map(cluster_colour).collect(),
+        };
+        let colours = (0..=u8::MAX).map(|step| gradient.eval_continuous(at(f64::from(step) / f64::from(u8::MAX))));
+        colours.map(|colour| [colour.r, colour.g, colour.b]).collect()
+    }
+
+    /// The colour of values that are not finite.
+    pub const MISSING: [u8; 3] = MISSING;
 }
 
 /// The colour of the cluster of a label, counted from 1; white for 0, which is none. The same nine colours in turn.

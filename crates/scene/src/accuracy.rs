@@ -1,13 +1,12 @@
 //! The accuracy that is asked for, and its plan.
 
-use std::time::Instant;
-
 use asperity::accuracy::{Accuracy, Plan, Quantity};
 use asperity::stability::ContactStiffness;
 use asperity::{AdhesionLaw, Control, ElasticOperator, Real, Result, Solver, Surface};
 use asperity_maps::io::available_memory;
 use ndarray::Array2;
 
+use crate::clock::Instant;
 use crate::elastic::Elastic;
 use crate::wall::Constraint;
 

@@ -4,7 +4,6 @@ use std::ffi::OsStr;
 use std::mem;
 use std::ops::ControlFlow;
 use std::path::Path as File;
-use std::time::Instant;
 
 use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
 use asperity::{Branch, ContactSearch, Control, Iteration, Real, Result, Sweep};
@@ -15,6 +14,7 @@ use serde_json::{Map, Value, json};
 use crate::account::{Account, stiffness};
 use crate::after::After;
 use crate::boundary::Boundary;
+use crate::clock::Instant;
 use crate::compiled::compiled;
 use crate::entries::{Search, Step};
 use crate::found::Found;

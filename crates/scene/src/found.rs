@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::sync::Arc;
-use std::time::Instant;
 
 use asperity::contact::{ContactStatistics, Original};
 use asperity::elastic::Boundary;
@@ -13,6 +12,7 @@ use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::{Array2, ArrayView2};
 
 use crate::after::Findings;
+use crate::clock::Instant;
 use crate::compiled::compiled;
 use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
 use crate::told::Told;

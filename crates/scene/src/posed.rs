@@ -3,7 +3,6 @@
 use std::mem;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::Instant;
 
 use asperity::accuracy::{AccurateSolution, GridError, Plan};
 use asperity::contact::Original;
@@ -20,6 +19,7 @@ use crate::accuracy::{Goal, planned, seconds_of};
 use crate::after::After;
 use crate::asked::Asked;
 use crate::boundary::Boundary;
+use crate::clock::Instant;
 use crate::compiled::compiled;
 use crate::elastic::Elastic;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};

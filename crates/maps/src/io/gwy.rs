@@ -1,12 +1,15 @@
 //! Height maps in Gwyddion's own files (`.gwy`).
 
+mod items;
+
 use std::collections::BTreeMap;
 use std::io::Read;
 
 use ndarray::Array2;
 
+use self::items::{Bytes, Value};
 use super::units::{in_one_unit, is_length};
-use super::{DAMAGED, Parsed, TRUNCATED, quoted, refuse, reserve, unreadable};
+use super::{DAMAGED, Parsed, quoted, refuse, reserve, unreadable};
 use crate::Topography;
 
 pub(super) const GWY: &[u8] = b"GWYP";
@@ -22,13 +25,23 @@ pub(super) fn read_gwy(reader: &mut impl Read, size: u64, channel: Option<&str>)
     let mut bytes = Vec::new();
     reserve(&mut bytes, usize::try_from(size).unwrap_or(usize::MAX))?;
     reader.take(size).read_to_end(&mut bytes).map_err(unreadable)?;
+    let channels = fields(&bytes)?;
+    let number = chosen(&channels, channel)?;
+    let field = channels.get(&number).and_then(|channel| channel.field).ok_or(DAMAGED)?;
+    let mut map = Field::new(field)?.map()?;
+    map.unread = channels.iter().filter(|(n, _)| **n != number).map(|(n, channel)| channel.name(*n)).collect();
+    Ok(map)
+}
+
+/// The channels of a file of heights by their numbers.
+fn fields(bytes: &[u8]) -> Parsed<BTreeMap<usize, Titled<'_>>> {
     let mut start = Bytes(bytes.get(GWY.len()..).unwrap_or_default());
     let (kind, container) = start.object()?;
     if kind != b"GwyContainer" {
         return refuse(format!("holds a {}, expected a GwyContainer: save it again", quoted(&text(kind))));
     }
 
-    let mut channels = BTreeMap::<usize, Channel>::new();
+    let mut channels = BTreeMap::<usize, Titled<'_>>::new();
     for item in Bytes(container) {
         let (name, value) = item?;
         // as /0/data and /0/data/title; what is deeper, or named otherwise, is how the channel is shown
@@ -42,15 +55,32 @@ pub(super) fn read_gwy(reader: &mut impl Read, size: u64, channel: Option<&str>)
         }
     }
     channels.retain(|_, channel| channel.field.is_some());
-    let number = chosen(&channels, channel)?;
-    let field = channels.get(&number).and_then(|channel| channel.field).ok_or(DAMAGED)?;
-    let mut map = Field::new(field)?.map()?;
-    map.unread = channels.iter().filter(|(n, _)| **n != number).map(|(n, channel)| channel.name(*n)).collect();
-    Ok(map)
+    Ok(channels)
+}
+
+/// A channel of a Gwyddion file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// The number.
+    pub number: usize,
+    /// The title; empty if it has none.
+    pub title: String,
+    /// Whether heights and sides both are in units of length.
+    pub is_of_heights: bool,
+}
+
+/// The channels of a Gwyddion file.
+pub(super) fn channels(bytes: &[u8]) -> Parsed<Vec<Channel>> {
+    let named = |(number, channel): (usize, Titled<'_>)| Channel {
+        number,
+        is_of_heights: channel.is_of_heights(),
+        title: channel.title,
+    };
+    Ok(fields(bytes)?.into_iter().map(named).collect())
 }
 
 /// The number of the channel that is asked for, or of the only one that it can be.
-fn chosen(channels: &BTreeMap<usize, Channel>, asked: Option<&str>) -> Parsed<usize> {
+fn chosen(channels: &BTreeMap<usize, Titled<'_>>, asked: Option<&str>) -> Parsed<usize> {
     let fits: Vec<usize> = match asked {
         Some(asked) => {
             let number = asked.parse().ok().filter(|number| channels.contains_key(number));
@@ -79,12 +109,12 @@ fn chosen(channels: &BTreeMap<usize, Channel>, asked: Option<&str>) -> Parsed<us
 
 /// A channel: its title, and its field.
 #[derive(Default)]
-struct Channel<'a> {
+struct Titled<'a> {
     title: String,
     field: Option<&'a [u8]>,
 }
 
-impl Channel<'_> {
+impl Titled<'_> {
     /// Whether heights and sides both are in units of length.
     fn is_of_heights(&self) -> bool {
         let field = self.field.and_then(|field| Field::new(field).ok());
@@ -153,116 +183,6 @@ fn unit_of(bytes: &[u8]) -> Parsed<String> {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// The value of an item; only what height maps have is told apart.
-enum Value<'a> {
-    Whole(i32),
-    Number(f64),
-    Text(&'a [u8]),
-    Numbers(&'a [[u8; 8]]),
-    /// by its type and its items
-    Object(&'a [u8], &'a [u8]),
-    Other,
-}
-
-/// The items that are still to be read.
-#[derive(Clone, Copy)]
-struct Bytes<'a>(&'a [u8]);
-
-impl<'a> Bytes<'a> {
-    fn take(&mut self, count: usize) -> Parsed<&'a [u8]> {
-        let (taken, rest) = self.0.split_at_checked(count).ok_or(TRUNCATED)?;
-        self.0 = rest;
-        Ok(taken)
-    }
-
-    fn array<const N: usize>(&mut self) -> Parsed<[u8; N]> {
-        self.take(N)?.try_into().map_err(|_| DAMAGED.into())
-    }
-
-    /// A text that ends with a zero.
-    fn text(&mut self) -> Parsed<&'a [u8]> {
-        let end = self.0.iter().position(|byte| *byte == 0).ok_or(TRUNCATED)?;
-        let taken = self.take(end)?;
-        self.take(1)?;
-        Ok(taken)
-    }
-
-    fn size(&mut self) -> Parsed<usize> {
-        usize::try_from(u32::from_le_bytes(self.array()?)).map_err(|_| DAMAGED.into())
-    }
-
-    /// The type of an object, and its items.
-    fn object(&mut self) -> Parsed<(&'a [u8], &'a [u8])> {
-        let (kind, size) = (self.text()?, self.size()?);
-        Ok((kind, self.take(size)?))
-    }
-
-    fn item(&mut self) -> Parsed<(&'a [u8], Value<'a>)> {
-        let name = self.text()?;
-        let [kind] = self.array()?;
-        let value = match kind {
-            b'i' => Value::Whole(i32::from_le_bytes(self.array()?)),
-            b'd' => Value::Number(f64::from_le_bytes(self.array()?)),
-            b's' => Value::Text(self.text()?),
-            b'o' => {
-                let (kind, items) = self.object()?;
-                Value::Object(kind, items)
-            }
-            b'D' => {
-                let count = self.size()?;
-                Value::Numbers(self.take(count.checked_mul(8).ok_or(TRUNCATED)?)?.as_chunks().0)
-            }
-            b'b' | b'c' => self.skip(1)?,
-            b'q' => self.skip(8)?,
-            b'C' | b'I' | b'Q' => {
-                let width = if kind == b'C' {
-                    1
-                } else if kind == b'I' {
-                    4
-                } else {
-                    8
-                };
-                let count = self.size()?;
-                self.skip(count.checked_mul(width).ok_or(TRUNCATED)?)?
-            }
-            b'S' => {
-                for _ in 0..self.size()? {
-                    self.text()?;
-                }
-                Value::Other
-            }
-            b'O' => {
-                for _ in 0..self.size()? {
-                    self.object()?;
-                }
-                Value::Other
-            }
-            _ => return refuse(DAMAGED),
-        };
-        Ok((name, value))
-    }
-
-    fn skip(&mut self, count: usize) -> Parsed<Value<'a>> {
-        self.take(count).map(|_| Value::Other)
-    }
-}
-
-/// Its items, up to the first that cannot be read.
-impl<'a> Iterator for Bytes<'a> {
-    type Item = Parsed<(&'a [u8], Value<'a>)>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.0.is_empty() {
-            return None;
-        }
-        let item = self.item();
-        if item.is_err() {
-            self.0 = &[];
-        }
-        Some(item)
-    }
 }
 
 #[cfg(test)]
@@ -356,6 +276,17 @@ mod tests {
         assert_refused(read(gwy(&[volts])), &["\"V\""]);
         assert_refused(read(gwy(&[])), &["no channel of heights"]);
         assert_refused(read_one(b"1 2\n3 4\n", "0"), &["no channels", "leave"]);
+    }
+
+    #[test]
+    fn channels_are_told_with_what_they_are_of() {
+        let file = gwy(&[channel(0, "Trace", &field("nm")), channel(3, "Error", &field("V"))]);
+        let told = super::super::channels("scan.gwy", &file).unwrap();
+        let told: Vec<_> = told.iter().map(|found| (found.number, &found.title[..], found.is_of_heights)).collect();
+        assert_eq!(told, [(0, "Trace", true), (3, "Error", false)]);
+        assert_eq!(super::super::channels("map.txt", b"1 2\n").unwrap(), []);
+        let read = super::super::read_bytes("scan.gwy", &file, None).unwrap();
+        assert_eq!(read.heights.column(1), read_map(&file, "scan.gwy").unwrap().heights.column(1));
     }
 
     #[test]

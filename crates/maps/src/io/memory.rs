@@ -46,7 +46,10 @@ pub fn check_memory(what: &str, (nx, ny): (usize, usize), bytes_per_node: usize)
     if is_there(bytes) { Ok(()) } else { Err(Error::Memory { what: format!("{what} on {nx} x {ny} nodes"), bytes }) }
 }
 
-/// Whether the machine has so many bytes.
+/// Whether the machine has so many bytes; in WebAssembly, whether they can be had in one piece.
 pub(super) fn is_there(bytes: f64) -> bool {
+    if cfg!(target_family = "wasm") {
+        return bytes < usize::MAX as f64 && Vec::<u8>::new().try_reserve_exact(bytes as usize).is_ok();
+    }
     bytes <= SMALL || bytes <= available_memory() + told("SwapFree:").unwrap_or(0.0)
 }

@@ -1,11 +1,12 @@
 //! Height maps in NumPy archives (`.npz`).
 
-use std::fs::{self, File};
-use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
+use std::fs;
+use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use ndarray::{ArrayView2, arr1};
 use ndarray_npy::{NpzWriter, WritableElement, WriteNpyError, WriteNpyExt, WriteNpzError};
+use zip::read::ZipFile;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive};
 
@@ -27,8 +28,8 @@ const ENTRY: usize = 1024;
 const ARRAYS: [&str; 6] = ["heights", "lengths", "unit", "original", "seed", "scars_removed"];
 
 /// Reads the array `heights`, or the only one, of an archive of `size` bytes; beside it what else a map has.
-pub(super) fn read_npz(mut reader: BufReader<File>, size: u64) -> Parsed<Topography> {
-    check_counts(&mut reader).map_err(unreadable)?;
+pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topography> {
+    check_counts(&mut reader, size).map_err(unreadable)?;
     let mut archive = ZipArchive::new(reader).map_err(damaged)?;
     let index = match (archive.len(), archive.index_for_name("heights.npy")) {
         (1, _) => 0,
@@ -105,9 +106,9 @@ fn array(entry: &str) -> &str {
 
 /// Checks that the end of an archive without a comment gives its number of entries twice: one of them decides how many
 /// are found, and no checksum covers it.
-fn check_counts(reader: &mut BufReader<File>) -> io::Result<()> {
+fn check_counts(reader: &mut (impl Read + Seek), size: u64) -> io::Result<()> {
     let mut end = [0; 22];
-    if reader.get_ref().metadata()?.len() >= end.len() as u64 {
+    if size >= end.len() as u64 {
         reader.seek(SeekFrom::End(-(end.len() as i64)))?;
         reader.read_exact(&mut end)?;
         reader.rewind()?;
@@ -122,13 +123,11 @@ fn damaged(error: zip::result::ZipError) -> String {
     format!("is not a .npz file that can be read ({error}): copy or save it again")
 }
 
-type Entry<'a> = zip::read::ZipFile<'a, BufReader<File>>;
-
-fn read_entry<T>(
-    archive: &mut ZipArchive<BufReader<File>>,
+fn read_entry<R: Read + Seek, T>(
+    archive: &mut ZipArchive<R>,
     index: usize,
     size: u64,
-    read: impl FnOnce(&mut Entry<'_>, u64) -> Parsed<T>,
+    read: impl FnOnce(&mut ZipFile<'_, R>, u64) -> Parsed<T>,
 ) -> Parsed<T> {
     let mut entry = archive.by_index(index).map_err(damaged)?;
     let entry_size = entry.size();
@@ -156,17 +155,32 @@ pub fn write_npz<T: WritableElement>(
     grid: &Grid,
     fields: &[(&str, ArrayView2<'_, T>)],
 ) -> Result<()> {
-    fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
-    write(path.as_ref(), fields, &Known { lengths: Some(grid.lengths()), ..Known::default() })
+    let path = path.as_ref();
+    fs::write(path, npz(grid, fields)?).map_err(|e| Error::unwritable(path, e))
 }
 
-/// Writes a map with what is known of it.
-pub(super) fn write_map(path: &Path, map: &Topography) -> Result<()> {
+/// The bytes of the file that [`write_npz`] writes.
+///
+/// # Errors
+///
+/// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if there is no memory for the bytes.
+pub fn npz<T: WritableElement>(grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result<Vec<u8>> {
+    fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
+    let known = Known { lengths: Some(grid.lengths()), ..Known::default() };
+    archive(fields, &known).map_err(|e| Error::unwritable("fields.npz", e))
+}
+
+/// The bytes of a map as `.npz`, with what is known of it; see [`write_topography`](super::write_topography).
+///
+/// # Errors
+///
+/// [`Error::File`] if there is no memory for the bytes.
+pub fn map_as_npz(map: &Topography) -> Result<Vec<u8>> {
     let heights = [("heights", map.heights.view())];
     let seed = map.seed.map(|seed| seed.to_string());
     let &Topography { lengths, original, scars_removed, .. } = map;
-    let unit = map.unit.as_deref();
-    write(path, &heights, &Known { lengths, unit, original, seed: seed.as_deref(), scars_removed })
+    let known = Known { lengths, unit: map.unit.as_deref(), original, seed: seed.as_deref(), scars_removed };
+    archive(&heights, &known).map_err(|e| Error::unwritable("heights.npz", e))
 }
 
 /// The entries of an archive that describe its fields.
@@ -177,11 +191,6 @@ struct Known<'a> {
     original: Option<(usize, usize)>,
     seed: Option<&'a str>,
     scars_removed: Option<f64>,
-}
-
-fn write<T: WritableElement>(path: &Path, fields: &[(&str, ArrayView2<'_, T>)], known: &Known<'_>) -> Result<()> {
-    let bytes = archive(fields, known).map_err(|e| Error::unwritable(path, e))?;
-    fs::write(path, bytes).map_err(|e| Error::unwritable(path, e))
 }
 
 /// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so

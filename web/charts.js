@@ -1,0 +1,103 @@
+/* The charts of the page, as the engine draws them. */
+
+const AREA = { y_label: "contact fraction", y_unit: "%" };
+
+/* The contact area over the loads that have been dragged: a curve of the settings as they are, and one of those before. */
+export class Curves {
+  constructor() {
+    this.forget();
+  }
+
+  forget() {
+    [this.now, this.before] = [new Map(), new Map()];
+  }
+
+  /* Begins another curve, of settings of this name. */
+  begin(name) {
+    if (name === this.name) return;
+    this.name = name;
+    if (this.now.size) [this.now, this.before] = [new Map(), this.now];
+  }
+
+  /* Adds a state. */
+  add({ mean_pressure: pressure, contact_fraction: fraction, pressure_unit: unit }) {
+    this.unit = unit;
+    this.now.set(pressure, 100 * fraction);
+  }
+
+  chart() {
+    const sorted = points => [...points].sort(([a], [b]) => a - b);
+    const curves = [
+      ["as set", sorted(this.now)],
+      ["as set before", sorted(this.before)],
+    ].filter(([, points]) => points.length);
+    if (curves.length === 1) curves[0][0] = "";
+    const x_log = curves.every(([, points]) => points[0][0] > 0);
+    return { ...AREA, x_label: "mean pressure", x_unit: this.unit, x_log, curves, jumps: [] };
+  }
+}
+
+/* The distribution of a quantity over the nodes, as shares of those that have it. */
+export function distribution({ from, to, density }, x_label, x_unit, y_label) {
+  const width = (to - from) / density.length;
+  const sum = density.reduce((sum, value) => sum + value, 0);
+  const points = Array.from(density, (value, k) => [from + (k + 0.5) * width, (100 * value) / sum]);
+  return {
+    x_label,
+    x_unit,
+    x_log: false,
+    y_label,
+    y_unit: "%",
+    y_log: false,
+    curves: [["", sum > 0 ? points : []]],
+    jumps: [],
+  };
+}
+
+/* The power spectral density of a surface, averaged over directions. */
+export function spectrum({ wave_numbers, densities }, unit) {
+  // what is below is rounding
+  const least = 1e-12 * Math.max(...densities);
+  const points = wave_numbers
+    .map((wave, k) => [wave, densities[k]])
+    .filter(([wave, density]) => wave > 0 && density > least);
+  return {
+    x_label: "wave number",
+    x_unit: unit && `1/${unit}`,
+    x_log: true,
+    y_label: "spectral density",
+    y_unit: unit && `${unit}⁴`,
+    y_log: true,
+    curves: [["", points]],
+    jumps: [],
+  };
+}
+
+/* A loop of approach and withdrawal: pressure over mean gap, or force over approach, broken where the state jumps. */
+export function loop(rows, isFree, units) {
+  const [x, y] = isFree ? ["approach", "normal_force"] : ["mean_gap", "mean_pressure"];
+  const curves = new Map(),
+    jumps = [];
+  let last = null;
+  for (const row of rows) {
+    const point = [row[x], row[y]],
+      name = row.direction === "withdrawal" ? "withdrawal" : "approach";
+    if (!curves.has(name)) curves.set(name, last ? [last] : []);
+    if (row.energy_drop > 0 && last) {
+      jumps.push([last, point]);
+      curves.get(name).push([NaN, NaN]);
+    }
+    curves.get(name).push(point);
+    last = point;
+  }
+  return {
+    x_label: x.replace("_", " "),
+    x_unit: units.length,
+    x_log: false,
+    y_label: y.replace("_", " "),
+    y_unit: isFree ? units.force : units.pressure,
+    y_log: false,
+    curves: [...curves],
+    jumps,
+  };
+}

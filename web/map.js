@@ -1,0 +1,160 @@
+/* The map: a field on its rectangle, x to the right and y upwards, in the colours of the pictures. */
+
+import { read } from "./quantity.js";
+
+const element = (name, className, parent) => {
+  const made = document.createElement(name);
+  made.className = className;
+  parent?.append(made);
+  return made;
+};
+
+const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
+const packed = ([r, g, b]) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
+
+/* The colour of a share from 0 to 1 on a scale of 256. */
+const shade = (scale, share) => {
+  const at = 3 * Math.round(255 * Math.min(1, Math.max(0, share)));
+  return scale.subarray(at, at + 3);
+};
+
+/* The colours along a part of a scale. */
+const along = (scale, from, to) =>
+  Array.from({ length: 33 }, (_, k) => css(shade(scale, from + ((to - from) * k) / 32)));
+
+/* How values become colours: `index` of 256 that are packed in `table`, and the key of the map. */
+export const colouring = {
+  /* Classes by their number, with a name and a colour each; those without a name are not in the key. */
+  classes: all => ({
+    table: Uint32Array.from({ length: 256 }, (_, k) => packed(all[k]?.colour ?? [255, 255, 255])),
+    index: value => value,
+    key: found =>
+      all.filter(({ name }, k) => name && found.has(k)).map(({ name, colour }) => ({ name, colour: css(colour) })),
+  }),
+  /* From the least value to the greatest. */
+  sequential: (colours, [low, high], unit) =>
+    scaled(colours.sequential, colours.missing, value => (value - low) / (high - low || 1), [[low, high, 0, 1]], unit),
+  /* Zero in the middle, and a scale for each sign. */
+  diverging: (colours, [low, high], unit) =>
+    scaled(
+      colours.diverging,
+      colours.missing,
+      value => 0.5 + 0.5 * (value < 0 ? value / (-low || Infinity) : value / (high || Infinity)),
+      [
+        [low, 0, 0, 0.5],
+        [0, high, 0.5, 1],
+      ].filter(([a, b]) => a < b),
+      unit,
+    ),
+};
+
+const scaled = (scale, missing, share, ranges, unit) => {
+  // the last place is that of what is not finite
+  const table = Uint32Array.from({ length: 256 }, (_, k) => packed(k < 255 ? shade(scale, k / 254) : missing));
+  const index = value => (Number.isFinite(value) ? Math.round(254 * Math.min(1, Math.max(0, share(value)))) : 255);
+  const key = () =>
+    ranges.map(([low, high, from, to]) => ({
+      low: read(low, unit),
+      high: read(high, unit),
+      colours: along(scale, from, to),
+    }));
+  return { table, index, key };
+};
+
+export class FieldMap {
+  /* `onprobe(node, by)` is called with the node under the pointer, or that the arrow keys reach; null where there is none. */
+  constructor(parent, title, onprobe) {
+    this.figure = element("figure", "map", parent);
+    this.title = title;
+    element("figcaption", "", this.figure).textContent = title;
+    this.field = element("div", "field", this.figure);
+    this.field.tabIndex = 0;
+    this.field.setAttribute("role", "img");
+    this.field.setAttribute("aria-label", `Map: ${title}. Arrow keys read it node by node.`);
+    this.canvas = element("canvas", "", this.field);
+    this.scale = element("div", "scale", this.field);
+    this.cross = element("div", "cross", this.field);
+    this.cross.hidden = this.scale.hidden = true;
+    this.key = element("div", "key", this.figure);
+    this.node = null;
+    const under = event => {
+      const { x, y, width, height } = this.canvas.getBoundingClientRect(),
+        [nx, ny] = this.shape ?? [0, 0];
+      const i = Math.floor(((event.clientX - x) / width) * nx),
+        j = Math.floor((1 - (event.clientY - y) / height) * ny);
+      onprobe(i >= 0 && j >= 0 && i < nx && j < ny ? [i, j] : null, "pointer");
+    };
+    this.field.addEventListener("pointermove", under);
+    this.field.addEventListener("pointerdown", under);
+    this.field.addEventListener("pointerleave", event => event.pointerType === "mouse" && onprobe(null, "pointer"));
+    this.field.addEventListener("keydown", event => {
+      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (!way || !this.shape) return;
+      event.preventDefault();
+      const step = event.shiftKey ? 10 : 1,
+        from = this.node ?? this.shape.map(n => n >> 1);
+      onprobe(
+        from.map((at, k) => Math.min(this.shape[k] - 1, Math.max(0, at + step * way[k]))),
+        "keys",
+      );
+    });
+  }
+
+  /* Paints values of a shape, (nx, ny) with y the fastest. */
+  show({ values, shape: [nx, ny], lengths: [lx, ly], unit, colours }) {
+    this.shape = [nx, ny];
+    const { canvas } = this;
+    if (canvas.width !== nx || canvas.height !== ny) [canvas.width, canvas.height] = [nx, ny];
+    const context = canvas.getContext("2d"),
+      image = context.createImageData(nx, ny);
+    const pixels = new Uint32Array(image.data.buffer),
+      found = new Set();
+    const { table, index } = colours;
+    for (let j = 0, at = 0; j < ny; j++) {
+      for (let i = 0, from = ny - 1 - j; i < nx; i++, at++, from += ny) pixels[at] = table[index(values[from])];
+    }
+    if (values instanceof Uint8Array) for (const value of values) found.add(value);
+    context.putImageData(image, 0, 0);
+    // up to 5 : 1, as the pictures
+    this.aspect = Math.min(5, Math.max(0.2, ny === 1 ? 5 : lx / ly));
+    canvas.style.aspectRatio = this.aspect;
+    canvas.style.imageRendering = nx > canvas.clientWidth * devicePixelRatio ? "auto" : "pixelated";
+    this.measure(lx, unit);
+    this.entries = colours.key(found);
+    this.key.replaceChildren(
+      ...this.entries.flatMap(entry => {
+        const text = document.createElement("span");
+        if (entry.name) {
+          element("i", "", text).style.background = entry.colour;
+          text.append(entry.name);
+          return [text];
+        }
+        const bar = element("span", "ramp"),
+          high = document.createElement("span");
+        bar.style.background = `linear-gradient(to right, ${entry.colours.join(",")})`;
+        [text.textContent, high.textContent] = [entry.low, entry.high];
+        return [text, bar, high];
+      }),
+    );
+  }
+
+  /* The bar: the longest of 1, 2, 5, 10, … that takes at most a quarter of the side. */
+  measure(lx, unit) {
+    const most = 0.25 * lx,
+      power = 10 ** Math.floor(Math.log10(most));
+    const nice = [5, 2, 1].find(step => step * power <= most * (1 + 1e-9)) * power;
+    this.bar = { share: nice / lx, text: read(nice, unit) };
+    this.scale.hidden = !Number.isFinite(nice);
+    this.scale.style.width = `${100 * this.bar.share}%`;
+    this.scale.textContent = this.bar.text;
+  }
+
+  /* Marks a node, or none. */
+  mark(node) {
+    this.node = node;
+    this.cross.hidden = !node || !this.shape;
+    if (this.cross.hidden) return;
+    this.cross.style.left = `${(100 * (node[0] + 0.5)) / this.shape[0]}%`;
+    this.cross.style.top = `${100 * (1 - (node[1] + 0.5) / this.shape[1])}%`;
+  }
+}

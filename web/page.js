@@ -1,0 +1,296 @@
+/* The page: what is asked for goes to the engine, the newest of it alone, and what is found goes to the screen. */
+
+import { Curves, distribution, spectrum } from "./charts.js";
+import { Cycle } from "./cycle.js";
+import { Engine } from "./engine.js";
+import { files, takeAway } from "./files.js";
+import { Load } from "./load.js";
+import { Maps } from "./maps.js";
+import { picture } from "./picture.js";
+import { typed } from "./quantity.js";
+import { Settings } from "./settings.js";
+import { figure, folded, list, table } from "./words.js";
+
+const at = id => document.getElementById(id);
+const status = text => (at("status").textContent = text);
+
+/* The rows of a summary that stand beside the maps. */
+const FIGURES =
+  "contact, corrected for its edge, mean pressure, mean gap, normal force, approach, certified error, time".split(", ");
+const GRID_ERROR = "error of the grid";
+
+/* What may be asked for, in the order in which it is done. */
+const OF_SURFACE = ["surface", "steps"];
+const AFTER_IT = ["scene", "solve", "cycle", "rest"];
+
+class Page {
+  constructor(engine) {
+    this.engine = engine;
+    this.wanted = new Set();
+    this.curves = new Curves();
+    this.maps = new Maps(engine.about.colours);
+    this.settings = new Settings(at("settings"), engine.about.laws, what => this.want(what));
+    this.load = new Load(at("load"), () => this.want("solve"));
+    this.legs = new Cycle(at("legs"), () => this.want("cycle"), this.chart.bind(this));
+    at("version").textContent = `asperity ${engine.about.version}`;
+    const cancel = () => {
+      this.wanted.clear();
+      if (this.isBusy) engine.cancel();
+    };
+    at("cancel").addEventListener("click", cancel);
+    document.addEventListener("keydown", event => event.key === "Escape" && cancel());
+    at("forget").addEventListener("click", () => {
+      this.curves.forget();
+      at("area").replaceChildren();
+    });
+    const failed = error => this.failed(error);
+    files(file => this.open(file).catch(failed));
+    const kept = { "contact.png": () => this.picture(), "table.csv": () => this.table };
+    takeAway(async file => kept[file]?.() ?? engine.download(file), failed);
+    this.want("surface");
+  }
+
+  /* Asks for something: at once, or when what runs has ended, and then as it is by then. */
+  async want(what) {
+    this.wanted.add(what);
+    // a surface that was refused may not be passed over
+    if (this.due) this.wanted.add(this.due);
+    if (this.isBusy) return;
+    this.isBusy = true;
+    document.body.classList.add("busy");
+    at("cancel").disabled = false;
+    while (this.wanted.size) await this.doNext();
+    this.isBusy = false;
+    document.body.classList.remove("busy");
+    at("cancel").disabled = true;
+    at("progress").value = 0;
+  }
+
+  async doNext() {
+    const next = [...OF_SURFACE, ...AFTER_IT].find(name => this.wanted.delete(name));
+    const isOfSurface = OF_SURFACE.includes(next);
+    if (next !== "rest") {
+      Settings.clearFaults();
+      at("failure").hidden = true;
+    }
+    try {
+      await this[next]();
+      if (isOfSurface) this.due = null;
+    } catch (error) {
+      if (isOfSurface) {
+        this.due = next;
+        AFTER_IT.forEach(name => this.wanted.delete(name));
+      }
+      this.failed(error, next);
+    }
+  }
+
+  /* What was asked for is refused or cancelled: what is shown is not the answer to it. */
+  failed(error, what) {
+    at("stage").classList.add("stale");
+    if (error.name === "AbortError") return status("Cancelled. What is shown is what was found before.");
+    status("What is shown is the contact before.");
+    const place = { surface: this.settings.isFile ? "heights" : "make", steps: "prepare", solve: "load" }[what] ?? what;
+    if (Settings.fault(error.message, place, error.isOfFile)) return;
+    at("failure").textContent = error.message;
+    at("failure").hidden = false;
+  }
+
+  async open(file) {
+    this.file = { name: file.name, bytes: await file.arrayBuffer(), isNew: true };
+    this.settings.takeFile(file.name);
+    this.want("surface");
+  }
+
+  /* The map: as it was measured, or made. */
+  async surface() {
+    const { engine, settings, file } = this;
+    this.wanted.delete("steps");
+    status("Reading the surface");
+    if (!settings.isFile) {
+      const made = settings.made();
+      this.isOther ||= made.form !== this.form;
+      const map = await engine.make(made);
+      this.form = made.form;
+      return this.found(map);
+    }
+    const read = channel =>
+      engine.open(file.name, file.bytes, { channel }).catch(error => {
+        throw Object.assign(error, { isOfFile: true });
+      });
+    let map = await read(file.isNew ? undefined : settings.channel);
+    // of several channels the first one
+    if (!map.heights) map = { ...(await read(map.channels[0].split(":")[0])), channels: map.channels };
+    this.form = "file";
+    this.measured = map;
+    if (file.isNew) {
+      settings.takeMap(map);
+      this.isOther = this.isFresh = true;
+      file.isNew = false;
+    }
+    return this.steps();
+  }
+
+  /* The surface: the map after the steps of its preparation. */
+  async steps() {
+    const map = await this.engine.prepare(this.settings.steps(this.measured.shape));
+    const lines = map.log.map(([step, what]) => `${step}: ${what}`);
+    list("steps", lines);
+    return this.found(map);
+  }
+
+  /* Takes a surface, which may be one of another kind, and asks for its contact. */
+  async found(map) {
+    this.map = map;
+    this.maps.showSurface(map);
+    this.doubts = map.warnings.map(({ message }) => message);
+    list("doubts", this.doubts);
+    if (!map.lengths) throw new Error("the file has no side lengths: type them, as 20um, or 20um 10um");
+    this.statistics = await this.engine.statistics();
+    // of a map with missing points there are none
+    const { figures, rows } = this.statistics;
+    table("statistics", rows ?? []);
+    this.slope = figures?.rms_slope ?? figures?.rms_slope_differences;
+    this.wanted.add("scene");
+  }
+
+  /* Fits the loads to surface and body. */
+  scene() {
+    const { map, settings } = this;
+    if (!map?.lengths) return;
+    this.wanted.add("solve");
+    const modulus = typed(settings.value("modulus"));
+    // the engine says what is wrong with it
+    if (!(modulus?.value > 0)) return;
+    // lengths in metres where they have units
+    const length = modulus.unit && "m";
+    const scale = length ? (typed(`1${map.unit ?? "m"}`)?.value ?? 1) : 1;
+    const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
+    const area = map.lengths[0] * (map.lengths[1] || 1) * scale ** 2;
+    const surface = { lowest, highest, slope: this.slope, area, length };
+    const boundary = settings.value("boundary");
+    this.load.fit(surface, modulus, boundary, this.isOther);
+    this.legs.fit(surface, settings.scene().range, boundary, this.isOther);
+    this.offer("table.csv", false);
+    if (this.isOther) this.curves.forget();
+    this.isOther = false;
+    this.curves.begin(JSON.stringify([settings.made(), this.file?.name, settings.steps([1, 1]), settings.scene()]));
+  }
+
+  async solve() {
+    const { settings, load } = this;
+    if (!this.map?.lengths) return;
+    const [asked] = Object.values(load.scene);
+    const start = this.start ?? "last";
+    this.start = null;
+    status(`Solving at ${asked}`);
+    const onprogress = ({ iteration, error, tolerance }) => {
+      const [reached, wanted] = [error.toExponential(1), tolerance.toExponential(0)];
+      at("progress").value = Math.min(1, Math.max(0, Math.log(error) / Math.log(tolerance)));
+      status(`Solving at ${asked}: error ${reached} of ${wanted}, ${iteration} iterations`);
+    };
+    const fields = ["contact", "pressure", "gap"];
+    const scene = { ...settings.scene(), ...load.scene };
+    const found = await this.engine.solve(scene, { start, fields, histograms: 60, onprogress });
+    if (!found) return;
+    if (this.isFresh && settings.takeWarnings(found.account.warnings)) {
+      this.wanted.add("steps");
+      this.isOther = true;
+    } else {
+      await this.show(found, asked);
+    }
+    this.isFresh = false;
+  }
+
+  async show(found, asked) {
+    const { account, rows, shortfalls, started } = found;
+    const { status: ended, iterations } = account;
+    [this.length, this.pressure] = [found.unit ?? "", account.pressure_unit ?? ""];
+    this.histograms = found.histograms;
+    this.maps.showSolution(found, this.length, this.pressure);
+    this.load.found = account;
+    table("rows", rows);
+    this.figures(rows, started);
+    const warnings = account.warnings.map(({ message }) => message).filter(text => !this.doubts.includes(text));
+    const count = list("warnings", [...shortfalls, ...warnings]);
+    at("warned").hidden = !count;
+    at("warned").textContent = count === 1 ? "1 warning" : `${count} warnings`;
+    const from = started === "last" ? ", from the contact before" : "";
+    status(`${ended[0].toUpperCase()}${ended.slice(1)} at ${asked}: ${iterations} iterations${from}`);
+    at("stage").classList.remove("stale");
+    this.curves.add(account);
+    await this.chart("area", this.curves.chart());
+    performance.mark("contact");
+    this.wanted.add("rest");
+  }
+
+  /* The figures beside the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
+  figures(rows, started) {
+    const known = [...FIGURES, GRID_ERROR].flatMap(name => rows.filter(row => row[0] === name));
+    const entries = known.map(([name, text]) => figure(name, text));
+    if (started === "last" && !known.some(([name]) => name === GRID_ERROR)) {
+      const find = Object.assign(document.createElement("button"), { type: "button", textContent: "find" });
+      find.title = "Solves once more, by way of coarser grids";
+      find.addEventListener("click", () => {
+        this.start = "default";
+        this.want("solve");
+      });
+      entries.push(figure(GRID_ERROR, find));
+    }
+    at("figures").replaceChildren(...entries);
+  }
+
+  /* What may wait while the load is dragged. */
+  async rest() {
+    const { length, pressure, map } = this;
+    const { gap, contact_pressure } = this.histograms;
+    const { histogram, spectrum: found } = this.statistics;
+    await this.chart("pressures", distribution(contact_pressure, "contact pressure", pressure, "nodes in contact"));
+    await this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
+    if (histogram) await this.chart("heights", distribution(histogram, "height", map.unit, "nodes"));
+    if (found) await this.chart("spectrum", spectrum(found, map.unit));
+    const { shell, python } = await this.engine.lines();
+    [at("command").textContent, at("python").textContent] = [shell.map(folded).join("\n"), python];
+    this.offer("start.npz", shell.join().includes("start.npz"));
+  }
+
+  async chart(id, chart) {
+    at(id).innerHTML = await this.engine.chart({ title: "", ...chart });
+  }
+
+  async cycle() {
+    const { length, pressure } = this;
+    if (length === undefined) return;
+    await this.legs.follow(this.engine, this.settings.scene(), { length, pressure, force: length && "N" }, row => {
+      at("progress").value = row.share;
+      status(`Following the cycle: ${row.count} states, ${row.direction}`);
+    });
+    this.table = await this.engine.download("table.csv");
+    this.offer("table.csv", true);
+    // the engine is at the end of the cycle: what is taken away is what is shown
+    this.start = "default";
+    this.wanted.add("solve");
+  }
+
+  /* Offers a file to take away, or no longer. */
+  offer(file, is) {
+    at("files").querySelector(`[data-file="${file}"]`).hidden = !is;
+  }
+
+  /* The maps as a picture, with the figures. */
+  picture() {
+    const told = [...at("figures").children].map(
+      ({ children: [name, value] }) => `${name.textContent} ${value.textContent}`,
+    );
+    return picture(this.maps.ofSolution, told.filter(text => !text.endsWith(" find")).join(", "));
+  }
+}
+
+try {
+  new Page(await Engine.start());
+} catch (error) {
+  document.body.classList.remove("busy");
+  status("");
+  at("failure").textContent = `The solver does not start in this browser: ${error.message}`;
+  at("failure").hidden = false;
+}

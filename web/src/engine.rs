@@ -1,0 +1,294 @@
+//! The engine: a map, the surface that is made of it, and the solves on that.
+
+use asperity::Grid;
+use asperity_maps::Topography;
+use asperity_maps::io::{channels, check_memory, map_as_npz, read_bytes};
+use asperity_maps::warning::Warning;
+use asperity_scene::outcome::Outcome;
+use asperity_scene::units::Units;
+use asperity_scene::{Body, Log, Preparation, Roughness, Skin, statistics};
+use serde_json::{Value, json};
+
+use crate::given::{Given, reason};
+use crate::histogram::Histogram;
+use crate::lines::{Origin, Source};
+use crate::problem::{Observe, Problem, keys};
+
+/// The keys of a surface that is made.
+const BODY: [&str; 6] = ["form", "radius", "angle", "amplitude", "periods", "tilt"];
+const ROUGHNESS: [&str; 8] = ["rms_height", "rms_slope", "hurst", "k_l", "k_r", "k_s", "random_phase", "seed"];
+const GRID: [&str; 3] = ["size", "shape", "lengths"];
+/// Those of the steps of a preparation.
+const STEPS: [&str; 14] = [
+    "missing",
+    "scale",
+    "unit",
+    "crop",
+    "flip",
+    "align_rows",
+    "scan_axis",
+    "remove_scars",
+    "despike",
+    "remove_form",
+    "detrend",
+    "fill",
+    "window",
+    "mirror",
+];
+const MORE_STEPS: [&str; 3] = ["lengths", "cut_off_wavelength", "resample"];
+
+/// A map, the surface that is made of it, and the solves on that.
+#[derive(Default)]
+pub struct Engine {
+    /// The map as it was opened or made.
+    map: Option<Topography>,
+    /// The surface, if a step was taken.
+    prepared: Option<Topography>,
+    /// Where they come from.
+    origin: Origin,
+    /// The last problem, with its solutions.
+    problem: Option<Problem>,
+}
+
+impl Engine {
+    /// The surface.
+    ///
+    /// # Errors
+    /// The remedy, where there is none.
+    pub fn surface(&self) -> Outcome<&Topography> {
+        Ok(self.prepared.as_ref().or(self.map.as_ref()).ok_or("there is no surface yet: open a map, or make one")?)
+    }
+
+    /// The problem that was solved last.
+    ///
+    /// # Errors
+    /// The remedy, where there is none.
+    pub fn problem(&self) -> Outcome<&Problem> {
+        Ok(self.problem.as_ref().ok_or("nothing is solved yet: solve first")?)
+    }
+
+    /// Reads a map, or tells the channels of a file of which one has to be chosen.
+    ///
+    /// # Errors
+    /// Those of [`read_bytes`].
+    pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>) -> Outcome<Value> {
+        let channels = channels(name, bytes)?;
+        let told: Vec<_> = channels.iter().map(|found| format!("{}: {}", found.number, found.title)).collect();
+        let fit = channels.iter().filter(|channel| channel.is_of_heights).count();
+        if channel.is_none() && channels.len() > 1 && fit != 1 {
+            return Ok(json!({ "name": name, "channels": told, "heights": null }));
+        }
+        let map = read_bytes(name, bytes, channel.as_deref())?;
+        check_memory("a map", map.heights.dim(), 32)?;
+        self.origin = Origin { source: Source::Opened { name: name.to_owned(), channel }, steps: None };
+        let mut found = self.take(map, None);
+        found["channels"] = told.into();
+        Ok(found)
+    }
+
+    /// Makes a surface by the options of `asperity surface`.
+    ///
+    /// # Errors
+    /// The key and the remedy, and those of the surface.
+    pub fn make(&mut self, given: &str) -> Outcome<Value> {
+        let mut given = Given::read(given, &[&BODY[..], &ROUGHNESS, &GRID].concat())?;
+        let typed = given.typed().clone();
+        let si = given.is_si();
+        let (size, shape) = (given.number("size"), given.numbers("shape"));
+        let shape = match (size, shape.as_deref()) {
+            (Some(size), None) => (size as usize, size as usize),
+            (None, Some(&[nx, ny])) => (nx as usize, ny as usize),
+            _ => return Err("give size, the nodes along each side of a square, or shape, two numbers of nodes".into()),
+        };
+        if si && !given.has("lengths") {
+            return Err("the numbers have units, but nothing says how large the map is: give lengths, as 20um".into());
+        }
+        let sides = given.lengths(shape).unwrap_or((1.0, 1.0));
+        let body: Body = given.take(&BODY, Value::Null)?;
+        let form = body.form;
+        if let Some((name, lacks)) = body.misfits().first() {
+            let (what, remedy) = if *lacks { ("lacks", "give it") } else { ("has no", "leave it out") };
+            return Err(format!("form {form} {what} {name}: {remedy}").into());
+        }
+        let usual = json!({ "hurst": 0.8, "k_l": 4.0, "k_s": 64.0, "random_phase": false, "seed": 0 });
+        let roughness: Roughness = given.take(&ROUGHNESS, usual)?;
+        let rough = roughness.self_affine();
+        if rough.is_none() && (typed.contains_key("rms_height") || form == Default::default()) {
+            return Err("roughness: give rms_height or rms_slope, one of the two".into());
+        }
+        check_memory("a surface", shape, if rough.is_some() { 40 } else { 24 })?;
+        let grid = Grid::new(shape, sides)?;
+        let surface = body.surface(grid, rough.map(|rough| rough.surface(grid)).transpose()?)?;
+        let mut map = Topography::from(surface);
+        map.unit = si.then(|| "m".to_owned());
+        map.seed = rough.map(|rough| rough.seed);
+        self.origin = Origin { source: Source::Made(typed), steps: None };
+        Ok(self.take(map, None))
+    }
+
+    /// Makes the surface of the map by the steps of `asperity prepare`; without any it is the map.
+    ///
+    /// # Errors
+    /// The key and the remedy, and those of the steps; then the surface stays as it was.
+    pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
+        let mut given = Given::read(given, &[&STEPS[..], &MORE_STEPS].concat())?;
+        let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
+        let typed = given.typed().clone();
+        let si = given.is_si();
+        let lengths = given.lengths(map.heights.dim());
+        let cut_off = given.number("cut_off_wavelength");
+        let mut steps: Preparation = given.take(&[&STEPS[..], &["resample"]].concat(), Value::Null)?;
+        let unit = map.unit.as_deref();
+        lengths.map_or(Ok(()), |lengths| steps.set_lengths(lengths, si, unit)).map_err(reason)?;
+        cut_off.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, si, unit)).map_err(reason)?;
+        // a step has the map before and after it
+        check_memory("a step of preparation", map.heights.dim(), 32)?;
+        let mut log = Log::default();
+        let prepared = steps.run(map.clone(), &mut log)?;
+        self.origin.steps = (!typed.is_empty()).then_some(typed);
+        self.problem = None;
+        self.prepared = self.origin.steps.is_some().then_some(prepared);
+        Ok(self.told(Some(log)))
+    }
+
+    /// Takes a map as the surface.
+    fn take(&mut self, map: Topography, log: Option<Log>) -> Value {
+        (self.map, self.prepared, self.problem) = (Some(map), None, None);
+        self.told(log)
+    }
+
+    /// The surface in figures.
+    fn told(&self, log: Option<Log>) -> Value {
+        let Ok(map) = self.surface() else { return Value::Null };
+        let of_map = || {
+            let units = Units::of_map(map.unit.as_deref());
+            Warning::of_topography(map).iter().map(|warning| units.told(warning)).collect()
+        };
+        let lines = log.as_ref().map(|log| log.lines.clone());
+        let warnings = log.map_or_else(of_map, |log| log.warnings);
+        let (low, high) = extremes(map.heights.iter().copied());
+        json!({
+            "name": self.origin.name(),
+            "shape": map.heights.dim(),
+            "lengths": map.lengths,
+            "unit": map.unit,
+            "original": map.original,
+            "missing": map.missing(),
+            "unread": map.unread,
+            "channels": [],
+            "mean": mean(map),
+            "lowest": low,
+            "highest": high,
+            "warnings": warnings,
+            "log": lines,
+        })
+    }
+
+    /// The heights of the surface about their mean.
+    ///
+    /// # Errors
+    /// As of [`Engine::surface`].
+    pub fn heights(&self) -> Outcome<Vec<f32>> {
+        let map = self.surface()?;
+        let mean = mean(map);
+        Ok(map.heights.iter().map(|height| (height - mean) as f32).collect())
+    }
+
+    /// The statistics of the surface, its spectrum, and the histogram of its heights.
+    ///
+    /// # Errors
+    /// Those of [`Topography::statistics`].
+    pub fn statistics(&self) -> Outcome<Value> {
+        let map = self.surface()?;
+        check_memory("the statistics of a map", map.heights.dim(), 40)?;
+        let histogram = Histogram::of(map.heights.iter().copied(), 60);
+        let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
+        let found = match &surface {
+            Some(surface) => Some(surface.statistics()),
+            None if map.missing() == 0 => Some(map.statistics()?),
+            None => None,
+        };
+        let spectrum = surface.map(|surface| {
+            let psd = surface.spectrum().radial_psd();
+            json!({ "wave_numbers": psd.wave_numbers, "densities": psd.densities })
+        });
+        let name = self.origin.name();
+        Ok(json!({
+            "figures": found.as_ref().map(|found| statistics::figures(map, found, name.as_ref())),
+            "rows": found.map(|found| statistics::rows(map, &found, Skin::Keywords)),
+            "spectrum": spectrum,
+            "histogram": histogram,
+        }))
+    }
+
+    /// Solves under a load.
+    ///
+    /// # Errors
+    /// The key and the remedy, and those of the solvers.
+    pub fn solve(&mut self, given: &str, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
+        let given = Given::read(given, &keys())?;
+        self.pose(&given, from_last)?.solve(given, from_last, observe)
+    }
+
+    /// Begins a sweep or a cycle along loads.
+    ///
+    /// # Errors
+    /// The key and the remedy.
+    pub fn begin(&mut self, given: &str, command: &str) -> Outcome<Value> {
+        let given = Given::read(given, &keys())?;
+        self.pose(&given, false)?.begin(given, command)
+    }
+
+    /// The problem that keys pose; the one before stays where they are refused.
+    fn pose(&mut self, given: &Given, goes_on: bool) -> Outcome<&mut Problem> {
+        let mut before = self.problem.take();
+        let problem = Problem::of(given, self.surface()?, self.origin.name(), &mut before, goes_on);
+        self.problem = before;
+        Ok(self.problem.insert(problem?))
+    }
+
+    /// The next state along the loads; nothing at their end.
+    ///
+    /// # Errors
+    /// Those of the solvers.
+    pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
+        self.problem.as_mut().ok_or("there are no loads to follow: begin first")?.next(observe)
+    }
+
+    /// The bytes of a file to take away.
+    ///
+    /// # Errors
+    /// The name, if there is no such file, and those of the file.
+    pub fn file(&self, name: &str) -> Outcome<Vec<u8>> {
+        match name {
+            "heights.npz" => Ok(map_as_npz(self.surface()?)?),
+            name => self.problem()?.file(name),
+        }
+    }
+
+    /// The lines that give the same answer in a shell and in Python.
+    ///
+    /// # Errors
+    /// As of [`Engine::problem`].
+    pub fn lines(&self) -> Outcome<Value> {
+        let (typed, started) = self.problem()?.asked().ok_or("nothing is solved yet: solve first")?;
+        Ok(json!({
+            "shell": self.origin.shell(typed, started),
+            "python": self.origin.python(typed, started),
+        }))
+    }
+}
+
+/// The mean of the heights that are there.
+fn mean(map: &Topography) -> f64 {
+    let finite = || map.heights.iter().filter(|height| height.is_finite());
+    finite().sum::<f64>() / finite().count().max(1) as f64
+}
+
+/// The least and the greatest of the values that are finite; nothing of none.
+pub fn extremes(values: impl Iterator<Item = f64>) -> (Option<f64>, Option<f64>) {
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    (Some(low).filter(|low| low.is_finite()), Some(high).filter(|high| high.is_finite()))
+}
