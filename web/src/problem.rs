@@ -11,7 +11,7 @@ use asperity_scene::{Asked, Boundary, Branches, Load, Precision, Scene, Slopes, 
 use serde_json::{Map, Value};
 
 use crate::given::{Given, reason};
-use crate::state::{Solves, State};
+use crate::state::{Origin, Solves, State};
 
 pub use crate::state::Observe;
 
@@ -109,6 +109,7 @@ impl Problem {
         scene.adhesion.check(str::to_owned)?;
         scene.elastic.check().map_err(reason)?;
         scene.elastic.body()?;
+        let scars_removed = map.scars_removed;
         let (surface, converted_from) = surface(map, name, lengths, absent, given.is_si())?;
         let original = map.original.filter(|_| scene.elastic.boundary == Boundary::Periodic);
         let original = original.map(|nodes| Original::new(surface.grid(), nodes)).transpose()?;
@@ -118,7 +119,8 @@ impl Problem {
         inputs.part = map.original.map(|_| if original.is_some() { "original" } else { "whole" }.to_owned());
         inputs.slopes = Slopes::of(&surface, scene.elastic.boundary);
         (inputs.length_unit, inputs.pressure_unit) = (units.length.clone(), units.pressure.clone());
-        let problem = (surface, converted_from.as_deref(), original);
+        let origin = Origin { converted_from: converted_from.as_deref(), scars_removed };
+        let problem = (surface, origin, original);
         let state: Box<dyn Solves> = match scene.precision {
             Precision::F32 => Box::new(State::<f32>::new(scene, problem, inputs, units, before)?),
             Precision::F64 => Box::new(State::<f64>::new(scene, problem, inputs, units, before)?),

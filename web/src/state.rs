@@ -25,6 +25,14 @@ use crate::lines::START;
 /// The observer of a solve: it sees the nodes of the grid, each iteration, and the tolerance of the solve on it.
 pub type Observe<'a> = &'a mut (dyn FnMut(usize, &Iteration, f64) + Send);
 
+/// What was done to the heights before a solve.
+pub struct Origin<'a> {
+    /// The unit from which they were converted.
+    pub converted_from: Option<&'a str>,
+    /// The threshold by which scars were removed.
+    pub scars_removed: Option<f64>,
+}
+
 /// A problem in one precision.
 pub struct State<T: Scalar> {
     scene: Scene,
@@ -35,6 +43,7 @@ pub struct State<T: Scalar> {
     units: Units,
     /// Those of the input.
     warnings: Vec<Told>,
+    scars_removed: Option<f64>,
     posed: Option<Posed<T>>,
     last: Option<Last<T>>,
     /// A gap from which to start that is of another problem.
@@ -75,22 +84,37 @@ pub trait Solves {
 }
 
 impl<T: Scalar> State<T> {
-    /// The problem of a scene on a surface, whose heights may have been converted from a unit; solves go on from a gap
+    /// The problem of a scene on a surface, with the origin of its heights; solves go on from a gap
     /// of `before`.
     pub fn new(
         scene: Scene,
-        (surface, converted_from, original): (Surface, Option<&str>, Option<Original>),
+        (surface, origin, original): (Surface, Origin<'_>, Option<Original>),
         inputs: Inputs,
         units: Units,
         before: Option<Array2<f64>>,
     ) -> Outcome<Self> {
         let formula = scene.adhesion.formula(None)?;
         let law = formula.clone().law::<T>();
-        let warnings = warnings_of_input((&surface, converted_from), &scene.elastic, &*law, &units);
+        let warnings = warnings_of_input((&surface, origin.converted_from), &scene.elastic, &*law, &units);
         let before = before.filter(|gap| gap.dim() == surface.grid().shape()).map(T::field);
         let surface = Arc::new(surface);
+        let scars_removed = origin.scars_removed;
         let (posed, last, course, table) = (None, None, None, Vec::new());
-        Ok(Self { scene, surface, formula, original, inputs, units, warnings, posed, last, before, course, table })
+        Ok(Self {
+            scene,
+            surface,
+            formula,
+            original,
+            inputs,
+            units,
+            warnings,
+            scars_removed,
+            posed,
+            last,
+            before,
+            course,
+            table,
+        })
     }
 
     /// The problem anew, as it has solved nothing yet.
@@ -106,7 +130,8 @@ impl<T: Scalar> State<T> {
     /// The account of what was found, with its warnings.
     fn account(&self, command: &'static str, found: &Found<T>) -> Outcome<Account> {
         let mut warnings = self.warnings.clone();
-        warnings.extend(found.warnings(&self.warnings)?.iter().map(|warning| self.units.told(warning)));
+        warnings
+            .extend(found.warnings(&self.warnings, self.scars_removed)?.iter().map(|warning| self.units.told(warning)));
         Ok(found.account(command, &self.inputs, None, warnings)?)
     }
 
