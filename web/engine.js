@@ -52,17 +52,19 @@ export class Engine {
     this.worker.onmessage = ({ data }) => this.hear(data);
     this.worker.onerror = event => this.fail(event.message || "the engine did not start");
     this.worker.postMessage({ module: this.module });
+    this.answers = false;
     this.lost = this.made.length > 0;
   }
 
   hear({ id, seen, found, error, ended }) {
+    this.answers = true;
     const job = this.running;
     if (job?.id !== id) return;
     if (seen) return seen.state ? job.onstate?.(seen.state.row, seen.state) : job.onprogress?.(seen);
     this.running = null;
     if (ended) this.restart();
     if (error === undefined) {
-      this.keep(job);
+      this.keep(job, found);
       job.resolve(found);
     } else {
       job.reject(new Error(error));
@@ -71,16 +73,26 @@ export class Engine {
   }
 
   /* Keeps what makes the surface, for another thread. */
-  keep({ call, args }) {
-    if (call === "prepare") this.made = [this.made[0], { call, args }];
-    else if (MADE.includes(call)) this.made = [{ call, args }];
+  keep({ call, args }, found) {
+    if (!MADE.includes(call) || found.heights === null) return;
+    this.made = call === "prepare" ? [this.made[0], { call, args }] : [{ call, args }];
+    this.lost = false;
   }
 
+  /* Refuses all calls; another thread is of use only where this one has worked. */
   fail(message) {
-    const job = this.running;
+    const jobs = this.jobs();
+    if (this.answers) this.restart();
+    else this.broken = message;
+    jobs.forEach(job => job.reject(new Error(message)));
+  }
+
+  /* Takes the calls that run and wait. */
+  jobs() {
+    const jobs = [this.running, ...this.waiting].filter(Boolean);
     this.running = null;
-    this.restart();
-    job?.reject(new Error(message));
+    this.waiting = [];
+    return jobs;
   }
 
   restart() {
@@ -95,8 +107,8 @@ export class Engine {
     if (this.lost && call !== "open" && call !== "make") {
       const silent = { resolve() {}, reject() {} };
       this.waiting.unshift(...this.made.map(job => ({ ...job, ...silent, id: ++this.count })));
+      this.lost = false;
     }
-    this.lost = false;
     this.running = this.waiting.shift();
     const { id, call: name, args } = this.running;
     this.worker.postMessage({ id, call: name, args });
@@ -104,6 +116,7 @@ export class Engine {
 
   call(call, args, observers = {}) {
     return new Promise((resolve, reject) => {
+      if (this.broken) throw new Error(this.broken);
       this.waiting.push({ id: ++this.count, call, args, resolve, reject, ...observers });
       this.next();
     });
@@ -174,10 +187,8 @@ export class Engine {
 
   /* Ends what runs and what waits. */
   cancel() {
-    const jobs = [this.running, ...this.waiting].filter(Boolean);
+    const jobs = this.jobs();
     if (!jobs.length) return;
-    this.running = null;
-    this.waiting = [];
     this.restart();
     jobs.forEach(job => job.reject(new DOMException("it was cancelled", "AbortError")));
   }

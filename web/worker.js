@@ -8,7 +8,7 @@
 
 import init, { Engine } from "./asperity_web.js";
 
-let engine, observed;
+let engine, ready, observed;
 
 const parsed = text => JSON.parse(text);
 
@@ -60,12 +60,12 @@ function buffers(found) {
 
 onmessage = async ({ data: { module, id, call, args } }) => {
   if (module) {
-    await init({ module_or_path: module });
-    engine = new Engine();
+    ready = init({ module_or_path: module }).then(() => { engine = new Engine(); });
     return;
   }
   observed = what => postMessage({ id, seen: what }, buffers(what.state));
   try {
+    await ready;
     const found = calls[call](...args);
     postMessage({ id, found }, buffers(found));
   } catch (error) {
