@@ -27,7 +27,7 @@ const PRESSED: Control = Control::MeanPressure(5e-3);
 
 fn truth(seed: u64, control: Control) -> Level {
     let mut nested = Nested::default().stiffness(1e-5);
-    let found = nested.solve(&surface(512, seed), half_space, NoAdhesion, control).unwrap();
+    let found = nested.solve(surface(512, seed), half_space, NoAdhesion, control).unwrap();
     found.levels.last().unwrap().clone()
 }
 
@@ -89,7 +89,7 @@ fn the_edge_of_the_contact_tells_the_error_of_a_single_grid() {
             let truth = truth(seed, control);
             for n in [64, 128] {
                 let mut nested = Nested::default().coarsest(n).stiffness(1e-4);
-                let found = nested.solve(&surface(n, seed), half_space, NoAdhesion, control).unwrap();
+                let found = nested.solve(surface(n, seed), half_space, NoAdhesion, control).unwrap();
                 assert_eq!(found.levels.len(), 1);
                 let waves = surface(n, seed).nodes_per_wave(Boundary::Periodic);
                 let estimate = GridError::of(&found.levels, quantity, waves, 0.0).unwrap();
@@ -224,7 +224,7 @@ fn an_accuracy_that_the_given_grid_has_ends_there() {
 fn grids_that_say_nothing_leave_the_error_unknown() {
     let estimate = |n, quantity, nodes_per_wave, mu_rho, coarse_tolerance| {
         let mut nested = Nested::default().coarsest(32).coarse_tolerance(coarse_tolerance);
-        let found = nested.solve(&surface(n, 1), half_space, NoAdhesion, PRESSED).unwrap();
+        let found = nested.solve(surface(n, 1), half_space, NoAdhesion, PRESSED).unwrap();
         GridError::of(&found.levels, quantity, nodes_per_wave, mu_rho)
     };
     let waves = surface(128, 1).nodes_per_wave(Boundary::Periodic);
