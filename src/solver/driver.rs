@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::minimisation::{Goal, Left};
+use super::minimisation::{Goal, Left, Nearness};
 use super::operators::Operators;
 use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
@@ -93,7 +93,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     check_hardness(law, load, flat, constraint.wall())?;
     let asked = (control, constraint.wall().name());
     let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
-    let (default_start, near) = (begin.is_default(), begin.is_near());
+    let (default_start, nearness) = (begin.is_default(), begin.nearness());
+    let near = nearness == Nearness::Near;
     let from_afar = default_start && branch == Some(Branch::Loading);
     let smooths = (near || default_start) && settings.method == Method::Preconditioned;
     let smoothed = if smooths { smoothed_law(operators.state(), law) } else { None };
@@ -113,9 +114,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     let posed =
         Posed { operators, law: first_law, flat, constraint: wall, load: first_load, asked, branch, settings, goal };
     let mut state = State::new(posed, begin)?;
-    if near {
-        state.stays_near();
-    }
+    state.begins(nearness);
     if from_afar {
         let end = minimise(&mut state, &mut *observe)?;
         if let Some(constraint) = repelled {

@@ -48,6 +48,16 @@ impl Default for Sums {
     }
 }
 
+/// What the start of a solve knows of the solution, in ascending order.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(super) enum Nearness {
+    Afar,
+    /// the contacts of another load, whose stiffness and places are like those of the solution
+    Loaded,
+    /// all but the short waves at the edges of the contacts
+    Near,
+}
+
 #[derive(Debug)]
 pub(super) struct Steps {
     /// the last step, if the next one may use it
@@ -55,8 +65,7 @@ pub(super) struct Steps {
     pub(super) step_length: f64,
     /// the contacts in the preconditioner
     pub(super) coarse: Option<Coarse>,
-    /// whether the start is near the solution
-    pub(super) near: bool,
+    pub(super) nearness: Nearness,
     /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`](crate::Method::Rey2017)
     pub(super) residual_norm: Option<f64>,
     /// steps since the pressure was last computed from the gap
@@ -67,7 +76,15 @@ pub(super) struct Steps {
 
 impl Steps {
     pub(super) fn new(coarse: Option<Coarse>) -> Self {
-        Self { momentum: None, step_length: 1.0, coarse, near: false, residual_norm: None, age: 0, updates: 0.0 }
+        Self {
+            momentum: None,
+            step_length: 1.0,
+            coarse,
+            nearness: Nearness::Afar,
+            residual_norm: None,
+            age: 0,
+            updates: 0.0,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The beginnings of the phases of a solve, each with an energy and a goal.
 
 use super::coarse::Coarse;
-use super::minimisation::{Goal, Left, Progress};
+use super::minimisation::{Goal, Left, Nearness, Progress};
 use super::start::uniform_start;
 use super::state::State;
 use crate::adhesion::{AdhesionLaw, Values};
@@ -15,8 +15,11 @@ use crate::real::Real;
 const NEAR: f64 = 0.5;
 
 impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
-    pub(super) fn stays_near(&mut self) {
-        (self.steps.near, self.steps.step_length) = (true, NEAR);
+    pub(super) fn begins(&mut self, nearness: Nearness) {
+        self.steps.nearness = nearness;
+        if nearness == Nearness::Near {
+            self.steps.step_length = NEAR;
+        }
     }
 
     pub(super) fn check_start(&self) -> Result<()> {

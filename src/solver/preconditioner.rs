@@ -1,7 +1,7 @@
 //! The preconditioner, its certificate, and its foundation: the stiffness of the contacts.
 
 use super::coarse::Coarse;
-use super::minimisation::Preconditioned;
+use super::minimisation::{Nearness, Preconditioned};
 use super::passes::{self, Fields, idles};
 use super::state::State;
 use super::{Criterion, Method};
@@ -81,7 +81,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             return self.posed.operators.state().modulus() / self.posed.operators.state().grid().lengths().0;
         }
         let contact = self.contact_stiffness();
-        let near = self.steps.near || self.posed.is_gap_controlled();
+        let near = self.steps.nearness > Nearness::Afar || self.posed.is_gap_controlled();
         if near && contact.is_finite() { contact.clamp(SOFTEST * softest, stiffest) } else { softest }
     }
 
@@ -115,7 +115,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     fn is_settled(&self) -> bool {
-        let loaded = self.steps.near
+        let loaded = self.steps.nearness > Nearness::Afar
             || self.posed.is_gap_controlled()
             || (self.counters.iterations >= UNSETTLED && self.load_error() <= LOADED);
         loaded && (self.posed.law.hints().zero || self.relative_error() <= SETTLED)

@@ -3,6 +3,7 @@
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
 use super::Branch;
+use super::minimisation::Nearness;
 use super::potential::{Least, bounded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
@@ -67,8 +68,12 @@ impl<T> Begin<'_, T> {
         matches!(self, Self::At(Start::Default) | Self::On(_))
     }
 
-    pub(super) fn is_near(&self) -> bool {
-        matches!(self, Self::At(Start::Near(_)) | Self::Prolonged(_))
+    pub(super) fn nearness(&self) -> Nearness {
+        match self {
+            Self::At(Start::Near(_)) | Self::Prolonged(_) => Nearness::Near,
+            Self::Found(_) => Nearness::Loaded,
+            Self::At(Start::Default | Start::From(_)) | Self::On(_) => Nearness::Afar,
+        }
     }
 }
 

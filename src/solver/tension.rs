@@ -2,7 +2,7 @@
 //! none.
 
 use super::driver::{Observer, minimise};
-use super::minimisation::{Goal, Left};
+use super::minimisation::{Goal, Left, Nearness};
 use super::passes::Fields;
 use super::posed::Posed;
 use super::state::State;
@@ -91,7 +91,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             held[side] = match self.tension_at(gaps[side], HARDLY * -load, &mut *observe)? {
                 Some(tension) if tension >= -load => {
                     self.go_on(Load::Pressure(load), Goal::Solution)?;
-                    self.stays_near();
+                    self.begins(Nearness::Near);
                     return Ok(true);
                 }
                 Some(tension) => tension,
