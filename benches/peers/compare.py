@@ -107,7 +107,8 @@ class Bench:
     def heights(self, n):
         path = self.work / f"{n}.npy"
         if not path.exists():
-            surface = ["surface", "--size", n, "--rms-slope", 1, "--hurst", 0.8, "--k-l", 4, "--k-s", 64, "--seed", SEED]
+            shortest = min(64, n // 8)
+            surface = ["surface", "--size", n, "--rms-slope", 1, "--hurst", 0.8, "--k-l", 4, "--k-s", shortest, "--seed", SEED]
             command = [ROOT / "target/release/asperity", *surface, "--out", path]
             subprocess.run(list(map(str, command)), check=True, capture_output=True)
         return path
@@ -382,7 +383,7 @@ def wall(bench):
             rows.append([f"{n}²", precision, peer, *row])
             if first and peer == "aspher" and level is LEVELS[precision][-1]:
                 memory.append((n, precision, level[0], first, second))
-    print(f"### Hard wall, p̄ = {PRESSURE} E*h', H = 0.8, k = 4…64, seed {SEED}\n")
+    print(f"### Hard wall, p̄ = {PRESSURE} E*h', H = 0.8, k = 4…64, or to eight nodes a wave, seed {SEED}\n")
     table(HEAD, rows)
     for note in notes:
         print(f"- {note}")
@@ -485,7 +486,7 @@ def main():
     parser.add_argument("--peers", type=Path, default=CACHE, help="the folder that setup.sh filled")
     parser.add_argument("--quick", action="store_true", help="512² (and 1024² applications) only, fewer rounds")
     sizes = lambda text: [int(n) for n in text.split(",")]
-    parser.add_argument("--sizes", type=sizes, default=[512, 1024, 2048], help="nodes along a side, of the solves")
+    parser.add_argument("--sizes", type=sizes, default=[128, 256, 512, 1024, 2048], help="nodes along a side, of the solves")
     parser.add_argument("--rows", default="application,wall,adhesion,free", help="which tables")
     parser.add_argument("--prefix", default="", help="a command to run every measurement under, such as 'taskset -c 1'")
     ours = "further options for every solve of examples/timed.rs, as in --ours=--method=nested"
