@@ -99,7 +99,8 @@ def test_in_f32_sweeps_cycles_stability_and_to_an_accuracy(rough):
     single = [pressed(rough, body, precision="f32").mean_gap for body in (own, layer)]
     assert single[0] == pytest.approx(single[1], rel=1e-6)
     both = [asperity.sweep(rough, modulus=1.0, mean_gaps=[0.03, 0.02], body=body).columns for body in (own, layer)]
-    np.testing.assert_allclose(both[0]["mean_pressure"], both[1]["mean_pressure"], rtol=1e-6)
+    # at these gaps nothing touches: what is left is rounding
+    np.testing.assert_allclose(both[0]["mean_pressure"], both[1]["mean_pressure"], rtol=1e-6, atol=1e-14)
     asperity.cycle(rough, modulus=1.0, mean_gaps=[0.03, 0.02], law=LAW, body=own, steps=3).run()
     held = pressed(rough, own, mean_pressure=None, mean_gap=0.03, law=LAW, stability=True)
     assert asperity.stability(held).verdict == held.report["stability"]["verdict"]
