@@ -45,7 +45,6 @@ export class Cycle {
     const { shortfalls } = await engine.follow(
       { ...scene, ...this.scene },
       {
-        command: "cycle",
         onstate: (row, { share }) => {
           rows.push(row);
           onstate({ ...row, count: rows.length, share: share ?? 0 });

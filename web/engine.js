@@ -156,15 +156,10 @@ export class Engine {
     return this.call("solve", [JSON.stringify(scene), { start, fields, histograms }], { onprogress });
   }
 
-  /* Follows loads by the keys of `asperity sweep` or `cycle`, the `command`; `onstate` gets the row of each state as it
-     is found, and beside it its fields and the share of the way. */
-  follow(scene, { command, fields = [], onstate, onprogress }) {
-    return this.call("follow", [JSON.stringify(scene), { command, fields }], { onstate, onprogress });
-  }
-
-  /* Distributions, autocorrelation and clusters of the last solution, as of `asperity contact`. */
-  contact() {
-    return this.call("contact", []);
+  /* Follows loads by the keys of `asperity cycle`; `onstate` gets the row of each state as it is found, and beside it the
+     share of the way. */
+  follow(scene, { onstate, onprogress }) {
+    return this.call("follow", [JSON.stringify(scene)], { onstate, onprogress });
   }
 
   /* The lines that give the same answer: of a `shell` one by one, and of `python`. */

@@ -31,20 +31,19 @@ const calls = {
   make: parameters => map(engine.make(parameters)),
   prepare: steps => map(engine.prepare(steps)),
   statistics: () => parsed(engine.statistics()),
-  contact: () => parsed(engine.contact()),
   solve(scene, { start, fields: names, histograms }) {
     const answer = parsed(engine.solve(scene, start === "last", seen));
     if (histograms) answer.histograms = parsed(engine.histograms(histograms));
     return { ...answer, fields: fields(names) };
   },
-  follow(scene, { command, fields: names }) {
-    const begun = parsed(engine.begin(scene, command));
+  follow(scene) {
+    const begun = parsed(engine.begin(scene));
     let count = 0, last = begun;
     const shortfalls = new Set();
     for (let told; (told = engine.next(seen)) !== undefined; count++) {
       last = parsed(told);
       last.shortfalls.forEach(text => shortfalls.add(text));
-      observed({ state: { ...last, ...(names.length ? { fields: fields(names) } : {}) } });
+      observed({ state: last });
     }
     return { ...begun, count, status: "complete", warnings: last.warnings, shortfalls: [...shortfalls] };
   },
@@ -63,7 +62,7 @@ onmessage = async ({ data: { module, id, call, args } }) => {
     ready = init({ module_or_path: module }).then(() => { engine = new Engine(); });
     return;
   }
-  observed = what => postMessage({ id, seen: what }, buffers(what.state));
+  observed = what => postMessage({ id, seen: what });
   try {
     await ready;
     const found = calls[call](...args);

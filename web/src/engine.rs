@@ -176,7 +176,7 @@ impl Engine {
             "missing": map.missing(),
             "unread": map.unread,
             "channels": [],
-            "mean": mean(map),
+            "mean": map.mean(),
             "lowest": low,
             "highest": high,
             "warnings": warnings,
@@ -190,7 +190,7 @@ impl Engine {
     /// As of [`Engine::surface`].
     pub fn heights(&self) -> Outcome<Vec<f32>> {
         let map = self.surface()?;
-        let mean = mean(map);
+        let mean = map.mean();
         Ok(map.heights.iter().map(|height| (height - mean) as f32).collect())
     }
 
@@ -230,13 +230,13 @@ impl Engine {
         self.pose(&given, from_last)?.solve(given, from_last, observe)
     }
 
-    /// Begins a sweep or a cycle along loads.
+    /// Begins a cycle along loads.
     ///
     /// # Errors
     /// The key and the remedy.
-    pub fn begin(&mut self, given: &str, command: &str) -> Outcome<Value> {
+    pub fn begin(&mut self, given: &str) -> Outcome<Value> {
         let given = Given::read(given, &keys())?;
-        self.pose(&given, false)?.begin(given, command)
+        self.pose(&given, false)?.begin(given)
     }
 
     /// The problem that keys pose; the one before stays where they are refused.
@@ -277,12 +277,6 @@ impl Engine {
             "python": self.origin.python(typed, started),
         }))
     }
-}
-
-/// The mean of the heights that are there.
-fn mean(map: &Topography) -> f64 {
-    let finite = || map.heights.iter().filter(|height| height.is_finite());
-    finite().sum::<f64>() / finite().count().max(1) as f64
 }
 
 /// The least and the greatest of the values that are finite; nothing of none.

@@ -26,14 +26,13 @@ const WORDS: [&str; 13] = [
 ];
 
 /// The keys of lists of loads, each with that of one of them.
-const LISTS: [(&str, &str); 7] = [
+const LISTS: [(&str, &str); 6] = [
     ("mean_pressures", "mean_pressure"),
     ("mean_gaps", "mean_gap"),
     ("normal_forces", "normal_force"),
     ("approaches", "approach"),
     ("spring_positions", "spring_position"),
     ("reduced_pressures", "reduced_pressure"),
-    ("contact_fractions", "contact_fraction"),
 ];
 
 /// What was typed, by its keys.

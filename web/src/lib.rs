@@ -112,8 +112,8 @@ impl Page {
     }
 
     /// See [`Engine::begin`].
-    pub fn begin(&mut self, given: &str, command: &str) -> Result<String, JsError> {
-        told(self.0.begin(given, command).map(|found| found.to_string()))
+    pub fn begin(&mut self, given: &str) -> Result<String, JsError> {
+        told(self.0.begin(given).map(|found| found.to_string()))
     }
 
     /// See [`Engine::next`].
@@ -134,11 +134,6 @@ impl Page {
     /// The histograms of the last solution.
     pub fn histograms(&self, bins: usize) -> Result<String, JsError> {
         told(self.0.problem().and_then(|problem| problem.histograms(bins)).map(|found| found.to_string()))
-    }
-
-    /// The tables of the contact of the last solution.
-    pub fn contact(&self) -> Result<String, JsError> {
-        told(self.0.problem().and_then(|problem| problem.contact()).map(|found| found.to_string()))
     }
 
     /// See [`Engine::file`].

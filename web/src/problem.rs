@@ -7,7 +7,7 @@ use asperity_maps::Topography;
 use asperity_scene::outcome::Outcome;
 use asperity_scene::quantity::{LENGTH, PRESSURE};
 use asperity_scene::units::Units;
-use asperity_scene::{Asked, Boundary, Branches, Load, Precision, Scene, Slopes, Way, in_unit};
+use asperity_scene::{Asked, Boundary, Branches, Load, Precision, Scene, Way, in_unit};
 use serde_json::{Map, Value};
 
 use crate::given::{Given, reason};
@@ -41,7 +41,7 @@ const SCENE: [&str; 22] = [
     "branch",
 ];
 /// Those of a load, and of loads.
-const LOADS: [&str; 15] = [
+const LOADS: [&str; 14] = [
     "mean_pressure",
     "mean_gap",
     "normal_force",
@@ -56,12 +56,11 @@ const LOADS: [&str; 15] = [
     "approaches",
     "spring_positions",
     "reduced_pressures",
-    "contact_fractions",
 ];
 /// Those of a solve and of a cycle.
 const OTHERS: [&str; 7] = ["absent_missing", "lengths", "nested", "steps", "smallest_step", "imbalance", "sharp"];
 
-/// The keys of a solve, and of a sweep or a cycle.
+/// The keys of a solve and of a cycle.
 pub fn keys() -> Vec<&'static str> {
     [&SCENE[..], &LOADS, &OTHERS].concat()
 }
@@ -117,7 +116,6 @@ impl Problem {
         let mut inputs = scene.inputs(shown.shape(), shown.lengths(), 1);
         inputs.heights = Some(name.to_owned());
         inputs.part = map.original.map(|_| if original.is_some() { "original" } else { "whole" }.to_owned());
-        inputs.slopes = Slopes::of(&surface, scene.elastic.boundary);
         (inputs.length_unit, inputs.pressure_unit) = (units.length.clone(), units.pressure.clone());
         let origin = Origin { converted_from: converted_from.as_deref(), scars_removed };
         let problem = (surface, origin, original);
@@ -149,32 +147,25 @@ impl Problem {
         Ok(answer)
     }
 
-    /// Begins a sweep or a cycle along the loads that are given; tells the names of its columns.
+    /// Begins a cycle along the loads that are given; tells the names of its columns.
     ///
     /// # Errors
     /// The key and the remedy.
-    pub fn begin(&mut self, mut given: Given, command: &str) -> Outcome<Value> {
+    pub fn begin(&mut self, mut given: Given) -> Outcome<Value> {
         let quantities = given.quantities();
-        let fractions = given.numbers("contact_fractions");
-        let loads = if fractions.is_some() { Vec::new() } else { loads(&mut given)? };
-        let settings = PathSettings::default();
-        let count = |given: &mut Given, key, usual: usize| given.number(key).map_or(usual, |count| count as usize);
-        let settings = settings.steps(count(&mut given, "steps", 50));
-        let settings = settings.smallest_step(given.number("smallest_step").unwrap_or(1e-4));
-        let settings = settings.imbalance(given.number("imbalance").unwrap_or(1e-4));
-        let settings = settings.smooth(!given.switch("sharp"));
+        let loads = loads(&mut given)?;
+        let usual = PathSettings::default();
+        let settings = usual
+            .steps(given.number("steps").map_or(usual.steps, |steps| steps as usize))
+            .smallest_step(given.number("smallest_step").unwrap_or(usual.smallest_step))
+            .imbalance(given.number("imbalance").unwrap_or(usual.imbalance))
+            .smooth(!given.switch("sharp"));
         let full = self.state.full_pressure(&loads).map_err(reason)?;
         let controls: Vec<Control> = loads.iter().map(|load| load.control(full)).collect();
-        let way = match (command, fractions) {
-            ("sweep", Some(fractions)) => Way::Search(fractions),
-            ("sweep", None) => Way::Sweep(controls),
-            ("cycle", None) if controls.len() > 1 => Way::Cycle(controls, settings),
-            ("cycle", _) => {
-                return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
-            }
-            (other, _) => return Err(format!("{other} is no command: give sweep or cycle").into()),
-        };
-        self.state.begin(way, quantities)
+        if controls.len() < 2 {
+            return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
+        }
+        self.state.begin(Way::Cycle(controls, settings), quantities)
     }
 
     /// The next state along the loads; nothing at their end.
@@ -213,14 +204,6 @@ impl Problem {
     /// Without a solution.
     pub fn histograms(&self, bins: usize) -> Outcome<Value> {
         self.state.histograms(bins)
-    }
-
-    /// The tables of the contact.
-    ///
-    /// # Errors
-    /// Without a solution, and those of the tables.
-    pub fn contact(&self) -> Outcome<Value> {
-        self.state.contact()
     }
 
     /// The bytes of a file to take away.

@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use asperity::contact::{Original, Region};
 use asperity::{Control, Grid, Iteration, Solution, Surface};
-use asperity_maps::io::{check_memory, npz};
+use asperity_maps::io::npz;
 use asperity_plot::LoadScale;
-use asperity_scene::contact::ContactTables;
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
@@ -79,13 +78,11 @@ pub trait Solves {
     fn field(&self, name: &str) -> Outcome<Vec<f32>>;
     fn regions(&self) -> Outcome<Vec<u8>>;
     fn histograms(&self, bins: usize) -> Outcome<Value>;
-    fn contact(&self) -> Outcome<Value>;
     fn file(&self, name: &str) -> Outcome<Vec<u8>>;
 }
 
 impl<T: Scalar> State<T> {
-    /// The problem of a scene on a surface, with the origin of its heights; solves go on from a gap
-    /// of `before`.
+    /// The problem of a scene on a surface, with the origin of its heights; solves go on from a gap of `before`.
     pub fn new(
         scene: Scene,
         (surface, origin, original): (Surface, Origin<'_>, Option<Original>),
@@ -117,9 +114,16 @@ impl<T: Scalar> State<T> {
         })
     }
 
-    /// The problem anew, as it has solved nothing yet.
-    fn anew(&self) -> Outcome<Posed<T>> {
-        Ok(self.scene.posed(self.surface.clone(), self.formula.clone().law(), None, self.original)?)
+    /// The problem as it has solved nothing yet.
+    fn fresh(&self) -> asperity::Result<Posed<T>> {
+        self.scene.posed(self.surface.clone(), self.formula.clone().law(), None, self.original)
+    }
+
+    /// The problem anew, with the slopes of its surface for the inputs.
+    fn anew(&mut self) -> Outcome<Posed<T>> {
+        let mut posed = self.fresh()?;
+        self.inputs.slopes = posed.slopes()?;
+        Ok(posed)
     }
 
     /// The last solution.
@@ -204,9 +208,7 @@ impl<T: Scalar> Solves for State<T> {
     }
 
     fn full_pressure(&self, loads: &[Load]) -> Result<f64, String> {
-        let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
-        loads.iter().try_for_each(|load| load.check(self.scene.elastic.boundary, self.original.is_some()))?;
-        if reduced { self.scene.elastic.full_pressure(&self.surface) } else { Ok(1.0) }
+        self.fresh().map_err(|error| error.to_string())?.full_pressure(loads)
     }
 
     fn solve(
@@ -336,23 +338,6 @@ impl<T: Scalar> Solves for State<T> {
             Histogram::of(values.into_iter(), bins)
         };
         Ok(json!({ "gap": positive(&part.gap), "contact_pressure": positive(&part.contact_pressure) }))
-    }
-
-    fn contact(&self) -> Outcome<Value> {
-        let part = self.last()?.found.part()?;
-        check_memory("the tables of a contact", part.grid.shape(), 48)?;
-        let [gap, pressure] = [&part.gap, &part.contact_pressure].map(|field| field.mapv(T::widen));
-        let tables = ContactTables::of(gap.view(), pressure.view(), part.grid, self.scene.elastic.boundary)?;
-        let figures = tables.figures();
-        let largest: Vec<_> = tables.spots.iter().take(1000).collect();
-        Ok(json!({
-            "rows": figures.rows(&self.units),
-            "figures": figures,
-            "gap": { "edges": tables.gap.edges, "density": tables.gap.density },
-            "pressure": { "edges": tables.pressure.edges, "density": tables.pressure.density },
-            "autocorrelation": tables.autocorrelation,
-            "clusters": largest,
-        }))
     }
 
     fn file(&self, name: &str) -> Outcome<Vec<u8>> {

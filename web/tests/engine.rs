@@ -176,7 +176,7 @@ fn a_cycle_has_its_jumps_and_its_table() {
     engine.make(&wave.to_string()).unwrap();
     let cycle = json!({ "mean_gaps": "0.03,0.0,0.03", "steps": 12, "law": "exponential", "work_of_adhesion": 4e-4,
         "range": 3e-3 });
-    engine.begin(&cycle.to_string(), "cycle").unwrap();
+    engine.begin(&cycle.to_string()).unwrap();
     let mut events = Vec::new();
     let mut count = 0;
     while let Some(state) = engine.next(&mut |_, _, _| {}).unwrap() {

@@ -21,7 +21,7 @@ pub struct Slopes {
 
 impl Slopes {
     /// The slopes of a surface; those of a shared one are the first process's.
-    pub fn of(surface: &Surface, boundary: Boundary) -> Self {
+    pub(crate) fn of(surface: &Surface, boundary: Boundary) -> Self {
         if surface.absent_nodes() > 0 {
             return Self::default();
         }
