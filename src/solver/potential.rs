@@ -152,8 +152,17 @@ impl<'a, T: Real> Potential<'a, T> {
         matches!(self.wall, Some(Wall::Springs(_) | Wall::None))
     }
 
-    pub(crate) fn repels(&self) -> bool {
-        matches!(self.wall, Some(Wall::None))
+    /// The stiffness with which springs, or a law that repels, hold nodes, and up to which load that pulls: springs bear
+    /// no more than their pressure, with which they are at rest.
+    pub(crate) fn holds(&self, first: usize, gaps: &[T], slopes: &mut [T], limits: &mut [T]) {
+        let Some(Wall::Springs(springs)) = self.wall else {
+            self.law(Of::Slope, first, gaps, slopes);
+            return limits.fill(T::infinity());
+        };
+        for (i, &gap) in gaps.iter().enumerate() {
+            slopes[i] = springs.slope(first + i, gap);
+            limits[i] = (-springs.traction(first + i, gap)).max(T::zero());
+        }
     }
 
     /// Whether steps end where the surfaces touch.

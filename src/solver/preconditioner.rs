@@ -49,8 +49,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let coarse = self.steps.coarse.as_mut().and_then(Coarse::ready);
         let foundation = Foundation { stiffness, mean_stiffness, coarse };
         let stiffest = self.posed.operators.state().stiffness_range().1;
-        let repels = self.posed.potential().repels() && stiffest > 0.0;
-        let held = repels.then(|| passes::hold(&mut self.fields, &self.posed.potential(), ALONE * stiffest, centred));
+        let holds = self.posed.potential().is_soft() && stiffest > 0.0;
+        let held = holds.then(|| passes::hold(&mut self.fields, &self.posed.potential(), ALONE * stiffest, centred));
         let Fields { residual, preconditioned, .. } = &mut self.fields;
         let found =
             self.posed.operators.corrections().precondition(residual.view(), foundation, preconditioned.view_mut())?;

@@ -1,28 +1,52 @@
-//! The passes that fit the preconditioner to nodes which the law itself holds by its repulsion.
+//! The passes that fit the preconditioner to nodes which springs, or a law by its repulsion, hold.
 //!
-//! The compliance M knows nothing of their slopes κ = φ'', often several times the stiffness of the stiffest wave. With
+//! The compliance M knows nothing of their stiffness κ, often several times that of the stiffest wave. With
 //! s = 1/(1 + κ/k)² at each node, and k its stiffness among its neighbours, the preconditioner is
-//! S M S + (1 − S²)/(k + κ): M where nothing repels, the compliance of the node where it is held.
+//! S M S + (1 − S²)/(k + κ): M where nothing holds, the compliance of the node where it is held. Of a residual that
+//! pulls, springs take no more than their pressure.
 
 use super::Fields;
 use crate::field::{CHUNK, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::potential::{Of, Potential};
+use crate::solver::potential::Potential;
 use crate::vector::sums;
 
-/// The share s of a node in the waves, and its compliance beside them, (1 − s²)/(k + κ). r' can be had back from s r'.
+/// The share s of a node in the waves, if nothing limits what is held. r' can be had back from s r'.
 #[inline(always)]
-fn share<T: Real>(slope: T, stiffness: T) -> (T, T) {
-    let own = (stiffness + slope.max(T::zero())).recip();
-    let s = (stiffness * own).powi(2).max(T::epsilon());
-    (s, (T::one() - s * s) * own)
+fn share<T: Real>(slope: T, stiffness: T) -> T {
+    (stiffness / (stiffness + slope.max(T::zero()))).powi(2).max(T::epsilon())
 }
 
-fn slopes<'a, T: Real>(local: &Potential<'_, T>, first: usize, gap: &[T], buffer: &'a mut [T; CHUNK]) -> &'a [T] {
-    let slopes = &mut buffer[..gap.len()];
-    local.evaluate(Of::Slope, first, gap, slopes);
-    slopes
+/// The share s of a node in the waves, of which the part (1 − s) of a residual that pulls is at most the `limit`.
+#[inline(always)]
+fn limited<T: Real>(share: T, r: T, limit: T) -> T {
+    if r < T::zero() { share.max(T::one() + limit / r) } else { share }
+}
+
+/// The residual r' of which [`limited`] has left s r'.
+#[inline(always)]
+fn whole<T: Real>(share: T, left: T, limit: T) -> T {
+    let r = left / share;
+    if r < T::zero() { r.max(left - limit) } else { r }
+}
+
+/// The compliance of a node beside the waves, (1 − s²)/(k + κ).
+#[inline(always)]
+fn beside<T: Real>(share: T, slope: T, stiffness: T) -> T {
+    (T::one() - share * share) / (stiffness + slope.max(T::zero()))
+}
+
+/// The stiffness of what holds nodes, and its limits.
+fn holding<'a, T: Real>(
+    local: &Potential<'_, T>,
+    first: usize,
+    gap: &[T],
+    [slopes, limits]: &'a mut [[T; CHUNK]; 2],
+) -> (&'a [T], &'a [T]) {
+    let (slopes, limits) = (&mut slopes[..gap.len()], &mut limits[..gap.len()]);
+    local.holds(first, gap, slopes, limits);
+    (slopes, limits)
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -51,10 +75,10 @@ pub(in crate::solver) fn hold<T: Real, Lo: Real>(
     let (mut level, mut shares) = (0.0, 0.0);
     if centred {
         let total = local.run(reducer, read(gap).zip(read(residual)), |local, first, (gap, residual)| {
-            let mut buffer = [T::zero(); CHUNK];
-            let slopes = slopes(local, first, gap, &mut buffer);
+            let mut buffer = [[T::zero(); CHUNK]; 2];
+            let (slopes, _) = holding(local, first, gap, &mut buffer);
             sums!(2, [slopes, residual], [], |i| {
-                let (s, _) = share(slopes[i], k);
+                let s = share(slopes[i], k);
                 [(s * s).widen() * residual[i].widen(), (s * s).widen()]
             })
         });
@@ -63,14 +87,15 @@ pub(in crate::solver) fn hold<T: Real, Lo: Real>(
     }
     let level = T::lit(level);
     let total = local.run(reducer, read(gap).zip(write(residual)), |local, first, (gap, residual)| {
-        let mut buffer = [T::zero(); CHUNK];
-        let slopes = slopes(local, first, gap, &mut buffer);
-        sums!(2, [slopes], [residual], |i| {
-            let (slope, r, (s, own)) = (slopes[i], cast::<_, T>(residual[i]) - level, share(slopes[i], k));
+        let mut buffer = [[T::zero(); CHUNK]; 2];
+        let (slopes, limits) = holding(local, first, gap, &mut buffer);
+        sums!(2, [slopes, limits], [residual], |i| {
+            let (slope, r) = (slopes[i], cast::<_, T>(residual[i]) - level);
+            let s = limited(share(slope, k), r, limits[i]);
             residual[i] = cast(s * r);
             let rest = ((T::one() - s) * r).widen();
-            let beside = if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 };
-            [beside, (own * r * r).widen()]
+            let error = if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 };
+            [error, (beside(s, slope, k) * r * r).widen()]
         })
     });
     Held { stiffness, level: level.widen(), shares, beside: total.sum[0], descent: total.sum[1] }
@@ -86,12 +111,13 @@ pub(in crate::solver) fn release_held<T: Real, Lo: Real>(
     let (k, level) = (T::lit(held.stiffness), T::lit(held.level));
     let chunks = read(gap).zip(write(residual)).zip(write(preconditioned));
     let total = local.run(reducer, chunks, |local, first, ((gap, residual), z)| {
-        let mut buffer = [T::zero(); CHUNK];
-        let slopes = slopes(local, first, gap, &mut buffer);
-        sums!(1, [slopes], [residual, z], |i| {
-            let (s, own) = share(slopes[i], k);
-            let r = cast::<_, T>(residual[i]) / s;
-            let moved = s * cast(z[i]) + own * r;
+        let mut buffer = [[T::zero(); CHUNK]; 2];
+        let (slopes, limits) = holding(local, first, gap, &mut buffer);
+        sums!(1, [slopes, limits], [residual, z], |i| {
+            let share = share(slopes[i], k);
+            let r = whole(share, cast(residual[i]), limits[i]);
+            let s = limited(share, r, limits[i]);
+            let moved = s * cast(z[i]) + beside(s, slopes[i], k) * r;
             (residual[i], z[i]) = (cast(r + level), cast(moved));
             [moved.widen()]
         })
@@ -103,10 +129,10 @@ pub(in crate::solver) fn release_held<T: Real, Lo: Real>(
     let Fields { reducer, gap, preconditioned, .. } = fields;
     let mean = T::lit(total.sum[0] / held.shares);
     let total = local.run(reducer, read(gap).zip(write(preconditioned)), |local, first, (gap, z)| {
-        let mut buffer = [T::zero(); CHUNK];
-        let slopes = slopes(local, first, gap, &mut buffer);
+        let mut buffer = [[T::zero(); CHUNK]; 2];
+        let (slopes, _) = holding(local, first, gap, &mut buffer);
         sums!(1, [slopes], [z], |i| {
-            let (s, _) = share(slopes[i], k);
+            let s = share(slopes[i], k);
             let moved: T = cast::<_, T>(z[i]) - mean * (s * s);
             z[i] = cast(moved);
             [moved.widen()]

@@ -326,8 +326,9 @@ impl<'a, T: Real> Judge<'a, T> {
     /// That the certificate is no less than that of the matrix, nor far more.
     fn certificate(&self) -> Result<(), String> {
         let (mut residual, _, clear) = self.residual();
-        // with multipliers the last round is what was certified, and without a wall the law's own stiffness is in it
-        let own = !matches!(self.scene.constraint, Constraint::Uzawa | Constraint::None);
+        // with multipliers the last round is what was certified, and the stiffness of springs, or of a law without a
+        // wall, is in it
+        let own = !matches!(self.scene.constraint, Constraint::Penalty | Constraint::Uzawa | Constraint::None);
         let Some(scale) = self.scale.filter(|_| clear && own) else {
             return Ok(());
         };
