@@ -3,6 +3,7 @@
 mod cases;
 mod merge;
 mod work;
+mod worker;
 
 use std::ffi::OsString;
 use std::fmt;
@@ -17,6 +18,7 @@ pub use self::cases::SECTIONS;
 use self::cases::Study;
 use self::merge::merge;
 use self::work::{Folder, solve};
+pub use self::worker::{is_worker, serve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::check_free;

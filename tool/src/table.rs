@@ -25,6 +25,7 @@ use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::{self, SceneFile};
+use crate::study;
 use crate::units::{UnitOptions, Units};
 use crate::warnings::{self, Strictness, Warnings};
 
@@ -141,7 +142,7 @@ impl<'a> TableOptions<'a> {
             fields: self.fields.map(Path::to_owned),
             force,
             // a study has the lock of its case: a former run of that is about to end
-            waits: interruption::is_case(),
+            is_case: study::is_worker(),
             beside: vec![scene::beside(out), warnings::beside(out)],
             nodes,
         };

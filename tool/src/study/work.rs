@@ -1,12 +1,9 @@
-//! The work on a study: its cases, each by a process of its own that keeps its rows in a folder.
+//! The work on a study: its cases, solved by workers, with the rows of each in a file of a folder.
 
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
-#[cfg(unix)]
-use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Mutex, PoisonError};
@@ -16,7 +13,8 @@ use asperity::Error;
 use asperity_scene::Hash;
 
 use super::cases::{Case, Study};
-use crate::interruption::{CASE, stands};
+use super::worker::Worker;
+use crate::interruption::stands;
 use crate::journal::{is_whole, state_path, written};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, with_suffix, write_text};
@@ -121,8 +119,8 @@ pub fn solve(
     };
     stand(0);
     // whether the case is over, as it is not where another run has it
-    let over = |number: usize, wait: bool| {
-        match solved(study, &study.cases[number], folder, program, threads, wait) {
+    let over = |number: usize, worker: &mut Worker<'_>, wait: bool| {
+        match solved(study, &study.cases[number], folder, worker, wait) {
             Ok(None) => return false,
             Ok(Some(warnings)) => {
                 let name = told(number);
@@ -149,15 +147,16 @@ pub fn solve(
     let elsewhere = Mutex::new(Vec::new());
     let elsewhere = || elsewhere.lock().unwrap_or_else(PoisonError::into_inner);
     let work = || {
+        let mut worker = Worker::new(program, threads);
         while let Some(&number) = left.get(next.fetch_add(1, Relaxed)) {
-            if !over(number, false) {
+            if !over(number, &mut worker, false) {
                 elsewhere().push(number);
             }
         }
         loop {
             let Some(number) = elsewhere().pop() else { break };
             printing.say(&format!("{} is solved by another run: waiting for it", told(number)));
-            over(number, true);
+            over(number, &mut worker, true);
         }
     };
     thread::scope(|scope| {
@@ -190,29 +189,21 @@ fn solved(
     study: &Study,
     case: &Case,
     folder: &Folder,
-    program: &[OsString],
-    threads: usize,
+    worker: &mut Worker<'_>,
     wait: bool,
 ) -> Result<Option<Vec<String>>, String> {
     let Some(_lock) = folder.locked(case, wait)? else { return Ok(None) };
     let mut warnings = Vec::new();
     if !folder.is_done(case) {
-        warnings = rows_of(study, case, folder, program, threads)?;
+        warnings = rows_of(study, case, folder, worker)?;
     }
     let _ = fs::remove_file(folder.lock(case));
     Ok(Some(warnings))
 }
 
 /// Solves a case; the warnings of its runs, or the line by which one was refused.
-fn rows_of(
-    study: &Study,
-    case: &Case,
-    folder: &Folder,
-    program: &[OsString],
-    threads: usize,
-) -> Result<Vec<String>, String> {
+fn rows_of(study: &Study, case: &Case, folder: &Folder, worker: &mut Worker<'_>) -> Result<Vec<String>, String> {
     let (rows, made) = (folder.rows(case), folder.surface(case));
-    let run = |command: &str, arguments: &[OsString]| run(program, command, arguments, threads);
     let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
     let mut warnings = Vec::new();
     let [out, file] = path("--out", &rows);
@@ -226,10 +217,12 @@ fn rows_of(
     }
     if let Some(surface) = &case.surface {
         let [out, file] = path("--out", &made);
-        warnings.extend(run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
+        warnings.extend(worker.run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
         arguments.extend(path("--heights", &made));
     }
-    warnings.extend(run(&study.command, &arguments)?);
+    // rows that did not converge are counted in the table
+    let said = worker.run(&study.command, &arguments)?;
+    warnings.extend(said.into_iter().filter(|line| code(line) != Some(UNCONVERGED)));
     // the state last: what is left with it is not done
     if case.surface.is_some() {
         let _ = fs::remove_file(&made);
@@ -245,30 +238,6 @@ fn rows_of(
     write().map_err(|error| error.to_string())?;
     fs::remove_file(state_path(&rows)).map_err(|e| format!("its state cannot be removed: {e}"))?;
     Ok(warnings)
-}
-
-/// Runs a command of this program; its warnings, or the line by which it was refused.
-fn run(program: &[OsString], command: &str, arguments: &[OsString], threads: usize) -> Result<Vec<String>, String> {
-    let [program, before @ ..] = program else { return Err("this program is not found any more".to_owned()) };
-    let mut process = Command::new(program);
-    process.args(before).arg(command).args(arguments).args(["--quiet", "--threads", &threads.to_string()]);
-    process.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).env(CASE, "1");
-    // ^C is for this process, with which the other one ends
-    #[cfg(unix)]
-    process.process_group(0);
-    let started = |e| format!("it cannot be started: {e}");
-    let mut process = process.spawn().map_err(started)?;
-    let _held = process.stdin.take();
-    let output = process.wait_with_output().map_err(started)?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    let mut lines =
-        said.lines().map(|line| line.trim_start_matches("warning: ").trim_start_matches("error: ").to_owned());
-    match output.status.code() {
-        // rows that did not converge are counted in the table
-        Some(0 | 2) => Ok(lines.filter(|line| code(line) != Some(UNCONVERGED)).collect()),
-        Some(_) => Err(lines.next_back().unwrap_or_else(|| "it said nothing".to_owned())),
-        None => Err("its process was killed".to_owned()),
-    }
 }
 
 /// The code of a warning, which stands before its message.

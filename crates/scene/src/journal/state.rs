@@ -121,13 +121,14 @@ pub fn state_path(table: &Path) -> PathBuf {
     with_suffix(table, ".state.npz")
 }
 
-/// Replaces the state, in one go.
+/// Replaces the state, in one go; `synced` if it is to be on the disk then.
 pub fn save<T: WritableElement + Clone>(
     table: &Path,
     identity: &Identity,
     written: &Written,
     fields: &[ArrayView2<'_, T>],
     values: &Values,
+    synced: bool,
 ) -> Outcome<()> {
     let bits = |values: &Vec<f64>| values.iter().map(|number| format!("{:016x}", number.to_bits())).collect::<Value>();
     let (state, temporary) = (state_path(table), with_suffix(table, ".state.tmp"));
@@ -160,11 +161,13 @@ pub fn save<T: WritableElement + Clone>(
     let write = |archive: Vec<u8>| -> Outcome<()> {
         let mut file = File::create(&temporary)?;
         file.write_all(&archive)?;
-        file.sync_all()?;
+        if synced {
+            file.sync_all()?;
+        }
         fs::rename(&temporary, &state)?;
         // or the next row might reach the disk before the name does
         let folder = state.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-        if cfg!(unix) {
+        if synced && cfg!(unix) {
             File::open(folder)?.sync_all()?;
         }
         Ok(())
