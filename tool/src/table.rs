@@ -164,11 +164,12 @@ impl<'a> TableOptions<'a> {
                 law_differs: false,
             };
             let identity = posed.identity(&inputs, &units.of_table(), fields);
-            opened = Some((identity, scene.written_beside(out)?, warnings));
+            let scene_file = (!study::is_worker()).then(|| scene.written_beside(out)).transpose()?;
+            opened = Some((identity, scene_file, warnings));
             Ok(())
         })?;
         let (identity, scene_file, mut warnings) = match opened {
-            Some((identity, scene_file, warnings)) => (Some(identity), Some(scene_file), warnings),
+            Some((identity, scene_file, warnings)) => (Some(identity), scene_file, warnings),
             None => (None, None, Warnings::none(strictness, &units, true)?),
         };
         let (rows, course) = asperity_scene::Table::open(opening, identity, course, start.or(afar), processes)?;

@@ -5,9 +5,8 @@
 //! the state is never ahead of the file, and the file is ahead of the state by at most one row, whole or not; this row
 //! is cut off and computed again. The file is locked as long as the journal is open.
 //!
-//! A case of a study does not wait for the disk after rows that took less than [`WORTH_A_WAIT`]: the study knows its rows
-//! and its state by their checksums. A power failure may leave them as those of different rows, or damaged; the case is
-//! solved again then.
+//! A case of a study saves its state, and waits for the disk, only if [`A_WHILE`] has passed since it did so last. The
+//! rows after those of its state are cut off and computed again; and of a case that is done, the study has a checksum.
 
 mod lock;
 mod state;
@@ -38,12 +37,11 @@ pub struct Journal {
     file: File,
     written: Written,
     is_case: bool,
-    /// when the last row was appended
-    last: Instant,
+    saved: Instant,
 }
 
-/// The time of a row from which on a case of a study waits for the disk.
-const WORTH_A_WAIT: Duration = Duration::from_secs(1);
+/// The work, in time, that an interrupted case of a study may lose.
+const A_WHILE: Duration = Duration::from_secs(1);
 
 /// The fields and values that were saved with the last row, and from which the next one starts.
 #[derive(Debug, Default)]
@@ -126,7 +124,9 @@ impl Journal {
             // a run that is killed before it writes its first state leaves an empty file
             let new = content.is_empty() && (made || !state_path(path).exists());
             let (written, saved) = if new || force {
-                save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &Values::new(), !is_case)?;
+                if !is_case {
+                    save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &Values::new())?;
+                }
                 (Written::NOTHING, Saved::default())
             } else {
                 resume(path, &content, header, &identity, loads, is_case)?
@@ -139,8 +139,8 @@ impl Journal {
                 let _ = fs::remove_file(path);
             }
         })?;
-        let (path, header, last) = (path.to_owned(), header.to_owned(), Instant::now());
-        Ok((Self { path, header, identity, file, written, is_case, last }, saved))
+        let (path, header, now) = (path.to_owned(), header.to_owned(), Instant::now());
+        Ok((Self { path, header, identity, file, written, is_case, saved: now }, saved))
     }
 
     /// All rows there are, with their header.
@@ -149,7 +149,10 @@ impl Journal {
         // by the same handle: on some platforms a lock keeps out others of the same process, too
         let read = (&self.file).rewind().and_then(|()| (&self.file).read_to_string(&mut text));
         read.map_err(|e| Error::unreadable(&self.path, e))?;
-        Ok(text)
+        match Hash::NEW.of(text.as_bytes()) == self.written.content {
+            true => Ok(text),
+            false => Err(Error::unreadable(&self.path, changed())),
+        }
     }
 
     /// The number of rows.
@@ -167,14 +170,14 @@ impl Journal {
         let Row { text, load, converged, fields, values } = *row;
         let header = if self.written.rows == 0 { self.header.as_str() } else { "" };
         let text = format!("{header}{text}\n");
-        let synced = !self.is_case || self.last.elapsed() >= WORTH_A_WAIT;
+        let saves = !self.is_case || self.saved.elapsed() >= A_WHILE;
         let mut write = || {
             // by its name: it may be another file by now
             if fs::metadata(&self.path)?.len() != self.written.bytes {
-                return Err(io::Error::other("it was changed by another program meanwhile"));
+                return Err(changed());
             }
             let written = self.file.write_all(text.as_bytes());
-            let written = written.and_then(|()| if synced { self.file.sync_data() } else { Ok(()) });
+            let written = written.and_then(|()| if saves { self.file.sync_data() } else { Ok(()) });
             written.inspect_err(|_| {
                 // no half row
                 let _ = self.file.set_len(self.written.bytes);
@@ -188,14 +191,12 @@ impl Journal {
             bytes: self.written.bytes + text.len() as u64,
             content: self.written.content.of(text.as_bytes()),
         };
-        self.last = Instant::now();
-        save(&self.path, &self.identity, &self.written, fields, values, synced)
+        if saves {
+            save(&self.path, &self.identity, &self.written, fields, values)?;
+            self.saved = Instant::now();
+        }
+        Ok(())
     }
-}
-
-/// The checksum of the rows of a table as they were written, by its state.
-pub fn written(path: &Path) -> Result<Hash, String> {
-    State::read(path).map(|state| state.written.content)
 }
 
 /// Whether a case of a study could go on with a table: all rows of the state are as they were written, and so is the
@@ -238,8 +239,8 @@ fn resume(
         return refuse(format!("belongs to another run, whose first {} loads are others", written.rows));
     }
     let (kept, rest) = content.split_at((written.bytes as usize).min(content.len()));
-    // an interrupted write leaves at most one row, whole or not, and before the first one the header, whole or not; the
-    // state of a case may be older
+    // an interrupted write leaves at most one row, whole or not, and before the first one the header, whole or not; but
+    // a case does not save the state of each row
     let rest = match rest.strip_prefix(header.as_bytes()) {
         _ if written.rows > 0 => Some(rest),
         Some(rest) => Some(rest),
@@ -251,6 +252,11 @@ fn resume(
         return refuse("was changed since it was written".to_owned());
     }
     Ok((written, Saved::of(state).map_err(refused)?))
+}
+
+/// The error of a table that something else has written to.
+fn changed() -> io::Error {
+    io::Error::other("it was changed by another program meanwhile")
 }
 
 /// The error of a table with which a run cannot go on.

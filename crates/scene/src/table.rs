@@ -42,7 +42,7 @@ pub struct Opening {
     pub fields: Option<PathBuf>,
     /// Whether to start over, and to replace files that are there.
     pub force: bool,
-    /// Whether it is that of a case of a study: it waits for another run that writes there, and seldom for the disk.
+    /// Whether it is that of a case of a study: it waits for another run that writes there, and saves its state now and then.
     pub is_case: bool,
     /// The files that may stand beside the table and its state.
     pub beside: Vec<PathBuf>,

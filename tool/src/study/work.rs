@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
@@ -15,11 +16,10 @@ use asperity_scene::Hash;
 use super::cases::{Case, Study};
 use super::worker::Worker;
 use crate::interruption::stands;
-use crate::journal::{is_whole, state_path, written};
+use crate::journal::{is_whole, state_path};
 use crate::outcome::Outcome;
-use crate::output::{OutputFile, with_suffix, write_text};
+use crate::output::{with_suffix, write_text};
 use crate::printing::{Printing, complain};
-use crate::scene;
 use crate::table::UNCONVERGED;
 use crate::threads;
 use crate::warnings;
@@ -45,7 +45,7 @@ impl Folder {
         self.path.join(format!("{}.{}", case.identity, self.extension))
     }
 
-    /// The file of the surface that is made for a case.
+    /// The name of the surface that is made for a case, which no file has.
     fn surface(&self, case: &Case) -> PathBuf {
         self.path.join(format!("{}.npz", case.identity))
     }
@@ -68,8 +68,8 @@ impl Folder {
     /// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
     pub fn is_done(&self, case: &Case) -> bool {
         let rows = self.rows(case);
-        let found = || Some(checksum(Hash::NEW.of(&fs::read(&rows).ok()?), &rows));
-        !state_path(&rows).exists() && fs::read_to_string(sum_path(&rows)).is_ok_and(|sum| Some(sum) == found())
+        let sum = fs::read_to_string(sum_path(&rows)).ok();
+        !state_path(&rows).exists() && sum.is_some() && sum == checksum(&rows).ok()
     }
 }
 
@@ -79,9 +79,10 @@ fn sum_path(rows: &Path) -> PathBuf {
 }
 
 /// The checksum of rows, with that of their warnings.
-fn checksum(of_rows: Hash, rows: &Path) -> String {
+fn checksum(rows: &Path) -> asperity::Result<String> {
+    let of_rows = Hash::NEW.of(&fs::read(rows).map_err(|e| Error::unreadable(rows, e))?);
     let warnings = fs::read(warnings::beside(rows)).unwrap_or_default();
-    format!("{of_rows} {}\n", Hash::NEW.of(&warnings))
+    Ok(format!("{of_rows} {}\n", Hash::NEW.of(&warnings)))
 }
 
 /// Solves the cases with these numbers that are not done, some at a time.
@@ -209,8 +210,9 @@ fn rows_of(study: &Study, case: &Case, folder: &Folder, worker: &mut Worker<'_>)
     let [out, file] = path("--out", &rows);
     let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
     if !is_whole(&rows) {
-        // a run that has just begun has no row yet
-        if fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
+        // a run that has just begun has neither of these yet
+        let begun = sum_path(&rows).exists() || state_path(&rows).exists();
+        if begun && fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
             warnings.push("its rows were damaged, and it was solved again".to_owned());
         }
         arguments.push("--force".into());
@@ -223,21 +225,12 @@ fn rows_of(study: &Study, case: &Case, folder: &Folder, worker: &mut Worker<'_>)
     // rows that did not converge are counted in the table
     let said = worker.run(&study.command, &arguments)?;
     warnings.extend(said.into_iter().filter(|line| code(line) != Some(UNCONVERGED)));
-    // the state last: what is left with it is not done
-    if case.surface.is_some() {
-        let _ = fs::remove_file(&made);
-        let _ = fs::remove_file(scene::beside(&made));
+    checksum(&rows).and_then(|sum| write_text(&sum_path(&rows), &sum)).map_err(|error| error.to_string())?;
+    // last: what is left with it is not done
+    match fs::remove_file(state_path(&rows)) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(format!("its state cannot be removed: {error}")),
+        _ => Ok(warnings),
     }
-    let _ = fs::remove_file(scene::beside(&rows));
-    let sum = checksum(written(&rows)?, &rows);
-    let write = || -> Outcome<()> {
-        let file = OutputFile::create(&sum_path(&rows), true)?;
-        file.write(|path| write_text(path, &sum))?;
-        Ok(file.commit()?)
-    };
-    write().map_err(|error| error.to_string())?;
-    fs::remove_file(state_path(&rows)).map_err(|e| format!("its state cannot be removed: {e}"))?;
-    Ok(warnings)
 }
 
 /// The code of a warning, which stands before its message.

@@ -121,14 +121,13 @@ pub fn state_path(table: &Path) -> PathBuf {
     with_suffix(table, ".state.npz")
 }
 
-/// Replaces the state, in one go; `synced` if it is to be on the disk then.
+/// Replaces the state, in one go.
 pub fn save<T: WritableElement + Clone>(
     table: &Path,
     identity: &Identity,
     written: &Written,
     fields: &[ArrayView2<'_, T>],
     values: &Values,
-    synced: bool,
 ) -> Outcome<()> {
     let bits = |values: &Vec<f64>| values.iter().map(|number| format!("{:016x}", number.to_bits())).collect::<Value>();
     let (state, temporary) = (state_path(table), with_suffix(table, ".state.tmp"));
@@ -161,13 +160,11 @@ pub fn save<T: WritableElement + Clone>(
     let write = |archive: Vec<u8>| -> Outcome<()> {
         let mut file = File::create(&temporary)?;
         file.write_all(&archive)?;
-        if synced {
-            file.sync_all()?;
-        }
+        file.sync_all()?;
         fs::rename(&temporary, &state)?;
         // or the next row might reach the disk before the name does
         let folder = state.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-        if synced && cfg!(unix) {
+        if cfg!(unix) {
             File::open(folder)?.sync_all()?;
         }
         Ok(())
