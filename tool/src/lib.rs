@@ -144,8 +144,8 @@ pub fn run(program: &[OsString], arguments: impl IntoIterator<Item = OsString>) 
             let mut tool = Tool::command();
             tool.build();
             if study::is_worker() {
-                study::serve(|arguments| run_on(&mut tool, &processes, program, arguments));
-                return REFUSED;
+                let served = study::serve(|arguments| run_on(&mut tool, &processes, program, arguments));
+                return agreed(&processes, served.map(|()| true));
             }
             run_on(&mut tool, &processes, program, arguments)
         }

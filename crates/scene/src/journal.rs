@@ -187,7 +187,7 @@ impl Journal {
         self.written = Written {
             rows: self.written.rows + 1,
             unconverged: self.written.unconverged + usize::from(!converged),
-            loads: self.written.loads.of(&load.to_bits().to_le_bytes()),
+            loads: self.written.loads.of_numbers([&load]),
             bytes: self.written.bytes + text.len() as u64,
             content: self.written.content.of(text.as_bytes()),
         };

@@ -13,7 +13,8 @@ use std::{env, thread};
 
 use asperity_maps::io::OutputFolder;
 
-use crate::printing::complain;
+use crate::outcome::Outcome;
+use crate::threads::use_this_one;
 
 /// The variable of the environment that workers have.
 const WORKER: &str = "ASPERITY_WORKER";
@@ -28,7 +29,8 @@ pub fn is_worker() -> bool {
 
 /// Runs each command of the study by `run`, which returns its exit code. The process ends when the study does, however
 /// that happens, also in the middle of a command.
-pub fn serve(mut run: impl FnMut(Vec<OsString>) -> u8) {
+pub fn serve(mut run: impl FnMut(Vec<OsString>) -> u8) -> Outcome<()> {
+    use_this_one()?;
     let (sender, commands) = channel();
     let listening = thread::Builder::new().spawn(move || {
         let lines = io::stdin().lines().map_while(Result::ok);
@@ -37,10 +39,12 @@ pub fn serve(mut run: impl FnMut(Vec<OsString>) -> u8) {
         OutputFolder::abandon_all();
         exit(1)
     });
-    match listening {
-        Ok(_) => commands.iter().for_each(|arguments| complain(ENDED, &run(arguments).to_string())),
-        Err(error) => complain("error", &format!("no thread can be started ({error}): free some memory")),
+    listening.map_err(|e| format!("no thread can be started ({e}): free some memory"))?;
+    for arguments in commands {
+        let end = format!("{ENDED}: {}\n", run(arguments));
+        io::stderr().write_all(end.as_bytes())?;
     }
+    Ok(())
 }
 
 /// A worker as the study has it, with its process from the first command on.
@@ -96,9 +100,9 @@ impl<'a> Worker<'a> {
 impl Process {
     /// The lines that a command says, and its exit code, or none if the process has ended.
     fn answer(&mut self, arguments: &[OsString]) -> (Vec<String>, Option<String>) {
-        let line = serde_json::to_string(arguments).unwrap_or_default();
+        let sent = serde_json::to_string(arguments).unwrap_or_default() + "\n";
         // a process that has ended does not take it, and says no more
-        let _ = self.child.stdin.as_mut().map(|input| writeln!(input, "{line}"));
+        let _ = self.child.stdin.as_mut().map(|input| input.write_all(sent.as_bytes()));
         let (mut said, mut line) = (Vec::new(), Vec::new());
         while self.said.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
             let text = String::from_utf8_lossy(&line).trim_end().to_owned();
