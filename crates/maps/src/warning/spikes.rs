@@ -85,6 +85,8 @@ impl Spikes {
 
 /// The sum of some numbers, the lowest and the highest, and how many they are.
 fn figures<const N: usize>(numbers: [f64; N]) -> (f64, f64, f64, f64) {
-    let of = |from: f64, two: fn(f64, f64) -> f64| numbers.into_iter().fold(from, two);
-    (of(0.0, |sum, number| sum + number), of(f64::INFINITY, f64::min), of(f64::NEG_INFINITY, f64::max), N as f64)
+    let sum = numbers.iter().fold(0.0, |sum, number| sum + number);
+    let low = numbers.iter().fold(f64::INFINITY, |low, &number| if number < low { number } else { low });
+    let high = numbers.iter().fold(f64::NEG_INFINITY, |high, &number| if number > high { number } else { high });
+    (sum, low, high, N as f64)
 }
