@@ -205,25 +205,27 @@ fn solved(
 /// Solves a case; the warnings of its runs, or the line by which one was refused.
 fn rows_of(study: &Study, case: &Case, folder: &Folder, worker: &mut Worker<'_>) -> Result<Vec<String>, String> {
     let (rows, made) = (folder.rows(case), folder.surface(case));
-    let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
+    let command = |name: &str, arguments: &[OsString], out: &Path| {
+        let before = ["asperity", name, "--quiet", "--out"].map(OsString::from);
+        [&before[..], &[out.into()], arguments].concat()
+    };
     let mut warnings = Vec::new();
-    let [out, file] = path("--out", &rows);
-    let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
+    let mut fill = command(&study.command, &case.arguments, &rows);
     if !is_whole(&rows) {
         // a run that has just begun has neither of these yet
         let begun = sum_path(&rows).exists() || state_path(&rows).exists();
         if begun && fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
             warnings.push("its rows were damaged, and it was solved again".to_owned());
         }
-        arguments.push("--force".into());
+        fill.push("--force".into());
     }
+    let mut make = None;
     if let Some(surface) = &case.surface {
-        let [out, file] = path("--out", &made);
-        warnings.extend(worker.run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
-        arguments.extend(path("--heights", &made));
+        fill.extend(["--heights".into(), made.clone().into()]);
+        make = Some([command("surface", surface, &made), vec!["--force".into()]].concat());
     }
+    let said = worker.run(&make.into_iter().chain([fill]).collect::<Vec<_>>())?;
     // rows that did not converge are counted in the table
-    let said = worker.run(&study.command, &arguments)?;
     warnings.extend(said.into_iter().filter(|line| code(line) != Some(UNCONVERGED)));
     checksum(&rows).and_then(|sum| write_text(&sum_path(&rows), &sum)).map_err(|error| error.to_string())?;
     // last: what is left with it is not done

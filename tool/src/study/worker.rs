@@ -1,7 +1,7 @@
 //! A worker of a study: a process that runs the commands of many cases, one after the other.
 //!
-//! The study sends the arguments of a command as a line of JSON. The worker answers on standard error with what the
-//! command says, and with its exit code at the end.
+//! The study sends the arguments of the commands of a case as a line of JSON. The worker answers on standard error with
+//! what they say, and at the end with the exit code of the last one that ran.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -15,6 +15,7 @@ use asperity_maps::io::OutputFolder;
 
 use crate::outcome::Outcome;
 use crate::threads::use_this_one;
+use crate::{CONVERGED, REFUSED};
 
 /// The variable of the environment that workers have.
 const WORKER: &str = "ASPERITY_WORKER";
@@ -27,21 +28,23 @@ pub fn is_worker() -> bool {
     env::var_os(WORKER).is_some()
 }
 
-/// Runs each command of the study by `run`, which returns its exit code. The process ends when the study does, however
-/// that happens, also in the middle of a command.
+/// Runs the commands of each case by `run`, which returns their exit codes, as far as none is refused. The process ends
+/// when the study does, however that happens, also in the middle of a command.
 pub fn serve(mut run: impl FnMut(Vec<OsString>) -> u8) -> Outcome<()> {
     use_this_one()?;
-    let (sender, commands) = channel();
+    let (sender, cases) = channel::<Vec<Vec<OsString>>>();
     let listening = thread::Builder::new().spawn(move || {
         let lines = io::stdin().lines().map_while(Result::ok);
         let sent = lines.map_while(|line| serde_json::from_str(&line).ok());
-        sent.for_each(|arguments| drop(sender.send(arguments)));
+        sent.for_each(|commands| drop(sender.send(commands)));
         OutputFolder::abandon_all();
         exit(1)
     });
     listening.map_err(|e| format!("no thread can be started ({e}): free some memory"))?;
-    for arguments in commands {
-        let end = format!("{ENDED}: {}\n", run(arguments));
+    for commands in cases {
+        let mut codes = commands.into_iter().map(&mut run);
+        let code = codes.try_fold(CONVERGED, |_, code| if code == REFUSED { Err(code) } else { Ok(code) });
+        let end = format!("{ENDED}: {}\n", code.unwrap_or(REFUSED));
         io::stderr().write_all(end.as_bytes())?;
     }
     Ok(())
@@ -65,19 +68,17 @@ impl<'a> Worker<'a> {
         Self { program, threads, process: None }
     }
 
-    /// Runs a command; its warnings, or the line by which it was refused. After a process that dies the next command has
-    /// another one.
-    pub fn run(&mut self, command: &str, arguments: &[OsString]) -> Result<Vec<String>, String> {
-        let words = ["asperity", command, "--quiet"].map(OsString::from);
+    /// Runs the commands of a case, each by its arguments; their warnings, or the line by which one was refused. After a
+    /// process that dies the next case has another one.
+    pub fn run(&mut self, commands: &[Vec<OsString>]) -> Result<Vec<String>, String> {
         let mut process = self.process.take().map_or_else(|| self.started(), Ok)?;
-        let (mut said, code) = process.answer(&[&words, arguments].concat());
+        let (mut said, code) = process.answer(commands);
         if code.is_some() {
             self.process = Some(process);
         } else if process.child.wait().is_ok_and(|status| status.code().is_none()) {
             return Err("its process was killed".to_owned());
         }
         match code.as_deref() {
-            // rows that did not converge are counted in the table
             Some("0" | "2") => Ok(said),
             _ => Err(said.pop().unwrap_or_else(|| "it said nothing".to_owned())),
         }
@@ -98,9 +99,9 @@ impl<'a> Worker<'a> {
 }
 
 impl Process {
-    /// The lines that a command says, and its exit code, or none if the process has ended.
-    fn answer(&mut self, arguments: &[OsString]) -> (Vec<String>, Option<String>) {
-        let sent = serde_json::to_string(arguments).unwrap_or_default() + "\n";
+    /// The lines that commands say, and their exit code, or none if the process has ended.
+    fn answer(&mut self, commands: &[Vec<OsString>]) -> (Vec<String>, Option<String>) {
+        let sent = serde_json::to_string(commands).unwrap_or_default() + "\n";
         // a process that has ended does not take it, and says no more
         let _ = self.child.stdin.as_mut().map(|input| input.write_all(sent.as_bytes()));
         let (mut said, mut line) = (Vec::new(), Vec::new());
