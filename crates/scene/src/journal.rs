@@ -5,8 +5,8 @@
 //! the state is never ahead of the file, and the file is ahead of the state by at most one row, whole or not; this row
 //! is cut off and computed again. The file is locked as long as the journal is open.
 //!
-//! A case of a study saves its state, and waits for the disk, only if [`A_WHILE`] has passed since it did so last. The
-//! rows after those of its state are cut off and computed again; and of a case that is done, the study has a checksum.
+//! A case of a study saves its state, and waits for the disk, only if a second has passed since it did so last. The rows
+//! after those of its state are cut off and computed again; and of a case that is done, the study has a checksum.
 
 mod lock;
 mod state;
