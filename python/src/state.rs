@@ -222,7 +222,7 @@ impl<T: Scalar> Solves for State<T> {
             let beside = [".scene.toml", ".warnings.txt"].map(|suffix| with_suffix(&out, suffix)).to_vec();
             beside.iter().try_for_each(|file| check_free(file, force || out.exists(), "--out"))?;
             let header = self.units.columns(&names, control.name(), nodes.is_line());
-            let opening = Opening { out, format, header, fields, force, waits: false, beside, nodes };
+            let opening = Opening { out, format, header, fields, force, is_case: false, beside, nodes };
             let processes = Processes::start()?;
             let (table, course) = Table::open(opening, Some(identity), course, start, &processes)?;
             let rows = table.read(&processes)?;

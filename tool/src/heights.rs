@@ -1,7 +1,8 @@
 //! Heights from files, with the side lengths and units that those may have.
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use asperity::{Error, Grid, Surface};
 use asperity_maps::Topography;
@@ -19,6 +20,9 @@ use crate::units::Units;
 const ROUNDING: f64 = 1e-2;
 /// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
+
+/// The map that a worker of a study has made for its next command, and the name that its file would have.
+static MADE: Mutex<Option<(PathBuf, Topography)>> = Mutex::new(None);
 
 /// The entries of the file of a surface beside its heights.
 #[derive(Clone, Debug, Default)]
@@ -52,9 +56,15 @@ pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topo
     Ok((map, origin))
 }
 
+/// Keeps a map in the place of a file of this name, until it is read.
+pub fn keep(path: &Path, map: Topography) {
+    *MADE.lock().unwrap_or_else(PoisonError::into_inner) = Some((path.to_owned(), map));
+}
+
 /// The map of a file, in the SI in metres, and the unit from which it was converted.
 pub fn map_in(si: bool, path: &Path) -> Outcome<(Topography, Option<String>)> {
-    in_metres_if(si, path, read_topography(path)?)
+    let made = MADE.lock().unwrap_or_else(PoisonError::into_inner).take_if(|(name, _)| name == path);
+    in_metres_if(si, path, made.map_or_else(|| read_topography(path), |(_, map)| Ok(map))?)
 }
 
 /// Refuses a map whose statistics, or a step of preparation, do not fit into memory: running out of it cannot be caught

@@ -139,19 +139,29 @@ pub fn run(program: &[OsString], arguments: impl IntoIterator<Item = OsString>) 
             if !processes.is_first() {
                 printing::silence();
             }
+            #[cfg(unix)]
             interruption::listen();
-            run_on(&processes, program, arguments)
+            let mut tool = Tool::command();
+            tool.build();
+            if study::is_worker() {
+                let served = study::serve(|arguments| run_on(&mut tool, &processes, program, arguments));
+                return agreed(&processes, served.map(|()| true));
+            }
+            run_on(&mut tool, &processes, program, arguments)
         }
         Err(error) => refused(&*error),
     }
 }
 
-fn run_on(processes: &Processes, program: &[OsString], arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let mut tool = Tool::command();
-    tool.build();
-    match parsed(&mut tool, arguments) {
-        Ok((Command::Run(options), _)) => match run::Arguments::read(&tool, options) {
-            Ok(read) => match parsed(&mut tool, read.arguments.clone()) {
+fn run_on(
+    tool: &mut clap::Command,
+    processes: &Processes,
+    program: &[OsString],
+    arguments: impl IntoIterator<Item = OsString>,
+) -> u8 {
+    match parsed(tool, arguments) {
+        Ok((Command::Run(options), _)) => match run::Arguments::read(tool, options) {
+            Ok(read) => match parsed(tool, read.arguments.clone()) {
                 Ok((command, scene)) => execute(command, &scene, processes, program),
                 Err(error) => usage(&error, processes, |argument| read.blamed(argument)),
             },

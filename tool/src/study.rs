@@ -3,6 +3,7 @@
 mod cases;
 mod merge;
 mod work;
+mod worker;
 
 use std::ffi::OsString;
 use std::fmt;
@@ -17,6 +18,7 @@ pub use self::cases::SECTIONS;
 use self::cases::Study;
 use self::merge::merge;
 use self::work::{Folder, solve};
+pub use self::worker::{is_worker, serve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::check_free;
@@ -33,7 +35,7 @@ use crate::warnings;
 /// With a section [make], the surface of each case is made with these options of asperity surface, which may vary as
 /// well. The table has the rows of all cases, after the number of the case and the values that vary.
 ///
-/// Each case is a run of its own, kept in OUT.cases by what its rows depend on: the same command again goes on where an
+/// The rows of each case are kept in OUT.cases by what they depend on: the same command again goes on where an
 /// interrupted one was, and a study that has become larger solves only what is new. Slices of a study can be solved by
 /// several machines that share the folder; the table is written by the run that finds all cases done, with the same
 /// bytes whoever solved them. Exits with 0 if all rows converged or the slice is done, 2 if rows did not converge, and
@@ -47,8 +49,7 @@ pub struct Options {
     /// File for the table, .csv or .jsonl [default: the out of the study]
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: Option<PathBuf>,
-    /// Cases that are solved at the same time, each by a process of its own; they share the cores [default: one per
-    /// core]
+    /// Cases that are solved at the same time, by as many processes, which share the cores [default: one per core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads)]
     jobs: Option<usize>,
     /// Solve only a part of the cases: 3/16 is the third of sixteen

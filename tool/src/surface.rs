@@ -12,7 +12,7 @@ use clap::{ArgGroup, Args};
 use serde_json::json;
 
 use crate::allowed::{nodes, threads};
-use crate::heights::both_sides;
+use crate::heights::{self, both_sides};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, name};
@@ -20,6 +20,7 @@ use crate::quantity::{LENGTH, Quantity};
 use crate::report;
 use crate::scene::{self, SceneFile};
 use crate::stats::{density_table, table};
+use crate::study;
 use crate::threads::use_threads;
 
 /// Make a self-affine rough surface or a simple body, and print its statistics.
@@ -124,7 +125,9 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     for written in [Some(&options.out), options.psd.as_ref()].into_iter().flatten() {
         check_apart(written, options.fourier.as_deref())?;
     }
-    let heights = OutputFile::create(&options.out, options.force)?;
+    // the next command of a worker has them from it
+    let is_kept = study::is_worker();
+    let heights = (!is_kept).then(|| OutputFile::create(&options.out, options.force)).transpose()?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     let others = [options.out.clone(), scene::beside(&options.out)];
     if options.psd.as_deref().is_some_and(|psd| check_apart(psd, others.iter().map(PathBuf::as_path)).is_err()) {
@@ -148,17 +151,24 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let mut map = Topography::from(surface.clone());
     map.unit = unit.map(str::to_owned);
     map.seed = rough.map(|rough| rough.seed);
-    heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
-        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
-        _ => write_npy(path, &map.heights),
-    })?;
+    if let Some(file) = &heights {
+        file.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
+            Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
+            _ => write_npy(path, &map.heights),
+        })?;
+    }
     if let Some(file) = &psd {
         let target = rough.map(|rough| rough.spectrum(grid)).transpose()?;
         let text = density_table(&surface, target.as_ref(), unit);
         file.write(|path| write_text(path, &text))?;
     }
-    let scene_file = scene.written_beside(&options.out)?;
-    scene_file.commit_after([Some(heights), psd].into_iter().flatten())?;
+    let mut files = [heights, psd].into_iter().flatten();
+    if is_kept {
+        files.try_for_each(OutputFile::commit)?;
+        heights::keep(&options.out, map);
+        return Ok(true);
+    }
+    scene.written_beside(&options.out)?.commit_after(files)?;
     // what is absent has no statistics
     let ((nx, ny), found) = (shape, (absent == 0).then(|| surface.statistics()));
     options.printing.say(&match &found {

@@ -25,6 +25,7 @@ use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::{self, SceneFile};
+use crate::study;
 use crate::units::{UnitOptions, Units};
 use crate::warnings::{self, Strictness, Warnings};
 
@@ -141,7 +142,7 @@ impl<'a> TableOptions<'a> {
             fields: self.fields.map(Path::to_owned),
             force,
             // a study has the lock of its case: a former run of that is about to end
-            waits: interruption::is_case(),
+            is_case: study::is_worker(),
             beside: vec![scene::beside(out), warnings::beside(out)],
             nodes,
         };
@@ -163,11 +164,12 @@ impl<'a> TableOptions<'a> {
                 law_differs: false,
             };
             let identity = posed.identity(&inputs, &units.of_table(), fields);
-            opened = Some((identity, scene.written_beside(out)?, warnings));
+            let scene_file = (!study::is_worker()).then(|| scene.written_beside(out)).transpose()?;
+            opened = Some((identity, scene_file, warnings));
             Ok(())
         })?;
         let (identity, scene_file, mut warnings) = match opened {
-            Some((identity, scene_file, warnings)) => (Some(identity), Some(scene_file), warnings),
+            Some((identity, scene_file, warnings)) => (Some(identity), scene_file, warnings),
             None => (None, None, Warnings::none(strictness, &units, true)?),
         };
         let (rows, course) = asperity_scene::Table::open(opening, identity, course, start.or(afar), processes)?;

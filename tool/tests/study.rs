@@ -212,6 +212,59 @@ fn damaged_cases_are_solved_again() {
 }
 
 #[test]
+fn a_case_comes_to_the_same_rows_from_whatever_an_end_in_its_middle_leaves() {
+    let bench = Bench::new();
+    bench.write("study.toml", &MADE.replace("\"1:2:2\"", "[2]").replace("[[vary.adhesion]]\nlaw = \"none\"\n", ""));
+    bench.said("study study.toml --quiet");
+    let table = bench.bytes("study.csv");
+    let name = bench.names("study.csv.cases").into_iter().find(|name| name.ends_with(".csv")).unwrap();
+    let [case, made] = [name.clone(), name.replace(".csv", ".npz")].map(|name| format!("study.csv.cases/{name}"));
+    let [state, sum] = [".state.npz", ".sum"].map(|ending| format!("{case}{ending}"));
+    let [done, checksum] = [&case, &sum].map(|name| bench.bytes(name));
+    // the state after the first two rows, as an interrupted run leaves it
+    std::fs::remove_file(bench.path(&case)).unwrap();
+    let surface = format!("surface --size 24 --k-l 2 --k-s 8 --rms-slope 0.1 --seed 2 --quiet --out {made}");
+    let law = "--law exponential --work-of-adhesion 1e-4 --range 1e-2";
+    bench.said(&surface);
+    bench.said(&format!("sweep --heights {made} {law} --mean-pressures 1e-3:1e-2:3:log --quiet --out {case}"));
+    assert!(bench.bytes(&case) == done);
+    std::fs::remove_file(bench.path(&case)).unwrap();
+    let loads = format!("1e-3,{}", 1e-3 * f64::sqrt(10.0));
+    bench.said(&format!("sweep --heights {made} {law} --mean-pressures {loads} --force --quiet --out {case}"));
+    let [rows, saved] = [&case, &state].map(|name| bench.bytes(name));
+    assert!(rows == done[..rows.len()] && rows.len() < done.len());
+    let zeros = |bytes: &[u8], from: usize| [&bytes[..from], &vec![0; bytes.len() - from]].concat();
+    for (rows, saved, checksum, again) in [
+        // the process ends, with more rows than those of its state, or before it has one
+        (&rows[..], &saved[..], None, false),
+        (&done, &saved, None, false),
+        (&[&rows[..], b"7,8\n9,10\n11"].concat(), &saved, None, false),
+        (&done[..done.len() - 9], b"", None, false),
+        (&done, b"", None, false),
+        // the power fails, before all or any of them is on the disk
+        (&rows[..rows.len() - 1], &saved, None, true),
+        (&zeros(&rows, rows.len() - 20), &saved, None, true),
+        (&zeros(&rows, 0), &saved, None, true),
+        (&rows, &saved[..saved.len() / 2], None, true),
+        (&rows, &zeros(&saved, saved.len() / 4), None, true),
+        (&done, b"", Some(&b""[..]), true),
+        (&zeros(&done, 40), b"", Some(&checksum), true),
+        (b"", b"", Some(&checksum), false),
+    ] {
+        for (name, content) in
+            [(&case, Some(rows)), (&state, Some(saved).filter(|saved| !saved.is_empty())), (&sum, checksum)]
+        {
+            let _ = std::fs::remove_file(bench.path(name));
+            content.map_or(Ok(()), |content| std::fs::write(bench.path(name), content)).unwrap();
+        }
+        assert!(bench.said("study study.toml --list").contains("0 of 1 cases are done"));
+        let stderr = text(&bench.run("study study.toml --quiet").stderr);
+        assert_eq!(stderr.contains("its rows were damaged, and it was solved again"), again, "{stderr}");
+        assert!(bench.bytes("study.csv") == table && bench.bytes(&case) == done && !bench.path(&state).exists());
+    }
+}
+
+#[test]
 fn files_vary_too_and_a_changed_file_is_another_case() {
     let bench = Bench::new();
     for (name, seed) in [("a,b.npy", 1), ("c.npy", 2)] {

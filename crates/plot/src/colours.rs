@@ -107,6 +107,8 @@ pub(super) struct Colours {
     shares: (f64, f64),
     /// The colour of values that are not finite.
     pub(super) missing: Colour,
+    /// The colour between two signs.
+    zero: Colour,
 }
 
 impl Colours {
@@ -139,7 +141,9 @@ impl Colours {
             }
             (Colouring::Contact | Colouring::Clusters, _) => (0.0, 1.0),
         };
-        Self { colouring, extremes: (low, high), limits, given, shares, missing: MISSING }
+        let middle = RED_BLUE.eval_continuous(0.5);
+        let zero = [middle.r, middle.g, middle.b];
+        Self { colouring, extremes: (low, high), limits, given, shares, missing: MISSING, zero }
     }
 
     /// A value, or NaN if it cannot be drawn.
@@ -162,6 +166,8 @@ impl Colours {
                 };
             }
             Colouring::Sequential => VIRIDIS.eval_continuous((value - low) / (high - low)),
+            // most of many maps
+            Colouring::Diverging if value == 0.0 => return self.zero,
             // A sign without a scale is noise.
             Colouring::Diverging => {
                 let end = if value < 0.0 { -low } else { high };
@@ -181,7 +187,7 @@ impl Colours {
         for colour in values.map(|value| self.of(self.shown(value))) {
             sums.iter_mut().zip(colour).for_each(|(sum, part)| *sum += f64::from(part));
         }
-        sums.map(|sum| (sum / count).round() as u8)
+        sums.map(|sum| rounded(sum / count))
     }
 
     /// Whether values are below the lower end of the colour bar, and above the upper end.
@@ -227,6 +233,12 @@ impl Colours {
 /// Whether a value has a place on a scale: it is finite, and so are sums of it and its neighbours.
 pub(super) fn drawable(value: f64) -> bool {
     value.abs() < 1.0 / TINY
+}
+
+/// The nearest whole number to a part of a colour, a half rounded up: `f64::round` is a call of a function.
+pub(super) fn rounded(part: f64) -> u8 {
+    let whole = part as u8;
+    whole + u8::from(part - f64::from(whole) >= 0.5)
 }
 
 /// A range that has some width.

@@ -285,8 +285,10 @@ impl<'a> Map<'a> {
             let across = nodes(row, rows, ny);
             for column in 0..columns {
                 let along = nodes(column, columns, nx);
+                let first = values[[along.start, across.start]];
+                let is_one = along.len() == 1 && across.len() == 1;
                 let cells = along.flat_map(|ix| across.clone().map(move |iy| values[[ix, iy]]));
-                pixels.push(colours.of_block(cells));
+                pixels.push(if is_one { colours.of(colours.shown(first)) } else { colours.of_block(cells) });
             }
         }
         Image { area: plot, columns, pixels }

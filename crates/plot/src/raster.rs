@@ -3,6 +3,7 @@
 use ab_glyph_rasterizer::{Point, Rasterizer, point};
 use ttf_parser::OutlineBuilder;
 
+use super::colours::rounded;
 use super::shape::{Area, Colour, Curve, Image, Shape, Text, WHITE};
 use super::{Picture, font};
 
@@ -46,10 +47,16 @@ impl Raster {
         if column < self.columns { self.pixels.get_mut(row * self.columns + column) } else { None }
     }
 
+    fn set(&mut self, column: i64, row: i64, colour: Colour) {
+        if let Some(pixel) = self.pixel(column, row) {
+            *pixel = colour;
+        }
+    }
+
     /// Covers a share of a pixel.
     fn cover(&mut self, column: i64, row: i64, colour: Colour, share: f64) {
         if let Some(pixel) = self.pixel(column, row) {
-            let mix = |from: u8, to: u8| (f64::from(from) + share * (f64::from(to) - f64::from(from))).round() as u8;
+            let mix = |from: u8, to: u8| rounded(f64::from(from) + share * (f64::from(to) - f64::from(from)));
             *pixel = [0, 1, 2].map(|k| mix(pixel[k], colour[k]));
         }
     }
@@ -64,18 +71,19 @@ impl Raster {
     fn fill(&mut self, area: Area, colour: Colour) {
         let Block { left, top, columns, rows } = self.block(&area);
         for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
-            self.cover(left + column as i64, top + row as i64, colour, 1.0);
+            self.set(left + column as i64, top + row as i64, colour);
         }
     }
 
     /// Each pixel in the colour of the one of the image that is below its middle.
     fn image(&mut self, image: &Image) {
         let Block { left, top, columns, rows } = self.block(&image.area);
+        let below = |pixel: usize, pixels: usize, of: usize| (2 * pixel + 1) * of / (2 * pixels);
+        let along: Vec<_> = (0..columns).map(|column| below(column, columns, image.columns)).collect();
         for row in 0..rows {
-            let from = (2 * row + 1) * image.rows() / (2 * rows) * image.columns;
-            for column in 0..columns {
-                let colour = image.pixels[from + (2 * column + 1) * image.columns / (2 * columns)];
-                self.cover(left + column as i64, top + row as i64, colour, 1.0);
+            let from = below(row, rows, image.rows()) * image.columns;
+            for (column, along) in along.iter().enumerate() {
+                self.set(left + column as i64, top + row as i64, image.pixels[from + along]);
             }
         }
     }

@@ -1,8 +1,8 @@
-//! The FNV-1a hash of inputs, by which a journal knows them again.
+//! The hash of inputs, by which a journal knows them again.
 
 use std::fmt;
 
-/// A fingerprint of bytes: FNV-1a, the same on every platform and in every version.
+/// A fingerprint of bytes, which is FNV-1a, or of numbers: the same on every platform and in every version.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hash(pub u64);
 
@@ -15,9 +15,13 @@ impl Hash {
         Self(bytes.iter().fold(self.0, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)))
     }
 
-    /// The hash with some more numbers.
+    /// The hash with some more numbers, each at once: they are many.
     pub fn of_numbers<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Self {
-        numbers.into_iter().fold(self, |hash, number| hash.of(&number.to_bits().to_le_bytes()))
+        Self(numbers.into_iter().fold(self.0, |hash, number| {
+            let product = (hash ^ number.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            // the product takes the bits only upwards
+            product ^ (product >> 32)
+        }))
     }
 }
 

@@ -4,6 +4,9 @@
 //! run, and the length and hash of the file. A row is written to the disk before the state is replaced, in one go. So
 //! the state is never ahead of the file, and the file is ahead of the state by at most one row, whole or not; this row
 //! is cut off and computed again. The file is locked as long as the journal is open.
+//!
+//! A case of a study saves its state, and waits for the disk, only if a second has passed since it did so last. The rows
+//! after those of its state are cut off and computed again; and of a case that is done, the study has a checksum.
 
 mod lock;
 mod state;
@@ -11,6 +14,7 @@ mod state;
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use asperity::Error;
 use ndarray::{Array2, ArrayView2};
@@ -32,7 +36,12 @@ pub struct Journal {
     identity: Identity,
     file: File,
     written: Written,
+    is_case: bool,
+    saved: Instant,
 }
+
+/// The work, in time, that an interrupted case of a study may lose.
+const A_WHILE: Duration = Duration::from_secs(1);
 
 /// The fields and values that were saved with the last row, and from which the next one starts.
 #[derive(Debug, Default)]
@@ -89,13 +98,14 @@ const REMEDY: &str = "choose another --out, or --force to start over";
 
 impl Journal {
     /// Opens the file of a table, new or to go on with; with `force` it is new in any case. The rows are those of
-    /// `loads`, where these are known before. While another run writes there, the file is refused, or the opening waits.
+    /// `loads`, where these are known before. While another run writes there, the file is refused, but for a case of a
+    /// study, which waits.
     pub fn open(
         path: &Path,
         header: &str,
         identity: Identity,
         loads: Option<&[f64]>,
-        (force, waits): (bool, bool),
+        (force, is_case): (bool, bool),
     ) -> Outcome<(Self, Saved)> {
         match fs::metadata(path) {
             Ok(metadata) if !metadata.is_file() => {
@@ -107,17 +117,19 @@ impl Journal {
                 fs::create_dir_all(folder).map_err(|e| Error::unwritable(folder, e))?;
             }
         }
-        let (mut file, made) = open_locked(path, waits)?;
+        let (mut file, made) = open_locked(path, is_case)?;
         let mut begin = || -> Outcome<_> {
             let mut content = Vec::new();
             file.read_to_end(&mut content).map_err(|e| Error::unreadable(path, e))?;
             // a run that is killed before it writes its first state leaves an empty file
             let new = content.is_empty() && (made || !state_path(path).exists());
             let (written, saved) = if new || force {
-                save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &Values::new())?;
+                if !is_case {
+                    save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &Values::new())?;
+                }
                 (Written::NOTHING, Saved::default())
             } else {
-                resume(path, &content, header, &identity, loads)?
+                resume(path, &content, header, &identity, loads, is_case)?
             };
             file.set_len(written.bytes).map_err(|e| Error::unwritable(path, e))?;
             Ok((written, saved))
@@ -127,7 +139,8 @@ impl Journal {
                 let _ = fs::remove_file(path);
             }
         })?;
-        Ok((Self { path: path.to_owned(), header: header.to_owned(), identity, file, written }, saved))
+        let (path, header, now) = (path.to_owned(), header.to_owned(), Instant::now());
+        Ok((Self { path, header, identity, file, written, is_case, saved: now }, saved))
     }
 
     /// All rows there are, with their header.
@@ -136,7 +149,10 @@ impl Journal {
         // by the same handle: on some platforms a lock keeps out others of the same process, too
         let read = (&self.file).rewind().and_then(|()| (&self.file).read_to_string(&mut text));
         read.map_err(|e| Error::unreadable(&self.path, e))?;
-        Ok(text)
+        match Hash::NEW.of(text.as_bytes()) == self.written.content {
+            true => Ok(text),
+            false => Err(Error::unreadable(&self.path, changed())),
+        }
     }
 
     /// The number of rows.
@@ -154,12 +170,14 @@ impl Journal {
         let Row { text, load, converged, fields, values } = *row;
         let header = if self.written.rows == 0 { self.header.as_str() } else { "" };
         let text = format!("{header}{text}\n");
+        let saves = !self.is_case || self.saved.elapsed() >= A_WHILE;
         let mut write = || {
             // by its name: it may be another file by now
             if fs::metadata(&self.path)?.len() != self.written.bytes {
-                return Err(io::Error::other("it was changed by another program meanwhile"));
+                return Err(changed());
             }
-            let written = self.file.write_all(text.as_bytes()).and_then(|()| self.file.sync_data());
+            let written = self.file.write_all(text.as_bytes());
+            let written = written.and_then(|()| if saves { self.file.sync_data() } else { Ok(()) });
             written.inspect_err(|_| {
                 // no half row
                 let _ = self.file.set_len(self.written.bytes);
@@ -169,21 +187,20 @@ impl Journal {
         self.written = Written {
             rows: self.written.rows + 1,
             unconverged: self.written.unconverged + usize::from(!converged),
-            loads: self.written.loads.of(&load.to_bits().to_le_bytes()),
+            loads: self.written.loads.of_numbers([&load]),
             bytes: self.written.bytes + text.len() as u64,
             content: self.written.content.of(text.as_bytes()),
         };
-        save(&self.path, &self.identity, &self.written, fields, values)
+        if saves {
+            save(&self.path, &self.identity, &self.written, fields, values)?;
+            self.saved = Instant::now();
+        }
+        Ok(())
     }
 }
 
-/// The checksum of the rows of a table as they were written, by its state.
-pub fn written(path: &Path) -> Result<Hash, String> {
-    State::read(path).map(|state| state.written.content)
-}
-
-/// Whether a run could go on with a table: all rows but one that was interrupted are as they were written, and so is
-/// the state.
+/// Whether a case of a study could go on with a table: all rows of the state are as they were written, and so is the
+/// state.
 pub fn is_whole(path: &Path) -> bool {
     let (Ok(state), Ok(content)) = (State::read(path), fs::read(path)) else { return false };
     let kept = content.get(..state.written.bytes as usize);
@@ -197,6 +214,7 @@ fn resume(
     header: &str,
     identity: &Identity,
     loads: Option<&[f64]>,
+    is_case: bool,
 ) -> Outcome<(Written, Saved)> {
     let refused = |reason| refused(path, reason);
     let refuse = |reason| Err(refused(reason).into());
@@ -221,7 +239,8 @@ fn resume(
         return refuse(format!("belongs to another run, whose first {} loads are others", written.rows));
     }
     let (kept, rest) = content.split_at((written.bytes as usize).min(content.len()));
-    // an interrupted write leaves at most one row, whole or not, and before the first one the header, whole or not
+    // an interrupted write leaves at most one row, whole or not, and before the first one the header, whole or not; but
+    // a case does not save the state of each row
     let rest = match rest.strip_prefix(header.as_bytes()) {
         _ if written.rows > 0 => Some(rest),
         Some(rest) => Some(rest),
@@ -229,10 +248,15 @@ fn resume(
         None => None,
     };
     let one_row = rest.is_some_and(|rest| rest.split_inclusive(|c| *c == b'\n').count() <= 1);
-    if Hash::NEW.of(kept) != written.content || !one_row {
+    if Hash::NEW.of(kept) != written.content || !(one_row || is_case) {
         return refuse("was changed since it was written".to_owned());
     }
     Ok((written, Saved::of(state).map_err(refused)?))
+}
+
+/// The error of a table that something else has written to.
+fn changed() -> io::Error {
+    io::Error::other("it was changed by another program meanwhile")
 }
 
 /// The error of a table with which a run cannot go on.

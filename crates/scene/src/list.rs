@@ -62,9 +62,10 @@ pub fn parsed(text: &str, number: &dyn Fn(&str) -> Result<Quantity, String>) -> 
         if log && !(ratio > 0.0 && ratio.is_finite()) {
             return Err(format!("'{item}' must go from one positive number to another, or leave out :log"));
         }
-        let between = |share: f64| if log { from * ratio.powf(share) } else { from + (to - from) * share };
         let last = count - 1;
-        loads.extend((0..last).map(|k| between(k as f64 / last as f64)));
+        // whole numbers stay whole
+        let between = |k: f64, of: f64| if log { from * ratio.powf(k / of) } else { from + (to - from) * k / of };
+        loads.extend((0..last).map(|k| between(k as f64, last as f64)));
         loads.push(to);
         if let Some(load) = loads.iter().find(|load| !load.is_finite()) {
             return Err(format!("'{item}' contains {load}: it must be finite"));

@@ -42,8 +42,8 @@ pub struct Opening {
     pub fields: Option<PathBuf>,
     /// Whether to start over, and to replace files that are there.
     pub force: bool,
-    /// Whether to wait for another run that writes there.
-    pub waits: bool,
+    /// Whether it is that of a case of a study: it waits for another run that writes there, and saves its state now and then.
+    pub is_case: bool,
     /// The files that may stand beside the table and its state.
     pub beside: Vec<PathBuf>,
     /// The grid of the fields from which the next row starts.
@@ -132,11 +132,11 @@ impl Table {
 
     /// Begins the table, or goes on with it, in the first process.
     fn begin(&mut self) -> Outcome<Saved> {
-        let &Opening { ref out, force, waits, ref beside, .. } = &self.opening;
+        let &Opening { ref out, force, is_case, ref beside, .. } = &self.opening;
         self.kept().check(force, out)?;
         let files = [state_path(out)].into_iter().chain(beside.clone()).chain([out.clone()]);
         self.made = files.filter(|path| !path.exists()).collect();
-        let saved = self.lock(force, waits)?;
+        let saved = self.lock(force, is_case)?;
         if self.rows == 0 {
             self.kept().clear();
             remove(if force { &self.opening.beside } else { &[] });
@@ -151,11 +151,11 @@ impl Table {
         Ok(saved)
     }
 
-    fn lock(&mut self, force: bool, waits: bool) -> Outcome<Saved> {
+    fn lock(&mut self, force: bool, is_case: bool) -> Outcome<Saved> {
         let Opening { out, format, header, .. } = &self.opening;
         let header = if *format == Format::Csv { csv::header(header) + "\n" } else { String::new() };
         let (identity, loads) = (self.identity.clone(), self.loads.as_deref());
-        let (journal, saved) = Journal::open(out, &header, identity, loads, (force, waits))?;
+        let (journal, saved) = Journal::open(out, &header, identity, loads, (force, is_case))?;
         (self.rows, self.unconverged) = (journal.rows(), journal.unconverged());
         self.journal = Some(journal);
         Ok(saved)

@@ -1,6 +1,6 @@
 //! The table of a study: the rows of its cases, after what varies between them.
 
-use std::fs;
+use std::fs::{self, File};
 
 use asperity::Error;
 use asperity_scene::{Format, Told};
@@ -61,7 +61,12 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
         }
     }
     let file = OutputFile::create(&study.out, true)?;
-    file.write(|path| write_text(path, &table))?;
+    file.write(|path| {
+        write_text(path, &table)?;
+        // the rows of cases may not be on the disk yet
+        let synced = File::options().append(true).open(path).and_then(|file| file.sync_all());
+        synced.map_err(|e| Error::unwritable(path, e))
+    })?;
     file.commit()?;
     write_beside(&study.out, &warnings(study, folder)?)?;
     Ok(merged)

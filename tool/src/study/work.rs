@@ -1,12 +1,10 @@
-//! The work on a study: its cases, each by a process of its own that keeps its rows in a folder.
+//! The work on a study: its cases, solved by workers, with the rows of each in a file of a folder.
 
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
-#[cfg(unix)]
-use std::os::unix::process::CommandExt;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Mutex, PoisonError};
@@ -16,12 +14,12 @@ use asperity::Error;
 use asperity_scene::Hash;
 
 use super::cases::{Case, Study};
-use crate::interruption::{CASE, stands};
-use crate::journal::{is_whole, state_path, written};
+use super::worker::Worker;
+use crate::interruption::stands;
+use crate::journal::{is_whole, state_path};
 use crate::outcome::Outcome;
-use crate::output::{OutputFile, with_suffix, write_text};
+use crate::output::{with_suffix, write_text};
 use crate::printing::{Printing, complain};
-use crate::scene;
 use crate::table::UNCONVERGED;
 use crate::threads;
 use crate::warnings;
@@ -47,7 +45,7 @@ impl Folder {
         self.path.join(format!("{}.{}", case.identity, self.extension))
     }
 
-    /// The file of the surface that is made for a case.
+    /// The name of the surface that is made for a case, which no file has.
     fn surface(&self, case: &Case) -> PathBuf {
         self.path.join(format!("{}.npz", case.identity))
     }
@@ -70,8 +68,8 @@ impl Folder {
     /// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
     pub fn is_done(&self, case: &Case) -> bool {
         let rows = self.rows(case);
-        let found = || Some(checksum(Hash::NEW.of(&fs::read(&rows).ok()?), &rows));
-        !state_path(&rows).exists() && fs::read_to_string(sum_path(&rows)).is_ok_and(|sum| Some(sum) == found())
+        let sum = fs::read_to_string(sum_path(&rows)).ok();
+        !state_path(&rows).exists() && sum.is_some() && sum == checksum(&rows).ok()
     }
 }
 
@@ -81,9 +79,10 @@ fn sum_path(rows: &Path) -> PathBuf {
 }
 
 /// The checksum of rows, with that of their warnings.
-fn checksum(of_rows: Hash, rows: &Path) -> String {
+fn checksum(rows: &Path) -> asperity::Result<String> {
+    let of_rows = Hash::NEW.of(&fs::read(rows).map_err(|e| Error::unreadable(rows, e))?);
     let warnings = fs::read(warnings::beside(rows)).unwrap_or_default();
-    format!("{of_rows} {}\n", Hash::NEW.of(&warnings))
+    Ok(format!("{of_rows} {}\n", Hash::NEW.of(&warnings)))
 }
 
 /// Solves the cases with these numbers that are not done, some at a time.
@@ -121,8 +120,8 @@ pub fn solve(
     };
     stand(0);
     // whether the case is over, as it is not where another run has it
-    let over = |number: usize, wait: bool| {
-        match solved(study, &study.cases[number], folder, program, threads, wait) {
+    let over = |number: usize, worker: &mut Worker<'_>, wait: bool| {
+        match solved(study, &study.cases[number], folder, worker, wait) {
             Ok(None) => return false,
             Ok(Some(warnings)) => {
                 let name = told(number);
@@ -149,15 +148,16 @@ pub fn solve(
     let elsewhere = Mutex::new(Vec::new());
     let elsewhere = || elsewhere.lock().unwrap_or_else(PoisonError::into_inner);
     let work = || {
+        let mut worker = Worker::new(program, threads);
         while let Some(&number) = left.get(next.fetch_add(1, Relaxed)) {
-            if !over(number, false) {
+            if !over(number, &mut worker, false) {
                 elsewhere().push(number);
             }
         }
         loop {
             let Some(number) = elsewhere().pop() else { break };
             printing.say(&format!("{} is solved by another run: waiting for it", told(number)));
-            over(number, true);
+            over(number, &mut worker, true);
         }
     };
     thread::scope(|scope| {
@@ -190,84 +190,48 @@ fn solved(
     study: &Study,
     case: &Case,
     folder: &Folder,
-    program: &[OsString],
-    threads: usize,
+    worker: &mut Worker<'_>,
     wait: bool,
 ) -> Result<Option<Vec<String>>, String> {
     let Some(_lock) = folder.locked(case, wait)? else { return Ok(None) };
     let mut warnings = Vec::new();
     if !folder.is_done(case) {
-        warnings = rows_of(study, case, folder, program, threads)?;
+        warnings = rows_of(study, case, folder, worker)?;
     }
     let _ = fs::remove_file(folder.lock(case));
     Ok(Some(warnings))
 }
 
 /// Solves a case; the warnings of its runs, or the line by which one was refused.
-fn rows_of(
-    study: &Study,
-    case: &Case,
-    folder: &Folder,
-    program: &[OsString],
-    threads: usize,
-) -> Result<Vec<String>, String> {
+fn rows_of(study: &Study, case: &Case, folder: &Folder, worker: &mut Worker<'_>) -> Result<Vec<String>, String> {
     let (rows, made) = (folder.rows(case), folder.surface(case));
-    let run = |command: &str, arguments: &[OsString]| run(program, command, arguments, threads);
-    let path = |name: &str, path: &Path| [OsString::from(name), path.into()];
+    let command = |name: &str, arguments: &[OsString], out: &Path| {
+        let before = ["asperity", name, "--quiet", "--out"].map(OsString::from);
+        [&before[..], &[out.into()], arguments].concat()
+    };
     let mut warnings = Vec::new();
-    let [out, file] = path("--out", &rows);
-    let mut arguments = [case.arguments.as_slice(), &[out, file]].concat();
+    let mut fill = command(&study.command, &case.arguments, &rows);
     if !is_whole(&rows) {
-        // a run that has just begun has no row yet
-        if fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
+        // a run that has just begun has neither of these yet
+        let begun = sum_path(&rows).exists() || state_path(&rows).exists();
+        if begun && fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
             warnings.push("its rows were damaged, and it was solved again".to_owned());
         }
-        arguments.push("--force".into());
+        fill.push("--force".into());
     }
+    let mut make = None;
     if let Some(surface) = &case.surface {
-        let [out, file] = path("--out", &made);
-        warnings.extend(run("surface", &[surface.as_slice(), &[out, file, "--force".into()]].concat())?);
-        arguments.extend(path("--heights", &made));
+        fill.extend(["--heights".into(), made.clone().into()]);
+        make = Some([command("surface", surface, &made), vec!["--force".into()]].concat());
     }
-    warnings.extend(run(&study.command, &arguments)?);
-    // the state last: what is left with it is not done
-    if case.surface.is_some() {
-        let _ = fs::remove_file(&made);
-        let _ = fs::remove_file(scene::beside(&made));
-    }
-    let _ = fs::remove_file(scene::beside(&rows));
-    let sum = checksum(written(&rows)?, &rows);
-    let write = || -> Outcome<()> {
-        let file = OutputFile::create(&sum_path(&rows), true)?;
-        file.write(|path| write_text(path, &sum))?;
-        Ok(file.commit()?)
-    };
-    write().map_err(|error| error.to_string())?;
-    fs::remove_file(state_path(&rows)).map_err(|e| format!("its state cannot be removed: {e}"))?;
-    Ok(warnings)
-}
-
-/// Runs a command of this program; its warnings, or the line by which it was refused.
-fn run(program: &[OsString], command: &str, arguments: &[OsString], threads: usize) -> Result<Vec<String>, String> {
-    let [program, before @ ..] = program else { return Err("this program is not found any more".to_owned()) };
-    let mut process = Command::new(program);
-    process.args(before).arg(command).args(arguments).args(["--quiet", "--threads", &threads.to_string()]);
-    process.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).env(CASE, "1");
-    // ^C is for this process, with which the other one ends
-    #[cfg(unix)]
-    process.process_group(0);
-    let started = |e| format!("it cannot be started: {e}");
-    let mut process = process.spawn().map_err(started)?;
-    let _held = process.stdin.take();
-    let output = process.wait_with_output().map_err(started)?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    let mut lines =
-        said.lines().map(|line| line.trim_start_matches("warning: ").trim_start_matches("error: ").to_owned());
-    match output.status.code() {
-        // rows that did not converge are counted in the table
-        Some(0 | 2) => Ok(lines.filter(|line| code(line) != Some(UNCONVERGED)).collect()),
-        Some(_) => Err(lines.next_back().unwrap_or_else(|| "it said nothing".to_owned())),
-        None => Err("its process was killed".to_owned()),
+    let said = worker.run(&make.into_iter().chain([fill]).collect::<Vec<_>>())?;
+    // rows that did not converge are counted in the table
+    warnings.extend(said.into_iter().filter(|line| code(line) != Some(UNCONVERGED)));
+    checksum(&rows).and_then(|sum| write_text(&sum_path(&rows), &sum)).map_err(|error| error.to_string())?;
+    // last: what is left with it is not done
+    match fs::remove_file(state_path(&rows)) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(format!("its state cannot be removed: {error}")),
+        _ => Ok(warnings),
     }
 }
 

@@ -1,7 +1,5 @@
 //! Single nodes that are far above or below their neighbours.
 
-use std::ops::RangeInclusive;
-
 use ndarray::Array2;
 
 use super::relief::Relief;
@@ -39,21 +37,36 @@ impl Spikes {
         let slope = [relief.sides[0].drop / nx as f64, relief.sides[1].drop / ny as f64];
         let centre = [0.5 * (nx as f64 - 1.0), 0.5 * (ny as f64 - 1.0)];
         let (mut fourth, mut squares, mut count, mut candidates) = (0.0, 0.0, 0.0, Vec::new());
-        for ((i, j), &h) in heights.indexed_iter() {
-            let plane = relief.mean + slope[0] * (i as f64 - centre[0]) + slope[1] * (j as f64 - centre[1]);
-            let h = scale.of(h);
-            fourth += ((h - plane) / rms).powi(4);
-            let (Some(rows), Some(columns)) = (beside(i, nx), beside(j, ny)) else { continue };
-            let (mut sum, mut low, mut high, mut number) = (0.0, f64::INFINITY, f64::NEG_INFINITY, 0.0);
-            let window = rows.flat_map(|i| columns.clone().map(move |j| (i, j)));
-            for near in window.filter(|&near| near != (i, j)).map(|near| scale.of(heights[near])) {
-                (sum, number) = (sum + near, number + 1.0);
-                (low, high) = (low.min(near), high.max(near));
-            }
-            let out = (h - sum / number).abs();
-            (squares, count) = (squares + out * out, count + 1.0);
-            if out > LONE * (high - low) && out > rms {
-                candidates.push((out, (i, j)));
+        // the only one of a side is by itself
+        let is_inside = |i: usize, n: usize| n == 1 || i > 0 && i + 1 < n;
+        for i in 0..nx {
+            let around = [i.saturating_sub(1), i, (i + 1).min(nx - 1)];
+            let [before, own, after] = around.map(|i| heights.row(i).mapv(|h| scale.of(h)).to_vec());
+            for (j, &h) in own.iter().enumerate() {
+                let plane = relief.mean + slope[0] * (i as f64 - centre[0]) + slope[1] * (j as f64 - centre[1]);
+                fourth += ((h - plane) / rms).powi(4);
+                if !is_inside(i, nx) || !is_inside(j, ny) {
+                    continue;
+                }
+                let (sum, low, high, number) = match (nx, ny) {
+                    (1, _) => figures([own[j - 1], own[j + 1]]),
+                    (_, 1) => figures([before[j], after[j]]),
+                    _ => figures([
+                        before[j - 1],
+                        before[j],
+                        before[j + 1],
+                        own[j - 1],
+                        own[j + 1],
+                        after[j - 1],
+                        after[j],
+                        after[j + 1],
+                    ]),
+                };
+                let out = (h - sum / number).abs();
+                (squares, count) = (squares + out * out, count + 1.0);
+                if out > LONE * (high - low) && out > rms {
+                    candidates.push((out, (i, j)));
+                }
             }
         }
         let (kurtosis, usual) = (fourth / heights.len() as f64, f64::sqrt(squares / count));
@@ -70,10 +83,10 @@ impl Spikes {
     }
 }
 
-/// The numbers beside a number and itself, of a side that has so many; none at its ends. The only one is by itself.
-fn beside(i: usize, n: usize) -> Option<RangeInclusive<usize>> {
-    match n {
-        1 => Some(0..=0),
-        _ => (i > 0 && i + 1 < n).then(|| i - 1..=i + 1),
-    }
+/// The sum of some numbers, the lowest and the highest, and how many they are.
+fn figures<const N: usize>(numbers: [f64; N]) -> (f64, f64, f64, f64) {
+    let sum = numbers.iter().fold(0.0, |sum, number| sum + number);
+    let low = numbers.iter().fold(f64::INFINITY, |low, &number| if number < low { number } else { low });
+    let high = numbers.iter().fold(f64::NEG_INFINITY, |high, &number| if number > high { number } else { high });
+    (sum, low, high, N as f64)
 }
