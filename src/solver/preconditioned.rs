@@ -12,17 +12,8 @@ use crate::real::{Real, cast};
 /// The least curvature of a direction, as a share of its elastic curvature.
 const LEAST_CURVATURE: f64 = 0.05;
 
-/// The share of a step's elastic curvature that the law takes from it, beyond which its length is that of a quadratic energy no more.
-const SOFTENED: f64 = 0.4;
-
-/// The least curvature of a step for the next one to be conjugate to it, as a share of its elastic curvature.
-const LEAST_CONJUGATE: f64 = 0.5;
-
 /// The least best length, as a share of a clipped step, for which the whole is taken, to land its clipped nodes.
 const WHOLE: f64 = 0.7;
-
-/// The same for a step that the law softens.
-const WHOLE_SOFTENED: f64 = 0.5;
 
 /// The best length, as a share of a clipped step, below which a shorter step is tried.
 const SHORT: f64 = 0.01;
@@ -33,8 +24,8 @@ const FARTHEST: f64 = 10.0;
 /// The least and largest ratio of two successive trial lengths.
 const ADAPT: (f64, f64) = (0.7, 1.3);
 
-/// The same where the surface yields or the law softens a step: nodes that yield or touch change the curvature by more.
-const ADAPT_WIDE: (f64, f64) = (0.5, 2.0);
+/// The same where the surface yields: nodes that yield or stop doing so change the curvature by more.
+const ADAPT_YIELDING: (f64, f64) = (0.5, 2.0);
 
 /// The multiple of the last change c₀ in the next step.
 #[derive(Clone, Copy)]
@@ -308,9 +299,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let best = (-(trial.slope + trial.kink) / curvature).min(FARTHEST);
         // nodes that pass their corners leave none along the tangent: the whole step, which the search halves
         let best = if trial.kink > 0.0 && best <= 0.0 { 1.0 } else { best };
-        let softened = slopes < -SOFTENED * quadratic;
         let mut length = match trial.clipped {
-            true if best >= if softened { WHOLE_SOFTENED } else { WHOLE } => 1.0,
+            true if best >= WHOLE => 1.0,
             true => best,
             false if local.projects() && best <= 1.0 => best,
             false if local.projects() => best.min(passes::reach(fields, &local).max(1.0)),
@@ -335,7 +325,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         // near the solution the best lengths scatter: damp their changes
         let ratio = if self.steps.nearness == Nearness::Near { best.sqrt() } else { best };
-        let (least, most) = if yielded || softened { ADAPT_WIDE } else { ADAPT };
+        let (least, most) = if yielded { ADAPT_YIELDING } else { ADAPT };
         self.steps.step_length *= ratio.clamp(least, most);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
         (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
@@ -351,11 +341,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let local = posed.potential();
         let advanced = passes::advance(fields, &local, advance, &posed.flat.pressure);
         // `change` holds d after a scaled step, and c = d otherwise
-        let quadratic = length * length * (elastic + spring);
         let curvature = if local.is_straight() {
-            quadratic
+            length * length * (elastic + spring)
         } else {
-            (length * (advanced.product - slope)).max(LEAST_CONJUGATE * quadratic)
+            length * (advanced.product - slope)
         };
         self.sums.tally = advanced.tally;
         let change = length * (2.0 * work + length * elastic);

@@ -40,6 +40,31 @@ fn the_certificate_is_never_below_the_true_error() {
     }
 }
 
+#[test]
+fn the_certificate_of_springs_is_never_below_the_true_error() {
+    let grid = Grid::new((48, 35), (1.0, 0.8)).unwrap();
+    let surface = Surface::from_fn(grid, |x, y| 0.02 * (6.0 * x + 9.0 * y).sin() * (20.0 * y).cos() - x * x).unwrap();
+    let mut operator = Westergaard::new(grid, 1.0).unwrap();
+    let mut problem = Problem::new(&surface, operator.clone(), NoAdhesion).unwrap();
+    // far softer than the stiffest wave, which has 75, and far stiffer
+    for (stiffness, control) in
+        [(3.0, Control::MeanGap(0.03)), (100.0, Control::MeanPressure(0.05)), (3000.0, Control::MeanGap(0.05))]
+    {
+        let solve = |problem: &mut Problem<_, _, _>, control, iterations, tolerance| {
+            let settings = Settings::default().max_iterations(iterations).tolerance(tolerance);
+            Solver { settings, constraint: Penalty::new(stiffness).unwrap() }.solve(problem, control).unwrap()
+        };
+        for iterations in 0..24 {
+            let state = solve(&mut problem, control, iterations, 1e-14);
+            let exact = solve(&mut problem, Control::MeanGap(state.report.mean_gap), 1000, 1e-12);
+            assert_eq!(exact.report.status, Status::Converged);
+            let (error, size, _) = crate::common::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
+            let (error, bound) = ((error / size).sqrt(), state.report.relative_error);
+            assert!(error <= bound * (1.0 + 1e-6) + 2e-12, "{stiffness} {iterations}: {error:e} > {bound:e}");
+        }
+    }
+}
+
 /// Operator applications to 1e-6, with the one that the problem itself takes.
 fn applications<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>, control: Control) -> usize {
     let report = solve(problem, control, 1e-6).report;
@@ -98,6 +123,25 @@ fn finer_grids_take_hardly_more_applications() {
 #[ignore = "takes minutes, and 1.5 GB"]
 fn sixteen_times_finer_grids_take_hardly_more_applications() {
     grows_little((256, 4096), [35, 41, 33, 37, 37, 39, 53], 1.45);
+}
+
+#[test]
+fn springs_take_about_as_many_applications_as_a_wall() {
+    let (mut wall, mut springs) = (0, 0);
+    for pressure in [2e-3, 1e-2, 3e-2] {
+        let mut problem = rough::<f64, _>(256, 32, NoAdhesion);
+        let control = Control::MeanPressure(pressure);
+        wall += applications(&mut problem, control);
+        // as stiff as the stiffest wave of the grid
+        for stiffness in [40.0, 400.0] {
+            let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(stiffness).unwrap() };
+            let report = solver.solve(&mut problem, control).unwrap().report;
+            assert_eq!(report.status, Status::Converged);
+            springs += report.operator_applications + 1;
+        }
+    }
+    println!("{wall} and {springs}");
+    assert!(springs as f64 <= 2.0 * 1.2 * wall as f64, "{wall} and {springs}");
 }
 
 #[test]
