@@ -361,7 +361,7 @@ const DECIDED: &[Decided] = &[
     ("PROGRESS of a proof", End::Floor, &[(2112, 69), (16446, 52), (19569, 59)]),
     ("STALL_REY2017", End::Converged, &[(1336, 250), (2576, 400)]),
     // the proof of the end that fails
-    ("note_refutation", End::Converged, &[(7035, 40), (11144, 60), (18015, 140)]),
+    ("note_refutation", End::Converged, &[(11144, 70)]),
     // the trial at full length after one that failed
     ("preconditioned_step", End::Converged, &[(523, 200), (660, 200), (3726, 50)]),
 ];

@@ -405,8 +405,10 @@ impl<'a, T: Real> Judge<'a, T> {
             }
         }
         let amplified = if attracts > 0.0 { 1.0 + attracts / margin } else { 1.0 };
-        // at the mean gap that the state has, where that is held
+        // at the mean gap that the state has, where that is held; and with springs, where the error of the load makes
+        // more than the matrix says, as some come to rest
         let held = match self.held {
+            _ if self.scene.constraint == Constraint::Penalty => Held::Shift(self.dense.shift(&self.displacement())),
             Held::Shift(_) => Held::Shift(self.dense.shift(&self.displacement())),
             held => held,
         };
