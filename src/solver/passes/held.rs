@@ -12,10 +12,12 @@ use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
 use crate::vector::sums;
 
-/// The share s of a node in the waves, if nothing limits what is held. r' can be had back from s r'.
+/// The share s of a node in the waves, if nothing limits what is held, and its own compliance, 1/(k + κ). r' can be had
+/// back from s r'.
 #[inline(always)]
-fn share<T: Real>(slope: T, stiffness: T) -> T {
-    (stiffness / (stiffness + slope.max(T::zero()))).powi(2).max(T::epsilon())
+fn share<T: Real>(slope: T, stiffness: T) -> (T, T) {
+    let own = (stiffness + slope.max(T::zero())).recip();
+    ((stiffness * own).powi(2).max(T::epsilon()), own)
 }
 
 /// The share s of a node in the waves, of which the part (1 − s) of a residual that pulls is at most the `limit`.
@@ -29,12 +31,6 @@ fn limited<T: Real>(share: T, r: T, limit: T) -> T {
 fn whole<T: Real>(share: T, left: T, limit: T) -> T {
     let r = left / share;
     if r < T::zero() { r.max(left - limit) } else { r }
-}
-
-/// The compliance of a node beside the waves, (1 − s²)/(k + κ).
-#[inline(always)]
-fn beside<T: Real>(share: T, slope: T, stiffness: T) -> T {
-    (T::one() - share * share) / (stiffness + slope.max(T::zero()))
 }
 
 /// The stiffness of what holds nodes, and its limits.
@@ -78,7 +74,7 @@ pub(in crate::solver) fn hold<T: Real, Lo: Real>(
             let mut buffer = [[T::zero(); CHUNK]; 2];
             let (slopes, _) = holding(local, first, gap, &mut buffer);
             sums!(2, [slopes, residual], [], |i| {
-                let s = share(slopes[i], k);
+                let (s, _) = share(slopes[i], k);
                 [(s * s).widen() * residual[i].widen(), (s * s).widen()]
             })
         });
@@ -91,11 +87,12 @@ pub(in crate::solver) fn hold<T: Real, Lo: Real>(
         let (slopes, limits) = holding(local, first, gap, &mut buffer);
         sums!(2, [slopes, limits], [residual], |i| {
             let (slope, r) = (slopes[i], cast::<_, T>(residual[i]) - level);
-            let s = limited(share(slope, k), r, limits[i]);
+            let (share, own) = share(slope, k);
+            let s = limited(share, r, limits[i]);
             residual[i] = cast(s * r);
             let rest = ((T::one() - s) * r).widen();
             let error = if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 };
-            [error, (beside(s, slope, k) * r * r).widen()]
+            [error, ((T::one() - s * s) * own * r * r).widen()]
         })
     });
     Held { stiffness, level: level.widen(), shares, beside: total.sum[0], descent: total.sum[1] }
@@ -114,10 +111,10 @@ pub(in crate::solver) fn release_held<T: Real, Lo: Real>(
         let mut buffer = [[T::zero(); CHUNK]; 2];
         let (slopes, limits) = holding(local, first, gap, &mut buffer);
         sums!(1, [slopes, limits], [residual, z], |i| {
-            let share = share(slopes[i], k);
+            let (share, own) = share(slopes[i], k);
             let r = whole(share, cast(residual[i]), limits[i]);
             let s = limited(share, r, limits[i]);
-            let moved = s * cast(z[i]) + beside(s, slopes[i], k) * r;
+            let moved = s * cast(z[i]) + (T::one() - s * s) * own * r;
             (residual[i], z[i]) = (cast(r + level), cast(moved));
             [moved.widen()]
         })
@@ -132,7 +129,7 @@ pub(in crate::solver) fn release_held<T: Real, Lo: Real>(
         let mut buffer = [[T::zero(); CHUNK]; 2];
         let (slopes, _) = holding(local, first, gap, &mut buffer);
         sums!(1, [slopes], [z], |i| {
-            let s = share(slopes[i], k);
+            let (s, _) = share(slopes[i], k);
             let moved: T = cast::<_, T>(z[i]) - mean * (s * s);
             z[i] = cast(moved);
             [moved.widen()]
