@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use crate::real::{Compiled, Real};
-use crate::vector::vectorised;
+use crate::vector::{BLOCK, vectorised};
 
 /// `factor·exp(rate·x)` for many x, to two units in the last place; zero where it would be subnormal.
 ///
@@ -32,29 +32,24 @@ macro_rules! exponentials {
             vectorised(
                 #[inline(always)]
                 || {
-                    for (result, &x) in results.iter_mut().zip(x) {
-                        let x = rate * x;
-                        let held = if x < $low {
-                            $low
-                        } else if x > $high {
-                            $high
-                        } else {
-                            x
-                        };
-                        // adding it rounds to an integer, which stays in the last bits
-                        let shifted = held * <$float as num_traits::FloatConst>::LOG2_E() + $magic;
-                        let k = shifted - $magic;
-                        let r = held - k * $ln2.0 - k * $ln2.1;
-                        let series = $series(r);
-                        let power = <$float>::from_bits(shifted.to_bits().wrapping_add($bias) << $mantissa);
-                        let exp = if x < $low {
-                            0.0
-                        } else if x > $high {
-                            <$float>::INFINITY
-                        } else {
-                            series * power
-                        };
-                        *result = factor * exp;
+                    let mut powers = [0.0; BLOCK];
+                    for (results, x) in results.chunks_mut(BLOCK).zip(x.chunks(BLOCK)) {
+                        // in two loops, each short enough that a processor works on several of its numbers at once
+                        for ((r, power), &x) in results.iter_mut().zip(&mut powers).zip(x) {
+                            let x = rate * x;
+                            let held = if x < $low { $low } else { x };
+                            let held = if held > $high { $high } else { held };
+                            // adding it rounds to an integer, which stays in the last bits
+                            let shifted = held * <$float as num_traits::FloatConst>::LOG2_E() + $magic;
+                            let k = shifted - $magic;
+                            let exact = <$float>::from_bits(shifted.to_bits().wrapping_add($bias) << $mantissa);
+                            let bounded = if x > $high { <$float>::INFINITY } else { exact };
+                            *power = if x < $low { 0.0 } else { bounded };
+                            *r = held - k * $ln2.0 - k * $ln2.1;
+                        }
+                        for (result, &power) in results.iter_mut().zip(&powers) {
+                            *result = factor * ($series(*result) * power);
+                        }
                     }
                 },
             );
