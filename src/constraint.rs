@@ -129,8 +129,8 @@ impl<T> fmt::Debug for Wall<'_, T> {
 
 /// Springs that resist small or negative gaps, as in the example of [`ContactConstraint`]; nodes are ix·Ny + iy.
 ///
-/// The certificate of a solve is a bound for springs that are linear, or become stiffer as they are compressed: by their
-/// pressure and slope it knows what they do until they are at rest ([`driver`](crate::guide::driver)).
+/// The certificate of a solve knows springs by their pressure and slope at the present gap: it is a bound of the error
+/// for linear ones, and an estimate for others ([`driver`](crate::guide::driver)).
 pub trait Springs<T: Real>: Sync {
     /// The energy per area.
     fn energy(&self, node: usize, gap: T) -> T;

@@ -13,11 +13,15 @@ fn limited(max_iterations: usize, tolerance: f64) -> Solver {
     Solver::new(Settings::default().max_iterations(max_iterations).tolerance(tolerance))
 }
 
+fn wavy_cylinder(nodes: (usize, usize)) -> Surface {
+    let grid = Grid::new(nodes, (1.0, 0.8)).unwrap();
+    Surface::from_fn(grid, |x, y| 0.02 * (6.0 * x + 9.0 * y).sin() * (20.0 * y).cos() - x * x).unwrap()
+}
+
 #[test]
 fn the_certificate_is_never_below_the_true_error() {
-    let grid = Grid::new((60, 49), (1.0, 0.8)).unwrap();
-    let surface = Surface::from_fn(grid, |x, y| 0.02 * (6.0 * x + 9.0 * y).sin() * (20.0 * y).cos() - x * x).unwrap();
-    let mut operator = Westergaard::new(grid, 1.0).unwrap();
+    let surface = wavy_cylinder((60, 49));
+    let mut operator = Westergaard::new(*surface.grid(), 1.0).unwrap();
     let mut problem = Problem::new(&surface, operator.clone(), NoAdhesion).unwrap();
     for control in [Control::MeanGap(0.03), Control::MeanGap(0.1), Control::MeanPressure(0.05)] {
         let mut sharpest = f64::INFINITY;
@@ -42,9 +46,8 @@ fn the_certificate_is_never_below_the_true_error() {
 
 #[test]
 fn the_certificate_of_springs_is_never_below_the_true_error() {
-    let grid = Grid::new((48, 35), (1.0, 0.8)).unwrap();
-    let surface = Surface::from_fn(grid, |x, y| 0.02 * (6.0 * x + 9.0 * y).sin() * (20.0 * y).cos() - x * x).unwrap();
-    let mut operator = Westergaard::new(grid, 1.0).unwrap();
+    let surface = wavy_cylinder((48, 35));
+    let mut operator = Westergaard::new(*surface.grid(), 1.0).unwrap();
     let mut problem = Problem::new(&surface, operator.clone(), NoAdhesion).unwrap();
     // far softer than the stiffest wave, which has 75, and far stiffer
     for (stiffness, control) in
@@ -132,7 +135,7 @@ fn springs_take_about_as_many_applications_as_a_wall() {
         let mut problem = rough::<f64, _>(256, 32, NoAdhesion);
         let control = Control::MeanPressure(pressure);
         wall += applications(&mut problem, control);
-        // as stiff as the stiffest wave of the grid
+        // a tenth of the stiffness of the stiffest wave, and all of it
         for stiffness in [40.0, 400.0] {
             let mut solver = Solver { settings: Settings::default(), constraint: Penalty::new(stiffness).unwrap() };
             let report = solver.solve(&mut problem, control).unwrap().report;

@@ -408,9 +408,8 @@ impl<'a, T: Real> Judge<'a, T> {
         // at the mean gap that the state has, where that is held; and with springs, where the error of the load makes
         // more than the matrix says, as some come to rest
         let held = match self.held {
-            _ if self.scene.constraint == Constraint::Penalty => Held::Shift(self.dense.shift(&self.displacement())),
-            Held::Shift(_) => Held::Shift(self.dense.shift(&self.displacement())),
-            held => held,
+            Held::Pressure(_) | Held::Spring { .. } if self.scene.constraint != Constraint::Penalty => self.held,
+            _ => Held::Shift(self.dense.shift(&self.displacement())),
         };
         let Some(exact) = self.dense.equilibrium(&self.heights, held, &local, self.projects(), &self.gap) else {
             return Ok(None);
