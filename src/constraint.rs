@@ -73,9 +73,17 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         false
     }
 
+    /// The relative error, in the energy norm, to which the present round has to be solved, where that is above the
+    /// tolerance of the solve: a round that only leads to the next one may end early. The solve goes on to its own
+    /// tolerance once [`update`](Self::update) has returned [`Update::Done`], and asks again.
+    fn round_tolerance(&self) -> f64 {
+        0.0
+    }
+
     /// Updates the multipliers when a solve has converged, and tells whether to solve again. The gap is infinite at
-    /// [absent](crate::Surface::with_absent) nodes.
-    fn update(&mut self, _gap: ArrayView2<'_, T>) -> Update {
+    /// [absent](crate::Surface::with_absent) nodes. `work` is the scale of the square of relative errors, Σ u·p over
+    /// the nodes.
+    fn update(&mut self, _gap: ArrayView2<'_, T>, _work: f64) -> Update {
         Update::Done
     }
 }

@@ -18,21 +18,28 @@ const SLOW: f64 = 0.25;
 /// The largest stiffness of the first springs over that of the shortest wave: stiffer ones only cost iterations.
 const STIFFEST: f64 = 10.0;
 
+/// The relative error to which the first round is solved.
+const FIRST: f64 = 1e-2;
+
+/// The share of the error of a round to which the next one is solved: rounds leave more than it.
+const NEXT: f64 = 0.1;
+
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure
 /// from them, λ ← ⟨λ − kg⟩₊, after each round.
 ///
 /// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node, and after a round the gap has the error s = (λ − ⟨λ − kg⟩₊)/k. If
 /// more than a quarter of this error is left, the next springs are four times as stiff. The given stiffness, at most ten
-/// times that of the shortest wave, therefore hardly matters.
+/// times that of the shortest wave, therefore hardly matters. A round is solved as closely as the error of the one
+/// before it is worth, and the last one to the tolerance of the solve.
 ///
 /// The rounds end when the error of the pressure p in the energy norm is at most the tolerance. With κ the stiffness of
-/// the shortest wave, Δλ the change of λ, bars for means and ‖·‖ for roots of mean squares, the criterion is
+/// the shortest wave, Δλ the change of λ, u the displacement, N the number of nodes and bars for means, the criterion is
 ///
 /// ```math
-/// κ² ‖s‖² + κ k s̄² ≤ tolerance² ‖λ − λ̄‖² ,   s = −Δλ/k .
+/// κ Σ s² + k N s̄² ≤ tolerance² Σ u·p ,   s = −Δλ/k .
 /// ```
 ///
-/// Without adhesion the first term bounds the error, since ⟨u − u*, p − p*⟩ ≤ ⟨s, λ − λ*⟩. The second term is for the
+/// Without adhesion the first term bounds the error, since ⟨u − u*, p − p*⟩ ≤ ⟨s, p* − p⟩. The second term is for the
 /// mean pressure close to full contact. In this case, and with adhesion, the criterion is an estimate. The page
 /// [`paper_checked`](crate::guide::paper_checked) has the cost of Uzawa. Memory per node: one scalar.
 ///
@@ -58,6 +65,8 @@ pub struct Uzawa<T> {
     off: f64,
     stiffest: f64,
     solved_to: f64,
+    /// the relative error to which the present round is solved
+    present: f64,
     multipliers: Array2<T>,
     grid: Option<Grid>,
     rounds: usize,
@@ -81,6 +90,7 @@ impl<T: Real> Uzawa<T> {
             off: f64::INFINITY,
             stiffest: 0.0,
             solved_to: 0.0,
+            present: 0.0,
             multipliers,
             grid: None,
             rounds: 0,
@@ -107,10 +117,10 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         Wall::Springs(self)
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
-        self.solved_to = tolerance;
+        (self.solved_to, self.present) = (tolerance, FIRST);
         self.multipliers = Array2::zeros(grid.field_shape());
         self.grid = Some(*grid);
-        self.rounds = 0;
+        self.rounds = 1;
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
             self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
@@ -120,8 +130,10 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn takes_slabs(&self) -> bool {
         true
     }
-    fn update(&mut self, gap: ArrayView2<'_, T>) -> Update {
-        self.rounds += 1;
+    fn round_tolerance(&self) -> f64 {
+        self.present
+    }
+    fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
         let (Some(grid), stiffness) = (self.grid, self.stiffness) else { return Update::Failed };
         let gap = gap.as_standard_layout();
         let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
@@ -134,20 +146,18 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
                 let [change, next] = [next - multiplier, next].map(T::widen);
                 part.sum[0] += change;
                 part.sum[1] += change * change;
-                part.sum[2] += next;
-                part.sum[3] += next * next;
+                part.sum[2] += next * next;
             }
             part
         });
-        let [change, change_squared, sum, squared, ..] = total.sum;
+        let [change, change_squared, squared, ..] = total.sum;
         let (nodes, k) = (grid.nodes() as f64, stiffness.widen());
         let off = change_squared.sqrt() / k;
-        let left = (self.stiffest * off).powi(2) + self.stiffest * change * change / (nodes * k);
-        // but for the rounding of their difference
-        let waves = (squared - sum * sum / nodes - 8.0 * f64::EPSILON * squared).max(0.0);
-        let allowed = self.tolerance.max(self.solved_to).powi(2) * waves;
+        let left = self.stiffest * off.powi(2) + change * change / (nodes * k);
+        let allowed = self.tolerance.max(self.solved_to).powi(2) * work;
         // under a uniform pressure there are no waves but those of rounding
-        if left <= allowed.max((8.0 * T::epsilon().widen()).powi(2) * squared) {
+        let rounding = (8.0 * T::epsilon().widen()).powi(2) * squared;
+        if left <= allowed || self.stiffest * left <= rounding {
             return Update::Done;
         }
         if self.rounds >= self.max_rounds {
@@ -162,6 +172,8 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
             self.stiffness = stiffness * T::lit(STIFFEN);
         }
         self.off = off;
+        self.present = (NEXT * (left / work).sqrt()).min(FIRST);
+        self.rounds += 1;
         Update::Again
     }
 }

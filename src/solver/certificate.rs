@@ -49,7 +49,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// only error is rounding, ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)). Its first term is the rounding of p = K⁻¹h + K⁻¹g where
     /// the two cancel. Its second term is the rounding of the gap, which a transform spreads evenly over all waves, with
     /// k the stiffness of the shortest wave.
-    fn error_scale(&self) -> (f64, f64) {
+    pub(super) fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
         // flats that attract each other have no waves but those of rounding
@@ -105,15 +105,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// Whether the goal is reached, given the relative error of the load.
     pub(super) fn meets(&self, load_error: f64) -> bool {
-        let tolerance = self.posed.settings.tolerance_in::<T>();
-        if self.posed.goal != Goal::Solution {
-            let tolerance = tolerance.max(match self.posed.goal {
-                Goal::Wall => WALL,
-                Goal::Hold => HOLD,
-                Goal::Start | Goal::Solution => START,
-            });
+        if let Some(tolerance) = self.start_tolerance() {
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
+        let tolerance = self.posed.settings.tolerance_in::<T>();
         let criterion = match self.posed.settings.criterion {
             Criterion::EnergyNorm => self.relative_error(),
             Criterion::Complementarity if self.sums.residual.working > self.sums.tally.free => f64::INFINITY,
@@ -122,10 +117,25 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         criterion <= tolerance && load_error <= tolerance
     }
 
+    /// The tolerance of a state from which a minimisation of another energy goes on; none of the solution.
+    pub(super) fn start_tolerance(&self) -> Option<f64> {
+        let tolerance = self.posed.settings.tolerance_in::<T>();
+        let start = match self.posed.goal {
+            Goal::Wall => WALL,
+            Goal::Hold => HOLD,
+            Goal::Start => START,
+            Goal::Solution if self.posed.leads_on => {
+                return Some(self.posed.constraint.round_tolerance()).filter(|&round| round > tolerance);
+            }
+            Goal::Solution => return None,
+        };
+        Some(start.max(tolerance))
+    }
+
     /// Computes p = K⁻¹(g + h) anew, and the certificate of its residual: a solve ends only if that meets the
     /// tolerance. A start needs no such proof.
     pub(super) fn confirm(&mut self) -> Result<()> {
-        if self.steps.age == 0 || self.posed.goal != Goal::Solution {
+        if self.steps.age == 0 || self.start_tolerance().is_some() {
             return Ok(());
         }
         let before = self.sums.certificate;

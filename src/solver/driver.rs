@@ -111,8 +111,18 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         if from_afar { (&NoAdhesion, load.of_wall(separation.widen())) } else { (law, load) };
 
     let goal = if from_afar { Goal::Wall } else { Goal::Solution };
-    let posed =
-        Posed { operators, law: first_law, flat, constraint: wall, load: first_load, asked, branch, settings, goal };
+    let posed = Posed {
+        operators,
+        law: first_law,
+        flat,
+        constraint: wall,
+        load: first_load,
+        asked,
+        branch,
+        settings,
+        goal,
+        leads_on: true,
+    };
     let mut state = State::new(posed, begin)?;
     state.begins(nearness);
     if from_afar {

@@ -92,11 +92,14 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     pub(super) fn update_constraint(&mut self) -> Update {
         // no gap where no surface faces the half-space
         let gap = self.posed.flat.window.as_ref().map(|window| window.cut(&self.fields.gap, T::infinity()));
-        let outer = self.posed.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view());
+        let work = self.error_scale().0 * self.posed.nodes();
+        let outer = self.posed.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view(), work);
+        // a constraint that is met where a round ended early has to be met by the solution
+        self.posed.leads_on = outer != Update::Done || self.start_tolerance().is_none();
         if outer == Update::Again {
             self.restart();
         }
-        outer
+        if self.posed.leads_on { outer } else { Update::Again }
     }
 
     pub(super) fn restart(&mut self) {

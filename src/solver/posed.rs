@@ -26,6 +26,8 @@ pub(super) struct Posed<'a, T, Lo> {
     pub(super) branch: Option<Branch>,
     pub(super) settings: Settings,
     pub(super) goal: Goal,
+    /// whether the present round of the constraint may lead to another one
+    pub(super) leads_on: bool,
 }
 
 impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {

@@ -21,8 +21,11 @@ impl<C: ContactConstraint<f64> + Springs<f64>> ContactConstraint<f64> for Outrun
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         self.0.start(grid, stiffest, tolerance)
     }
-    fn update(&mut self, gap: ArrayView2<'_, f64>) -> Update {
-        self.0.update(gap)
+    fn round_tolerance(&self) -> f64 {
+        self.0.round_tolerance()
+    }
+    fn update(&mut self, gap: ArrayView2<'_, f64>, work: f64) -> Update {
+        self.0.update(gap, work)
     }
 }
 

@@ -89,7 +89,10 @@ impl<T: Real> ContactConstraint<T> for Constraint<T> {
     fn takes_slabs(&self) -> bool {
         true
     }
-    fn update(&mut self, gap: ArrayView2<'_, T>) -> Update {
-        if let Self::Uzawa(wall) = self { wall.update(gap) } else { Update::Done }
+    fn round_tolerance(&self) -> f64 {
+        if let Self::Uzawa(wall) = self { wall.round_tolerance() } else { 0.0 }
+    }
+    fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
+        if let Self::Uzawa(wall) = self { wall.update(gap, work) } else { Update::Done }
     }
 }
