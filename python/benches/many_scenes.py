@@ -20,11 +20,13 @@ LAWS = {"hard wall": None, "exponential law": asperity.Exponential(work_of_adhes
 
 
 def solved(scene):
+    """The solution of a surface with a law."""
     rough, law = scene
     return asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law, threads=1)
 
 
 def contact(scene):
+    """The contact fraction, which is known with the solve."""
     return solved(scene).contact_fraction
 
 
