@@ -4,9 +4,9 @@
     python python/benches/many_scenes.py [SCENES] [NODES]
 
 Each scene is a surface of its own under one load, on a hard wall and with an exponential law; surfaces are made before.
-A line has the time of a scene in a loop on one thread, and in pools of a thread and of a process for each core. Shares are
-of the speed of the solves alone, as ``report["seconds"]`` has them in the loop, on one core, or on all. The ways take
-turns, and times are the least of three rounds.
+A line has the time of a scene in a loop on one thread, and in pools of a thread and of a process for each core. Shares
+are of the speed of the solves alone, as ``report["seconds"]`` has them in the loop, on one core, or on all. The ways
+take turns, and times are the least of three rounds.
 """
 
 import os
