@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from os import PathLike
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _asperity, _control
 from ._asperity import Iteration
@@ -18,6 +17,9 @@ from ._sweep import Sweep
 from ._topography import Heights
 from ._types import AxisOrder, Branch, Code, Lengths, Method, OwnLaw, Precision, Quantity
 from ._wall import Wall
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 class Interface(Sweep):
@@ -47,6 +49,8 @@ class Interface(Sweep):
         if failed:
             remedy = "solve it again with more max_iterations or finer loads"
             raise ValueError(f"row {failed[0]} has not converged: {remedy}")
+        from pathlib import Path
+
         path, adhesive = Path(name), self._scene.adhesion is not None
         units = (self._scene.topography.unit, self._scene.pressure_unit)
         files = _asperity.interface_files(code, self.rows, adhesive, path.name, units)

@@ -105,7 +105,7 @@ class Scene:
     @classmethod
     def of(cls, given: dict[str, Any]) -> Scene:
         """The scene among the keywords of a function."""
-        return cls(**{name: given[name] for name in inspect.signature(cls).parameters if name in given})
+        return cls(**{name: given[name] for name in _KEYWORDS if name in given})
 
     def start(self, start: Start) -> str | NDArray[np.float64] | None:
         """The gap from which to start, as the compiled core takes it."""
@@ -135,3 +135,7 @@ class Scene:
         for what, text in found["shortfalls"]:
             warn(text, AccuracyWarning if what == "accuracy" else ConvergenceWarning)
         return solution
+
+
+# once, as a signature takes as long as all else that is done here
+_KEYWORDS = tuple(inspect.signature(Scene).parameters)

@@ -50,6 +50,12 @@ def a_rough_sphere(found):
     assert [f"{found:.2f}" for found in share] == ["0.21", "0.68", "0.93"]
 
 
+def two_hundred_surfaces(found):
+    area = found["area"]
+    assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
+    assert area[7] == found["pressed"](7)
+
+
 def which_rms_slope_a_paper_means(found):
     slope, along_x = found["found"].rms_slope, found["along_x"]
     # an isotropic map, but for what one map has of it

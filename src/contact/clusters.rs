@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::{Array2, ArrayView2, Axis};
 
 use crate::elastic::Boundary;
 
@@ -29,7 +29,8 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet. Memory per node: eight bytes.
+    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet. Memory: eight bytes for each
+    /// node, and 24 for each row of nodes side by side.
     pub fn of(map: ArrayView2<'_, bool>) -> Self {
         Self::within(map, Boundary::Periodic)
     }
@@ -48,56 +49,75 @@ impl Clusters {
     /// The clusters on a map of which opposite sides along x, and along y, meet or do not.
     pub(super) fn meeting(map: ArrayView2<'_, bool>, [meets_x, meets_y]: [bool; 2]) -> Self {
         let (nx, ny) = map.dim();
-        // each node's parent, which comes before it in its tree; nodes of no cluster have none
-        let mut tree: Vec<usize> = map.iter().enumerate().map(|(k, &inside)| if inside { k } else { NONE }).collect();
+        // the runs of nodes side by side along y, from the first to behind the last, and how many are before each row
+        let (mut runs, mut before) = (Vec::new(), vec![0]);
+        for row in map.outer_iter() {
+            let mut first = None;
+            for (j, &inside) in row.iter().enumerate() {
+                match first {
+                    None if inside => first = Some(j),
+                    Some(start) if !inside => {
+                        runs.push((start, j));
+                        first = None;
+                    }
+                    _ => {}
+                }
+            }
+            runs.extend(first.map(|start| (start, ny)));
+            before.push(runs.len());
+        }
+        // each run's parent, which comes before it in its tree
+        let mut tree: Vec<usize> = (0..runs.len()).collect();
         for i in 0..nx {
-            let below = (i + 1) % nx;
-            for j in 0..ny {
-                if tree[i * ny + j] == NONE {
-                    continue;
+            let (here, below) = (before[i]..before[i + 1], (i + 1) % nx);
+            if meets_y && !here.is_empty() && runs[here.start].0 == 0 && runs[here.end - 1].1 == ny {
+                unite(&mut tree, here.start, here.end - 1);
+            }
+            if i + 1 == nx && !meets_x {
+                continue;
+            }
+            let (mut a, mut b) = (here.start, before[below]);
+            while a < here.end && b < before[below + 1] {
+                let (one, other) = (runs[a], runs[b]);
+                if one.0 < other.1 && other.0 < one.1 {
+                    unite(&mut tree, a, b);
                 }
-                if j + 1 < ny || meets_y {
-                    unite(&mut tree, i * ny + j, i * ny + (j + 1) % ny);
-                }
-                if i + 1 < nx || meets_x {
-                    unite(&mut tree, i * ny + j, below * ny + j);
-                }
+                if one.1 < other.1 { a += 1 } else { b += 1 }
             }
         }
         // from parents to numbers, in place: a parent has its number before its children ask for it
         let mut sizes = Vec::new();
-        for k in 0..tree.len() {
+        for (k, &(start, end)) in runs.iter().enumerate() {
             if tree[k] == k {
                 tree[k] = sizes.len();
-                sizes.push(1);
-            } else if tree[k] != NONE {
+                sizes.push(0);
+            } else {
                 tree[k] = tree[tree[k]];
-                sizes[tree[k]] += 1;
             }
+            sizes[tree[k]] += end - start;
         }
         let mut order: Vec<usize> = (0..sizes.len()).collect();
         order.sort_by_key(|&cluster| Reverse(sizes[cluster]));
         let mut label = vec![0; sizes.len()];
         order.iter().enumerate().for_each(|(rank, &cluster)| label[cluster] = rank + 1);
-        tree.iter_mut().for_each(|k| *k = label.get(*k).copied().unwrap_or(0));
+        let mut labels = Array2::zeros((nx, ny));
+        for (mut row, runs_of) in labels.outer_iter_mut().zip(before.windows(2)) {
+            for k in runs_of[0]..runs_of[1] {
+                row.slice_axis_mut(Axis(0), (runs[k].0..runs[k].1).into()).fill(label[tree[k]]);
+            }
+        }
         sizes.sort_by_key(|&size| Reverse(size));
-        let labels = Array2::from_shape_vec((nx, ny), tree).unwrap_or_else(|_| Array2::zeros((nx, ny)));
         Self { sizes, labels }
     }
 }
 
-const NONE: usize = usize::MAX;
-
-/// Makes one cluster of those of two nodes, if both have one.
+/// Makes one cluster of those of two runs.
 fn unite(tree: &mut [usize], a: usize, b: usize) {
-    if tree[a] == NONE || tree[b] == NONE {
-        return;
-    }
     let (a, b) = (root(tree, a), root(tree, b));
     tree[a.max(b)] = a.min(b);
 }
 
-/// The first node of a cluster; on the way there, every other node gets its grandparent as parent.
+/// The first run of a cluster; on the way there, every other run gets its grandparent as parent.
 fn root(tree: &mut [usize], mut node: usize) -> usize {
     while tree[node] != node {
         tree[node] = tree[tree[node]];
@@ -166,10 +186,46 @@ pub(super) mod tests {
         assert!(Clusters::of(Array2::default((0, 3)).view()).sizes.is_empty());
     }
 
+    /// A number below 97 that tells nothing of the node.
+    fn hash(i: usize, j: usize) -> usize {
+        (i * 7919 + j * 104_729 + i * j * 31) % 97
+    }
+
+    #[test]
+    fn clusters_are_those_that_floods_fill() {
+        let shapes = [((23, 31), 40), ((23, 31), 60), ((64, 5), 80), ((40, 1), 60), ((1, 40), 60)];
+        for (((nx, ny), share), (meets_x, meets_y)) in shapes
+            .into_iter()
+            .flat_map(|of| [(false, false), (true, false), (false, true), (true, true)].map(|m| (of, m)))
+        {
+            let mut dry = Array2::from_shape_fn((nx, ny), |(i, j)| hash(i, j) < share);
+            let found = Clusters::meeting(dry.view(), [meets_x, meets_y]);
+            let (mut sizes, starts) = (Vec::new(), dry.indexed_iter().map(|(node, _)| node).collect::<Vec<_>>());
+            for start in starts.into_iter().filter(|&start| found.labels[start] > 0) {
+                let (mut size, mut reached) = (0, vec![start]);
+                while let Some((i, j)) = reached.pop() {
+                    if !std::mem::take(&mut dry[[i, j]]) {
+                        continue;
+                    }
+                    assert_eq!(found.labels[[i, j]], found.labels[start]);
+                    size += 1;
+                    let beside = |k: usize, n: usize, meets: bool| {
+                        [(k > 0 || meets).then_some((k + n - 1) % n), (k + 1 < n || meets).then_some((k + 1) % n)]
+                    };
+                    reached.extend(beside(i, nx, meets_x).into_iter().flatten().map(|i| (i, j)));
+                    reached.extend(beside(j, ny, meets_y).into_iter().flatten().map(|j| (i, j)));
+                }
+                sizes.extend((size > 0).then_some((size, found.labels[start])));
+            }
+            assert!(dry.iter().all(|dry| !dry));
+            sizes.sort_by_key(|&(size, _)| Reverse(size));
+            assert!(sizes.into_iter().eq(found.sizes.into_iter().zip(1..)));
+        }
+    }
+
     #[test]
     fn clusters_do_not_depend_on_where_the_cell_begins() {
         let (nx, ny) = (23, 31);
-        let hash = |i: usize, j: usize| (i * 7919 + j * 104_729 + i * j * 31) % 97;
         let sizes = |di: usize, dj: usize| {
             let map = Array2::from_shape_fn((nx, ny), |(i, j)| hash((i + di) % nx, (j + dj) % ny) < 48);
             Clusters::of(map.view()).sizes

@@ -85,15 +85,16 @@ impl<T: Real> Outline<'_, T> {
         };
         let (gap, contact_pressure) = (grid.rows_for(gap, grid, next), grid.rows_for(contact_pressure, grid, next));
         let map = grid.rows_for(map, grid, next);
-        let node = |i: usize, j: usize| Node::of(map.row(i)[j], gap.row(i)[j], contact_pressure.row(i)[j]);
         // whether the four nodes of a cell are not all of one kind
         let mut mixed = Vec::with_capacity(columns);
         let (mut excess, mut places) = (0_i64, Places::new());
         for i in grid.rows().filter(|i| *periodic || i + 1 < nx) {
             let below = (i + 1) % nx;
-            let [here, there] = [i, below].map(|row| map.row(row).to_slice().unwrap_or_default());
+            let rows = [i, below].map(|row| (map.row(row), gap.row(row), contact_pressure.row(row)));
+            let node = |row: usize, j: usize| Node::of(rows[row].0[j], rows[row].1[j], rows[row].2[j]);
+            let [here, there] = rows.each_ref().map(|(map, ..)| map.to_slice().unwrap_or_default());
             if grid.is_line() {
-                excess += fixed(step.of_side(node(i, 0), node(below, 0), &mut places));
+                excess += fixed(step.of_side(node(0, 0), node(1, 0), &mut places));
                 continue;
             }
             let cells = here.iter().zip(&here[1..]).zip(there.iter().zip(&there[1..]));
@@ -105,7 +106,7 @@ impl<T: Real> Outline<'_, T> {
             }
             for (j, _) in mixed.iter().enumerate().filter(|(_, mixed)| **mixed) {
                 let next = (j + 1) % columns;
-                let corners = [node(i, j), node(below, j), node(below, next), node(i, next)];
+                let corners = [node(0, j), node(1, j), node(1, next), node(0, next)];
                 excess += fixed(step.of_cell(corners, &mut places));
             }
         }

@@ -13,18 +13,17 @@ pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bo
         let inside = Zip::from(part(0..count.saturating_sub(1))).and(part(1.min(count)..count));
         let edge = periodic.then(|| Zip::from(part(count - 1..count)).and(part(0..1)));
         let pairs = [Some(inside), edge].into_iter().flatten();
-        let slope = |before: &f64, after: &f64| {
-            (before.is_finite() && after.is_finite()).then(|| ((after - before) / spacing).abs())
-        };
+        let step =
+            |before: &f64, after: &f64| (before.is_finite() && after.is_finite()).then(|| (after - before).abs());
         // in units of the steepest, of which no square leaves the range of `f64`
-        let most = |most: f64, a: &f64, b: &f64| slope(a, b).map_or(most, |slope| most.max(slope));
-        let most: f64 = pairs.clone().fold(0.0, |found, pairs| pairs.fold(found, most));
+        let most = |most: f64, a: &f64, b: &f64| step(a, b).filter(|step| *step > most).unwrap_or(most);
+        let most: f64 = pairs.clone().fold(0.0, |found, pairs| pairs.fold(found, most)) / spacing;
         if most.is_infinite() {
             return most;
         }
-        let square = |slope: f64| if most > 0.0 { (slope / most).powi(2) } else { 0.0 };
+        let square = |step: f64| if most > 0.0 { (step / spacing / most).powi(2) } else { 0.0 };
         let add = |(sum, count): (f64, f64), a: &f64, b: &f64| {
-            slope(a, b).map_or((sum, count), |slope| (sum + square(slope), count + 1.0))
+            step(a, b).map_or((sum, count), |step| (sum + square(step), count + 1.0))
         };
         let (sum, count) = pairs.fold((0.0, 0.0), |sums, pairs| pairs.fold(sums, add));
         most * f64::sqrt(sum / count)

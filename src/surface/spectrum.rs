@@ -101,7 +101,7 @@ impl Spectrum {
     /// m₂ = ½Σ|q|²|ĥ|², m₄ = ⅜Σ|q|⁴|ĥ|², the means over profiles in all directions, on a surface.
     pub fn moments(&self) -> [f64; 3] {
         let shares = if is_line(&self.grid) { [1.0; 3] } else { [1.0, 0.5, 0.375] };
-        std::array::from_fn(|n| shares[n] * self.mean_square(n as i32))
+        std::array::from_fn(|n| shares[n] * self.mean_square(n))
     }
 
     /// Nayak's parameter α = m₀m₄/m₂²: 1.5 for one wave number on a surface, 1 on a line; NaN for a flat surface.
@@ -170,13 +170,14 @@ impl Spectrum {
         let (nx, ny) = self.grid.shape();
         // the waves by the larger of their shares of the shortest wave that the grid has along the sides
         let finest = nx.max(ny);
+        let index = |k: usize, n: usize| (k as f64 / n as f64 * finest as f64).round() as usize;
+        let along_x: Vec<_> =
+            (0..nx).map(|kx| (index(kx.min(nx - kx), nx), self.grid.wave_number_x(kx).powi(2))).collect();
         let mut slopes = vec![0.0; finest + 1];
         for (ky, row) in self.powers.outer_iter().enumerate() {
-            let qy = self.grid.wave_number_y(ky);
-            for (kx, power) in row.iter().enumerate() {
-                let square = power * (self.grid.wave_number_x(kx).powi(2) + qy * qy);
-                let share = (kx.min(nx - kx) as f64 / nx as f64).max(ky as f64 / ny as f64);
-                slopes[(share * finest as f64).round() as usize] += self.weight(ky) as f64 * square;
+            let (index_y, qy, weight) = (index(ky, ny), self.grid.wave_number_y(ky), self.weight(ky) as f64);
+            for (power, &(index_x, qx2)) in row.iter().zip(&along_x) {
+                slopes[index_x.max(index_y)] += weight * (power * (qx2 + qy * qy));
             }
         }
         let total: f64 = slopes.iter().sum();
@@ -190,10 +191,17 @@ impl Spectrum {
         f64::INFINITY
     }
 
-    fn mean_square(&self, n: i32) -> f64 {
+    /// Σ|q|²ⁿ|ĥ|² for n from 0 to 2.
+    fn mean_square(&self, n: usize) -> f64 {
+        let power = |q2: f64| match n {
+            0 => 1.0,
+            1 => q2,
+            _ => q2 * q2,
+        };
+        let qx2: Vec<_> = (0..self.grid.shape().0).map(|kx| self.grid.wave_number_x(kx).powi(2)).collect();
         let rows = self.powers.outer_iter().enumerate().map(|(ky, row)| {
             let qy2 = self.grid.wave_number_y(ky).powi(2);
-            let waves = row.iter().enumerate().map(|(kx, p)| p * (self.grid.wave_number_x(kx).powi(2) + qy2).powi(n));
+            let waves = row.iter().zip(&qx2).map(|(p, qx2)| p * power(qx2 + qy2));
             self.weight(ky) as f64 * waves.sum::<f64>()
         });
         rows.sum()

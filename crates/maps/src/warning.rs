@@ -283,14 +283,13 @@ impl Warning {
         let modulus = solution.report.modulus;
         let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
         let count = pressures().filter(|pressure| *pressure > modulus).count();
-        let greatest = pressures().fold(f64::NEG_INFINITY, f64::max);
         let mut found = Vec::new();
         found.extend(window_edge(solution));
         found.extend(load::of_load(solution, scars_removed));
         if count == 0 || modulus <= 0.0 {
             return found;
         }
-        let mut text = Text::default();
+        let (greatest, mut text) = (pressures().fold(f64::NEG_INFINITY, f64::max), Text::default());
         let message = format!(
             "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
              linear elasticity does not hold there; check the modulus, the load and the unit of the lengths",

@@ -26,7 +26,7 @@ pub struct Extremes {
 impl Extremes {
     pub fn of(heights: &Array2<f64>) -> Self {
         let finite = || heights.iter().copied().filter(|h| h.is_finite());
-        let range = |(low, high): (f64, f64), h: f64| (low.min(h), high.max(h));
+        let range = |(low, high): (f64, f64), h: f64| (if h < low { h } else { low }, if h > high { h } else { high });
         let (low, high) = finite().fold(NOTHING, range);
         let (mut low_count, mut high_count, mut rest) = (0, 0, NOTHING);
         for h in finite() {

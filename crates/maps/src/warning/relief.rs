@@ -75,15 +75,13 @@ pub struct Relief {
     pub sides: [Side; 2],
     /// The mean height.
     pub mean: f64,
-    /// The greatest step between neighbours along x.
-    pub greatest_single_step: f64,
     pub scale: Scale,
     mean_square: f64,
 }
 
 impl Relief {
     /// The relief of heights that are not flat. A row has the sums of its heights, of their squares, and of the squared
-    /// steps from the row before, which of the first is the last; and the greatest of these steps.
+    /// steps from the row before, which of the first is the last.
     pub fn of(heights: &Array2<f64>, extremes: &Extremes) -> Self {
         let scale = Scale::new(extremes);
         let ((nx, ny), nodes) = (heights.dim(), heights.len() as f64);
@@ -93,12 +91,12 @@ impl Relief {
         for i in 0..nx {
             let (here, before) = (heights.row(i), heights.row((i + nx - 1) % nx));
             let (last, first) = (scale.of(here[ny - 1]), scale.of(here[0]));
-            let mut sums = [0.0; 4];
+            let mut sums = [0.0; 3];
             let mut previous = last;
             for (j, (&h, &before)) in here.iter().zip(before).enumerate() {
                 let (h, before) = (scale.of(h), scale.of(before));
                 let step = h - before;
-                sums = [sums[0] + h, sums[1] + h * h, sums[2] + step * step, f64::max(sums[3], step.abs())];
+                sums = [sums[0] + h, sums[1] + h * h, sums[2] + step * step];
                 column_means[j] += h;
                 if j > 0 {
                     column_steps[j - 1] += (h - previous).powi(2);
@@ -115,14 +113,7 @@ impl Relief {
         let (edge, column_edge) = (rows[0][2] / ny as f64, column_steps.pop().unwrap_or_default());
         let mean = row_means.iter().sum::<f64>() / nx as f64;
         let sides = [Side::new(&row_means, &row_steps, edge), Side::new(&column_means, &column_steps, column_edge)];
-        Self {
-            unit: scale.inverse.recip(),
-            sides,
-            mean,
-            greatest_single_step: rows.iter().fold(0.0, |greatest: f64, row| greatest.max(row[3])),
-            scale,
-            mean_square: squares / nodes - mean * mean,
-        }
+        Self { unit: scale.inverse.recip(), sides, mean, scale, mean_square: squares / nodes - mean * mean }
     }
 
     /// Whether there is but one row, or one column, of nodes.

@@ -1,6 +1,6 @@
 //! Single nodes that are far above or below their neighbours.
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis, Zip};
 
 use super::relief::Relief;
 
@@ -31,7 +31,7 @@ impl Spikes {
         let (rms, scale) = (relief.rms_about_plane(), relief.scale);
         let (nx, ny) = heights.dim();
         // from each neighbour a spike differs by more than half of its distance from their mean
-        if nx > 1 && relief.greatest_single_step <= (1.0 - 1.0 / LONE) * rms {
+        if nx > 1 && !any_stands_out(heights, (1.0 - 1.0 / LONE) * rms * relief.unit) {
             return Self::default();
         }
         let slope = [relief.sides[0].drop / nx as f64, relief.sides[1].drop / ny as f64];
@@ -81,6 +81,18 @@ impl Spikes {
             },
         )
     }
+}
+
+/// Whether any node is above both nodes beside it along x, or below both, by more than this height.
+fn any_stands_out(heights: &Array2<f64>, by: f64) -> bool {
+    let triples = heights.axis_windows(Axis(0), 3);
+    triples.into_iter().any(|rows| {
+        let out = |out: bool, before: &f64, own: &f64, after: &f64| {
+            let (up, down) = ((own - before, own - after), (before - own, after - own));
+            out | ((up.0 > by) & (up.1 > by)) | ((down.0 > by) & (down.1 > by))
+        };
+        Zip::from(rows.row(0)).and(rows.row(1)).and(rows.row(2)).fold(false, out)
+    })
 }
 
 /// The sum of some numbers, the lowest and the highest, and how many they are.
