@@ -17,19 +17,22 @@ use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start
 ///
 /// The first load starts from the default start, or from [`Sweep::starting_from`]; the others
 ///
-/// - without adhesion, from the last two gaps, extrapolated linearly in mean gap, approach or the rest of a spring, or
-///   in the logarithm of pressure or force, and clipped to g ≥ 0;
-/// - with adhesion, or where loads are not of one kind or pressures not all positive, from the last gap: a sweep
-///   follows its branch of equilibria up to the instability at which it jumps, and surfaces that were pulled apart
-///   ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
+/// - without adhesion, from the last two gaps, extrapolated in mean gap, approach or the rest of a spring, or in the
+///   logarithm of pressure or force, and clipped to g ≥ 0;
+/// - with adhesion, in the same way as long as the load goes on in one direction and the two gaps before the last one
+///   had led to it, which they do not across a jump;
+/// - otherwise, and where loads are not of one kind, from the last gap.
+///
+/// A sweep with adhesion follows its branch of equilibria up to the instability at which it jumps, and surfaces that
+/// were pulled apart ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
 ///
 /// At a [`Hardness`](crate::Hardness) each load starts from the last gap, and the problem keeps the plastic depth
 /// ([`Problem::flatten`]): unloading is elastic. A sweep that is continued needs the depth of its last solution there.
 ///
 /// A mean gap that is given scales the start, as in [`Start::From`], or is the start where no gap is left to scale.
-/// Fine steps save a third of the work without adhesion; steps by half the load or more save little, and with adhesion
-/// under a pressure may cost more than the default start. Memory: two gaps on the
-/// grid of the operator, beside problem and solver.
+/// Fine steps save a third of the work without adhesion and almost half of it with adhesion; steps by half the load or
+/// more save little. The page [`performance`](crate::guide::performance#sweeps) has figures. Memory, beside problem and
+/// solver: a gap on the grid of the operator during a solve, and two with adhesion.
 ///
 /// A solve that does not converge is no error; the next load starts from where it ended. After an error the sweep ends.
 ///
@@ -56,8 +59,15 @@ pub struct Sweep<'a, T, O, L, I, C = Projection> {
     failed: bool,
 }
 
+/// The most gaps of a history.
+const MOST: usize = 3;
+
 /// The farthest extrapolation of the last step, in steps.
 const FARTHEST: f64 = 2.0;
+
+/// The distance of a gap from that which the two before it foretold, over that from the one before it, from which on it
+/// may have jumped.
+const FORETOLD: f64 = 0.5;
 
 impl<'a, T, O, L, I, C> Sweep<'a, T, O, L, I, C>
 where
@@ -81,8 +91,8 @@ where
         Self { start: Some(gap), ..self }
     }
 
-    /// The loads and gaps of the next start, the latest last: at most two. The gaps are on the grid of the operator;
-    /// beyond a window they are the displacement.
+    /// The loads and gaps of the next start, the latest last: at most two, and three with adhesion. The gaps are on the
+    /// grid of the operator; beyond a window they are the displacement.
     pub fn history(&self) -> &[(Control, Array2<T>)] {
         &self.history
     }
@@ -97,9 +107,9 @@ where
         self.problem
     }
 
-    /// The sweep continued with the last two of another one's [`Sweep::history`], bit for bit.
+    /// The sweep continued with another one's [`Sweep::history`], bit for bit.
     pub fn continuing(self, mut history: Vec<(Control, Array2<T>)>) -> Self {
-        history.drain(..history.len().saturating_sub(2));
+        history.drain(..history.len().saturating_sub(MOST));
         Self { history, ..self }
     }
 
@@ -118,7 +128,7 @@ where
         let start = self.start.take();
         let begin = match (&start, self.next_start(control)) {
             (Some(gap), _) => Begin::At(Start::From(gap)),
-            (None, Some(gap)) => Begin::Found(gap),
+            (None, Some(begin)) => begin,
             (None, None) => Begin::At(Start::Default),
         };
         let solved = self.solver.run(self.problem.parts(), control, begin, &mut observe).map(Solved::with_gap);
@@ -130,24 +140,40 @@ where
     fn keep(&mut self, control: Control, solution: Solution<T>, mut gap: Array2<T>) -> Result<Solution<T>> {
         if let Some(depth) = &solution.plastic_depth {
             self.problem.lower(depth.view(), &mut gap)?;
-        }
-        if !self.problem.law.hints().zero || solution.plastic_depth.is_some() {
             self.history.clear();
         }
         self.history.push((control, gap));
         Ok(solution)
     }
 
-    /// The start under a load to which the history leads; of two gaps the older one is dropped.
-    fn next_start(&mut self, control: Control) -> Option<Array2<T>> {
-        let [(before, _), (last, _)] = &self.history[..] else {
-            return self.history.last().map(|(_, gap)| gap.clone());
+    /// The start under a load to which the history leads; of its gaps only those stay that the start after it needs.
+    fn next_start(&mut self, control: Control) -> Option<Begin<'static, T>> {
+        let adheres = !self.problem.law.hints().zero;
+        let (_, last) = self.history.last()?;
+        let ahead = match &self.history[..] {
+            [.., earlier, before, last] if adheres && self.foretells([earlier, before], last) => {
+                self.ahead([before, last], control)
+            }
+            [.., before, last] if !adheres => self.ahead([before, last], control),
+            _ => None,
         };
-        let steps = match (*before, *last, control) {
+        let start = ahead.map_or_else(|| Begin::Found(last.clone()), Begin::Ahead);
+        let kept = if adheres { 2 } else { 1 };
+        self.history.drain(..self.history.len().saturating_sub(kept));
+        Some(start)
+    }
+
+    /// The gap under a load, extrapolated from two; with adhesion only if the load goes on in the same direction.
+    fn ahead(&self, [before, last]: [&(Control, Array2<T>); 2], control: Control) -> Option<Array2<T>> {
+        let steps = match (before.0, last.0, control) {
             (Control::MeanGap(a), Control::MeanGap(b), Control::MeanGap(c))
             | (Control::Approach(a), Control::Approach(b), Control::Approach(c)) => (c - b) / (b - a),
             (Control::MeanPressure(a), Control::MeanPressure(b), Control::MeanPressure(c))
-            | (Control::Force(a), Control::Force(b), Control::Force(c)) => (c / b).ln() / (b / a).ln(),
+            | (Control::Force(a), Control::Force(b), Control::Force(c)) => {
+                // linear across a pressure of zero, where no logarithm is
+                let of_logarithms = (c / b).ln() / (b / a).ln();
+                if of_logarithms.is_nan() { (c - b) / (b - a) } else { of_logarithms }
+            }
             (
                 Control::Spring { stiffness: k, rest: a },
                 Control::Spring { stiffness: l, rest: b },
@@ -155,14 +181,25 @@ where
             ) if k == l && l == m => (c - b) / (b - a),
             _ => f64::NAN,
         };
-        let (_, before) = self.history.remove(0);
-        let last = &self.history[0].1;
-        if !(steps.is_finite() && self.problem.law.hints().zero && before.dim() == last.dim()) {
-            return Some(last.clone());
+        let (before, last) = (&before.1, &last.1);
+        let on_branch = self.problem.law.hints().zero || steps >= 0.0;
+        if !(steps.is_finite() && on_branch && before.dim() == last.dim()) {
+            return None;
         }
         let least = Potential::new(&self.problem.law, &self.solver.constraint, None).least();
         let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
-        Some(extrapolated([&before, last], steps.clamp(-FARTHEST, FARTHEST), least, on))
+        Some(extrapolated([before, last], steps.clamp(-FARTHEST, FARTHEST), (least, true), on))
+    }
+
+    /// Whether two gaps have led to the next one, without a jump: their extrapolation is closer to it than the second.
+    fn foretells(&self, [earlier, before]: [&(Control, Array2<T>); 2], last: &(Control, Array2<T>)) -> bool {
+        let foretold = self.ahead([earlier, before], last.0).filter(|gap| gap.dim() == last.1.dim());
+        let Some(foretold) = foretold else { return false };
+        let apart = |gap: &Array2<T>| {
+            let square = |a: T, b: T| (a - b).widen().powi(2);
+            self.problem.operator.grid().mean_of_both(gap.view(), last.1.view(), square).sqrt()
+        };
+        apart(&foretold) < FORETOLD * apart(&before.1)
     }
 }
 

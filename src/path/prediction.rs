@@ -49,7 +49,7 @@ where
                 let steps = self.course.extrapolation(target).clamp(-FARTHEST, FARTHEST);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
                 let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
-                extrapolated([before, last], steps, self.least(), on)
+                extrapolated([before, last], steps, (self.least(), false), on)
             }
             [.., last] => last.clone(),
             [] => Array2::zeros(self.problem.operator.grid().field_shape()),

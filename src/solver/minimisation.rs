@@ -54,6 +54,8 @@ pub(super) enum Nearness {
     Afar,
     /// the contacts of another load, whose stiffness and places are like those of the solution
     Loaded,
+    /// all but the edges of the contacts, where they move from load to load
+    Ahead,
     /// all but the short waves at the edges of the contacts
     Near,
 }

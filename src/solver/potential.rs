@@ -29,6 +29,11 @@ impl<T: Real> Least<T> {
         Self { rest: T::infinity(), share: T::zero(), depth: T::infinity() }
     }
 
+    /// Whether a wall at zero gap is all that bounds the gap.
+    pub(crate) fn is_wall(self) -> bool {
+        [self.rest, self.share, self.depth] == [T::zero(); 3]
+    }
+
     #[inline(always)]
     pub(crate) fn after(self, gap: T) -> T {
         if gap > self.rest { self.rest } else { self.share * gap - self.depth }

@@ -324,7 +324,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
         }
         // near the solution the best lengths scatter: damp their changes
-        let ratio = if self.steps.nearness == Nearness::Near { best.sqrt() } else { best };
+        let ratio = if self.steps.nearness >= Nearness::Ahead { best.sqrt() } else { best };
         let (least, most) = if yielded { ADAPT_YIELDING } else { ADAPT };
         self.steps.step_length *= ratio.clamp(least, most);
         let (scale, slope, square) = (trial.scale, trial.slope, trial.square);

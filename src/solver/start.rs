@@ -8,7 +8,9 @@ use super::potential::{Least, bounded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
+use crate::field::{Partial, read, write};
 use crate::grid::Grid;
+use crate::par::Parts;
 use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 
@@ -61,6 +63,8 @@ pub(crate) enum Begin<'a, T> {
     Prolonged(Array2<T>),
     /// At the gap of another load or of a part, on the operator's grid.
     Found(Array2<T>),
+    /// At a gap to which those of other loads lead, on the operator's grid.
+    Ahead(Array2<T>),
 }
 
 impl<T> Begin<'_, T> {
@@ -72,6 +76,7 @@ impl<T> Begin<'_, T> {
         match self {
             Self::At(Start::Near(_)) | Self::Prolonged(_) => Nearness::Near,
             Self::Found(_) => Nearness::Loaded,
+            Self::Ahead(_) => Nearness::Ahead,
             Self::At(Start::Default | Start::From(_)) | Self::On(_) => Nearness::Afar,
         }
     }
@@ -98,7 +103,7 @@ pub(super) fn given_start<T: Real>(
         Begin::At(Start::Default) | Begin::On(_) => return Ok(None),
         Begin::At(Start::From(gap)) => (gap.view().into(), false),
         Begin::At(Start::Near(gap)) => (gap.into(), false),
-        Begin::Prolonged(gap) | Begin::Found(gap) => (gap.into(), true),
+        Begin::Prolonged(gap) | Begin::Found(gap) | Begin::Ahead(gap) => (gap.into(), true),
     };
     let start = match window {
         Some(window) if !whole => window.start(given.view())?.into(),
@@ -132,19 +137,30 @@ pub(super) fn given_start<T: Real>(
 }
 
 /// The gap so many steps beyond the last of two, on the operator's grid; nodes come no closer than they may in a step.
+///
+/// Over `long` steps the power 3/4 of the gap is extrapolated at a wall. Beside a contact, whose edge moves with the load,
+/// the gap grows as the power 3/2 of the distance from the edge, and elsewhere it is smooth in the load.
 pub(crate) fn extrapolated<T: Real>(
     [before, last]: [&Array2<T>; 2],
     steps: f64,
-    least: Least<T>,
+    (least, long): (Least<T>, bool),
     (window, grid): (Option<&Window>, Grid),
 ) -> Array2<T> {
     let (steps, mut next) = (T::lit(steps), last.clone());
-    for ((gap, &before), node) in next.iter_mut().zip(before).zip(grid.first_node()..) {
-        let wanted = *gap + steps * (*gap - before);
-        let feasible = bounded(least, *gap, wanted);
-        let free = wanted < feasible && window.is_some_and(|window| !window.faces(node));
-        *gap = if free { wanted } else { feasible };
-    }
+    let power = |gap: T| gap.sqrt() * gap.sqrt().sqrt();
+    let bends = long && least.is_wall();
+    grid.reducer().run(write(&mut next).zip(read(before)), |first, (gaps, before)| {
+        for ((gap, &before), node) in gaps.iter_mut().zip(before).zip(first..) {
+            let straight = *gap + steps * (*gap - before);
+            // not a number below the wall, where the gap of a free half-space is that to no surface
+            let bent = power(*gap) + steps * (power(*gap) - power(before));
+            let wanted = if bends && bent > T::zero() { bent * bent.cbrt() } else { straight };
+            let feasible = bounded(least, *gap, wanted);
+            let free = wanted < feasible && window.is_some_and(|window| !window.faces(node));
+            *gap = if free { wanted } else { feasible };
+        }
+        Partial::NONE
+    });
     next
 }
 
