@@ -3,7 +3,7 @@
 //! `cargo run --release -p asperity-examples --example timed`
 //!
 //! `seconds` counts from the heights in memory to the solution in memory, `solve` only the solve without the
-//! construction of operator and problem. `peak` is the largest resident memory of the process, in bytes, from before
+//! construction of operator and problem; `processor` is the processor's time of `seconds`, that of all threads. `peak` is the largest resident memory of the process, in bytes, from before
 //! the repetition to its end (Linux only). `benches/peers` runs this against other programs.
 
 use std::fs;
@@ -19,6 +19,7 @@ use asperity_maps::io::{read_field, write_npy};
 use clap::{ArgGroup, Parser, ValueEnum};
 use common::arguments::{self, Precision};
 use common::{Outcome, memory};
+use cpu_time::ProcessTime;
 use ndarray::Array2;
 use serde_json::json;
 
@@ -150,7 +151,7 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     };
     for _ in 0..options.repeat {
         forget_peak();
-        let begin = Instant::now();
+        let (begin, busy) = (Instant::now(), ProcessTime::now());
         let (solution, seconds) = match method {
             Method::Default | Method::Single => run::<T, H, L>(surface, law, control, settings, None)?,
             Method::Nested => nested::<T, H, L>(surface, law, control, settings)?,
@@ -167,11 +168,12 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
                 (solution, seconds + more)
             }
         };
-        let (total, peak) = (begin.elapsed().as_secs_f64(), memory::peak());
+        let (total, processor, peak) = (begin.elapsed(), busy.elapsed(), memory::peak());
         let report = &solution.report;
         let line = json!({
-            "seconds": total,
+            "seconds": total.as_secs_f64(),
             "solve": seconds,
+            "processor": processor.as_secs_f64(),
             "area": report.contact_fraction,
             "mean_gap": report.mean_gap,
             "mean_pressure": report.mean_pressure,

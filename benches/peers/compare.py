@@ -2,7 +2,7 @@
 """asperity beside FFTW, SciPy, aspher, Tamaas and ContactMechanics, on the same heights, in one run; prints Markdown tables.
 
     benches/peers/setup.sh                       (once)
-    benches/peers/compare.py [--quick] [--rows application,wall,adhesion,free]
+    benches/peers/compare.py [--quick] [--rows application,wall,adhesion,free] [--csv FILE]
 
 Rules
 -----
@@ -10,7 +10,8 @@ Rules
    process and the peer's take turns (ours, theirs, ours, theirs ...). The ratio is formed within each round;
    the tables give the median of the ratios and, in brackets, the least and the largest.
 2. Solves: the time counts from the heights in memory to the solution in memory, on both sides, with the construction of
-   operators, plans and problem; without start-up of the process and reading of the file. Applications: warm, plans made
+   operators, plans and problem; without start-up of the process and reading of the file. It is the time of the
+   processor, which other programs on the machine change less than that of the clock. Applications: warm, plans made
    before (FFTW_MEASURE), the median of many in each process. Of several builds of FFTW the fastest counts, row by row.
 3. Solves are compared at equal true error, not at equal tolerance, for no two programs mean the same by it. The reference
    is our solution at a tolerance of 1e-12 (or as low as it gets), cross-checked with the tightest of each peer. Two errors of
@@ -21,10 +22,12 @@ Rules
 4. Level "certified 1e-6": we have to certify the relative error in the energy norm by ourselves (tolerance 1e-6); for
    the peer it is enough that its true error is below 1e-6, of which it need not know.
 5. Where the tightest solution of a peer differs from the reference by more than 1e-3 in either measure, the run fails.
-6. All rows are printed, whoever wins. A ratio above 1 means that asperity is faster.
+6. All rows are printed, whoever wins. A ratio above 1 means that asperity is faster. --csv writes every single
+   measurement.
 """
 
 import argparse
+import csv
 import datetime
 import json
 import os
@@ -67,9 +70,17 @@ LEVELS = {
 }
 
 
+# what is kept of a measurement; round 0 is that of a ladder
+COLUMNS = "table nodes given program tolerance round seconds processor area_error energy_error peak status".split()
+
+
 class Bench:
     def __init__(self, options):
         self.options = options
+        self.rows = None
+        if options.csv:
+            self.rows = csv.DictWriter(open(options.csv, "w", newline="", buffering=1), COLUMNS, lineterminator="\n")
+            self.rows.writeheader()
         self.peers = options.peers.resolve()
         self.python = self.peers / "venv/bin/python"
         self.disagreement = False
@@ -103,6 +114,13 @@ class Bench:
                 sys.exit(f"{lines}\n{done.stderr}")
             reports += map(json.loads, done.stdout.splitlines())
         return reports
+
+    def keep(self, report, **row):
+        """Writes a measurement."""
+        if self.rows:
+            report = {name: report[name] for name in ("seconds", "processor", "peak", "status") if name in report}
+            digits = {name: f"{value:.4g}" for name, value in (report | row).items() if isinstance(value, float)}
+            self.rows.writerow(report | row | digits)
 
     def heights(self, n):
         path = self.work / f"{n}.npy"
@@ -144,12 +162,17 @@ def log(*words):
     print(*words, file=sys.stderr, flush=True)
 
 
-def median(reports, name="seconds"):
-    return statistics.median(report[name] for report in reports)
+def seconds(report):
+    """The processor's time of a solve, and the clock's of an application."""
+    return report.get("processor", report["seconds"])
+
+
+def median(reports, value=seconds):
+    return statistics.median(map(value, reports))
 
 
 def ratio(ours, theirs):
-    ratios = [b["seconds"] / a["seconds"] for a, b in zip(ours, theirs)]
+    ratios = [seconds(b) / seconds(a) for a, b in zip(ours, theirs)]
     if len(ratios) == 1:
         return f"**{ratios[0]:.2f}** (one run)"
     return f"**{statistics.median(ratios):.2f}** ({min(ratios):.2f}–{max(ratios):.2f})"
@@ -187,6 +210,10 @@ def application(bench):
     for n, precision, names in cases:
         mine, reports = reports[: len(names) * (rounds + 1)], reports[len(names) * (rounds + 1) :]
         found = {name: mine[len(names) + i :: len(names)] for i, name in enumerate(names)}
+        for name, timed in found.items():
+            program = {"ours": "asperity"}.get(name, name if name == "scipy" else f"FFTW {name}")
+            for i, report in enumerate(timed):
+                bench.keep(report, table="application", nodes=n, given=precision, program=program, round=i + 1)
         squares = [found[name][0]["check"] for name in ("ours", "scipy")]
         if abs(squares[0] / squares[1] - 1) > 1e-3:
             sys.exit(f"the applications of asperity and SciPy differ at {n}: {squares}")
@@ -215,6 +242,8 @@ def application(bench):
 
 class Case:
     """A problem on one grid, with its reference solution."""
+
+    table = "wall"
 
     def __init__(self, bench, n, problem):
         import numpy as np
@@ -261,8 +290,8 @@ class Case:
         reference = self.bench.work / "reference.npy"
         todo = [(self.bench.ours(self.heights, self.settings("f64", "1e-12"), reference), (self.n / 512) ** 2)]
         path = lambda i, tolerance: self.bench.work / f"solution-{i}-{tolerance}.npy"
-        for i, (_, command, tolerances, seconds) in enumerate(ladders):
-            todo += [(command(tolerance, path(i, tolerance)), seconds) for tolerance in tolerances]
+        for i, (_, command, tolerances, about) in enumerate(ladders):
+            todo += [(command(tolerance, path(i, tolerance)), about) for tolerance in tolerances]
         self.reference, *reports = self.bench.run(todo)
         log(self.n, "reference:", self.reference)
         self.pressure = self.np.load(reference)
@@ -274,13 +303,22 @@ class Case:
                 report = reports.pop(0)
                 errors = self.errors(report, path(i, tolerance))
                 path(i, tolerance).unlink()
-                steps[-1].append((tolerance, command(tolerance), report, errors))
-                log(f"{self.n} {name} {tolerance}: {report['seconds']:.3f} s, {report['status']},", errors)
+                steps[-1].append((tolerance, command(tolerance), report, errors, name))
+                self.keep(steps[-1][-1], report, 0)
+                log(f"{self.n} {name} {tolerance}: {seconds(report):.3f} s, {report['status']},", errors)
         return steps
+
+    def keep(self, step, report, round):
+        """Writes a measurement of a step."""
+        tolerance, _, _, errors, program = step
+        table = "adhesion" if "work" in self.problem else self.table
+        given = next(name for name in ("pressure", "gap", "approach") if name in self.problem)
+        row = dict(table=table, nodes=self.n, given=given, program=program, tolerance=tolerance, round=round)
+        self.bench.keep(report, **row, area_error=errors["area"], energy_error=errors["energy"])
 
     def agreement(self, steps):
         """How far the tightest of a peer is from the reference, as words."""
-        tolerance, _, _, errors = steps[-1]
+        tolerance, _, _, errors, _ = steps[-1]
         self.bench.disagreement |= errors["area"] > 1e-3 or errors["energy"] > 1e-3
         nodes = round(errors["area"] * self.reference["area"] * self.n**2)
         return f"contact areas differ by {nodes} nodes, pressures by {errors['energy']:.0e} (its tolerance {tolerance})"
@@ -288,6 +326,8 @@ class Case:
 
 class FreeCase(Case):
     """A rough sphere on a free half-space."""
+
+    table = "free"
 
     def __init__(self, bench, n, problem):
         super().__init__(bench, n, problem | {"boundary": "free"})
@@ -327,7 +367,7 @@ def chosen(steps, error, limit):
 
 
 def cell(step, reports):
-    tolerance, _, _, errors = step
+    tolerance, _, _, errors, _ = step
     return f"{median(reports):.3g} s ({tolerance}; {errors['area']:.0e}, {errors['energy']:.0e})"
 
 
@@ -337,7 +377,7 @@ def compared(case, wanted):
     for ours, modes, (name, error, limit), rounds in wanted:
         mine = ours[-1] if name.startswith("certified") else chosen(ours, error, limit)
         candidates = [step for step in (chosen(steps, error, limit) for steps in modes) if step]
-        peer = min(candidates, key=lambda step: step[2]["seconds"], default=None)
+        peer = min(candidates, key=lambda step: seconds(step[2]), default=None)
         rounds = rounds if mine and peer else 0
         found.append((name, mine, peer, rounds))
         if rounds:
@@ -346,6 +386,9 @@ def compared(case, wanted):
     for name, mine, peer, rounds in found:
         both, reports = reports[: 2 * rounds], reports[2 * rounds :]
         first, second = both[::2], both[1::2]
+        for step, reports_of in ((mine, first), (peer, second)):
+            for i, report in enumerate(reports_of):
+                case.keep(step, report, i + 1)
         cells = [cell(step, times or [step[2]]) if step else "not reached" for step, times in ((mine, first), (peer, second))]
         rows.append(([name, *cells, ratio(first, second) if rounds else "–"], first, second))
         log(case.n, rows[-1][0])
@@ -392,8 +435,8 @@ def wall(bench):
     for n, precision, level, first, second in memory:
         field = n * n * (8 if precision == "f64" else 4)
         mib = lambda size: f"{size / 2**20:.0f} ({size / field:.1f})"
-        base = median(second, "base")
-        a, b = median(first, "peak"), median(second, "peak")
+        of = lambda reports, name: statistics.median(report[name] for report in reports)
+        base, a, b = of(second, "base"), of(first, "peak"), of(second, "peak")
         lines.append([f"{n}²", precision, level, mib(a), mib(b), mib(b - base), f"**{(b - base) / a:.2f}**"])
     table(["grid", "", "level", "asperity", "aspher", "aspher less interpreter", "aspher less interpreter / asperity"], lines)
 
@@ -429,22 +472,28 @@ def adhesion(bench):
 
 def free(bench):
     rows, notes, certified = [], [], CONTACT_MECHANICS[-1]
-    for n in [512] if bench.options.quick else [n for n in bench.options.sizes if n <= 1024]:
-        rounds = 3 if bench.options.quick else 5
+    for n in [512] if bench.options.quick else bench.options.sizes:
+        rounds = 3 if bench.options.quick or n > 1024 else 5
         large = n > 512
         # minutes on the large grid: one run, at the tolerance that certified 1e-6 took on the small one, or its tightest
         tolerances = [certified] if large else CONTACT_MECHANICS[1::2] if bench.options.quick else CONTACT_MECHANICS
         case = FreeCase(bench, n, {"pressure": FORCE})
         aspher = [case.aspher(*mode) for mode in ASPHER["f64"]]
-        ours, *theirs, slow = case.climb([case.ours("f64"), *aspher, case.contact_mechanics(tolerances)])
-        certified = (chosen(slow, "energy", 1e-6) or slow[-1])[0]
+        ladders = [case.ours("f64"), *aspher] + ([case.contact_mechanics(tolerances)] if n <= 1024 else [])
+        ours, *theirs = case.climb(ladders)
+        slow = theirs.pop() if n <= 1024 else None
         notes.append(
             f"{n}²: reference {100 * case.reference['area']:.4f} % contact, certified to "
-            f"{case.reference['relative_error']:.0e}; aspher: {case.agreement(theirs[0])}; "
-            f"ContactMechanics: {case.agreement(slow)}"
+            f"{case.reference['relative_error']:.0e}; aspher: {case.agreement(theirs[0])}"
         )
         wanted = [(ours, theirs, level, rounds) for level in LEVELS["f64"]]
         found = [("force", "aspher", row) for row, _, _ in compared(case, wanted)]
+        rows += [[f"{n}²", *cells, *row] for *cells, row in found]
+        if not slow:
+            continue
+        certified = (chosen(slow, "energy", 1e-6) or slow[-1])[0]
+        notes[-1] += f"; ContactMechanics: {case.agreement(slow)}"
+        found = []
         # and at the approach of that force
         for held in ("force", "approach"):
             if held == "approach":
@@ -488,6 +537,7 @@ def main():
     sizes = lambda text: [int(n) for n in text.split(",")]
     parser.add_argument("--sizes", type=sizes, default=[128, 256, 512, 1024, 2048], help="nodes along a side, of the solves")
     parser.add_argument("--rows", default="application,wall,adhesion,free", help="which tables")
+    parser.add_argument("--csv", type=Path, help="a file for every single measurement")
     parser.add_argument("--prefix", default="", help="a command to run every measurement under, such as 'taskset -c 1'")
     ours = "further options for every solve of examples/timed.rs, as in --ours=--method=nested"
     parser.add_argument("--ours", default="", help=ours)
