@@ -5,8 +5,8 @@
 
 Run it by the Python of the peers (setup.sh) with asperity installed in it. Each scene is a surface of its own under a
 mean pressure on a hard wall, to a certified or reached 1e-6, from heights in memory to the contact fraction. asperity
-takes one thread a scene, one scene after the other or two at a time; aspher takes one. The rounds take turns. The time of
-the processor counts, which other programs on the machine change less than that of the clock.
+takes one thread a scene, one scene after the other or two at a time; aspher takes all cores for a scene. The rounds take
+turns. The time of the processor shows what each one takes of the cores.
 """
 
 import csv
