@@ -9,7 +9,7 @@ use crate::adhesion::{AdhesionLaw, Values, noticeable};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::real::Real;
+use crate::real::{Real, compiled};
 use crate::solver::Solution;
 
 use outline::Outline;
@@ -86,7 +86,7 @@ fn attracting<T: Real>(
     contact: &Array2<bool>,
     gap: ArrayView2<'_, T>,
     grid: &Grid,
-    law: &impl AdhesionLaw<T>,
+    law: &dyn AdhesionLaw<T>,
 ) -> Vec<bool> {
     if law.hints().zero {
         return vec![false; gap.len()];
@@ -210,6 +210,16 @@ impl ContactStatistics {
         (boundary, modulus): (Boundary, f64),
         law: &impl AdhesionLaw<T>,
     ) -> Result<Self> {
+        statistics(gap, contact_pressure, grid, (boundary, modulus), law)
+    }
+
+    fn count<T: Real>(
+        gap: ArrayView2<'_, T>,
+        contact_pressure: ArrayView2<'_, T>,
+        grid: &Grid,
+        (boundary, modulus): (Boundary, f64),
+        law: &dyn AdhesionLaw<T>,
+    ) -> Result<Self> {
         check(gap, contact_pressure, grid)?;
         let contact = contact_map(gap, contact_pressure);
         let facing = grid.total(gap.iter().filter(|gap| gap.is_finite()).count());
@@ -234,4 +244,11 @@ impl ContactStatistics {
             patches: patch::patches(law, grid, nodes),
         })
     }
+}
+
+compiled! {
+    fn statistics<'a, T>(
+        gap: ArrayView2<'a, T>, contact_pressure: ArrayView2<'a, T>, grid: &'a Grid, body: (Boundary, f64),
+        law: &'a dyn AdhesionLaw<T>
+    ) -> Result<ContactStatistics> = ContactStatistics::count
 }

@@ -10,7 +10,7 @@ use num_traits::Zero;
 
 use crate::error::{Error, Result};
 use crate::par::{self, Parts, Pool};
-use crate::real::{Compiled, Real};
+use crate::real::{Compiled, Real, compiled};
 use crate::slab::{Slab, TILE};
 
 mod analysis;
@@ -79,8 +79,14 @@ impl<T: Real> fmt::Debug for Convolver<T> {
 
 impl<T: Real> Clone for Convolver<T> {
     fn clone(&self) -> Self {
-        Self::planned(self.slab, self.layout, self.rows.clone(), self.columns.clone())
+        planned(self.slab, self.layout, self.rows.clone(), self.columns.clone())
     }
+}
+
+compiled! {
+    fn planned<T>(
+        slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>
+    ) -> Convolver<T> = Convolver::planned
 }
 
 impl<T: Real> Convolver<T> {
@@ -90,7 +96,7 @@ impl<T: Real> Convolver<T> {
 
     fn with(slab: Slab, layout: Layout) -> Self {
         let (n0, n1) = layout.plane();
-        Self::planned(slab, layout, T::call::<Plan>(n1), T::call::<Plan>(n0))
+        planned(slab, layout, T::call::<Plan>(n1), T::call::<Plan>(n0))
     }
 
     fn planned(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {

@@ -25,7 +25,7 @@ mod transfer;
 use hierarchy::{coarsened, coarser};
 pub use level::Level;
 pub(crate) use level::equivalent_applications;
-pub(crate) use transfer::{Deformed, Touching};
+pub(crate) use transfer::{Deformed, Touching, deformed, prolonged};
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
@@ -215,7 +215,7 @@ impl<C> Nested<C> {
         let (mut levels, coarser) = self.solve_coarser(surface, &mut operator, &law, control, &mut watch)?;
         let mut half_space = operator(finest)?;
         let (rigid, touching) = (self.solver.constraint.wall().is_rigid(), Touching::of(self.solver.constraint.wall()));
-        let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), touching));
+        let prolonged = coarser.map(|coarser| prolonged(coarser, surface, half_space.grid(), touching));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(&finest, iteration);
         let part = match &prolonged {
@@ -235,7 +235,7 @@ impl<C> Nested<C> {
         let begin = match (part.filter(|part| part.leads(unique)), prolonged) {
             (Some(part), _) => {
                 spent += 1;
-                Begin::Found(part.whole(&mut problem)?)
+                Begin::Found(part::whole(part, problem.parts())?)
             }
             (None, Some(prolonged)) => Begin::Prolonged(prolonged),
             (None, None) => default,
@@ -286,7 +286,8 @@ impl<C> Nested<C> {
             if problem.mu_rho() > Report::RESOLVED_MU_RHO {
                 continue;
             }
-            let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), touching));
+            let prolonged =
+                coarser.take().map(|coarser| prolonged(coarser, &coarse, problem.operator.grid(), touching));
             let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
             let mut smoothed = false;
             let Solved { solution, whole, .. } =
@@ -306,7 +307,7 @@ impl<C> Nested<C> {
             let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED && report.status != Status::Detached {
-                coarser = Some(Deformed::of(&coarse, gap, whole));
+                coarser = Some(deformed(&coarse, gap, whole));
             }
         }
         Ok((levels, coarser))

@@ -17,6 +17,7 @@ mod yielded;
 pub use control::Control;
 pub(crate) use control::Load;
 pub(crate) use flat::PressedFlat;
+use flat::pressed_flat;
 pub(crate) use window::Window;
 pub(crate) use yielded::Yielded;
 
@@ -44,10 +45,18 @@ pub struct Problem<T, O, L> {
     pub(crate) flat: PressedFlat<T>,
 }
 
+/// A problem whose operator and law are of any kind.
 pub(crate) struct Parts<'a, T> {
     pub(crate) operator: &'a mut dyn ElasticOperator<T>,
     pub(crate) law: &'a dyn AdhesionLaw<T>,
     pub(crate) flat: &'a PressedFlat<T>,
+}
+
+impl<T: Real> Parts<'_, T> {
+    /// The grid of the surface.
+    pub(crate) fn grid(&self) -> &Grid {
+        self.flat.window.as_ref().map_or(self.operator.grid(), Window::grid)
+    }
 }
 
 /// A law with its jumps smoothed to the resolution of an operator's grid; `None` if it has no jumps.
@@ -69,7 +78,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// [`Error::Shared`](crate::Error::Shared) if only one of surface and operator is shared between processes, or the
     /// operator does not take slabs; [`Error::Memory`](crate::Error::Memory) if there is too little for a solve.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
-        let flat = PressedFlat::of(surface, &mut operator, &law)?;
+        let flat = pressed_flat(surface, &mut operator, &law)?;
         Ok(Self { operator, law, flat })
     }
 

@@ -41,6 +41,28 @@ pub trait Compiled {
     fn double(input: Self::Input<f64>) -> Self::Output<f64>;
 }
 
+/// Declares a function that calls a generic one of the same arguments as it is [compiled](Compiled) with this crate.
+macro_rules! compiled {
+    ($(#[$doc:meta])* $see:vis fn $name:ident<$($a:lifetime,)* T>($($arg:ident: $of:ty),*) -> $value:ty = $generic:path) => {
+        $(#[$doc])*
+        $see fn $name<$($a,)* T: $crate::real::Real>($($arg: $of),*) -> $value {
+            struct Call<$($a),*>($(std::marker::PhantomData<&$a ()>),*);
+            impl<$($a),*> $crate::real::Compiled for Call<$($a),*> {
+                type Input<T: $crate::real::Real> = ($($of,)*);
+                type Output<T: $crate::real::Real> = $value;
+                fn single(($($arg,)*): Self::Input<f32>) -> Self::Output<f32> {
+                    $generic($($arg),*)
+                }
+                fn double(($($arg,)*): Self::Input<f64>) -> Self::Output<f64> {
+                    $generic($($arg),*)
+                }
+            }
+            T::call::<Call<$($a),*>>(($($arg,)*))
+        }
+    };
+}
+pub(crate) use compiled;
+
 impl Real for f32 {
     const NAME: &'static str = "f32";
     #[inline]

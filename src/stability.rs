@@ -13,9 +13,9 @@ use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Partial, flat, write};
 use crate::grid::Grid;
-use crate::par::{self, Parts};
-use crate::problem::{Control, Problem, Window, smoothed_law};
-use crate::real::Real;
+use crate::par::{self, Parts as _};
+use crate::problem::{Control, Parts, Problem, Window, smoothed_law};
+use crate::real::{Real, compiled};
 use crate::setters::setters;
 use crate::solver::{Of, Potential, Solution, check_wall, refuse_hardness};
 
@@ -33,7 +33,7 @@ pub use edge::EdgeError;
 use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
 pub use stiffness::ContactStiffness;
-pub(crate) use watch::{Saddle, Watch};
+pub(crate) use watch::{Saddle, Watch, saddle};
 
 /// The verdict on an equilibrium: stable, unstable, or undecided.
 #[non_exhaustive]
@@ -199,7 +199,7 @@ impl StabilityTest {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
-        solution.check(problem, constraint)?;
+        solution.check(&problem.parts(), constraint)?;
         let control = self.control.unwrap_or(solution.report.control);
         self.of_gap(problem, constraint, control, &solution.gap, solution.report.relative_error)
     }
@@ -222,24 +222,36 @@ impl StabilityTest {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
+        judge(self, problem.parts(), constraint, control, gap, relative_error)
+    }
+
+    fn judge<T: Real>(
+        &self,
+        problem: Parts<'_, T>,
+        constraint: &dyn ContactConstraint<T>,
+        control: Control,
+        gap: &Array2<T>,
+        relative_error: f64,
+    ) -> Result<Stability<T>> {
         Error::positive("tolerance", self.tolerance)?;
-        check_gap(problem, constraint, gap)?;
+        check_gap(&problem, constraint, gap)?;
         // the value of a mean gap is that of the solution, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
-        let (load, window) = (problem.flat.load(kind, constraint.wall())?, problem.flat.window.as_ref());
-        let smoothed = smoothed_law(&problem.operator, &problem.law);
-        let law = smoothed.as_deref().unwrap_or(&problem.law);
-        let slopes = slopes(gap, (law, constraint), (problem.operator.grid(), window))?;
+        let Parts { operator, law, flat } = problem;
+        let (load, window) = (flat.load(kind, constraint.wall())?, flat.window.as_ref());
+        let smoothed = smoothed_law(&*operator, law);
+        let law = smoothed.as_deref().unwrap_or(law);
+        let slopes = slopes(gap, (law, constraint), (operator.grid(), window))?;
         let smoothed = smoothed.is_some();
-        let hessian = Hessian::new(&mut problem.operator, slopes, load);
-        let mut stability = par::within(|| self.judge(hessian, control, relative_error, smoothed))?;
+        let hessian = Hessian::new(operator, slopes, load);
+        let mut stability = par::within(|| self.verdict(hessian, control, relative_error, smoothed))?;
         if let Some(window) = window {
             stability.mode = window.crop(&stability.mode, T::zero());
         }
         Ok(stability)
     }
 
-    fn judge<T: Real>(
+    fn verdict<T: Real>(
         &self,
         mut hessian: Hessian<'_, T>,
         control: Control,
@@ -280,19 +292,21 @@ impl StabilityTest {
     }
 }
 
-fn check_gap<T, O, L>(problem: &Problem<T, O, L>, constraint: &dyn ContactConstraint<T>, gap: &Array2<T>) -> Result<()>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-{
+compiled! {
+    fn judge<'a, T>(
+        test: &'a StabilityTest, problem: Parts<'a, T>, constraint: &'a dyn ContactConstraint<T>, control: Control,
+        gap: &'a Array2<T>, relative_error: f64
+    ) -> Result<Stability<T>> = StabilityTest::judge
+}
+
+fn check_gap<T: Real>(problem: &Parts<'_, T>, constraint: &dyn ContactConstraint<T>, gap: &Array2<T>) -> Result<()> {
     problem.grid().fits("gap", gap.dim())?;
     if problem.flat.window.is_none() {
         problem.grid().finite("gap", gap.view())?;
     }
     let yields = "a surface that yields is not that of an energy: it does not come back where the load is taken away";
     refuse_hardness(constraint.wall(), yields)?;
-    check_wall(&problem.law, constraint.wall())?;
+    check_wall(problem.law, constraint.wall())?;
     let negative = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero());
     let refused = negative.map_or(Ok(()), |gap| {
         let requirement =

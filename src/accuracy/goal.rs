@@ -7,7 +7,7 @@ use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{Deformed, Level, Nested, Touching, equivalent_applications};
+use crate::nested::{Level, Nested, Touching, deformed, equivalent_applications, prolonged};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::setters::setters;
@@ -312,7 +312,8 @@ impl<C> Accuracy<C> {
             }
             let fine = refined(&surface, periodic)?;
             let touching = Touching::of(self.nested.solver.constraint.wall());
-            let start = Deformed::of(&surface, solution.gap, whole).prolonged(&fine, half_space.grid(), touching);
+            let coarse = deformed(&surface, solution.gap, whole);
+            let start = prolonged(coarse, &fine, half_space.grid(), touching);
             let mut problem = Problem::new(&fine, half_space, law)?;
             let grid = *fine.grid();
             let begin = Begin::Prolonged(start);

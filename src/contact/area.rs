@@ -4,7 +4,7 @@ use ndarray::{ArrayView1, ArrayView2};
 
 #[cfg(doc)]
 use super::ContactStatistics;
-use super::outline::{Edge, Outline};
+use super::outline::{self, Edge, Outline};
 use super::{check, contact_map};
 use crate::elastic::Boundary;
 use crate::error::Result;
@@ -79,10 +79,10 @@ impl ContactArea {
     }
 
     /// The area within the edge of a contact, of whose nodes so many face the half-space.
-    pub(super) fn within_edge<T: Real>(outline: &Outline<'_, T>, facing: usize) -> Self {
+    pub(super) fn within_edge<'a, T: Real>(outline: &'a Outline<'a, T>, facing: usize) -> Self {
         let &Outline { map, grid, periodic, modulus, .. } = outline;
         let known = modulus.is_finite() && modulus > 0.0;
-        let edge = |along| if known { outline.edge() } else { edge_of_map(along, grid) };
+        let edge = |along| if known { outline::edge(outline) } else { edge_of_map(along, grid) };
         Self::within(map, grid, periodic, facing, edge)
     }
 

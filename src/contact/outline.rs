@@ -6,7 +6,7 @@ use ndarray::ArrayView2;
 
 use super::places::Places;
 use crate::grid::Grid;
-use crate::real::Real;
+use crate::real::{Real, compiled};
 
 /// κ: the gap of the next free node per pressure of the last node in contact, over Δ/E*.
 const SOFTNESS: f64 = 2.0 * E / PI;
@@ -74,8 +74,12 @@ struct Cut {
     kink: f64,
 }
 
+compiled! {
+    pub(super) fn edge<'a, T>(outline: &'a Outline<'a, T>) -> Edge = Outline::edge
+}
+
 impl<T: Real> Outline<'_, T> {
-    pub fn edge(&self) -> Edge {
+    fn edge(&self) -> Edge {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
         let ((nx, columns), next) = (grid.shape(), |row| [(row + 1) % grid.shape().0]);
         let (dx, dy) = grid.spacing();

@@ -27,7 +27,7 @@ type Counts = (f64, [u64; 3]);
 /// The patches by work of adhesion, from whether each node is in contact and attracts, with nothing for absent ones.
 /// `None` if the law is the same everywhere, or of more than [`MOST`] works of adhesion.
 pub(super) fn patches<T: Real>(
-    law: &impl AdhesionLaw<T>,
+    law: &dyn AdhesionLaw<T>,
     grid: &Grid,
     nodes: impl ExactSizeIterator<Item = Option<[bool; 2]>>,
 ) -> Vec<Patch> {

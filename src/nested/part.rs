@@ -10,8 +10,8 @@ use crate::constraint::ContactConstraint;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::problem::{Control, Problem};
-use crate::real::Real;
+use crate::problem::{Control, Parts, Problem};
+use crate::real::{Real, compiled};
 use crate::solver::{Begin, Observer, Solution, Solved, Start, Status};
 use crate::surface::Surface;
 
@@ -121,6 +121,17 @@ pub(super) struct OnPart<T> {
     pub(super) applications: usize,
 }
 
+compiled! {
+    /// The gap of the whole under the pressure of the part, not negative on the window. Takes an operator application.
+    pub(super) fn whole<'a, T>(part: OnPart<T>, problem: Parts<'a, T>) -> Result<Array2<T>> = OnPart::whole
+}
+
+compiled! {
+    fn cut<'a, T>(
+        part: &'a Part, field: &'a ArrayRef2<T>, from: &'a Grid, to: &'a Grid
+    ) -> Array2<T> = Part::cut
+}
+
 impl<T: Real> OnPart<T> {
     /// Whether the solution leads to that of the whole: contact at the end of the part may go on beyond it, and a
     /// stalled solve may lead to another equilibrium, if there are several.
@@ -130,12 +141,7 @@ impl<T: Real> OnPart<T> {
         found && !report.reaches_edge
     }
 
-    /// The gap of the whole under the pressure of the part, not negative on the window. Takes an operator application.
-    pub(super) fn whole<O, L>(self, problem: &mut Problem<T, O, L>) -> Result<Array2<T>>
-    where
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-    {
+    fn whole(self, problem: Parts<'_, T>) -> Result<Array2<T>> {
         let Self { part, solution: Solution { gap, pressure, grid, .. }, .. } = self;
         let (window, to) = (problem.grid().shape(), *problem.operator.grid());
         // displacement less heights: K (p − K⁻¹h), and a constant
@@ -184,7 +190,7 @@ impl<C> Nested<C> {
         let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
         let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
         let tolerance = SHARE * self.solver.settings.tolerance_in::<T>();
-        let start = Begin::At(Start::Near(part.cut(gap, &whole, small.grid())));
+        let start = Begin::At(Start::Near(cut(&part, gap, &whole, small.grid())));
         let control = Part::control(control, surface, &small);
         let Solved { solution, .. } = self.run_to(tolerance, problem.parts(), control, start, observe)?;
         let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Begin, Observer, Solution, Solved, Start, Status};
-use crate::stability::Saddle;
+use crate::stability::{self, Saddle};
 
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
 const PERTURBATION: f64 = 0.1;
@@ -35,7 +35,7 @@ where
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
         let followed = smoothed.as_deref().unwrap_or(law);
         let gap = (&solution.gap, flat.window.as_ref());
-        self.watch.look(operator, (followed, &self.solver.constraint), gap, load)
+        stability::saddle(&mut self.watch, operator, (followed, &self.solver.constraint), gap, load)
     }
 
     /// Descends from a saddle along its mode to a state that is none, if there is one; and whether the branch led

@@ -8,7 +8,7 @@ use crate::constraint::Wall;
 use crate::elastic::{self, Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{all_finite_in, flat};
-use crate::real::Real;
+use crate::real::{Real, compiled};
 use crate::surface::Surface;
 use crate::vector::range;
 
@@ -34,13 +34,15 @@ pub(crate) struct PressedFlat<T> {
     pub(crate) yielded: Option<Yielded<T>>,
 }
 
-impl<T: Real> PressedFlat<T> {
+compiled! {
     /// Presses the surface flat against the body of the operator, if that and the law suit it.
-    pub(super) fn of(
-        surface: &Surface,
-        operator: &mut dyn ElasticOperator<T>,
-        law: &dyn AdhesionLaw<T>,
-    ) -> Result<Self> {
+    pub(super) fn pressed_flat<'a, T>(
+        surface: &'a Surface, operator: &'a mut dyn ElasticOperator<T>, law: &'a dyn AdhesionLaw<T>
+    ) -> Result<PressedFlat<T>> = PressedFlat::of
+}
+
+impl<T: Real> PressedFlat<T> {
+    fn of(surface: &Surface, operator: &mut dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<Self> {
         let abilities = operator.abilities();
         let (boundary, slabs) = (abilities.boundary, abilities.slabs);
         let (grid, expected) = match boundary {

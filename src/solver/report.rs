@@ -8,10 +8,10 @@ use ndarray::{Array2, CowArray};
 use super::{Branch, Criterion, Method};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Parts};
 use crate::real::Real;
 
 /// The status of a solve: how it ended, and how good its fields are.
@@ -294,11 +294,7 @@ impl<T: Real> Solution<T> {
     }
 
     /// Refuses to take the solution for one of a problem with another grid, body, law or wall.
-    pub(crate) fn check<O, L>(&self, problem: &Problem<T, O, L>, constraint: &dyn ContactConstraint<T>) -> Result<()>
-    where
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-    {
+    pub(crate) fn check(&self, problem: &Parts<'_, T>, constraint: &dyn ContactConstraint<T>) -> Result<()> {
         let (own, grid, wall) = (self.grid.lengths(), problem.grid(), constraint.wall().name());
         Error::shape("solution", self.grid.shape(), grid.shape())?;
         let figures = [
@@ -314,6 +310,6 @@ impl<T: Real> Solution<T> {
             let reason = "the solution was found with another wall: give the constraint of its solver";
             return Err(Error::Wall { wall, reason });
         }
-        self.check_law(&problem.law)
+        self.check_law(problem.law)
     }
 }

@@ -66,7 +66,7 @@ impl<T: Real> Stability<T> {
         refuse_springs(solver.constraint.wall())?;
         let yields = "the way from a saddle is one of an energy, and a surface that yields has none";
         refuse_hardness(solver.constraint.wall(), yields)?;
-        from.check(problem, &solver.constraint)?;
+        from.check(&problem.parts(), &solver.constraint)?;
         let (grid, control) = (from.grid, self.control);
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
         let largest = T::lit(grid.most(largest.widen()));

@@ -11,8 +11,8 @@ use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::par;
-use crate::problem::{Load, Problem, smoothed_law};
-use crate::real::Real;
+use crate::problem::{Load, Parts, Problem, smoothed_law};
+use crate::real::{Real, compiled};
 use crate::solver::Solution;
 
 /// The most iterations; some ten are usual.
@@ -112,10 +112,19 @@ impl ContactStiffness {
         L: AdhesionLaw<T>,
         C: ContactConstraint<T>,
     {
+        stiffness(problem.parts(), constraint, solution, tolerance)
+    }
+
+    fn find<T: Real>(
+        problem: Parts<'_, T>,
+        constraint: &dyn ContactConstraint<T>,
+        solution: &Solution<T>,
+        tolerance: f64,
+    ) -> Result<Self> {
         Error::positive("tolerance", tolerance)?;
-        solution.check(problem, constraint)?;
-        check_gap(problem, constraint, &solution.gap)?;
-        let Problem { operator, law, flat } = problem;
+        solution.check(&problem, constraint)?;
+        check_gap(&problem, constraint, &solution.gap)?;
+        let Parts { operator, law, flat } = problem;
         if law.hints().zero && solution.report.contact_nodes == 0 {
             return Ok(Self {
                 pressure_per_length: 0.0,
@@ -127,7 +136,7 @@ impl ContactStiffness {
             });
         }
         let window = flat.window.as_ref();
-        let smoothed = smoothed_law(operator, law);
+        let smoothed = smoothed_law(&*operator, law);
         let followed = smoothed.as_deref().unwrap_or(law);
         let slopes = slopes(&solution.gap, (followed, constraint), (operator.grid(), window))?;
         let rigid = matches!(constraint.wall(), Wall::Rigid) && window.is_none();
@@ -149,6 +158,12 @@ impl ContactStiffness {
         let edge = tangent.map(|tangent| EdgeError::of(solution, &tangent, on_grid));
         Ok(Self { pressure_per_length, force_per_length, relative_error, smoothed, operator_applications, edge })
     }
+}
+
+compiled! {
+    fn stiffness<'a, T>(
+        problem: Parts<'a, T>, constraint: &'a dyn ContactConstraint<T>, solution: &'a Solution<T>, tolerance: f64
+    ) -> Result<ContactStiffness> = ContactStiffness::find
 }
 
 /// The least ⟨v, Hv⟩ of all v that vanish on the contact and have the mean 1.

@@ -11,7 +11,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::problem::{Load, Window};
-use crate::real::Real;
+use crate::real::{Real, compiled};
 use crate::solver::{Least, Potential, bounded};
 
 /// The share of a random field added to the last mode: an antisymmetric mode has no share in a symmetric start.
@@ -41,14 +41,22 @@ pub(crate) struct Saddle {
     pub(crate) eigenvalue: f64,
 }
 
+compiled! {
+    /// Whether an equilibrium is a saddle at its mean gap, or under the spring that loads it. Costs nothing if the
+    /// softest stiffness and the least φ'' rule it out, and five or seven operator applications as a rule.
+    pub(crate) fn saddle<'a, T>(
+        watch: &'a mut Watch<T>, operator: &'a mut dyn ElasticOperator<T>,
+        local: (&'a dyn AdhesionLaw<T>, &'a dyn ContactConstraint<T>), gap: (&'a Array2<T>, Option<&'a Window>),
+        load: Load
+    ) -> Result<Option<Saddle>> = Watch::look
+}
+
 impl<T: Real> Watch<T> {
     pub(crate) fn from_mode(mode: Option<Array2<T>>) -> Self {
         Self { mode, random: None }
     }
 
-    /// Whether an equilibrium is a saddle at its mean gap, or under the spring that loads it. Costs nothing if the
-    /// softest stiffness and the least φ'' rule it out, and five or seven operator applications as a rule.
-    pub(crate) fn look(
+    fn look(
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
         (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::fft::{Layout, Sums};
 use crate::field::flat;
 use crate::grid::Grid;
-use crate::real::{Real, cast};
+use crate::real::{Real, cast, compiled};
 use crate::slab::Slab;
 use crate::vector::{BLOCK, LANES, vectorised};
 
@@ -71,8 +71,12 @@ impl<T: Real> Columns<T> {
     }
 }
 
-/// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
-pub(super) fn half_space<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
+compiled! {
+    /// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
+    pub(super) fn half_space<'a, T>(grid: &'a Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> = waves
+}
+
+fn waves<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     let unit = PI * modulus / lx;
     let softest = match (nx, ny) {
