@@ -111,7 +111,7 @@ pub struct Report {
     pub operator_applications: usize,
     /// The boundary of the elastic body.
     pub boundary: Boundary,
-    /// The contact modulus E* of the elastic body, [`ElasticOperator::modulus`].
+    /// The contact modulus E* of the elastic body, [`ElasticOperator::modulus`](crate::ElasticOperator::modulus).
     pub modulus: f64,
     /// The control that was held.
     pub control: Control,
