@@ -28,7 +28,7 @@ pub fn listen() {
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
     let _ = thread::Builder::new().spawn(move || {
         for signal in signals.forever() {
-            OutputFolder::abandon_all();
+            let _none = OutputFolder::abandon_all();
             let text = STANDING.lock().unwrap_or_else(PoisonError::into_inner);
             if !text.is_empty() {
                 // below a bar

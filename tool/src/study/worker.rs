@@ -37,7 +37,7 @@ pub fn serve(mut run: impl FnMut(Vec<OsString>) -> u8) -> Outcome<()> {
         let lines = io::stdin().lines().map_while(Result::ok);
         let sent = lines.map_while(|line| serde_json::from_str(&line).ok());
         sent.for_each(|commands| drop(sender.send(commands)));
-        OutputFolder::abandon_all();
+        let _none = OutputFolder::abandon_all();
         exit(1)
     });
     listening.map_err(|e| format!("no thread can be started ({e}): free some memory"))?;

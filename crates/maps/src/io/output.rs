@@ -80,8 +80,11 @@ impl OutputFolder {
             return Err(Error::file(existing, "is not a folder: choose another output folder"));
         }
         let unwritable = |e| Error::file(existing, format!("cannot be written ({e}): choose another output folder"));
+        // Nobody abandons it before it is known to exist.
+        let mut all = live();
         let temporary = tempfile::Builder::new().prefix(".asperity-").tempdir_in(existing).map_err(unwritable)?;
-        live().push(temporary.path().to_owned());
+        all.push(temporary.path().to_owned());
+        drop(all);
         let names = names.iter().map(|name| (*name).to_owned()).collect();
         let folder = Self { destination: path.to_owned(), names, force, temporary };
         // A temporary folder is private: the files go one level deeper, in a folder with the usual permissions.
@@ -137,7 +140,7 @@ impl OutputFolder {
     }
 
     /// Removes the temporary folders of all that this process has not committed, before it ends by a signal. What goes
-    /// on with them fails.
+    /// on with them fails. As long as the value that is returned lives, no thread makes another one.
     ///
     /// ```
     /// use asperity_maps::io::OutputFolder;
@@ -148,17 +151,22 @@ impl OutputFolder {
     /// assert!(std::fs::read_dir(parent.path())?.count() == 0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn abandon_all() {
-        for folder in live().drain(..) {
+    pub fn abandon_all() -> impl Sized {
+        let mut all = live();
+        for folder in all.drain(..) {
             // there may be files that another thread writes meanwhile
             let _ = fs::remove_dir_all(&folder).or_else(|_| fs::remove_dir_all(&folder));
         }
+        all
     }
 }
 
 impl Drop for OutputFolder {
     fn drop(&mut self) {
-        live().retain(|folder| folder != self.temporary.path());
+        let mut all = live();
+        // while it is among them, so that it goes if the process ends by a signal
+        let _ = fs::remove_dir_all(self.temporary.path());
+        all.retain(|folder| folder != self.temporary.path());
     }
 }
 
