@@ -55,7 +55,7 @@ pub(crate) struct Parts<'a, T> {
 impl<T: Real> Parts<'_, T> {
     /// The grid of the surface.
     pub(crate) fn grid(&self) -> &Grid {
-        self.flat.window.as_ref().map_or(self.operator.grid(), Window::grid)
+        self.flat.grid(self.operator.grid())
     }
 }
 
@@ -84,7 +84,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
 
     /// The grid of the surface, and of the fields of a solution.
     pub fn grid(&self) -> &Grid {
-        self.flat.window.as_ref().map_or(self.operator.grid(), Window::grid)
+        self.flat.grid(self.operator.grid())
     }
 
     /// The elastic operator.

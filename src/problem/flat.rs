@@ -8,6 +8,7 @@ use crate::constraint::Wall;
 use crate::elastic::{self, Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{all_finite_in, flat};
+use crate::grid::Grid;
 use crate::real::{Real, compiled};
 use crate::surface::Surface;
 use crate::vector::range;
@@ -124,6 +125,11 @@ impl<T: Real> PressedFlat<T> {
             padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
             yielded: None,
         })
+    }
+
+    /// The grid of the surface, of which the operator's is the `whole`.
+    pub(super) fn grid<'a>(&'a self, whole: &'a Grid) -> &'a Grid {
+        self.window.as_ref().map_or(whole, Window::grid)
     }
 
     /// A control on the operator's grid, if the problem has it. A mean gap may only be negative without a wall.
