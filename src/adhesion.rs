@@ -11,6 +11,7 @@ mod cut_off;
 mod exponential;
 mod exponentials;
 mod hints;
+mod jkr;
 mod lennard_jones;
 mod maugis_dugdale;
 mod morse;
@@ -24,6 +25,7 @@ pub use check::check_law;
 pub use cut_off::CutOff;
 pub use exponential::Exponential;
 pub use hints::Hints;
+pub use jkr::Jkr;
 pub use lennard_jones::LennardJones;
 pub use maugis_dugdale::MaugisDugdale;
 pub use morse::Morse;
@@ -44,7 +46,8 @@ const NOTICEABLE: f64 = 0.01;
 /// [`ContactConstraint`](crate::ContactConstraint) lets surfaces interpenetrate, it says how the law goes on.
 ///
 /// [`check_law`] holds a law to this contract; the page [`own_law`](crate::guide::own_law) has one in a solve. A law
-/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate) and [`adapted`](Self::adapted).
+/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate), [`on_nodes`](Self::on_nodes) and
+/// [`adapted`](Self::adapted).
 ///
 /// ```
 /// use asperity::AdhesionLaw;
@@ -100,6 +103,14 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         }
     }
 
+    /// The law on nodes of this compliance, length per pressure: for a law without a range of its own, as
+    /// [`Jkr`](crate::Jkr), which is as short there as the nodes can follow. None, the default, for a law that is the same
+    /// on every grid. [`Problem::new`](crate::Problem::new) asks, with Δx/E*, and so on each of nested grids.
+    fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
+        let _ = compliance;
+        None
+    }
+
     /// The law adapted to a discretisation; none if it is the same there, which is the default. All processes ask.
     fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let _ = to;
@@ -131,6 +142,7 @@ macro_rules! forward {
             fn slope(&self, gap: T) -> T { (**self).slope(gap) }
             fn hints(&self) -> Hints<T> { (**self).hints() }
             fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) { (**self).evaluate(first, gaps, values) }
+            fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> { (**self).on_nodes(compliance) }
             fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> { (**self).adapted(to) }
         }
     )*};
@@ -144,13 +156,18 @@ pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
     if scale.is_finite() { NOTICEABLE * scale } else { 0.0 }
 }
 
+/// The law on the nodes of a grid, if it is another one there, on a body of contact `modulus` E*.
+pub(crate) fn on_grid<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> Option<Arc<dyn AdhesionLaw<T>>> {
+    law.on_nodes(T::lit(grid.largest_spacing() / modulus))
+}
+
 /// The measure of how a grid resolves the adhesive zone on a body of contact `modulus` E*, μ_ρ = √(wΔx/E*)/ρ, with the
 /// larger of Δx and Δy.
 ///
 /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, and the equilibrium found
-/// depends on the start. Zero without adhesion.
+/// depends on the start. Zero without adhesion. A law whose range is that of the grid, [`Jkr`], has 0.29 on every one.
 pub fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
-    let hints = law.hints();
+    let hints = on_grid(law, grid, modulus).map_or_else(|| law.hints(), |law| law.hints());
     let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
     if hints.zero || w <= 0.0 || range <= 0.0 {
         return 0.0;

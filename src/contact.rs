@@ -5,7 +5,7 @@
 
 use ndarray::{Array2, ArrayView2, Zip};
 
-use crate::adhesion::{AdhesionLaw, Values, noticeable};
+use crate::adhesion::{AdhesionLaw, Values, noticeable, on_grid};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::grid::Grid;
@@ -61,7 +61,8 @@ impl<T: Real> Solution<T> {
     pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Result<Array2<Region>> {
         self.check_law(law)?;
         let contact = self.contact_map();
-        let attracts = attracting(&contact, self.gap.view(), &self.grid, law);
+        let on_grid = on_grid(law, &self.grid, self.report.modulus);
+        let attracts = attracting(&contact, self.gap.view(), &self.grid, on_grid.as_deref().unwrap_or(law));
         let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
         Ok(Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
             Some(((_, true), _)) => Region::Contact,
@@ -221,6 +222,8 @@ impl ContactStatistics {
         law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
         check(gap, contact_pressure, grid)?;
+        let on_grid = on_grid(law, grid, modulus);
+        let law = on_grid.as_deref().unwrap_or(law);
         let contact = contact_map(gap, contact_pressure);
         let facing = grid.total(gap.iter().filter(|gap| gap.is_finite()).count());
         let periodic = boundary == Boundary::Periodic;

@@ -115,7 +115,9 @@ mod world;
 pub use ndarray;
 
 #[doc(inline)]
-pub use adhesion::{AdhesionLaw, Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated};
+pub use adhesion::{
+    AdhesionLaw, Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated,
+};
 #[doc(inline)]
 pub use constraint::{ContactConstraint, Hardness, NoWall, Penalty, Projection, Uzawa};
 #[doc(inline)]

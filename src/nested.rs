@@ -231,7 +231,8 @@ impl<C> Nested<C> {
         let wall = self.solver.constraint.wall();
         let load = problem.flat.load(control, wall)?;
         let default = Begin::At(Start::Default);
-        let branch = Branch::of_start(&default, &self.solver.settings, &problem.law, (load, wall), &problem.flat)?;
+        let branch =
+            Branch::of_start(&default, &self.solver.settings, problem.law_on_grid(), (load, wall), &problem.flat)?;
         let begin = match (part.filter(|part| part.leads(unique)), prolonged) {
             (Some(part), _) => {
                 spent += 1;

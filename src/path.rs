@@ -150,9 +150,9 @@ where
     ) -> Result<Self> {
         let (legs, wall): (Vec<_>, _) = (loads.into_iter().collect(), solver.constraint.wall());
         refuse_springs(wall)?;
-        check_wall(&problem.law, wall)?;
+        check_wall(problem.law_on_grid(), wall)?;
         for load in &legs {
-            check_hardness(&problem.law, problem.flat.load(*load, wall)?, &problem.flat, wall)?;
+            check_hardness(problem.law_on_grid(), problem.flat.load(*load, wall)?, &problem.flat, wall)?;
             if problem.flat.window.is_some() && problem.flat.boundary == Boundary::Periodic {
                 let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                               solve at one load after the other, as Sweep does, or take a free half-space";
@@ -297,7 +297,7 @@ where
 
     /// The first state. The default start is an equilibrium of the law itself.
     fn first(&mut self, control: Control, start: Option<Array2<T>>, observe: Observer<'_>) -> Result<Solved<T>> {
-        let jumps = self.settings.smooth && smoothed_law(&self.problem.operator, &self.problem.law).is_some();
+        let jumps = self.settings.smooth && smoothed_law(&self.problem.operator, self.problem.law_on_grid()).is_some();
         match start {
             Some(start) => self.solve(control, Begin::At(Start::From(&start)), observe),
             None if jumps => {
@@ -333,12 +333,12 @@ where
             self.failed = true;
             return Ok(None);
         }
-        let w = self.problem.law.hints().work_of_adhesion.widen();
+        let w = self.problem.law_on_grid().hints().work_of_adhesion.widen();
         let flat = self.problem.flat.work * self.problem.flat.padding;
         // where surfaces hardly touch, the energy is the small difference of sums as large as that of flat surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
         // the tolerance's share in the energy of surfaces that are apart: only adhesion makes them jump
-        let left = if self.problem.law.hints().zero { report.tolerance.powi(2) * flat } else { 0.0 };
+        let left = if self.problem.law_on_grid().hints().zero { report.tolerance.powi(2) * flat } else { 0.0 };
         let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.course.judge(target, report, scale, noise);
@@ -351,7 +351,7 @@ where
         }
         let detached = report.status == Status::Detached;
         if self.course.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
-            let far = 2.0 * (self.problem.flat.height_span + 10.0 * self.problem.law.hints().range.widen());
+            let far = 2.0 * (self.problem.flat.height_span + 10.0 * self.problem.law_on_grid().hints().range.widen());
             let close = self.closest(self.course.end());
             self.course.leave_pressure_control((close, far), !lost, &self.settings);
             return Ok(None);

@@ -1,8 +1,11 @@
 //! The contact problem: surface, elastic operator and adhesion law, and the load control.
 
+use std::fmt;
+use std::sync::Arc;
+
 use ndarray::{Array2, ArrayView2};
 
-use crate::adhesion::{AdhesionLaw, Discretisation, mu_rho};
+use crate::adhesion::{AdhesionLaw, Discretisation, mu_rho, on_grid};
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::grid::Grid;
@@ -38,11 +41,24 @@ const SMOOTHING: f64 = 5.0;
 /// assert_eq!(solution.report.contact_nodes, 61);
 /// # Ok::<(), asperity::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Problem<T, O, L> {
     pub(crate) operator: O,
-    pub(crate) law: L,
+    law: L,
+    /// the law on the nodes of the operator, if it is another one there
+    on_nodes: Option<Arc<dyn AdhesionLaw<T>>>,
     pub(crate) flat: PressedFlat<T>,
+}
+
+impl<T: fmt::Debug, O: fmt::Debug, L: fmt::Debug> fmt::Debug for Problem<T, O, L> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { operator, law, flat, .. } = self;
+        f.debug_struct("Problem")
+            .field("operator", operator)
+            .field("law", law)
+            .field("flat", flat)
+            .finish_non_exhaustive()
+    }
 }
 
 /// A problem whose operator and law are of any kind.
@@ -78,8 +94,9 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// [`Error::Shared`](crate::Error::Shared) if only one of surface and operator is shared between processes, or the
     /// operator does not take slabs; [`Error::Memory`](crate::Error::Memory) if there is too little for a solve.
     pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
-        let flat = pressed_flat(surface, &mut operator, &law)?;
-        Ok(Self { operator, law, flat })
+        let on_nodes = on_grid(&law, operator.grid(), operator.modulus());
+        let flat = pressed_flat(surface, &mut operator, on_nodes.as_deref().unwrap_or(&law))?;
+        Ok(Self { operator, law, on_nodes, flat })
     }
 
     /// The grid of the surface, and of the fields of a solution.
@@ -92,9 +109,15 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         &self.operator
     }
 
-    /// The adhesion law.
+    /// The adhesion law, as it was given.
     pub fn law(&self) -> &L {
         &self.law
+    }
+
+    /// The adhesion law of the energy that is minimised: on the nodes of the grid where the law has no range of its
+    /// own, [`AdhesionLaw::on_nodes`], otherwise as it was given.
+    pub fn law_on_grid(&self) -> &dyn AdhesionLaw<T> {
+        self.on_nodes.as_deref().unwrap_or(&self.law)
     }
 
     /// The operator and the law, for another problem on the same grid.
@@ -147,7 +170,8 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     }
 
     pub(crate) fn parts(&mut self) -> Parts<'_, T> {
-        Parts { operator: &mut self.operator, law: &self.law, flat: &self.flat }
+        let law = self.on_nodes.as_deref().unwrap_or(&self.law);
+        Parts { operator: &mut self.operator, law, flat: &self.flat }
     }
 
     /// The measure μ_ρ of how the grid resolves the adhesive zone: [`mu_rho`].

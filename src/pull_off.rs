@@ -170,7 +170,7 @@ impl PullOff {
         if let Some(preload) = self.preload {
             Error::finite("preload", preload)?;
         }
-        if problem.law.hints().zero {
+        if problem.law_on_grid().hints().zero {
             let reason = "without adhesion surfaces bear no tension: give a law";
             return Err(Error::Control { control: "pull-off", reason });
         }
@@ -181,7 +181,7 @@ impl PullOff {
         }
         let yields = "a surface that yields bears another tension after each load: follow a path, as Path does";
         refuse_hardness(solver.constraint.wall(), yields)?;
-        check_wall(&problem.law, solver.constraint.wall())
+        check_wall(problem.law_on_grid(), solver.constraint.wall())
     }
 }
 

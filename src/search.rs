@@ -180,7 +180,7 @@ where
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
             return Err(Error::Control { control: "contact-fraction", reason });
         }
-        let axis = Axis::of(&problem.flat, !problem.law.hints().zero)?;
+        let axis = Axis::of(&problem.flat, !problem.law_on_grid().hints().zero)?;
         Ok(Self { solver, problem, axis, start: None, gap: None, points: Vec::new() })
     }
 
@@ -233,7 +233,7 @@ where
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement });
         }
         let (goal, allowed) = (level(fraction), (TOLERANCE * wanted).max(1.0));
-        let adhesion = !self.problem.law.hints().zero;
+        let adhesion = !self.problem.law_on_grid().hints().zero;
         let mut bracket = Bracket::default();
         let mut x = self.axis.first(fraction);
         if let [.., last] = self.points[..] {
@@ -307,7 +307,7 @@ where
         let begins = self.points.is_empty() && self.start.is_none() && self.gap.is_none();
         let usual = settings.method != Method::Rey2017 && constraint.wall().is_rigid();
         let branch = settings.branch.or(usual.then_some(Branch::Loading));
-        branch.filter(|_| begins && !self.problem.law.hints().zero)
+        branch.filter(|_| begins && !self.problem.law_on_grid().hints().zero)
     }
 
     fn remember(&mut self, point: Point) {

@@ -148,7 +148,7 @@ where
 
     /// The start under a load to which the history leads; of its gaps only those stay that the start after it needs.
     fn next_start(&mut self, control: Control) -> Option<Begin<'static, T>> {
-        let adheres = !self.problem.law.hints().zero;
+        let adheres = !self.problem.law_on_grid().hints().zero;
         let (_, last) = self.history.last()?;
         let ahead = match &self.history[..] {
             [.., earlier, before, last] if adheres && self.foretells([earlier, before], last) => {
@@ -182,11 +182,11 @@ where
             _ => f64::NAN,
         };
         let (before, last) = (&before.1, &last.1);
-        let on_branch = self.problem.law.hints().zero || steps >= 0.0;
+        let on_branch = self.problem.law_on_grid().hints().zero || steps >= 0.0;
         if !(steps.is_finite() && on_branch && before.dim() == last.dim()) {
             return None;
         }
-        let least = Potential::new(&self.problem.law, &self.solver.constraint, None).least();
+        let least = Potential::new(self.problem.law_on_grid(), &self.solver.constraint, None).least();
         let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
         Some(extrapolated([before, last], steps.clamp(-FARTHEST, FARTHEST), (least, true), on))
     }

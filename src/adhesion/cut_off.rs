@@ -1,4 +1,5 @@
 use std::slice::from_mut;
+use std::sync::Arc;
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::error::{Error, Result};
@@ -192,6 +193,10 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for CutOff<L> {
             1 => self.all(first, gaps, values, traction),
             _ => self.all(first, gaps, values, slope),
         });
+    }
+    fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
+        let law = self.law.on_nodes(compliance)?;
+        Some(Arc::new(CutOff::between(law, self.start, self.distance)))
     }
     fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let law = self.law.adapted(to)?;

@@ -18,6 +18,8 @@ pub struct Hints<T> {
     pub concave: bool,
     /// Whether the law is zero at all gaps, so that it need not be evaluated.
     pub zero: bool,
+    /// Whether the range is that of the grid, [`AdhesionLaw::on_nodes`]; before a grid is known it is zero.
+    pub of_grid: bool,
     /// The shape (Nx, Ny) of the only grid of a law that varies over the surface; none for a law of the gap alone.
     pub shape: Option<(usize, usize)>,
 }
@@ -25,7 +27,7 @@ pub struct Hints<T> {
 impl<T: Real> Hints<T> {
     /// A law of the gap alone with a work of adhesion w and a range ρ, which only attracts.
     pub fn new(work_of_adhesion: T, range: T) -> Self {
-        Self { name: "", work_of_adhesion, range, rest: None, concave: false, zero: false, shape: None }
+        Self { name: "", work_of_adhesion, range, rest: None, concave: false, zero: false, of_grid: false, shape: None }
     }
 
     /// The work of adhesion w = −φ(0) and the range w/φ'(0) of a law, which is ρ for an exponential and a constant

@@ -122,6 +122,11 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
         self.law.evaluate(first, gaps, values.reborrow());
         values.each(|_, values| self.scale(first, values));
     }
+    fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
+        let Self { slab, largest, repels, .. } = *self;
+        let law = self.law.on_nodes(compliance * T::lit(largest))?;
+        Some(Arc::new(Varying { law, slab, shares: self.shares.clone(), largest, repels }))
+    }
     fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
         let Self { slab, largest, repels, .. } = *self;
         let law: &dyn AdhesionLaw<T> = &self.law;

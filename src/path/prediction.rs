@@ -23,13 +23,13 @@ where
     C: ContactConstraint<T>,
 {
     pub(super) fn least(&self) -> Least<T> {
-        Potential::new(&self.problem.law, &self.solver.constraint, None).least()
+        Potential::new(self.problem.law_on_grid(), &self.solver.constraint, None).least()
     }
 
     /// The mean gap to which surfaces are pressed together where a branch under a pressure breaks off: zero at a wall,
     /// and otherwise one at which the law alone repels flats by more than that pressure.
     pub(super) fn closest(&self, pressure: f64) -> f64 {
-        let law = &self.problem.law;
+        let law = self.problem.law_on_grid();
         if self.solver.constraint.wall().is_rigid() {
             return 0.0;
         }

@@ -59,7 +59,7 @@ where
         let drawn = share.abs() > DRAWN;
         let mut gap = from.gap.clone();
         for _ in 0..SADDLES {
-            let amplitude = PERTURBATION * self.problem.law.hints().range.widen();
+            let amplitude = PERTURBATION * self.problem.law_on_grid().hints().range.widen();
             let least = self.least();
             self.watch.displace((&mut gap, &grid), least, amplitude, drawn.then_some(share));
             let left = self.solve(control, Begin::At(Start::From(&gap)), observe)?;

@@ -101,6 +101,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             min_gap: if plastic.is_some() { total.min.max(0.0) } else { total.min },
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
             adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
+            range: law.hints().of_grid.then(|| law.hints().range.widen()),
+            peak_traction: law.hints().of_grid.then(|| law.traction(T::zero()).widen()),
+            jkr_contact_fraction: self.jkr_contact_fraction(facing),
             mu_rho,
             under_resolved: mu_rho > Report::RESOLVED_MU_RHO,
             precision: T::NAME,
@@ -144,6 +147,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             whole: Some(whole),
             at_floor,
         })
+    }
+
+    /// The share of contact that the adhesive energy tells, of a law whose range is that of the grid.
+    fn jkr_contact_fraction(&self, facing: f64) -> Option<f64> {
+        let hints = self.posed.law.hints();
+        let tells = hints.of_grid && !hints.zero && hints.shape.is_none();
+        tells.then(|| (0.0 - self.sums.tally.adhesive) / hints.work_of_adhesion.widen() / facing)
     }
 
     fn final_status(&self, status: Status, load_error: f64) -> Status {

@@ -152,6 +152,14 @@ pub struct Report {
     pub elastic_energy: f64,
     /// The adhesive energy, the mean of φ(g) over the nominal area.
     pub adhesive_energy: f64,
+    /// The range ρ of a law that has that of the grid, as [`Jkr`](crate::Jkr); none of others.
+    pub range: Option<f64>,
+    /// The traction in contact, 2w/ρ, of a law that has the range of the grid; none of others.
+    pub peak_traction: Option<f64>,
+    /// The share of contact by the adhesive energy, −E_adh/w, of a law that has the range of the grid and does not vary:
+    /// the area of the theory of Johnson, Kendall and Roberts, in which each area of contact has the energy −w. It
+    /// counts the process zone at the edges by the energy there, so that it is smooth in the load.
+    pub jkr_contact_fraction: Option<f64>,
     /// The resolution measure μ_ρ of [`Problem::mu_rho`](crate::Problem::mu_rho).
     pub mu_rho: f64,
     /// Whether μ_ρ exceeds [`Report::RESOLVED_MU_RHO`]: the answer then depends on the grid and on the start.

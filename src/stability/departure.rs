@@ -70,7 +70,7 @@ impl<T: Real> Stability<T> {
         let (grid, control) = (from.grid, self.control);
         let largest = self.mode.iter().fold(T::zero(), |largest, value| largest.max(value.abs()));
         let largest = T::lit(grid.most(largest.widen()));
-        let amplitude = T::lit(PERTURBATION) * problem.law.hints().range / largest;
+        let amplitude = T::lit(PERTURBATION) * problem.law_on_grid().hints().range / largest;
         if !(amplitude > T::zero() && amplitude.is_finite()) {
             return Ok(None);
         }
@@ -98,7 +98,7 @@ impl<T: Real> Stability<T> {
         for direction in [1.0, -1.0] {
             let step = T::lit(direction) * amplitude;
             let mut start = from.gap.clone();
-            let least = Potential::new(&problem.law, &solver.constraint, None).least();
+            let least = Potential::new(problem.law_on_grid(), &solver.constraint, None).least();
             start.zip_mut_with(&self.mode, |gap, &mode| *gap = bounded(least, *gap, *gap + step * mode));
             let solution = solver.solve_with(problem, control, Start::From(&start), |_| ControlFlow::Continue(()))?;
             let energy_drop = energy(from) - energy(&solution);
