@@ -17,6 +17,7 @@ from . import _cycle, _flow, _interface, _pair, _prepare, _pull_off, _solve, _st
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
+    JKR,
     CutOff,
     Exponential,
     Iteration,
@@ -63,6 +64,7 @@ stability = _checked(_stability.stability)
 sweep = _checked(_sweep.sweep)
 
 __all__ = [
+    "JKR",
     "AccuracyWarning",
     "Coating",
     "Conductance",

@@ -17,6 +17,7 @@ __all__ = [
     "Exponential",
     "Hertz",
     "Iteration",
+    "JKR",
     "Jkr",
     "Law",
     "LennardJones",
@@ -89,6 +90,14 @@ class Exponential(Law):
     @property
     def range(self) -> float: ...
     def __getnewargs__(self) -> tuple[float | str, float | str]: ...
+
+@final
+class JKR(Law):
+    __match_args__: ClassVar[tuple[str]]
+    def __new__(cls, work_of_adhesion: float | str) -> JKR: ...
+    @property
+    def work_of_adhesion(self) -> float: ...
+    def __getnewargs__(self) -> tuple[float | str]: ...
 
 @final
 class MaugisDugdale(Law):

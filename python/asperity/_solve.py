@@ -127,9 +127,9 @@ def solve(
         a hole. There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other
         nodes.
     law : Law or an object of your own, optional
-        Adhesion law; none by default. `Exponential`, `MaugisDugdale`, `LennardJones`, `Morse`, `PowerLaw`,
-        `VanDerWaals` and `Tabulated` are laws, `CutOff` ends one, and with `Varying` its work of adhesion differs from
-        node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
+        Adhesion law; none by default. `JKR` is the one of which the work of adhesion alone is known. `Exponential`,
+        `MaugisDugdale`, `LennardJones`, `Morse`, `PowerLaw`, `VanDerWaals` and `Tabulated` have a range, `CutOff` ends
+        one, and with `Varying` its work of adhesion differs from node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
         `check_law`.
     wall : {"hard", "none"}, Penalty or Uzawa
         What keeps the surfaces apart: a rigid wall at zero gap, a law that repels alone, as `LennardJones` and `Morse`

@@ -204,6 +204,7 @@ class Report(TypedDict):
     contact_nodes: int
     absent_nodes: int
     edge_traction: float | None
+    jkr_contact_fraction: float | None
     corrected_contact_fraction: float
     perimeter: float
     repulsive_fraction: float
@@ -226,6 +227,7 @@ class Report(TypedDict):
     constriction: dict[str, Any] | None
     transmissivity: dict[str, Any] | None
     departures: list[Departure] | None
+    peak_traction: float | None
     mu_rho: float
     mu_rho_node: list[int] | None
     under_resolved: bool

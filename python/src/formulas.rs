@@ -94,6 +94,29 @@ class! {
     adhesion("exponential", work_of_adhesion, range)
 }
 class! {
+    /// The law without a range, the limit of Johnson, Kendall and Roberts, as short on each grid as its nodes can follow.
+    ///
+    /// For contacts of which the work of adhesion is known, and no range. `Report.range` is that of the grid,
+    /// √(12wΔx/E*). By itself the law attracts in contact alone.
+    ///
+    /// Parameters
+    /// ----------
+    /// work_of_adhesion : float
+    ///     Work of adhesion w ≥ 0, an energy per area.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import asperity
+    /// >>> tip = asperity.surface.paraboloid(64, 1.6, radius=1.0)
+    /// >>> law = asperity.JKR(work_of_adhesion=2e-3)
+    /// >>> found = asperity.pull_off(tip, modulus=1.0, boundary="free", law=law)
+    /// >>> f"{found.force / (1.5 * 3.1416 * 2e-3):.2f} of the pull-off of JKR"
+    /// '1.05 of the pull-off of JKR'
+    JKR(work_of_adhesion: f64),
+    "(work_of_adhesion)",
+    Adhesion { work_of_adhesion: Some(work_of_adhesion), ..Adhesion::of("jkr") }
+}
+class! {
     /// The law of Maugis and Dugdale: a constant traction w/ρ where the gap is below ρ.
     ///
     /// Parameters

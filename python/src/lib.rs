@@ -42,7 +42,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::flow::{conductance, leakage, percolation};
     #[pymodule_export]
-    use crate::formulas::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
+    use crate::formulas::{Exponential, JKR, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
     #[pymodule_export]
     use crate::inputs::{has_dimension, quantity};
     #[pymodule_export]

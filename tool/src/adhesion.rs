@@ -25,7 +25,7 @@ pub struct AdhesionOptions {
     /// Adhesion law, over the gap g; asperity laws tells what each needs and where it is from
     #[arg(long, value_name = "LAW", default_value = NONE, value_parser = laws(), help_heading = "Adhesion")]
     pub law: String,
-    /// Work of adhesion, an energy per area
+    /// Work of adhesion, an energy per area; all that jkr needs
     #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = ENERGY_PER_AREA.non_negative())]
     #[arg(help_heading = "Adhesion")]
     pub work_of_adhesion: Option<Quantity>,

@@ -65,6 +65,10 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     };
     Format::of(path)?;
     options.adhesion.check()?;
+    if chosen.of_grid {
+        let name = chosen.name;
+        return Err(format!("--law {name} has the range of a grid, so that there is no curve without one").into());
+    }
     let law = options.adhesion.uniform()?.0.law::<f64>();
     check_apart(path, options.adhesion.law_table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;

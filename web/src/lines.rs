@@ -208,6 +208,7 @@ fn made(typed: &Typed) -> Vec<String> {
 fn class(law: &str) -> String {
     let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
     match law {
+        "jkr" => "JKR".to_owned(),
         "power" => "PowerLaw".to_owned(),
         "van-der-waals" => "VanDerWaals".to_owned(),
         law => law.split('-').map(capital).collect(),

@@ -81,6 +81,8 @@ record! {
         absent_nodes: usize = report.absent_nodes,
         /// The largest traction at the edge of a free boundary over the largest anywhere.
         edge_traction: Option<f64> = report.edge_traction,
+        /// The contact area by the adhesive energy, of a law that has the range of the grid.
+        jkr_contact_fraction: Option<f64> = report.jkr_contact_fraction,
         /// The contact area within its edge between the nodes, known after a look.
         corrected_contact_fraction: Option<f64> = None,
         /// The length of the edge, known after a look.
@@ -125,6 +127,8 @@ record! {
         transmissivity: Option<Along<Transmissivity>> = found.after.transmissivity,
         /// The unstable equilibria that were left, if they were to be.
         departures: Option<Vec<Left>> = found.departures.clone(),
+        /// The traction in contact, of a law that has the range of the grid.
+        peak_traction: Option<f64> = report.peak_traction,
         /// The resolution measure μ_ρ.
         mu_rho: f64 = report.mu_rho,
         /// The node with the largest work of adhesion, where that varies.
@@ -174,7 +178,11 @@ impl<T: Real> Found<T> {
             shape: grid.shape(),
             lengths: grid.lengths(),
             tolerance: report.tolerance,
-            adhesion: Adhesion { hardness: report.plastic.map(|plastic| plastic.hardness), ..inputs.adhesion.clone() },
+            adhesion: Adhesion {
+                range: inputs.adhesion.range.or(report.range),
+                hardness: report.plastic.map(|plastic| plastic.hardness),
+                ..inputs.adhesion.clone()
+            },
             ..inputs.clone()
         };
         let mut account = Account::of(command, self, report, share, inputs, strongest, warnings);

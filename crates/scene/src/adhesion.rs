@@ -109,8 +109,8 @@ impl Adhesion {
             if let Some((key, value)) = keys.find_map(|key| Some((key, self.given(key)?))) {
                 let law = named("law");
                 return Err(format!(
-                    "{} is {value}, but there is no adhesion: choose {law} exponential or {law} maugis-dugdale, or \
-                     leave it out",
+                    "{} is {value}, but there is no adhesion: choose {law} jkr, or {law} exponential for a work of \
+                     adhesion with a range, or leave it out",
                     named(key)
                 ));
             }
@@ -126,6 +126,14 @@ impl Adhesion {
                         "{} is given beside {}, which says it at every node: leave one of them out",
                         named(key),
                         named("work_of_adhesion_map")
+                    ));
+                }
+                Some(value) if law.of_grid && *key == "range" => {
+                    return Err(format!(
+                        "{} is {value}, but {chosen} is the limit of no range, as short as the grid can resolve: leave it \
+                         out, or choose a law with a range, as {} exponential",
+                        named(key),
+                        named("law")
                     ));
                 }
                 Some(value) if !law.needs.contains(key) => {

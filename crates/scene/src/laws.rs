@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use asperity::{Exponential, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
+use asperity::{Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
 
 use crate::formula::Formula;
 
@@ -20,6 +20,8 @@ pub struct Law {
     pub source: &'static str,
     /// Whether it never ends, so that it can be cut off.
     pub never_ends: bool,
+    /// Whether its range is that of the grid, so that it has none of its own.
+    pub of_grid: bool,
     /// Whether it repels surfaces that come too close, so that they need no wall.
     pub repels: bool,
     /// The law of its work of adhesion, range, exponent and Hamaker's constant, beside a wall or without one, or that
@@ -57,13 +59,24 @@ const NONE: Law = Law {
     remark: "",
     source: "",
     never_ends: false,
+    of_grid: false,
     repels: false,
     make: |_, _, _| Ok(Arc::new(NoAdhesion)),
 };
 
 /// The adhesion laws.
-pub static LAWS: [Law; 8] = [
+pub static LAWS: [Law; 9] = [
     NONE,
+    Law {
+        name: "jkr",
+        formula: "traction 2W/r (1 - x)^2 (1 + 2x), x = g/r < 1, with the shortest r that the grid resolves",
+        needs: &[WORK],
+        remark: "; the limit of no range, with r = sqrt(12 W dx/E*) on nodes dx apart",
+        source: "Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971)",
+        of_grid: true,
+        make: |[w, ..], _, _| Ok(Arc::new(Jkr::new(w)?)),
+        ..NONE
+    },
     Law {
         name: "maugis-dugdale",
         formula: "traction W/RHO for gaps below RHO, 0 beyond",
@@ -93,6 +106,7 @@ pub static LAWS: [Law; 8] = [
             let law = LennardJones::new(w, range)?;
             Ok(Arc::new(if walled { law.cut() } else { law }))
         },
+        ..NONE
     },
     Law {
         name: "morse",

@@ -56,6 +56,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         let known = s.corrected_contact_fraction.filter(|share| share.is_finite())?;
         Some(corrected(known, s.contact_fraction))
     });
+    row("by its adhesive energy", &|s| share(s.jkr_contact_fraction?));
     row("nodes in contact", &|s| {
         let (nx, ny) = s.inputs.shape;
         Some(format!("{} of {}", s.contact_nodes, nx * ny - s.absent_nodes))
@@ -85,6 +86,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     row("elastic energy per area", &|s| energy(s.elastic_energy));
     if adhesive {
         row("adhesive energy per area", &|s| energy(s.adhesive_energy));
+        row("range of the grid", &|s| length(s.inputs.adhesion.range.filter(|_| s.peak_traction.is_some())?));
         row("mu_rho", &|s| Some(plain(s.mu_rho)));
     }
     row("yielded", &|s| share(s.plastic_fraction?));

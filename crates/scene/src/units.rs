@@ -138,7 +138,7 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
         ("perimeter", _) if !on_line => LENGTH,
         ("mean_pressure" | "net_pressure" | "mean_contact_pressure" | "min_pressure" | "max_pressure", _) => PRESSURE,
         ("modulus" | "coating_modulus" | "against_modulus" | "from_pressure" | "to_pressure", _) => PRESSURE,
-        ("pull_off_pressure" | "lost_pressure" | "preload" | "hardness", _) => PRESSURE,
+        ("peak_traction" | "pull_off_pressure" | "lost_pressure" | "preload" | "hardness", _) => PRESSURE,
         ("pull_off_force", _) => FORCE,
         ("from_gap" | "to_gap" | "distance", _) => LENGTH,
         ("gap_density", _) => PER_LENGTH,

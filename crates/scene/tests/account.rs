@@ -17,11 +17,11 @@ const OUTCOME: &str = "\
     command status branch other_branch relative_error load_error criterion iterations operator_applications \
     levels equivalent_applications grid_error accuracy search mean_gap mean_pressure normal_force approach \
     spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
-    edge_traction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
+    edge_traction jkr_contact_fraction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
     min_pressure max_pressure elastic_energy adhesive_energy plastic_fraction plastic_depth_max \
     plastic_depth_mean plastic_energy stability contact_stiffness normal_stiffness \
     conductance percolates constriction transmissivity \
-    departures mu_rho mu_rho_node under_resolved warnings seconds control control_value";
+    departures peak_traction mu_rho mu_rho_node under_resolved warnings seconds control control_value";
 const INPUTS: &str = "\
     heights against shift initial_gap part solved_shape shape lengths rms_slope rms_slope_differences length_unit pressure_unit given boundary modulus \
     poisson layer base coating coating_modulus coating_poisson symbol against_modulus law work_of_adhesion range exponent \
