@@ -36,6 +36,8 @@ class Browser:
         os.close(commands)
         os.close(answers)
         self.numbers, self.rest, self.events, self.session = itertools.count(1), b"", [], None
+        # what it is led through, for messages
+        self.where = path
         target = self("Target.createTarget", url="about:blank")["targetId"]
         self.session = self("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ["Page", "Runtime", "Log", "Network"]:
@@ -47,14 +49,17 @@ class Browser:
         speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
         self("Network.emulateNetworkConditions", offline=not is_on, **speed)
 
-    def message(self):
-        """The next message of the browser."""
+    def fail(self, what):
+        sys.exit(f"{self.where}: {what}")
+
+    def message(self, wanted):
+        """The next message of the browser, of which something is wanted."""
         while b"\0" not in self.rest:
             if not select.select([self.answers], [], [], PATIENCE)[0]:
-                sys.exit(f"the browser has said nothing for {PATIENCE} seconds")
+                self.fail(f"the browser has said nothing for {PATIENCE} seconds: no {wanted}")
             read = os.read(self.answers, 1 << 16)
             if not read:
-                sys.exit("the browser has ended: " + str(self.process.wait()))
+                self.fail(f"the browser has ended by {self.process.wait()}: no {wanted}")
             self.rest += read
         message, self.rest = self.rest.split(b"\0", 1)
         return json.loads(message)
@@ -66,18 +71,23 @@ class Browser:
         if self.session:
             command["sessionId"] = self.session
         os.write(self.commands, json.dumps(command).encode() + b"\0")
-        while (message := self.message()).get("id") != number:
+        wanted = f"answer to {method} {params.get('expression', ''):.200}"
+        while (message := self.message(wanted)).get("id") != number:
             self.events.append(message)
         if "error" in message:
-            sys.exit(f"{method}: {message['error']}")
+            self.fail(f"{method}: {message['error']}")
         return message["result"]
+
+    def wait(self, wanted, holds):
+        """Waits for an event of which something holds."""
+        while not any(map(holds, self.events)):
+            self.events.append(self.message(wanted))
 
     def open(self, url):
         """Opens a page, and returns when it has loaded."""
         self.events.clear()
         self("Page.navigate", url=url)
-        while not any(event["method"] == "Page.loadEventFired" for event in self.events):
-            self.events.append(self.message())
+        self.wait(f"load of {url}", lambda event: event["method"] == "Page.loadEventFired")
 
     def close(self):
         self("Browser.close")
@@ -88,7 +98,7 @@ class Browser:
         """The value of a script, or of what it promises."""
         answer = self("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
-            sys.exit(f"{answer['exceptionDetails']}")
+            self.fail(f"{answer['exceptionDetails']}")
         return answer["result"].get("value")
 
     def mouse(self, kind, at, **params):

@@ -120,6 +120,7 @@ def check(browser, path):
     url = path.absolute().as_uri()
     for name, width in WIDTHS.items():
         browser("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
+        browser.where = f"{path}: {name}"
         browser.open(url)
         state = browser.value(STATE)
         solve = path.name == "report.html"

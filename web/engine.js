@@ -4,65 +4,72 @@
    numbers; what is empty counts as not given. Every call is a promise, refused with the sentence of the program. Fields
    are typed arrays, node (i, j) at index i ny + j, with i along x and j along y.
 
-   A call that runs cannot be interrupted: to cancel, its thread is ended, and another one starts with the module that is
-   compiled already and makes the surface again. So no shared memory is needed, which few hosts allow. */
+   A call that runs cannot be interrupted: to cancel, its thread is ended, and the next call starts another one, which
+   makes the surface again. So no shared memory is needed, which few hosts allow. Threads start from what the page
+   holds, the compiled module and the text of the scripts, and need no network. */
 
 import init, { about, chart } from "./asperity_web.js";
 
 const MADE = ["open", "make", "prepare"];
 
+/* A file beside this one. */
+async function fetched(name) {
+  const answer = await fetch(new URL(name, import.meta.url)).catch(({ message }) => ({ status: message }));
+  if (!answer.ok) throw new Error(`${name} has not come from the server (${answer.status})`);
+  return answer;
+}
+
 export class Engine {
-  /* Starts the engine: fetches and compiles the module, after which no network is needed. */
+  /* Starts the engine: fetches and compiles all that it takes, after which no network is needed. */
   static async start() {
-    const url = new URL("asperity_web_bg.wasm", import.meta.url);
-    const compiled = async () => {
-      const response = await fetch(url);
-      if (!response.ok) throw new Error(`${url.pathname} cannot be fetched: ${response.status}`);
-      // hosts that do not know the type of the file
-      return WebAssembly.compile(await response.arrayBuffer());
-    };
-    let module;
     try {
-      module = await WebAssembly.compileStreaming(fetch(url)).catch(compiled);
+      const names = ["asperity_web_bg.wasm", "asperity_web.js", "worker.js"];
+      const [code, ...scripts] = await Promise.all(names.map(fetched));
+      // not all hosts know the type of the file
+      const isKnown = code.headers.get("Content-Type") === "application/wasm";
+      const module = isKnown
+        ? await WebAssembly.compileStreaming(code)
+        : await WebAssembly.compile(await code.arrayBuffer());
+      const texts = await Promise.all(scripts.map(script => script.text()));
+      await init({ module_or_path: module });
+      return new Engine(module, URL.createObjectURL(new Blob(texts, { type: "text/javascript" })));
     } catch (error) {
-      if (error instanceof WebAssembly.CompileError) {
-        throw new Error("this browser has no vector instructions of WebAssembly: use a version of 2023 or later");
-      }
-      throw error;
+      const isOld = error instanceof WebAssembly.CompileError;
+      const told = "this browser has no vector instructions of WebAssembly: use a version of 2023 or later";
+      throw new Error(isOld ? `${told} (${error.message})` : `${error.message}: reload the page`);
     }
-    await init({ module_or_path: module });
-    return new Engine(module);
   }
 
-  constructor(module) {
+  /* An engine of the compiled module and the address of the script of its threads. */
+  constructor(module, script) {
     const told = JSON.parse(about()), { colours } = told;
     for (const scale of ["sequential", "diverging"]) colours[scale] = Uint8Array.from(colours[scale]);
     this.about = told;
     this.module = module;
+    this.script = script;
+    this.worker = null;
     this.waiting = [];
     this.running = null;
     this.made = [];
     this.count = 0;
-    this.begin();
   }
 
-  /* Starts the thread, which makes the surface again if there was one. */
+  /* Starts a thread, which makes the surface again if there was one. */
   begin() {
-    this.worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+    this.worker = new Worker(this.script, { type: "module" });
     this.worker.onmessage = ({ data }) => this.hear(data);
-    this.worker.onerror = event => this.fail(event.message || "the engine did not start");
+    this.worker.onerror = ({ message }) => this.fail(message);
+    this.worker.onmessageerror = () => this.fail("an answer cannot be read");
     this.worker.postMessage({ module: this.module });
-    this.answers = false;
     this.lost = this.made.length > 0;
   }
 
   hear({ id, seen, found, error, ended }) {
-    this.answers = true;
     const job = this.running;
     if (job?.id !== id) return;
     if (seen) return seen.state ? job.onstate?.(seen.state.row, seen.state) : job.onprogress?.(seen);
     this.running = null;
-    if (ended) this.restart();
+    if (ended) this.end();
     if (error === undefined) {
       this.keep(job, found);
       job.resolve(found);
@@ -79,12 +86,12 @@ export class Engine {
     this.lost = false;
   }
 
-  /* Refuses all calls; another thread is of use only where this one has worked. */
-  fail(message) {
+  /* Ends a thread that has failed, and refuses all calls; the next one starts another thread. */
+  fail(why) {
     const jobs = this.jobs();
-    if (this.answers) this.restart();
-    else this.broken = message;
-    jobs.forEach(job => job.reject(new Error(message)));
+    this.end();
+    const told = `the solver has stopped (${why || "its thread did not start"}): try again, or reload the page`;
+    jobs.forEach(job => job.reject(Object.assign(new Error(told), { isOfThread: true })));
   }
 
   /* Takes the calls that run and wait. */
@@ -95,13 +102,23 @@ export class Engine {
     return jobs;
   }
 
-  restart() {
-    this.worker.terminate();
-    this.begin();
+  end() {
+    this.worker?.terminate();
+    this.worker = null;
   }
 
   next() {
     if (this.running || !this.waiting.length) return;
+    try {
+      if (!this.worker) this.begin();
+      this.send();
+    } catch (error) {
+      // no thread, or no memory for what it gets
+      this.fail(error.message);
+    }
+  }
+
+  send() {
     // what made the surface, unless the next call makes another one
     const { call } = this.waiting[0];
     if (this.lost && call !== "open" && call !== "make") {
@@ -116,7 +133,6 @@ export class Engine {
 
   call(call, args, observers = {}) {
     return new Promise((resolve, reject) => {
-      if (this.broken) throw new Error(this.broken);
       this.waiting.push({ id: ++this.count, call, args, resolve, reject, ...observers });
       this.next();
     });
@@ -184,7 +200,7 @@ export class Engine {
   cancel() {
     const jobs = this.jobs();
     if (!jobs.length) return;
-    this.restart();
+    this.end();
     jobs.forEach(job => job.reject(new DOMException("it was cancelled", "AbortError")));
   }
 }

@@ -89,9 +89,9 @@ class Page {
   failed(error, what) {
     at("stage").classList.add("stale");
     if (error.name === "AbortError") return status("Cancelled. What is shown is what was found before.");
-    status("What is shown is the contact before.");
+    status(this.load.found ? "What is shown is the contact before." : "There is no contact yet.");
     const place = { surface: this.settings.isFile ? "heights" : "make", steps: "prepare", solve: "load" }[what] ?? what;
-    if (Settings.fault(error.message, place, error.isOfFile)) return;
+    if (!error.isOfThread && Settings.fault(error.message, place, error.isOfFile)) return;
     at("failure").textContent = error.message;
     at("failure").hidden = false;
   }
@@ -291,6 +291,6 @@ try {
 } catch (error) {
   document.body.classList.remove("busy");
   status("");
-  at("failure").textContent = `The solver does not start in this browser: ${error.message}`;
+  at("failure").textContent = `The solver does not start: ${error.message}`;
   at("failure").hidden = false;
 }

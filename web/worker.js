@@ -4,11 +4,12 @@
    worker -> page  { id, found }              its answer
                    { id, error }              the message of its error
                    { id, seen }               what an observer sees meanwhile
-   The first message is { module }, the compiled module. */
+   The first message is { module }, the compiled module. What is thrown beside an answer, the page hears as an error of
+   the thread.
 
-import init, { Engine } from "./asperity_web.js";
+   The page puts this text behind that of `asperity_web.js`, whose `initSync` and `Engine` it uses. */
 
-let engine, ready, observed;
+let engine, observed;
 
 const parsed = text => JSON.parse(text);
 
@@ -57,14 +58,14 @@ function buffers(found) {
   return arrays.filter(ArrayBuffer.isView).map(array => array.buffer);
 }
 
-onmessage = async ({ data: { module, id, call, args } }) => {
+onmessage = ({ data: { module, id, call, args } }) => {
   if (module) {
-    ready = init({ module_or_path: module }).then(() => { engine = new Engine(); });
+    initSync({ module });
+    engine = new Engine();
     return;
   }
   observed = what => postMessage({ id, seen: what });
   try {
-    await ready;
     const found = calls[call](...args);
     postMessage({ id, found }, buffers(found));
   } catch (error) {
@@ -73,6 +74,8 @@ onmessage = async ({ data: { module, id, call, args } }) => {
     postMessage({ id, error: memory ? MEMORY : error.message, ended });
   }
 };
+
+onmessageerror = () => { throw new Error("a call cannot be read"); };
 
 const FAULT = "the engine has failed";
 const MEMORY = "the memory of the page did not suffice: use fewer nodes, as by the step resample, or f32";

@@ -1,6 +1,9 @@
 """The page of the browser as a test uses it: its inputs, its state, and the complaints about it."""
 
 import json
+import sys
+
+from host import ALL
 
 WINDOWS = {"desk": (1280, 900), "phone": (390, 844)}
 
@@ -42,25 +45,27 @@ STATE = """(() => {
 class Page:
     """The page in a browser, and the complaints about it."""
 
-    def __init__(self, browser, url):
-        self.browser, self.url, self.complaints, self.where = browser, url, [], ""
+    def __init__(self, browser, host):
+        self.browser, self.host, self.complaints = browser, host, 0
+        browser.online(True)
 
     def told(self, holds, what):
         if not holds:
-            self.complaints.append(f"{self.where}: {what}")
+            print(f"{self.browser.where}: {what}", file=sys.stderr)
+            self.complaints += 1
 
     def open(self, window, dark=False):
-        """Opens the page, and takes its network away."""
+        """Opens the page, and takes its host away."""
         width, height = WINDOWS[window]
         self.browser(
             "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False
         )
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.browser("Emulation.setEmulatedMedia", features=[scheme])
-        self.browser.online(True)
-        self.browser.open(self.url)
-        self.idle()
-        self.browser.online(False)
+        self.host.missing = ()
+        self.browser.open(self.host.url)
+        self.idle("it is opened")
+        self.host.missing = ALL
 
     def state(self):
         return self.browser.value(STATE)
@@ -68,14 +73,15 @@ class Page:
     def comes_true(self, condition):
         return self.browser.comes_true(condition, PATIENCE)
 
-    def idle(self):
+    def idle(self, step):
         """The state of the page once it has done what was asked for."""
-        self.told(self.comes_true(IDLE), "does not come to rest")
+        if not self.comes_true(IDLE):
+            self.browser.fail(f"does not come to rest after {step}: {self.state()}")
         return self.state()
 
     def set(self, **given):
         self.browser.value(SET % json.dumps(given))
-        return self.idle()
+        return self.idle(f"{given}")
 
     def drag(self, share):
         """Puts the slider of the load to a share of its way."""
@@ -99,19 +105,21 @@ class Page:
         data = {"items": [], "files": [str(path)], "dragOperationsMask": 1}
         for kind in ["dragEnter", "dragOver", "drop"]:
             self.browser("Input.dispatchDragEvent", type=kind, x=200, y=300, data=data)
-        self.comes_true("document.getElementById('opened').textContent.startsWith(" + json.dumps(path.name) + ")")
-        return self.idle()
+        opened = "document.getElementById('opened').textContent.startsWith(" + json.dumps(path.name) + ")"
+        self.told(self.comes_true(opened), f"does not open {path.name}")
+        return self.idle(f"the drop of {path.name}")
 
     def save(self, name, folder):
         """Saves a file by its button."""
         self.browser("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder), eventsEnabled=True)
         self.browser.events.clear()
         self.browser.value(f"document.querySelector('[data-file=\"{name}\"]').click()")
-        while not any(event["params"].get("state") == "completed" for event in self.browser.events):
-            self.browser.events.append(self.browser.message())
+        self.browser.wait(f"file {name}", lambda event: event["params"].get("state") == "completed")
 
     def quiet(self):
-        """Complains about what the browser has complained of, and about what was asked of other hosts."""
+        """Complains about what the browser has complained of, and about what was asked of hosts that are away."""
+        self.told(not self.host.missed, f"asks for {self.host.missed}")
+        self.host.missed.clear()
         for event in self.browser.events:
             params = event["params"]
             match event["method"]:
@@ -119,5 +127,5 @@ class Page:
                     self.told(False, f"{params}")
                 case "Network.requestWillBeSent":
                     asked = params["request"]["url"]
-                    self.told(asked.startswith((self.url, "data:", "blob:")), f"asks for {asked:.100}")
+                    self.told(asked.startswith((self.host.url, "data:", "blob:")), f"asks for {asked:.100}")
         self.browser.events.clear()

@@ -3,24 +3,22 @@
 
     web/tests/use.py BROWSER TOOL SITE
 
-The page is served from the folder SITE to a browser that loses its network once the page has loaded. Exits with 1 and
-the complaints if something is not as it should be. Pictures are in target/web-pictures.
+The page is served from the folder SITE by a host that is away once the page has loaded. Exits with 1 and the complaints
+if something is not as it should be. Pictures are in target/web-pictures.
 """
 
-import functools
-import http.server
 import json
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
-import threading
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / ".ci"))
 
 from browser import Browser  # noqa: E402
+from host import Host  # noqa: E402
 from page import SET, WINDOWS, Page  # noqa: E402
 
 PICTURES = ROOT / "target" / "web-pictures"
@@ -68,7 +66,7 @@ def check_drag(page):
     for step in range(1, 31):
         page.browser.mouse("mouseMoved", [at[0] + 0.01 * step * width, at[1]], button="left", buttons=1)
     page.browser.mouse("mouseReleased", [at[0] + 0.3 * width, at[1]], button="left", clickCount=1)
-    after = page.idle()
+    after = page.idle("a drag by the mouse")
     page.told(share(after) > 1.5 * share(before), f"dragged from {share(before)} % to {share(after)} %")
     page.told(
         after["load"] != before["load"] and f"at {after['load']}:" in after["status"],
@@ -78,7 +76,7 @@ def check_drag(page):
     page.told(1 <= solves <= 31, f"has solved {solves} of the 31 loads of a drag")
     page.browser.value("document.getElementById('drag').focus()")
     page.browser.key("ArrowLeft")
-    keyed = page.idle()
+    keyed = page.idle("an arrow key")
     page.told(share(keyed) < share(after), "an arrow key does not lessen the load")
     typed = page.set(value=before["load"])
     page.told(
@@ -97,19 +95,26 @@ def check_probe(page):
     page.told(before != page.state()["probe"] != "", "an arrow key does not move what is read")
 
 
+# cancels as soon as progress is told
+CANCEL = """new Promise(done => new MutationObserver((_, observer) => {
+  if (!/^Solving.* iterations/.test(document.getElementById("status").textContent)) return;
+  observer.disconnect();
+  document.getElementById("cancel").click();
+  done();
+}).observe(document.getElementById("status"), { childList: true }))"""
+
+
+def cancel(page):
+    """Begins a solve of adhesion, and cancels it; the state afterwards."""
+    given = {"law": "exponential", "work_of_adhesion": "50mJ/m2", "range": "1nm"}
+    page.browser.value(f"(() => {{ const cancelled = {CANCEL}; {SET % json.dumps(given)}; return cancelled; }})()")
+    return page.idle("a cancel")
+
+
 def check_cancel(page):
     """A solve that is cancelled ends, and the next one works."""
-    page.set(size="512", precision="f64")
-    before = page.state()
-    page.browser.value(SET % json.dumps({"law": "exponential", "work_of_adhesion": "50mJ/m2", "range": "1nm"}))
-    page.told(
-        page.comes_true(
-            "document.body.classList.contains('busy') && document.getElementById('status').textContent.includes('iterations')"
-        ),
-        "tells no progress",
-    )
-    page.browser.value("document.getElementById('cancel').click()")
-    state = page.idle()
+    before = page.set(size="512", precision="f64")
+    state = cancel(page)
     page.told(
         state["status"].startswith("Cancelled") and state["stale"], f"is {state['status']} after it was cancelled"
     )
@@ -118,6 +123,43 @@ def check_cancel(page):
     page.told(
         not state["stale"] and state["rows"]["status"] == "converged", f"is {state['status']} after the next solve"
     )
+
+
+# threads that fail
+THREADS = {
+    "does not start": 'super("missing.js", { type: "module" })',
+    "cannot be made": 'throw new Error("no thread is left")',
+    "ends by an error": 'super("data:text/javascript,onmessage = () => { throw new Error() }")',
+    "sends what cannot be read": 'super("data:text/javascript,"); setTimeout(() => this.onmessageerror(), 100)',
+}
+
+
+def check_threads(page):
+    """A thread that fails is told, and the next one works."""
+    page.set(size="512", precision="f64")
+    for what, script in THREADS.items():
+        cancel(page)
+        failing = f"class extends Worker {{ constructor() {{ {script} }} }}"
+        page.browser.value(f"globalThis.Whole = Worker; Worker = {failing}; 0")
+        state = page.set(size="256", law="none")
+        page.told(state["stale"] and "try again" in state["failure"], f"a thread {what}: {state['failure']}")
+        page.browser.value("Worker = Whole; 0")
+        # what the browser says of it
+        page.browser.events.clear()
+        page.host.missed.clear()
+        state = page.set(size="512")
+        page.told(not state["stale"] and not state["failure"], f"{state['failure']} after a thread that {what}")
+
+
+def check_parts(page):
+    """A page of which a part is missing says so."""
+    for part in ["page.js", "charts.js", "asperity_web_bg.wasm", "worker.js"]:
+        page.host.missing = (part,)
+        page.browser.open(page.host.url)
+        page.told(page.comes_true("!document.getElementById('failure').hidden"), f"says nothing without {part}")
+        page.told("reload" in page.state()["failure"], f"without {part}: {page.state()['failure']}")
+    page.browser.events.clear()
+    page.host.missed.clear()
 
 
 def check_wrong(page, folder):
@@ -158,7 +200,7 @@ def check_wrong(page, folder):
         page.told(invalid == [name], f"{name} = {wrong}: marks {invalid}")
         if name != "value":
             page.drag(0.4)
-            state = page.idle()
+            state = page.idle(f"a drag beside {given}")
             page.told(state["stale"] and len(state["errors"]) == 1, f"{name} = {wrong} is forgotten under another load")
         state = page.set(**{name: right})
         page.told(not state["stale"] and not state["errors"], f"{name} = {right}: {state['errors']}")
@@ -200,7 +242,7 @@ def check_cycle(page, folder):
         range="0.5nm",
     )
     page.browser.value("document.getElementById('follow').click()")
-    state = page.idle()
+    state = page.idle("a cycle")
     page.told(state["charts"]["loop"] == 1, "draws no loop")
     page.told(
         "jump-in" in state["jumps"] and ("jump-out" in state["jumps"] or "pull-off" in state["jumps"]),
@@ -242,13 +284,13 @@ PLAIN = {
 
 def check_scene(page, name, given, tool, folder):
     """The copied line gives the contact nodes of the page, after a drag."""
-    page.where = name
+    page.browser.where = name
     page.set(**PLAIN)
     page.set(**given)
     page.drag(0.4)
-    page.idle()
+    page.idle("a drag")
     page.drag(0.6)
-    state = page.idle()
+    state = page.idle("a second drag")
     page.told(not state["errors"] and not state["stale"], f"{state['errors']} {state['failure']}")
     compare(page, state, tool, folder / name)
 
@@ -271,14 +313,14 @@ def compare(page, state, tool, folder):
         report["contact_nodes"] == int(found.split()[0]),
         f"{found} in contact, by the copied line {report['contact_nodes']}",
     )
-    print(f"{page.where}: {found} nodes in contact, by the program {report['contact_nodes']}")
+    print(f"{page.browser.where}: {found} nodes in contact, by the program {report['contact_nodes']}")
 
 
 def check_pictures(page):
     """The page in all windows, light and dark."""
     for window in WINDOWS:
         for dark in [False, True]:
-            page.where = f"{window}, {'dark' if dark else 'light'}"
+            page.browser.where = f"{window}, {'dark' if dark else 'light'}"
             page.open(window, dark)
             state = page.state()
             page.told(state["beyond"] <= 0, f"is {state['beyond']} pixels wider than the window")
@@ -297,45 +339,14 @@ def measure(page):
         for share in [0.4, 0.45, 0.5, 0.55, 0.6]:
             before = page.browser.value("performance.now()")
             page.drag(share)
-            seconds.append((page.idle()["solves"][-1] - before) / 1000)
+            seconds.append((page.idle("a drag")["solves"][-1] - before) / 1000)
         print(f"{size} x {size} in {precision} follows after {', '.join(f'{time:.2f}' for time in seconds)} s")
-
-
-def serve(folder):
-    """The address at which a folder is served."""
-
-    class Silent(http.server.SimpleHTTPRequestHandler):
-        def log_message(self, *_):
-            pass
-
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Silent, directory=folder))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    return f"http://127.0.0.1:{server.server_port}/"
 
 
 def make_map(tool, folder):
     """A map as it is measured: tilted, without side lengths, and with missing points."""
-    subprocess.run(
-        [
-            tool,
-            "surface",
-            "--size",
-            "96",
-            "--lengths",
-            "500nm",
-            "--rms-slope",
-            "0.1",
-            "--k-s",
-            "16",
-            "--tilt",
-            "0.02",
-            "--quiet",
-            "--out",
-            "map.npy",
-        ],
-        cwd=folder,
-        check=True,
-    )
+    options = "--size 96 --lengths 500nm --rms-slope 0.1 --k-s 16 --tilt 0.02 --quiet --out map.npy"
+    subprocess.run([tool, "surface", *options.split()], cwd=folder, check=True)
     raw = bytearray((folder / "map.npy").read_bytes())
     raw[-8 * 500 : -8 * 497] = b"\x00\x00\x00\x00\x00\x00\xf8\x7f" * 3
     (folder / "map.npy").write_bytes(raw)
@@ -346,11 +357,11 @@ def main():
     tool = str(pathlib.Path(tool).resolve())
     PICTURES.mkdir(parents=True, exist_ok=True)
     browser = Browser(path)
-    page = Page(browser, serve(site))
+    page = Page(browser, Host(site))
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         make_map(tool, folder)
-        page.where = "first view"
+        page.browser.where = "first view"
         page.open("desk")
         first = check_first_view(page)
         print(f"first view after {first / 1000:.2f} s")
@@ -358,13 +369,14 @@ def main():
             ("drag", check_drag, []),
             ("probe", check_probe, []),
             ("cancel", check_cancel, []),
+            ("threads", check_threads, []),
             ("wrong", check_wrong, [folder]),
             ("cycle", check_cycle, [folder]),
         ]
-        for page.where, check, more in checks:
+        for page.browser.where, check, more in checks:
             check(page, *more)
             page.quiet()
-        page.where = "map"
+        page.browser.where = "map"
         (folder / "dropped").mkdir()
         state = check_map(page, folder)
         (folder / "dropped" / "map.npy").write_bytes((folder / "map.npy").read_bytes())
@@ -374,9 +386,11 @@ def main():
             page.quiet()
         measure(page)
     check_pictures(page)
+    browser.where = "missing parts"
+    check_parts(page)
     browser.close()
     if page.complaints:
-        sys.exit("\n".join(page.complaints))
+        sys.exit(f"{page.complaints} complaints")
     print("the page is as it should be")
 
 
