@@ -3,7 +3,7 @@
 use std::borrow::Borrow;
 use std::ops::ControlFlow;
 
-use crate::adhesion::{AdhesionLaw, Discretisation};
+use crate::adhesion::{AdhesionLaw, Discretisation, Jkr, mu_rho};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
@@ -41,8 +41,12 @@ const CARRIED: f64 = 0.5;
 /// distance. On the finest grid iteration, certificate and tolerance are those of [`Solver`].
 ///
 /// Sizes are halved while both sides keep `coarsest` nodes; with [absent nodes](Surface::with_absent) or a law that
-/// [varies](crate::adhesion::Varying), while they are even. With adhesion only grids that resolve it are used
-/// ([`Problem::mu_rho`] up to 0.5), as a coarser one may pin the contact on another branch. A law that jumps is
+/// [varies](crate::adhesion::Varying), while they are even. A coarser grid that does not resolve the adhesion
+/// ([`Problem::mu_rho`] above 0.5) would pin the contact on another branch: there [`Jkr`] of the same work of adhesion,
+/// whose range is that of the grid, takes the place of a law with a range, if the finest grid resolves that one.
+/// Otherwise, and of a law that varies or without a rigid wall, only grids that resolve the law are used. As the range is
+/// longer on coarser grids, these may pull in a patch that does not touch on the finest one: where adhesion holds a third
+/// of the surface and more under light loads. A law that jumps is
 /// [smoothed](crate::adhesion::Discretisation::Smooth) on coarser grids, and on the finest on its way from there.
 ///
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), a
@@ -127,19 +131,24 @@ impl<C> Nested<C> {
     /// ([`performance`](crate::guide::performance)): at a given load or approach from 256² nodes on, at a given mean
     /// gap from 512², if there is a coarser grid.
     ///
-    /// Not with adhesion under a tension or with a spring, where there may be several equilibria; nor with [absent
+    /// Not with adhesion under a tension or with a spring, where there may be several equilibria, nor, with [`Jkr`], under
+    /// no load, at a given approach, or on a branch that [`Settings::branch`](crate::Settings::branch) names; nor with [absent
     /// nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it
     /// was not measured.
     pub fn pays<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, control: Control) -> bool {
         let (shape, nodes) = (surface.grid().shape(), surface.grid().nodes());
+        let hints = law.hints();
+        let longer = hints.of_grid && !hints.zero;
         let least = match control {
+            _ if longer && self.solver.settings.branch.is_some() => return false,
             Control::MeanGap(_) => PAYS.1,
-            Control::Approach(_) => PAYS.0,
-            Control::MeanPressure(load) | Control::Force(load) if law.hints().zero || load >= 0.0 => PAYS.0,
-            Control::Spring { .. } if law.hints().zero => PAYS.0,
+            Control::Approach(_) if !longer => PAYS.0,
+            Control::MeanPressure(load) | Control::Force(load) if hints.zero || load > 0.0 => PAYS.0,
+            Control::MeanPressure(0.0) | Control::Force(0.0) if !longer => PAYS.0,
+            Control::Spring { .. } if hints.zero => PAYS.0,
             _ => return false,
         };
-        let measured = surface.absent().is_none() && law.hints().shape.is_none();
+        let measured = surface.absent().is_none() && hints.shape.is_none();
         let method = self.solver.settings.method == Method::Preconditioned;
         measured && method && nodes >= least && coarser(shape, self.coarsest, true).is_some()
     }
@@ -276,17 +285,23 @@ impl<C> Nested<C> {
         C: ContactConstraint<T>,
     {
         let varies = law.hints().shape.is_some();
+        let alike = !varies && self.solver.constraint.wall().is_rigid();
         let touching = Touching::of(self.solver.constraint.wall());
         let tolerance = self.coarse_tolerance.max(self.solver.settings.tolerance_in::<T>());
         let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
         while let Some(coarse) = surfaces.pop() {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
-            let coarse_law = law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law));
-            let mut problem = Problem::new(&coarse, operator(*coarse.grid())?, coarse_law)?;
-            if problem.mu_rho() > Report::RESOLVED_MU_RHO {
+            let half_space = operator(*coarse.grid())?;
+            let [here, finest] = [coarse.grid(), surface.grid()].map(|grid| mu_rho(law, grid, half_space.modulus()));
+            let coarse_law: Box<dyn AdhesionLaw<T> + '_> = if here <= Report::RESOLVED_MU_RHO {
+                law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law))
+            } else if alike && finest <= Report::RESOLVED_MU_RHO {
+                Box::new(Jkr::new(law.hints().work_of_adhesion.widen())?)
+            } else {
                 continue;
-            }
+            };
+            let mut problem = Problem::new(&coarse, half_space, coarse_law)?;
             let prolonged =
                 coarser.take().map(|coarser| prolonged(coarser, &coarse, problem.operator.grid(), touching));
             let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);

@@ -180,9 +180,13 @@ fn laws_that_jump_are_smoothed_on_the_way() {
 }
 
 #[test]
-fn grids_that_do_not_resolve_adhesion_are_left_out() {
-    let law = Box::new(Exponential::new(1.42e-4, 1.42e-3).unwrap());
-    assert_eq!(shapes(&solve::<f64>(&surface(512, 1), law, APART, 1e-3)), [(512, 512)]);
+fn grids_that_do_not_resolve_adhesion_have_the_short_law_or_are_left_out() {
+    let exponential = |range| -> Law<f64> { Box::new(Exponential::new(1.42e-4, range).unwrap()) };
+    // μ_ρ on the finest grid: 1.05, and 0.37
+    assert_eq!(shapes(&solve::<f64>(&surface(512, 1), exponential(5e-4), APART, 1e-3)), [(512, 512)]);
+    let found = solve::<f64>(&surface(512, 1), exponential(1.42e-3), APART, 1e-3);
+    assert_eq!(shapes(&found), [(64, 64), (128, 128), (256, 256), (512, 512)]);
+    agree(&found, &single(&surface(512, 1), exponential(1.42e-3), APART, 1e-3), 2e-3, 20);
     assert_eq!(shapes(&solve::<f32>(&surface(256, 1), none(), APART, 1e-3)), [(64, 64), (128, 128), (256, 256)]);
 }
 
@@ -207,5 +211,50 @@ fn nested_grids_need_no_more_memory_than_the_finest_alone() {
         }
         let peak = peak::<f32>(none, control);
         assert!((7.0..7.3).contains(&peak), "{peak}");
+    }
+}
+
+#[test]
+#[ignore = "half a minute: cargo test --release --test library nested::the_short_law -- --ignored --nocapture"]
+fn the_short_law_of_coarser_grids_leads_to_the_same_contacts() {
+    println!("| law | μ_ρ | adhesion | same contacts | nodes that differ, of those in contact | one grid | nested |");
+    println!("|---|---|---|---|---|---|---|");
+    let spacing = 1.0_f64 / 256.0;
+    // adhesion that adds little to the contact, and adhesion that makes the most of it
+    for (adhesion, times) in [("moderate", 1.0), ("strong", 8.0)] {
+        for mu_rho in [None, Some(0.3), Some(0.4), Some(0.5)] {
+            let (mut same, mut differing, mut contact) = (0, 0, 0);
+            let mut applications = [0.0; 2];
+            for seed in 0..40 {
+                let grid = Grid::square(256, 1.0).unwrap();
+                let k_s = [16.0, 32.0, 64.0][seed as usize % 3];
+                let surface = SelfAffine::default().amplitude(Amplitude::RmsSlope(0.2)).k_l(2.0).k_s(k_s).seed(seed);
+                let surface = surface.surface(grid).unwrap();
+                let w = times * [1e-6, 3e-6, 1e-5, 2e-5][seed as usize % 4];
+                let law = || -> Law<f64> {
+                    match mu_rho {
+                        Some(mu_rho) => Box::new(Exponential::new(w, (w * spacing).sqrt() / mu_rho).unwrap()),
+                        None => Box::new(Jkr::new(w).unwrap()),
+                    }
+                };
+                let control = Control::MeanPressure([1e-4, 0.002, 0.01, 0.03, 0.06][seed as usize % 5]);
+                let alone = single::<f64>(&surface, law(), control, 1e-6);
+                let nested = solve::<f64>(&surface, law(), control, 1e-6);
+                let apart =
+                    alone.contact_map().iter().zip(&nested.solution.contact_map()).filter(|(a, b)| a != b).count();
+                same += usize::from(apart == 0);
+                differing += apart;
+                contact += alone.report.contact_nodes;
+                let taken = [alone.report.operator_applications as f64 + 1.0, nested.equivalent_applications()];
+                applications.iter_mut().zip(taken).for_each(|(sum, taken)| *sum += taken);
+            }
+            let [one, nested] = applications.map(|sum| sum / 40.0);
+            let (name, range) = mu_rho.map_or(("jkr", String::new()), |mu_rho| ("exponential", mu_rho.to_string()));
+            println!(
+                "| {name} | {range} | {adhesion} | {same} of 40 | {differing} of {contact} | {one:.0} | {nested:.0} |"
+            );
+            // a node at the edge may be decided by the tolerance
+            assert!(times > 1.0 || differing * 10_000 <= contact, "{differing} of {contact}");
+        }
     }
 }
