@@ -165,7 +165,7 @@ pub(crate) fn on_grid<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f
 /// larger of Δx and Δy.
 ///
 /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, and the equilibrium found
-/// depends on the start. Zero without adhesion. A law whose range is that of the grid, [`Jkr`], has 0.29 on every one.
+/// depends on the start. Zero without adhesion. A law whose range is that of the grid, [`Jkr`], has 0.28 on every one.
 pub fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
     let hints = on_grid(law, grid, modulus).map_or_else(|| law.hints(), |law| law.hints());
     let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());

@@ -97,7 +97,7 @@ class! {
     /// The law without a range, the limit of Johnson, Kendall and Roberts, as short on each grid as its nodes can follow.
     ///
     /// For contacts of which the work of adhesion is known, and no range. `Report.range` is that of the grid,
-    /// √(12wΔx/E*). By itself the law attracts in contact alone.
+    /// √(13wΔx/E*). By itself the law attracts in contact alone.
     ///
     /// Parameters
     /// ----------

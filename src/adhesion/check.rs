@@ -24,6 +24,9 @@ const SMOOTHING: f64 = 0.1;
 
 const STRIDE: usize = 2;
 
+/// The compliance of the nodes of a law without a range, in units of the largest gap squared over its work of adhesion.
+const COMPLIANCE: f64 = 1e-2;
+
 const ASKED: [[bool; 3]; 6] = [
     [true, false, false],
     [false, true, false],
@@ -41,6 +44,7 @@ const ASKED: [[bool; 3]; 6] = [
 /// also holds the law to its [hints](AdhesionLaw::hints), [values](AdhesionLaw::evaluate) and
 /// [adaptions](AdhesionLaw::adapted):
 ///
+/// - a law without a range of its own is that [on nodes](AdhesionLaw::on_nodes) that let it end before `largest_gap`;
 /// - a law that is zero has no traction, and that of a concave one does not rise with the gap;
 /// - where the traction jumps, the [smoothed](Discretisation::Smooth) law has none, but the same work of adhesion and
 ///   shape, and its functions agree as well;
@@ -61,6 +65,9 @@ const ASKED: [[bool; 3]; 6] = [
 /// ```
 pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result<()> {
     Error::positive("largest gap", largest_gap)?;
+    let compliance = COMPLIANCE * largest_gap.powi(2) / law.hints().work_of_adhesion.widen();
+    let on_nodes = law.on_nodes(T::lit(compliance));
+    let law: &dyn AdhesionLaw<T> = on_nodes.as_deref().unwrap_or(law);
     let hints = law.hints();
     // closer than half its gap of rest a law may grow without bound
     let least = hints.rest.map_or(0.0, |rest| 0.5 * rest.widen());

@@ -4,19 +4,19 @@ use super::{AdhesionLaw, Hints, Values};
 use crate::error::{Error, Result};
 use crate::real::Real;
 
-/// The steepest slope of the traction on a grid, in units of one over the compliance of a node.
-const STEEPEST: f64 = 0.25;
+/// The square of the range on a grid, in units of the work of adhesion times the compliance of a node.
+const SQUARE: f64 = 13.0;
 
 /// The law without a range: that of Johnson, Kendall and Roberts (1971), as short on each grid as its nodes can follow.
 ///
 /// ```math
-/// φ(g) = −w (1 − x)³ (1 + x) ,   φ'(g) = 2w/ρ (1 − x)² (1 + 2x) ,   x = g/ρ < 1 ,   0 beyond
-/// ρ = √(12 w Δx/E*)
+/// φ(g) = −w (1 − x)⁴ (1 + 2x + 2x²) ,   φ'(g) = 2w/ρ (1 − x)³ (1 + 3x + 6x²) ,   x = g/ρ < 1 ,   0 beyond
+/// ρ = √(13 w Δx/E*)
 /// ```
 ///
 /// The work of adhesion w is all that the limit of large Tabor numbers has. A [`Problem`](crate::Problem) gives the law
 /// its range ρ, [`AdhesionLaw::on_nodes`], by the larger spacing Δx and the contact modulus E* of the shortest waves: the
-/// traction falls no more steeply than E*/4Δx. So the process zone at the edge of a contact is two to three nodes wide,
+/// traction falls no more steeply than 0.29 E*/Δx. So the process zone at the edge of a contact is some three nodes wide,
 /// edges move with the load, and results converge with the first order of Δx to those of the limit. On each of
 /// [nested grids](crate::Nested) the range is another one. Before, the law attracts in contact alone, with no bound.
 ///
@@ -28,7 +28,7 @@ const STEEPEST: f64 = 0.25;
 /// let grid = Grid::square(64, 1.0)?;
 /// let surface = Surface::paraboloid(grid, 2.0)?;
 /// let problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, Jkr::new(1e-4)?)?;
-/// let range = (12.0 * 1e-4 / 64.0_f64).sqrt();
+/// let range = (13.0 * 1e-4 / 64.0_f64).sqrt();
 /// assert!((problem.law_on_grid().hints().range / range - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -62,11 +62,11 @@ impl Jkr {
         move |gap| {
             let x = (gap / range).min(T::one());
             let left = T::one() - x;
-            let square = left * left;
+            let (square, both) = (left * left, x * left);
             [
-                -w * (square * left * (T::one() + x)),
-                n(2.0) * w / range * (square * (T::one() + n(2.0) * x)),
-                n(-12.0) * w / range / range * (x * left),
+                -w * (square * square * (T::one() + n(2.0) * x * (T::one() + x))),
+                n(2.0) * w / range * (square * left * (T::one() + n(3.0) * x * (T::one() + n(2.0) * x))),
+                n(-60.0) * w / range / range * (both * both),
             ]
         }
     }
@@ -104,7 +104,6 @@ impl<T: Real> AdhesionLaw<T> for Jkr {
         }
     }
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
-        let steepest = STEEPEST / compliance.widen();
-        Some(Arc::new(Self { range: (3.0 * self.work_of_adhesion / steepest).sqrt(), ..*self }))
+        Some(Arc::new(Self { range: (SQUARE * self.work_of_adhesion * compliance.widen()).sqrt(), ..*self }))
     }
 }

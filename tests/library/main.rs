@@ -17,6 +17,7 @@ mod exact_solutions;
 mod extremes;
 mod free;
 mod hardness;
+mod jkr;
 mod laws;
 mod light_loads;
 mod maugis_dugdale;

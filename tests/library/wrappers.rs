@@ -53,6 +53,9 @@ fn every_law_and_every_wrapper_keeps_the_contract() {
     let (w, range, works) = (0.05, 2e-9, works(0.05));
     let (far, end) = (4.0 * range, 2.5 * range);
     conforms(&NoAdhesion, far);
+    conforms(&Jkr::new(w).unwrap(), far);
+    conforms(&CutOff::new(Jkr::new(w).unwrap(), end).unwrap(), far);
+    conforms(&Varying::new(Jkr::new(w).unwrap(), works.view()).unwrap(), far);
     conforms(&LennardJones::new(w, range).unwrap(), far);
     conforms(&PowerLaw::van_der_waals(6e-20, 0.165e-9).unwrap(), far);
     /// A law, and what can be made of it and of one with half of its work of adhesion and twice its range.
@@ -123,6 +126,10 @@ impl AdhesionLaw<f64> for Spy {
         values.set(gaps, of);
         self.answer("evaluate", ());
     }
+    fn on_nodes(&self, compliance: f64) -> Option<Arc<dyn AdhesionLaw<f64>>> {
+        let law = Exponential::new(1.0, compliance).unwrap();
+        self.answer("on_nodes", Some(Arc::new(law)))
+    }
     fn adapted(&self, to: Discretisation<f64>) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
         let shape = match to {
             Discretisation::Coarse(nx, ny) => self.shape.map(|shape| (shape.0 / nx, shape.1 / ny)),
@@ -135,7 +142,7 @@ impl AdhesionLaw<f64> for Spy {
 /// A method by its name, and its answer in words.
 type Method = (&'static str, fn(&dyn AdhesionLaw<f64>) -> String);
 
-const METHODS: [Method; 6] = [
+const METHODS: [Method; 7] = [
     ("energy", |law| law.energy(0.3).to_string()),
     ("traction", |law| law.traction(0.3).to_string()),
     ("slope", |law| law.slope(0.3).to_string()),
@@ -146,6 +153,7 @@ const METHODS: [Method; 6] = [
         law.evaluate(2, &[0.0, 0.2, 0.4, 0.7, 0.9], Values { energies, tractions, slopes });
         format!("{values:?}")
     }),
+    ("on_nodes", |law| format!("{:?}", law.on_nodes(0.3).map(|law| law.hints().work_of_adhesion))),
     ("adapted", |law| {
         let shape = |to| law.adapted(to).map(|law| law.hints().shape);
         format!("{:?} {:?}", shape(Discretisation::Coarse(2, 1)), shape(Discretisation::Smooth(0.25)))

@@ -69,9 +69,9 @@ pub static LAWS: [Law; 9] = [
     NONE,
     Law {
         name: "jkr",
-        formula: "traction 2W/r (1 - x)^2 (1 + 2x), x = g/r < 1, with the shortest r that the grid resolves",
+        formula: "traction 2W/r (1 - x)^3 (1 + 3x + 6x^2), x = g/r < 1, with the shortest r that the grid resolves",
         needs: &[WORK],
-        remark: "; the limit of no range, with r = sqrt(12 W dx/E*) on nodes dx apart",
+        remark: "; the limit of no range, with r = sqrt(13 W dx/E*) on nodes dx apart",
         source: "Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971)",
         of_grid: true,
         make: |[w, ..], _, _| Ok(Arc::new(Jkr::new(w)?)),
