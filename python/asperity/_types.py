@@ -204,6 +204,7 @@ class Report(TypedDict):
     contact_nodes: int
     absent_nodes: int
     edge_traction: float | None
+    adhesive_contact_fraction: float | None
     jkr_contact_fraction: float | None
     corrected_contact_fraction: float
     perimeter: float

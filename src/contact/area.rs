@@ -40,6 +40,9 @@ pub struct ContactArea {
     pub perimeter: f64,
     /// The number of neighbours between which the edge runs.
     pub edges: usize,
+    /// The contact area that the theory of Johnson, Kendall and Roberts means, as a share of the nominal area, of a
+    /// solution by [`Jkr`](crate::Jkr): [`Report::jkr_contact_fraction`](crate::Report::jkr_contact_fraction).
+    pub jkr_contact_fraction: Option<f64>,
     /// How many of the `edges` are at independent places between the nodes; 1 for a strip along the nodes.
     pub places: f64,
 }
@@ -75,7 +78,8 @@ impl ContactArea {
         let map = contact_map(gap, contact_pressure);
         let periodic = report.boundary == Boundary::Periodic;
         let outline = Outline { gap, contact_pressure, map: map.view(), grid, periodic, modulus: report.modulus };
-        Ok(Self::within_edge(&outline, grid.nodes().saturating_sub(report.absent_nodes)))
+        let area = Self::within_edge(&outline, grid.nodes().saturating_sub(report.absent_nodes));
+        Ok(Self { jkr_contact_fraction: report.jkr_contact_fraction(area.perimeter, grid), ..area })
     }
 
     /// The area within the edge of a contact, of whose nodes so many face the half-space.
@@ -102,7 +106,16 @@ impl ContactArea {
         let (nodes, Edge { excess, edges, places }) = (facing as f64, edge((along_x, along_y)));
         let (contact_fraction, corrected_contact_fraction) =
             (contact_nodes as f64 / nodes, (contact_nodes as f64 - excess) / nodes);
-        Self { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter, edges, places }
+        let jkr_contact_fraction = None;
+        Self {
+            contact_nodes,
+            contact_fraction,
+            corrected_contact_fraction,
+            perimeter,
+            edges,
+            jkr_contact_fraction,
+            places,
+        }
     }
 }
 

@@ -103,7 +103,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
             range: law.hints().of_grid.then(|| law.hints().range.widen()),
             peak_traction: law.hints().of_grid.then(|| law.traction(T::zero()).widen()),
-            jkr_contact_fraction: self.jkr_contact_fraction(facing),
+            adhesive_contact_fraction: self.adhesive_contact_fraction(facing),
             mu_rho,
             under_resolved: mu_rho > Report::RESOLVED_MU_RHO,
             precision: T::NAME,
@@ -150,7 +150,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     /// The share of contact that the adhesive energy tells, of a law whose range is that of the grid.
-    fn jkr_contact_fraction(&self, facing: f64) -> Option<f64> {
+    fn adhesive_contact_fraction(&self, facing: f64) -> Option<f64> {
         let hints = self.posed.law.hints();
         let tells = hints.of_grid && !hints.zero && hints.shape.is_none();
         tells.then(|| (0.0 - self.sums.tally.adhesive) / hints.work_of_adhesion.widen() / facing)

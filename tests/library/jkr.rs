@@ -98,7 +98,7 @@ fn a_sphere_has_the_contact_and_the_pull_offs_of_jkr() {
         assert_eq!(loading.contact_map(), unloading.contact_map());
         let report = &loading.report;
         assert!(report.operator_applications <= 70, "{}", report.operator_applications);
-        let area = report.jkr_contact_fraction.unwrap() * SIDE * SIDE;
+        let area = report.adhesive_contact_fraction.unwrap() * SIDE * SIDE;
         let radius = (area / PI).sqrt() / unloaded.contact_radius();
         let approach = report.approach.unwrap() / unloaded.approach();
         let force = pull_off(&mut problem, 5e-4).normal_force / exact.pull_off().load();
@@ -145,7 +145,7 @@ fn a_wave_follows_johnson_up_and_down_and_comes_off_at_his_pressure() {
         let mut solver = Solver::new(Settings::default().branch(Branch::Loading));
         let steps = Sweep::new(&mut solver, &mut problem, pressures.map(Control::MeanPressure));
         for (step, pressure) in steps.zip(pressures) {
-            let area = step.unwrap().report.jkr_contact_fraction.unwrap();
+            let area = step.unwrap().report.adhesive_contact_fraction.unwrap();
             let expected = 2.0 * exact.at_mean_pressure(pressure).unwrap().half_width();
             let of_load = if pressure > 0.0 { bound } else { 3.0 * bound };
             assert!((area / expected - 1.0).abs() < of_load, "{n} {pressure}: {area} {expected}");
@@ -230,7 +230,7 @@ fn works_of_adhesion_that_vary_have_the_range_of_the_strongest() {
     assert!((range / whole - 1.0).abs() < 1e-12 && (other / whole - 1.0).abs() < 1e-12);
     assert!((&some.gap - &same.gap).iter().all(|change| change.abs() < 1e-9));
     assert!(some.report.contact_nodes < all.report.contact_nodes);
-    assert!(some.report.jkr_contact_fraction.is_none() && all.report.jkr_contact_fraction.is_some());
+    assert!(some.report.adhesive_contact_fraction.is_none() && all.report.adhesive_contact_fraction.is_some());
     let uniform = Varying::new(Jkr::new(1.0).unwrap(), Array2::from_elem((64, 64), 2e-4).view()).unwrap();
     assert_eq!(solve(Box::new(uniform)).1.report.contact_nodes, all.report.contact_nodes);
 }
@@ -248,13 +248,13 @@ fn results_depend_neither_on_units_nor_on_the_precision() {
     let [a, b] = [solve(1.0, 1.0), solve(3e-7, 7e10)];
     assert_eq!((a.contact_nodes, a.iterations), (b.contact_nodes, b.iterations));
     assert!((a.range.unwrap() / b.range.unwrap() * 3e-7 - 1.0).abs() < 1e-12);
-    assert!((a.jkr_contact_fraction.unwrap() / b.jkr_contact_fraction.unwrap() - 1.0).abs() < 1e-6);
+    assert!((a.adhesive_contact_fraction.unwrap() / b.adhesive_contact_fraction.unwrap() - 1.0).abs() < 1e-6);
     let grid = Grid::square(64, 1.0).unwrap();
     let surface = Surface::wave_2d(grid, 0.02, 2).unwrap();
     let half_space = Westergaard::<f32>::new(grid, 1.0).unwrap();
     let mut problem = Problem::new(&surface, half_space, Jkr::new(1e-4).unwrap()).unwrap();
     let single = Solver::default().solve(&mut problem, Control::MeanPressure(0.01)).unwrap().report;
-    assert!((single.jkr_contact_fraction.unwrap() / a.jkr_contact_fraction.unwrap() - 1.0).abs() < 1e-3);
+    assert!((single.adhesive_contact_fraction.unwrap() / a.adhesive_contact_fraction.unwrap() - 1.0).abs() < 1e-3);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The account of a solve, with the keys of its report.
 
 use asperity::contact::{ContactStatistics, Patch};
-use asperity::{Branch, Control, Criterion, Method, Real, Report, Result, Solution, Status};
+use asperity::{Branch, Control, Criterion, Grid, Method, Real, Report, Result, Solution, Status};
 use ndarray::ArrayView2;
 use serde::Serialize;
 use serde_json::Value;
@@ -82,7 +82,9 @@ record! {
         /// The largest traction at the edge of a free boundary over the largest anywhere.
         edge_traction: Option<f64> = report.edge_traction,
         /// The contact area by the adhesive energy, of a law that has the range of the grid.
-        jkr_contact_fraction: Option<f64> = report.jkr_contact_fraction,
+        adhesive_contact_fraction: Option<f64> = report.adhesive_contact_fraction,
+        /// That less the process zone at the edge, known after a look.
+        jkr_contact_fraction: Option<f64> = None,
         /// The contact area within its edge between the nodes, known after a look.
         corrected_contact_fraction: Option<f64> = None,
         /// The length of the edge, known after a look.
@@ -214,6 +216,8 @@ impl<T: Real> Sight<T> {
         self.tell(account);
         account.corrected_contact_fraction = Some(found.corrected_contact_fraction);
         account.perimeter = Some(found.perimeter);
+        let grid = Grid::new(account.inputs.shape, account.inputs.lengths)?;
+        account.jkr_contact_fraction = self.report.jkr_contact_fraction(found.perimeter, &grid);
         account.repulsive_fraction = Some(found.repulsive_fraction);
         account.attractive_fraction = Some(found.attractive_fraction);
         account.patches = Some(found.patches.clone());

@@ -56,7 +56,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         let known = s.corrected_contact_fraction.filter(|share| share.is_finite())?;
         Some(corrected(known, s.contact_fraction))
     });
-    row("by its adhesive energy", &|s| share(s.jkr_contact_fraction?));
+    row("by JKR", &|s| share(s.jkr_contact_fraction?));
     row("nodes in contact", &|s| {
         let (nx, ny) = s.inputs.shape;
         Some(format!("{} of {}", s.contact_nodes, nx * ny - s.absent_nodes))

@@ -17,7 +17,7 @@ const OUTCOME: &str = "\
     command status branch other_branch relative_error load_error criterion iterations operator_applications \
     levels equivalent_applications grid_error accuracy search mean_gap mean_pressure normal_force approach \
     spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
-    edge_traction jkr_contact_fraction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
+    edge_traction adhesive_contact_fraction jkr_contact_fraction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
     min_pressure max_pressure elastic_energy adhesive_energy plastic_fraction plastic_depth_max \
     plastic_depth_mean plastic_energy stability contact_stiffness normal_stiffness \
     conductance percolates constriction transmissivity \

@@ -12,7 +12,7 @@ pub const GROUPS: [(&str, &str); 7] = [
     ),
     (
         "Contact",
-        "contact_fraction jkr_contact_fraction corrected_contact_fraction contact_nodes absent_nodes perimeter clusters largest_cluster \
+        "contact_fraction jkr_contact_fraction corrected_contact_fraction adhesive_contact_fraction contact_nodes absent_nodes perimeter clusters largest_cluster \
          repulsive_fraction attractive_fraction plastic_fraction patches contact_stiffness normal_stiffness",
     ),
     ("Gap", "mean_gap min_gap approach plastic_depth_max plastic_depth_mean"),
