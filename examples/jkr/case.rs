@@ -1,0 +1,102 @@
+//! A problem with adhesion in a few words, and what is asked of its solutions.
+
+use asperity::contact::ContactArea;
+use asperity::{
+    AdhesionLaw, Branch, Control, ElasticOperator, FoundPullOff, Grid, Problem, PullOff, Result, Settings, Solution,
+    Solver, Westergaard,
+};
+
+/// The tolerance of solves, far below the error of the grid.
+const TOLERANCE: f64 = 1e-5;
+
+/// The areas of a contact, as shares of the nominal area.
+#[derive(Clone, Copy)]
+pub struct Areas {
+    /// By the adhesive energy.
+    pub by_energy: f64,
+    /// Within the edge between the nodes.
+    pub corrected: f64,
+    /// By the nodes in contact.
+    pub counted: f64,
+    /// The nodes in contact.
+    pub nodes: usize,
+    /// The length of the edge.
+    pub perimeter: f64,
+    /// The mean gap.
+    pub mean_gap: f64,
+    /// The operator applications of the solve.
+    pub applications: usize,
+}
+
+impl Areas {
+    pub fn of(solution: &Solution<f64>) -> Result<Self> {
+        let (report, area) = (&solution.report, ContactArea::of_solution(solution)?);
+        Ok(Self {
+            by_energy: -report.adhesive_energy / report.work_of_adhesion,
+            corrected: area.corrected_contact_fraction,
+            counted: area.contact_fraction,
+            nodes: area.contact_nodes,
+            perimeter: area.perimeter,
+            mean_gap: report.mean_gap,
+            applications: report.operator_applications,
+        })
+    }
+
+    /// The mean of the areas by energy and by the edge.
+    pub fn middle(&self) -> f64 {
+        self.by_energy.midpoint(self.corrected)
+    }
+}
+
+/// The periodic half-space of contact modulus one.
+pub fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
+    Westergaard::new(grid, 1.0)
+}
+
+/// A solver to the tolerance of this example.
+pub fn solver() -> Solver {
+    Solver::new(Settings::default().tolerance(TOLERANCE))
+}
+
+/// The solution on a branch.
+pub fn solve<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
+    problem: &mut Problem<f64, O, L>,
+    control: Control,
+    branch: Branch,
+) -> Result<Solution<f64>> {
+    let mut solver = solver();
+    solver.settings.branch = Some(branch);
+    solver.solve(problem, control)
+}
+
+/// The pull-off to a relative width of the bracket, after a preload or from flat.
+pub fn pull_off<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
+    problem: &mut Problem<f64, O, L>,
+    tolerance: f64,
+    preload: Option<f64>,
+) -> Result<FoundPullOff<f64>> {
+    PullOff::default().tolerance(tolerance).preload(preload).find(&mut solver(), problem)
+}
+
+/// The middle of the bracket of a search for the pull-off, as a mean pressure.
+pub fn tension<T>(found: &FoundPullOff<T>) -> f64 {
+    let borne = -found.solution.report.mean_pressure;
+    found.lost.map_or(borne, |lost| borne.midpoint(lost))
+}
+
+/// The value to which those of a grid and of one with half the nodes along the sides converge with the first order.
+pub fn extrapolated(fine: f64, coarse: f64) -> f64 {
+    2.0 * fine - coarse
+}
+
+/// Prints a title and the head of a table.
+pub fn head(title: &str, columns: &[&str]) {
+    println!("\n{title}\n");
+    println!("| {} |", columns.join(" | "));
+    println!("|{}", "---|".repeat(columns.len()));
+}
+
+/// Prints a row of a table.
+pub fn row(cells: &[String]) {
+    println!("| {} |", cells.join(" | "));
+}
