@@ -44,6 +44,12 @@ impl Shape {
         }
     }
 
+    /// The range over √(w · compliance of a node) at a steepest slope of so much over the compliance.
+    pub fn range(self, steepest: f64) -> f64 {
+        let (mean, steepest_of_shape) = self.mean_and_steepest();
+        (steepest_of_shape / (mean * steepest)).sqrt()
+    }
+
     /// What is left at x = g/ρ of the energy, of the traction, and the slope of the latter.
     fn at(self, x: f64) -> [f64; 3] {
         if self == Self::Exponential {
@@ -113,8 +119,7 @@ impl<T: Real> AdhesionLaw<T> for Short {
         hints
     }
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
-        let (mean, steepest) = self.shape.mean_and_steepest();
-        let slope = self.steepest / compliance.widen();
-        Some(Arc::new(Self { range: (self.work_of_adhesion * steepest / (mean * slope)).sqrt(), ..*self }))
+        let unit = (self.work_of_adhesion * compliance.widen()).sqrt();
+        Some(Arc::new(Self { range: self.shape.range(self.steepest) * unit, ..*self }))
     }
 }

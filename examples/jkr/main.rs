@@ -46,6 +46,9 @@ struct Arguments {
     /// Small grids and a few scenes: some seconds
     #[arg(long)]
     quick: bool,
+    /// Nodes along a side of the finest grid of the rough surfaces
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = arguments::power_of_two::<128>)]
+    largest: usize,
     /// The number of random scenes
     #[arg(long, value_name = "N", default_value_t = 200)]
     scenes: usize,
@@ -61,7 +64,7 @@ struct Arguments {
 }
 
 fn main() -> Outcome<()> {
-    let Arguments { table, quick, scenes, seed, threads, out } = arguments::read(include_str!("main.rs"));
+    let Arguments { table, quick, largest, scenes, seed, threads, out } = arguments::read(include_str!("main.rs"));
     let wants = |one: Table| table.is_none_or(|table| table == one);
     ThreadPoolBuilder::new().num_threads(threads).build()?.install(|| {
         if wants(Table::Sphere) {
@@ -74,7 +77,7 @@ fn main() -> Outcome<()> {
             shapes::tables(quick)?;
         }
         if wants(Table::Rough) {
-            rough::tables(quick)?;
+            rough::tables(quick, if quick { 128 } else { largest })?;
         }
         if wants(Table::Errors) {
             std::fs::create_dir_all(&out)?;

@@ -30,8 +30,8 @@ fn problem(rough: Rough, n: usize, seed: u64) -> Result<Problem<f64, asperity::W
     Problem::new(&surface(rough, grid, seed)?, half_space(grid)?, Jkr::new(rough.work_of_adhesion)?)
 }
 
-pub fn tables(quick: bool) -> Outcome<()> {
-    let sizes = if quick { vec![64, 128] } else { vec![64, 128, 256, 512] };
+pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
+    let sizes: Vec<usize> = (6..=largest.ilog2()).map(|power| 1 << power).collect();
     let seeds = if quick { &SEEDS[..1] } else { &SEEDS[..] };
     let names: Vec<_> = sizes.iter().map(|n| format!("{n}²")).collect();
     let columns = |first: &[&'static str], last: &[&'static str]| -> Vec<String> {

@@ -12,7 +12,7 @@ use crate::rough::{AREA, surface};
 use crate::sphere;
 use crate::wave::Wave;
 
-const SLOPES: [f64; 5] = [0.1, 0.15, 0.25, 0.35, 0.5];
+const SLOPES: [f64; 7] = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.5];
 const BRACKET: f64 = 0.005;
 
 pub fn tables(quick: bool) -> Outcome<()> {
@@ -80,6 +80,32 @@ pub fn tables(quick: bool) -> Outcome<()> {
             line.push(format!("{:.3} %", 100.0 * areas.corrected));
             line.push((back.contact_nodes as i64 - there.contact_nodes as i64).to_string());
             line.push(format!("{}, {}", there.operator_applications, back.operator_applications));
+            row(&line);
+        }
+    }
+    held_fronts(quick)
+}
+
+/// The pull-off of the wave, whose fronts are straight, on many grids: where they are between the nodes is by chance.
+fn held_fronts(quick: bool) -> Outcome<()> {
+    let grids = if quick { vec![128, 150] } else { vec![360, 400, 450, 486, 512, 540, 576, 600, 640, 720, 800, 1024] };
+    let title = format!("Pull-off of the wave over the exact one, and the range over √(wΔx/E*), on {grids:?} nodes");
+    head(&title, &["shape", "c", "range", "least", "mean", "largest", "applications in the mean"]);
+    for shape in [Shape::HalfCosine, Shape::CubicStep, Shape::QuinticStep, Shape::Square] {
+        for steepest in if quick { vec![0.25] } else { vec![0.15, 0.2, 0.25, 0.3, 0.35] } {
+            let (mut found, mut applications) = (Vec::new(), 0);
+            for &n in &grids {
+                let wave = Wave::line(n)?;
+                let (off, taken) = wave.pull_off(Short::new(wave.work_of_adhesion(), shape, steepest))?;
+                found.push(off);
+                applications += taken;
+            }
+            let count = found.len();
+            found.sort_by(f64::total_cmp);
+            let mut line = vec![shape.name().to_owned(), steepest.to_string()];
+            line.push(format!("{:.2}", shape.range(steepest)));
+            line.extend([found[0], found.iter().sum::<f64>() / count as f64, found[count - 1]].map(|x| format!("{x:.4}")));
+            line.push((applications / count).to_string());
             row(&line);
         }
     }

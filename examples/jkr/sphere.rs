@@ -37,8 +37,8 @@ fn lost_at_approach() -> Result<Contact> {
 }
 
 /// What is found over what is exact: radius by energy and by the edge, approach, pull-off at a given force and at a
-/// given approach.
-type Ratios = [f64; 5];
+/// given approach, and the approach at the latter.
+type Ratios = [f64; 6];
 
 fn cells(ratios: Ratios) -> Vec<String> {
     ratios.map(|ratio| format!("{ratio:.4}")).to_vec()
@@ -59,7 +59,8 @@ pub fn tables(quick: bool) -> Outcome<()> {
             "corrected",
             "approach",
             "pull-off, force",
-            "pull-off, approach",
+            "at given approach",
+            "approach there",
             "applications: loading, unloading",
             "nodes unloading − loading",
             "pull-off: solves, applications",
@@ -81,7 +82,8 @@ pub fn tables(quick: bool) -> Outcome<()> {
             radius(areas.corrected) / at_rest.contact_radius(),
             report.approach.unwrap_or(f64::NAN) / at_rest.approach(),
             force / exact.pull_off().load(),
-            at_approach / lost_at_approach()?.load(),
+            at_approach.0 / lost_at_approach()?.load(),
+            at_approach.1 / lost_at_approach()?.approach(),
         ];
         let mut line = vec![format!("{n}²"), format!("{:.1}", at_rest.contact_radius() * n as f64 / SIDE)];
         line.extend(cells(ratios));
@@ -101,21 +103,22 @@ pub fn tables(quick: bool) -> Outcome<()> {
     Ok(())
 }
 
-/// The force of the last state before contact is lost as the bodies move apart from an approach.
-fn by_approach(n: usize, from: f64) -> Outcome<f64> {
+/// Force and approach of the last state before contact is lost as the bodies move apart from an approach.
+fn by_approach(n: usize, from: f64) -> Outcome<(f64, f64)> {
     let mut problem = problem(n, Jkr::new(WORK)?)?;
     let to = lost_at_approach()?.approach();
     // a little farther than the contact is to be lost
     let legs = [from, to - 0.2 * (from - to)].map(Control::Approach);
     let settings = PathSettings::default().steps(8).smallest_step(2e-4);
     let mut solver = solver();
-    let mut force = f64::NAN;
+    let mut last = (f64::NAN, f64::NAN);
     for step in Path::new(&mut solver, &mut problem, legs, settings)? {
         let step = step?;
         if let Some(Event::Jump(_)) = step.event {
             break;
         }
-        force = step.solution.report.normal_force;
+        let report = &step.solution.report;
+        last = (report.normal_force, report.approach.unwrap_or(f64::NAN));
     }
-    Ok(force)
+    Ok(last)
 }
