@@ -6,13 +6,15 @@ use std::path::Path;
 
 use common::Outcome;
 
+use crate::case::Areas;
 use crate::scene::{Kind, Level, Scene};
 
 /// The columns of the values that are written.
 const COLUMNS: &str = "scene,kind,n,nodes,nodes_per_wave,hurst,k_l,k_s,slope,rms_height,work_of_adhesion,by_gap,\
                        pressure_given,loading,unloading,by_energy,corrected,counted,contact_nodes,perimeter,\
                        by_energy_unloading,contact_nodes_unloading,mean_gap,approach,pressure,contact_pressure,\
-                       elastic_energy,stiffness,pull_off,pull_off_reached,applications,applications_unloading,\
+                       elastic_energy,stiffness,secant,pull_off,pull_off_reached,pull_off_by_energy,pull_off_corrected,\
+                       pull_off_nodes,pull_off_perimeter,applications,applications_unloading,\
                        applications_stiffness,applications_pull_off";
 
 pub fn tables(count: usize, seed: u64, quick: bool, path: &Path) -> Outcome<()> {
@@ -35,6 +37,7 @@ fn line(id: usize, scene: &Scene, level: &Level) -> String {
     let [hurst, k_l, k_s] = scene.roughness.map_or([0.0; 3], |of| [of.hurst, of.k_l, of.k_s]);
     let (areas, back) = (&level.areas, &level.unloading);
     let [loading, unloading] = level.statuses.map(asperity::Status::name);
+    let lost = |of: fn(&Areas) -> f64| level.lost.as_ref().map_or(f64::NAN, of).to_string();
     let words: Vec<String> = vec![
         id.to_string(),
         kind.to_owned(),
@@ -64,8 +67,13 @@ fn line(id: usize, scene: &Scene, level: &Level) -> String {
         level.contact_pressure.to_string(),
         level.elastic_energy.to_string(),
         level.stiffness.to_string(),
+        level.secant.to_string(),
         level.pull_off.to_string(),
         u8::from(level.pulled).to_string(),
+        lost(|areas| areas.by_energy),
+        lost(|areas| areas.corrected),
+        lost(|areas| areas.nodes as f64),
+        lost(|areas| areas.perimeter),
     ];
     let applications = level.applications.map(|taken| taken.to_string());
     words.into_iter().chain(applications).collect::<Vec<_>>().join(",")

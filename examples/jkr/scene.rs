@@ -1,20 +1,24 @@
 //! A random scene: a surface, a body, a work of adhesion and a load, and its solutions on grids from coarse to fine.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use asperity::stability::ContactStiffness;
 use asperity::{
-    Amplitude, Boussinesq, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Projection, SelfAffine, Status, Surface,
+    Amplitude, Boussinesq, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Projection, SelfAffine, Solution,
+    Start, Status, Surface,
 };
 use common::Outcome;
 use ndarray::Array2;
 
-use crate::case::{Areas, half_space, pull_off, solve, tension};
+use crate::case::{Areas, half_space, pull_off, solve, solver, tension};
 
 /// The side of the window of spheres of radius one.
 const SIDE: f64 = 1.6;
 /// The relative error of the contact stiffness.
 const STIFFNESS: f64 = 1e-4;
+/// The step of the load to both sides between which a stiffness is found, over the mean contact pressure.
+const STEP: f64 = 0.05;
 /// The relative width of the bracket of the pull-off.
 const BRACKET: f64 = 0.003;
 /// The preload of the search for it, over E* times the rms slope.
@@ -97,7 +101,7 @@ impl Scene {
         let load = draw.share();
         let surface = SelfAffine::default().k_l(k_l).k_r(k_l).k_s(k_s).hurst(hurst).seed(draw.bits() >> 20);
         let smooth = sphere && draw.share() < 0.33;
-        let by_gap = draw.share() < 0.15 && !sphere && load > 0.4;
+        let by_gap = draw.share() < 0.3 && !sphere && load > 0.4;
         let (work_of_adhesion, pressure) = if sphere {
             (adhesion, (3.0 * (load - 0.5)).max(0.0) * 1.5 * PI * adhesion / (SIDE * SIDE))
         } else {
@@ -169,6 +173,7 @@ impl Scene {
         let (loading, unloading) = (loading?, unloading?);
         let stiffness = ContactStiffness::of_constrained(&mut problem, &Projection, &loading, STIFFNESS)?;
         let preload = if self.kind == Kind::Sphere { self.pressure } else { PRELOAD * self.slope };
+        let secant = secant(&mut problem, &loading)?;
         let pulled = self.pulls.then(|| pull_off(&mut problem, BRACKET, Some(preload))).transpose();
         // surfaces that do not attract each other under no load have no pull-off
         let pulled = pulled.ok().flatten();
@@ -185,6 +190,8 @@ impl Scene {
             contact_pressure: report.mean_contact_pressure,
             elastic_energy: report.elastic_energy,
             stiffness: stiffness.pressure_per_length,
+            secant,
+            lost: pulled.as_ref().map(|found| Areas::of(&found.solution)).transpose()?,
             pull_off: pulled.as_ref().map_or(f64::NAN, tension),
             pulled: pulled.as_ref().is_some_and(|found| found.reached),
             applications: [
@@ -195,6 +202,19 @@ impl Scene {
             ],
         })
     }
+}
+
+/// The stiffness between loads on both sides of that of a solution: pressure over mean gap, or over approach.
+fn secant<O: ElasticOperator<f64>>(problem: &mut Problem<f64, O, Jkr>, solution: &Solution<f64>) -> Outcome<f64> {
+    let report = &solution.report;
+    let step = STEP * report.mean_contact_pressure;
+    let mut far = |sign: f64| {
+        let control = Control::MeanPressure(report.mean_pressure + sign * step);
+        let found = solver().solve_with(problem, control, Start::From(&solution.gap), |_| ControlFlow::Continue(()))?;
+        let moved = found.report.approach.unwrap_or(-found.report.mean_gap);
+        Ok::<_, asperity::Error>((found.report.status == Status::Converged).then_some(moved).unwrap_or(f64::NAN))
+    };
+    Ok(2.0 * step / (far(1.0)? - far(-1.0)?))
 }
 
 /// What is found on a grid.
@@ -211,6 +231,10 @@ pub struct Level {
     pub contact_pressure: f64,
     pub elastic_energy: f64,
     pub stiffness: f64,
+    /// The stiffness between two loads.
+    pub secant: f64,
+    /// The areas under the greatest tension that was borne.
+    pub lost: Option<Areas>,
     /// The mean tension; not a number where it was not asked for, or not found.
     pub pull_off: f64,
     pub pulled: bool,
