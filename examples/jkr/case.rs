@@ -1,13 +1,18 @@
 //! A problem with adhesion in a few words, and what is asked of its solutions.
 
+use std::ops::ControlFlow;
+
 use asperity::contact::ContactArea;
 use asperity::{
     AdhesionLaw, Branch, Control, ElasticOperator, FoundPullOff, Grid, Problem, PullOff, Result, Settings, Solution,
-    Solver, Westergaard,
+    Solver, Start, Status, Westergaard,
 };
 
 /// The tolerance of solves, far below the error of the grid.
 const TOLERANCE: f64 = 1e-5;
+
+/// The step of the load to both sides between which a stiffness is found, over the mean contact pressure.
+const STEP: f64 = 0.05;
 
 /// The areas of a contact, as shares of the nominal area.
 #[derive(Clone, Copy)]
@@ -76,6 +81,22 @@ pub fn pull_off<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
     preload: Option<f64>,
 ) -> Result<FoundPullOff<f64>> {
     PullOff::default().tolerance(tolerance).preload(preload).find(&mut solver(), problem)
+}
+
+/// The stiffness between loads on both sides of that of a solution: pressure over mean gap, or over approach.
+pub fn secant<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
+    problem: &mut Problem<f64, O, L>,
+    solution: &Solution<f64>,
+) -> Result<f64> {
+    let report = &solution.report;
+    let step = STEP * report.mean_contact_pressure;
+    let mut far = |sign: f64| {
+        let control = Control::MeanPressure(report.mean_pressure + sign * step);
+        let found = solver().solve_with(problem, control, Start::From(&solution.gap), |_| ControlFlow::Continue(()))?;
+        let moved = found.report.approach.unwrap_or(-found.report.mean_gap);
+        Ok::<_, asperity::Error>(if found.report.status == Status::Converged { moved } else { f64::NAN })
+    };
+    Ok(2.0 * step / (far(1.0)? - far(-1.0)?))
 }
 
 /// The middle of the bracket of a search for the pull-off, as a mean pressure.

@@ -1,24 +1,21 @@
 //! A random scene: a surface, a body, a work of adhesion and a load, and its solutions on grids from coarse to fine.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use asperity::stability::ContactStiffness;
 use asperity::{
-    Amplitude, Boussinesq, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Projection, SelfAffine, Solution,
-    Start, Status, Surface,
+    Amplitude, Boussinesq, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Projection, SelfAffine, Status,
+    Surface,
 };
 use common::Outcome;
 use ndarray::Array2;
 
-use crate::case::{Areas, half_space, pull_off, solve, solver, tension};
+use crate::case::{Areas, half_space, pull_off, secant, solve, tension};
 
 /// The side of the window of spheres of radius one.
 const SIDE: f64 = 1.6;
 /// The relative error of the contact stiffness.
 const STIFFNESS: f64 = 1e-4;
-/// The step of the load to both sides between which a stiffness is found, over the mean contact pressure.
-const STEP: f64 = 0.05;
 /// The relative width of the bracket of the pull-off.
 const BRACKET: f64 = 0.003;
 /// The preload of the search for it, over E* times the rms slope.
@@ -202,19 +199,6 @@ impl Scene {
             ],
         })
     }
-}
-
-/// The stiffness between loads on both sides of that of a solution: pressure over mean gap, or over approach.
-fn secant<O: ElasticOperator<f64>>(problem: &mut Problem<f64, O, Jkr>, solution: &Solution<f64>) -> Outcome<f64> {
-    let report = &solution.report;
-    let step = STEP * report.mean_contact_pressure;
-    let mut far = |sign: f64| {
-        let control = Control::MeanPressure(report.mean_pressure + sign * step);
-        let found = solver().solve_with(problem, control, Start::From(&solution.gap), |_| ControlFlow::Continue(()))?;
-        let moved = found.report.approach.unwrap_or(-found.report.mean_gap);
-        Ok::<_, asperity::Error>((found.report.status == Status::Converged).then_some(moved).unwrap_or(f64::NAN))
-    };
-    Ok(2.0 * step / (far(1.0)? - far(-1.0)?))
 }
 
 /// What is found on a grid.

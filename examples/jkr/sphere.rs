@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 
 use asperity::exact::{self, Contact, Sphere};
 use asperity::path::{Event, Path, PathSettings};
+use asperity::stability::ContactStiffness;
 use asperity::{AdhesionLaw, Boussinesq, Branch, Control, Grid, Jkr, Problem, Result, Surface};
 use common::Outcome;
 
-use crate::case::{Areas, extrapolated, head, pull_off, row, solve, solver};
+use crate::case::{Areas, extrapolated, head, pull_off, row, secant, solve, solver, tension};
 
 const RADIUS: f64 = 1.0;
 pub const WORK: f64 = 2e-3;
@@ -36,9 +37,16 @@ fn lost_at_approach() -> Result<Contact> {
     exact()?.at_contact_radius((PI * WORK * RADIUS * RADIUS / 8.0).cbrt())
 }
 
+/// The stiffness dF/dδ = F'(a)/δ'(a) of the sphere of Johnson, Kendall and Roberts at a contact radius.
+fn stiffness(a: f64) -> f64 {
+    let force = 4.0 * a * a / RADIUS - 1.5 * (8.0 * PI * WORK * a).sqrt();
+    force / (2.0 * a / RADIUS - 0.5 * (2.0 * PI * WORK / a).sqrt())
+}
+
 /// What is found over what is exact: radius by energy and by the edge, approach, pull-off at a given force and at a
-/// given approach, and the approach at the latter.
-type Ratios = [f64; 6];
+/// given approach, the approach at the latter, and the contact stiffness at no load, at a held edge and between two
+/// loads.
+type Ratios = [f64; 8];
 
 fn cells(ratios: Ratios) -> Vec<String> {
     ratios.map(|ratio| format!("{ratio:.4}")).to_vec()
@@ -61,6 +69,8 @@ pub fn tables(quick: bool) -> Outcome<()> {
             "pull-off, force",
             "at given approach",
             "approach there",
+            "stiffness",
+            "between two loads",
             "applications: loading, unloading",
             "nodes unloading − loading",
             "pull-off: solves, applications",
@@ -75,7 +85,7 @@ pub fn tables(quick: bool) -> Outcome<()> {
         let areas = Areas::of(&loading)?;
         let off = pull_off(&mut problem, BRACKET, None)?;
         let (report, other) = (&loading.report, &unloading.report);
-        let force = -crate::case::tension(&off) * SIDE * SIDE;
+        let force = -tension(&off) * SIDE * SIDE;
         let at_approach = by_approach(n, at_rest.approach())?;
         let ratios = [
             radius(areas.by_energy) / at_rest.contact_radius(),
@@ -84,6 +94,8 @@ pub fn tables(quick: bool) -> Outcome<()> {
             force / exact.pull_off().load(),
             at_approach.0 / lost_at_approach()?.load(),
             at_approach.1 / lost_at_approach()?.approach(),
+            ContactStiffness::of(&mut problem, &loading)?.force_per_length / stiffness(at_rest.contact_radius()),
+            secant(&mut problem, &loading)? * SIDE * SIDE / stiffness(at_rest.contact_radius()),
         ];
         let mut line = vec![format!("{n}²"), format!("{:.1}", at_rest.contact_radius() * n as f64 / SIDE)];
         line.extend(cells(ratios));
