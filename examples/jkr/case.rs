@@ -14,6 +14,9 @@ const TOLERANCE: f64 = 1e-5;
 /// The step of the load to both sides between which a stiffness is found, over the mean contact pressure.
 const STEP: f64 = 0.05;
 
+/// The area by energy of the zone at the edge of a contact, in cells for each side of a cell on the edge.
+pub const ZONE: f64 = 0.16;
+
 /// The areas of a contact, as shares of the nominal area.
 #[derive(Clone, Copy)]
 pub struct Areas {
@@ -25,8 +28,10 @@ pub struct Areas {
     pub counted: f64,
     /// The nodes in contact.
     pub nodes: usize,
-    /// The length of the edge.
+    /// The length of the edge, along the cells.
     pub perimeter: f64,
+    /// The edge times the larger spacing of nodes, as a share of the nominal area.
+    pub edge: f64,
     /// The mean gap.
     pub mean_gap: f64,
     /// The operator applications of the solve.
@@ -36,15 +41,24 @@ pub struct Areas {
 impl Areas {
     pub fn of(solution: &Solution<f64>) -> Result<Self> {
         let (report, area) = (&solution.report, ContactArea::of_solution(solution)?);
+        let ((lx, ly), (dx, dy)) = (solution.grid.lengths(), solution.grid.spacing());
+        // on a line the edge is a number of points
+        let (nominal, spacing) = if solution.grid.is_line() { (lx, dx) } else { (lx * ly, dx.max(dy)) };
         Ok(Self {
             by_energy: -report.adhesive_energy / report.work_of_adhesion,
             corrected: area.corrected_contact_fraction,
             counted: area.contact_fraction,
             nodes: area.contact_nodes,
             perimeter: area.perimeter,
+            edge: area.perimeter * spacing / nominal,
             mean_gap: report.mean_gap,
             applications: report.operator_applications,
         })
+    }
+
+    /// The area by energy less that of the zone at its edge.
+    pub fn less_zone(&self) -> f64 {
+        self.by_energy - ZONE * self.edge
     }
 
     /// The mean of the areas by energy and by the edge.

@@ -72,6 +72,7 @@ pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
             "seed",
             "nodes",
             "by energy",
+            "less its zone",
             "corrected",
             "middle",
             "counted",
@@ -92,7 +93,7 @@ pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
         for &(n, areas, back) in &levels {
             let [finer, finest] = [levels[levels.len() - 2], levels[levels.len() - 1]];
             let limit = extrapolated(finest.1.by_energy, finer.1.by_energy);
-            let all = [areas.by_energy, areas.corrected, areas.middle(), areas.counted];
+            let all = [areas.by_energy, areas.less_zone(), areas.corrected, areas.middle(), areas.counted];
             let mut line = vec![seed.to_string(), format!("{n}²")];
             line.extend(all.map(|area| format!("{:.3}", 100.0 * area)));
             line.push(all.map(|area| format!("{:.3}", area / limit)).join(", "));

@@ -43,10 +43,10 @@ fn stiffness(a: f64) -> f64 {
     force / (2.0 * a / RADIUS - 0.5 * (2.0 * PI * WORK / a).sqrt())
 }
 
-/// What is found over what is exact: radius by energy and by the edge, approach, pull-off at a given force and at a
+/// What is found over what is exact: radius by energy, the same less its zone and by the edge, approach, pull-off at a given force and at a
 /// given approach, the approach at the latter, and the contact stiffness at no load, at a held edge and between two
 /// loads.
-type Ratios = [f64; 8];
+type Ratios = [f64; 9];
 
 fn cells(ratios: Ratios) -> Vec<String> {
     ratios.map(|ratio| format!("{ratio:.4}")).to_vec()
@@ -64,6 +64,7 @@ pub fn tables(quick: bool) -> Outcome<()> {
             "nodes",
             "a radius",
             "radius by energy",
+            "less the zone",
             "corrected",
             "approach",
             "pull-off, force",
@@ -89,6 +90,7 @@ pub fn tables(quick: bool) -> Outcome<()> {
         let at_approach = by_approach(n, at_rest.approach())?;
         let ratios = [
             radius(areas.by_energy) / at_rest.contact_radius(),
+            radius(areas.less_zone()) / at_rest.contact_radius(),
             radius(areas.corrected) / at_rest.contact_radius(),
             report.approach.unwrap_or(f64::NAN) / at_rest.approach(),
             force / exact.pull_off().load(),

@@ -7,7 +7,7 @@ use asperity::exact::AdhesiveWavyLine;
 use asperity::{AdhesionLaw, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Result, Spectral, Surface, Sweep};
 use common::Outcome;
 
-use crate::case::{extrapolated, half_space, head, pull_off, row, solve, solver, tension};
+use crate::case::{Areas, extrapolated, half_space, head, pull_off, row, solve, solver, tension};
 
 /// The amplitude over the wavelength, and Johnson's parameter.
 const STEEPNESS: f64 = 0.01;
@@ -62,6 +62,12 @@ impl Wave {
 
     /// The areas by energy under the loads, over the exact ones, and the operator applications.
     pub fn areas<L: AdhesionLaw<f64>>(&self, law: L) -> Outcome<(Vec<f64>, usize)> {
+        let (both, applications) = self.both_areas(law)?;
+        Ok((both.iter().map(|both| both[0]).collect(), applications))
+    }
+
+    /// The same, with the areas less the zone at the edge.
+    fn both_areas<L: AdhesionLaw<f64>>(&self, law: L) -> Outcome<(Vec<[f64; 2]>, usize)> {
         let (exact, closing) = (self.exact()?, self.exact()?.closing_pressure());
         let mut problem = self.problem(half_space(self.grid)?, law)?;
         let mut solver = solver();
@@ -69,9 +75,10 @@ impl Wave {
         let (mut ratios, mut applications) = (Vec::new(), 0);
         let loads = LOADS.map(|load| Control::MeanPressure(load * closing));
         for (step, load) in Sweep::new(&mut solver, &mut problem, loads).zip(LOADS) {
-            let report = step?.report;
+            let solution = step?;
+            let (report, areas) = (&solution.report, Areas::of(&solution)?);
             let of_exact = 2.0 * exact.at_mean_pressure(load * closing)?.half_width() / self.wavelength;
-            ratios.push(-report.adhesive_energy / report.work_of_adhesion / of_exact);
+            ratios.push([areas.by_energy, areas.less_zone()].map(|area| area / of_exact));
             applications += report.operator_applications;
         }
         Ok((ratios, applications))
@@ -98,21 +105,22 @@ pub fn tables(quick: bool) -> Outcome<()> {
         "Wave on a line, α = {ALPHA}: area by energy over the exact one at loads of {LOADS:?} p*, and pull-off over the \
          exact one"
     );
-    head(&title, &["nodes", "areas", "there − back", "pull-off", "applications: nine loads, pull-off"]);
+    head(&title, &["nodes", "areas", "less the zone", "there − back", "pull-off", "applications: nine loads, pull-off"]);
     let mut offs = Vec::new();
     for n in if quick { vec![64, 128] } else { vec![64, 128, 256, 512] } {
         let wave = Wave::line(n)?;
         let law = Jkr::new(wave.work_of_adhesion())?;
-        let ((areas, taken), (off, of_search)) = (wave.areas(law)?, wave.pull_off(law)?);
-        let [_, _, apart] = distances(&areas);
-        let list = areas.iter().map(|area| format!("{area:.4}")).collect::<Vec<_>>().join(", ");
-        row(&[n.to_string(), list, format!("{apart:.4}"), format!("{off:.4}"), format!("{taken}, {of_search}")]);
+        let ((both, taken), (off, of_search)) = (wave.both_areas(law)?, wave.pull_off(law)?);
+        let list = |k: usize| both.iter().map(|areas| format!("{:.4}", areas[k])).collect::<Vec<_>>().join(", ");
+        let [_, _, apart] = distances(&both.iter().map(|areas| areas[0]).collect::<Vec<_>>());
+        let (apart, off_exact) = (format!("{apart:.4}"), format!("{off:.4}"));
+        row(&[n.to_string(), list(0), list(1), apart, off_exact, format!("{taken}, {of_search}")]);
         offs.push((n, off));
     }
     for pair in offs.windows(2) {
         let nodes = format!("{}, {}", pair[0].0, pair[1].0);
         let off = format!("{:.4}", extrapolated(pair[1].1, pair[0].1));
-        row(&[nodes, "extrapolated".to_owned(), String::new(), off, String::new()]);
+        row(&[nodes, "extrapolated".to_owned(), String::new(), String::new(), off, String::new()]);
     }
     directions(quick)?;
     layer(quick)
