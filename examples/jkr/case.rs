@@ -32,6 +32,8 @@ pub struct Areas {
     pub perimeter: f64,
     /// The edge times the larger spacing of nodes, as a share of the nominal area.
     pub edge: f64,
+    /// The work of adhesion over the mean contact pressure.
+    pub length: f64,
     /// The mean gap.
     pub mean_gap: f64,
     /// The operator applications of the solve.
@@ -51,14 +53,30 @@ impl Areas {
             nodes: area.contact_nodes,
             perimeter: area.perimeter,
             edge: area.perimeter * spacing / nominal,
+            length: report.work_of_adhesion / report.mean_contact_pressure,
             mean_gap: report.mean_gap,
             applications: report.operator_applications,
         })
     }
 
+    /// The area by energy of the zone at the edge.
+    pub fn zone(&self) -> f64 {
+        ZONE * self.edge
+    }
+
     /// The area by energy less that of the zone at its edge.
     pub fn less_zone(&self) -> f64 {
-        self.by_energy - ZONE * self.edge
+        self.by_energy - self.zone()
+    }
+
+    /// The share of the zone in the area by energy: by so much adhesion at the edge is too strong.
+    pub fn zone_share(&self) -> f64 {
+        self.zone() / self.by_energy
+    }
+
+    /// The length by which the zone brings the bodies together, by the energy of its edge, which grows with the load.
+    pub fn zone_length(&self) -> f64 {
+        self.length * self.zone()
     }
 
     /// The mean of the areas by energy and by the edge.

@@ -43,10 +43,10 @@ fn stiffness(a: f64) -> f64 {
     force / (2.0 * a / RADIUS - 0.5 * (2.0 * PI * WORK / a).sqrt())
 }
 
-/// What is found over what is exact: radius by energy, the same less its zone and by the edge, approach, pull-off at a given force and at a
-/// given approach, the approach at the latter, and the contact stiffness at no load, at a held edge and between two
+/// What is found over what is exact: radius by energy, less its zone, and by the edge; approach and pull-off at a given
+/// force, each also less the zone; pull-off at a given approach, the approach at the latter, and the contact stiffness at no load, at a held edge and between two
 /// loads.
-type Ratios = [f64; 9];
+type Ratios = [f64; 11];
 
 fn cells(ratios: Ratios) -> Vec<String> {
     ratios.map(|ratio| format!("{ratio:.4}")).to_vec()
@@ -67,7 +67,9 @@ pub fn tables(quick: bool) -> Outcome<()> {
             "less the zone",
             "corrected",
             "approach",
+            "less the zone",
             "pull-off, force",
+            "less the zone",
             "at given approach",
             "approach there",
             "stiffness",
@@ -93,7 +95,9 @@ pub fn tables(quick: bool) -> Outcome<()> {
             radius(areas.less_zone()) / at_rest.contact_radius(),
             radius(areas.corrected) / at_rest.contact_radius(),
             report.approach.unwrap_or(f64::NAN) / at_rest.approach(),
+            (report.approach.unwrap_or(f64::NAN) - areas.zone_length()) / at_rest.approach(),
             force / exact.pull_off().load(),
+            force * (1.0 - Areas::of(&off.solution)?.zone_share()) / exact.pull_off().load(),
             at_approach.0 / lost_at_approach()?.load(),
             at_approach.1 / lost_at_approach()?.approach(),
             ContactStiffness::of(&mut problem, &loading)?.force_per_length / stiffness(at_rest.contact_radius()),
