@@ -78,11 +78,9 @@ impl Quantity {
     fn shares(self) -> [f64; 2] {
         match self {
             Self::Area => [0.5, 2.0],
-            Self::Gap => [1.5, 3.0],
-            Self::Approach => [1.5, 0.5],
-            Self::Pressure => [1.5, 3.0],
-            Self::Stiffness => [2.0, 2.0],
-            Self::PullOff => [1.0, 0.7],
+            Self::PullOff => [1.0, 1.0],
+            Self::Approach => [1.5, 1.5],
+            Self::Gap | Self::Pressure | Self::Stiffness => [3.0, 3.0],
         }
     }
 
