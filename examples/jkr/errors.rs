@@ -107,13 +107,16 @@ fn brackets(found: &[Found<'_>]) {
             let rows: Vec<_> = found
                 .iter()
                 .filter(chosen)
-                .map(|(_, levels)| (levels[finer].areas, finer.checked_sub(1).map(|i| levels[i].areas), limit(Quantity::Area, levels)))
+                .map(|(_, levels)| {
+                    (levels[finer].areas, finer.checked_sub(1).map(|i| levels[i].areas), limit(Quantity::Area, levels))
+                })
                 .collect();
             let errors = |of: &dyn Fn(&Areas, Option<Areas>) -> f64| {
                 quantiles(rows.iter().map(|(areas, coarse, limit)| (of(areas, *coarse) / limit - 1.0).abs()).collect())
             };
             let half = |areas: &Areas| 0.5 * (areas.by_energy - areas.corrected).abs();
-            let within = |f: f64| share(&rows, |(areas, _, limit)| (areas.less_zone() - limit).abs() <= f * areas.zone());
+            let within =
+                |f: f64| share(&rows, |(areas, _, limit)| (areas.less_zone() - limit).abs() <= f * areas.zone());
             let nodes = ["n/2", "n", "2n"][finer];
             row(&[
                 nodes.to_owned() + ", " + name,

@@ -14,8 +14,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    pub const ALL: [Self; 6] =
-        [Self::Area, Self::Gap, Self::Approach, Self::Pressure, Self::Stiffness, Self::PullOff];
+    pub const ALL: [Self; 6] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure, Self::Stiffness, Self::PullOff];
 
     pub fn name(self) -> &'static str {
         match self {

@@ -65,9 +65,7 @@ impl Shape {
                 let (sine, cosine) = (PI * x).sin_cos();
                 [left - sine / PI, 0.5 * (1.0 + cosine), -0.5 * PI * sine]
             }
-            Self::CubicStep => {
-                [left.powi(3) * (1.0 + x), left * left * (1.0 + 2.0 * x), -6.0 * x * left]
-            }
+            Self::CubicStep => [left.powi(3) * (1.0 + x), left * left * (1.0 + 2.0 * x), -6.0 * x * left],
             Self::QuinticStep => [
                 left.powi(4) * (1.0 + 2.0 * x * (1.0 + x)),
                 left.powi(3) * (1.0 + 3.0 * x + 6.0 * x * x),

@@ -46,12 +46,13 @@ pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
         );
         head(&title, &columns.iter().map(String::as_str).collect::<Vec<_>>());
     };
-    refer(&columns(&["seed"], &["limit", "over the limit", "applications"]));
+    refer(&columns(&["seed"], &["limit", "over the limit", "less the zone", "applications"]));
     for &seed in seeds {
-        let (mut values, mut applications) = (Vec::new(), Vec::new());
+        let (mut values, mut less, mut applications) = (Vec::new(), Vec::new(), Vec::new());
         for &n in &sizes {
             let found = pull_off(&mut problem(PULL_OFF, n, seed)?, BRACKET, Some(PULL_OFF.load))?;
             values.push(tension(&found));
+            less.push(tension(&found) * (1.0 - Areas::of(&found.solution)?.zone_share()));
             applications.push(found.operator_applications.to_string());
         }
         let limit = extrapolated(values[values.len() - 1], values[values.len() - 2]);
@@ -59,6 +60,7 @@ pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
         line.extend(values.iter().map(|value| format!("{value:.4e}")));
         line.push(format!("{limit:.4e}"));
         line.push(values.iter().map(|value| format!("{:.3}", value / limit)).collect::<Vec<_>>().join(", "));
+        line.push(less.iter().map(|value| format!("{:.3}", value / limit)).collect::<Vec<_>>().join(", "));
         line.push(applications.join(", "));
         row(&line);
     }

@@ -104,7 +104,9 @@ fn held_fronts(quick: bool) -> Outcome<()> {
             found.sort_by(f64::total_cmp);
             let mut line = vec![shape.name().to_owned(), steepest.to_string()];
             line.push(format!("{:.2}", shape.range(steepest)));
-            line.extend([found[0], found.iter().sum::<f64>() / count as f64, found[count - 1]].map(|x| format!("{x:.4}")));
+            line.extend(
+                [found[0], found.iter().sum::<f64>() / count as f64, found[count - 1]].map(|x| format!("{x:.4}")),
+            );
             line.push((applications / count).to_string());
             row(&line);
         }

@@ -82,8 +82,8 @@ pub fn tables(quick: bool) -> Outcome<()> {
     let mut found: Vec<(usize, Ratios)> = Vec::new();
     for n in if quick { vec![32, 64] } else { vec![32, 64, 128, 256] } {
         let mut problem = problem(n, Jkr::new(WORK)?)?;
-        let [loading, unloading] = [Branch::Loading, Branch::Unloading]
-            .map(|branch| solve(&mut problem, Control::Force(0.0), branch));
+        let [loading, unloading] =
+            [Branch::Loading, Branch::Unloading].map(|branch| solve(&mut problem, Control::Force(0.0), branch));
         let (loading, unloading) = (loading?, unloading?);
         let areas = Areas::of(&loading)?;
         let off = pull_off(&mut problem, BRACKET, None)?;

@@ -105,7 +105,10 @@ pub fn tables(quick: bool) -> Outcome<()> {
         "Wave on a line, α = {ALPHA}: area by energy over the exact one at loads of {LOADS:?} p*, and pull-off over the \
          exact one"
     );
-    head(&title, &["nodes", "areas", "less the zone", "there − back", "pull-off", "applications: nine loads, pull-off"]);
+    head(
+        &title,
+        &["nodes", "areas", "less the zone", "there − back", "pull-off", "applications: nine loads, pull-off"],
+    );
     let mut offs = Vec::new();
     for n in if quick { vec![64, 128] } else { vec![64, 128, 256, 512] } {
         let wave = Wave::line(n)?;
@@ -179,7 +182,10 @@ fn layer(quick: bool) -> Outcome<()> {
             let mut problem = wave.problem(Spectral::of(wave.grid, body)?, law)?;
             let mut at = |load: f64, branch| {
                 let report = solve(&mut problem, Control::MeanPressure(load * closing), branch)?.report;
-                Ok::<_, asperity::Error>((report.jkr_contact_fraction.unwrap_or(f64::NAN), report.operator_applications))
+                Ok::<_, asperity::Error>((
+                    report.jkr_contact_fraction.unwrap_or(f64::NAN),
+                    report.operator_applications,
+                ))
             };
             let [rest, there, back] =
                 [at(0.0, Branch::Loading)?, at(0.2, Branch::Loading)?, at(0.2, Branch::Unloading)?];
