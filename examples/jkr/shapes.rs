@@ -30,6 +30,7 @@ pub fn tables(quick: bool) -> Outcome<()> {
             "there − back",
             "applications",
             "sphere: radius by energy",
+            "its excess area over the edge, cells",
             "approach",
             "pull-off",
             "applications: at rest, pull-off",
@@ -56,10 +57,13 @@ pub fn tables(quick: bool) -> Outcome<()> {
             let rest = solve(&mut problem, Control::Force(0.0), Branch::Loading)?;
             let found = pull_off(&mut problem, BRACKET, None)?;
             let area = sphere::SIDE * sphere::SIDE;
-            let radius = (area * Areas::of(&rest)?.by_energy / PI).sqrt();
+            let of_rest = Areas::of(&rest)?;
+            let radius = (area * of_rest.by_energy / PI).sqrt();
+            let excess = of_rest.by_energy - PI * at_rest.contact_radius().powi(2) / area;
             line.extend(
                 [
                     radius / at_rest.contact_radius(),
+                    excess / of_rest.edge,
                     rest.report.approach.unwrap_or(f64::NAN) / at_rest.approach(),
                     -tension(&found) * area / exact.pull_off().load(),
                 ]
