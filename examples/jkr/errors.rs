@@ -71,6 +71,9 @@ fn share<'a, T: 'a>(of: impl IntoIterator<Item = &'a T>, holds: impl Fn(&T) -> b
 
 /// The median, and what nine in ten do not exceed, in per cent.
 fn quantiles(mut values: Vec<f64>) -> String {
+    if values.iter().any(|value| value.is_nan()) {
+        return String::new();
+    }
     values.sort_by(f64::total_cmp);
     let at = |share: f64| 100.0 * values.get((share * values.len() as f64) as usize).copied().unwrap_or(f64::NAN);
     format!("{:.2}, {:.2}", at(0.5), at(0.9))

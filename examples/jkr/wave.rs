@@ -133,7 +133,17 @@ fn directions(quick: bool) -> Outcome<()> {
     head(
         "The same wave on grids of two directions: largest errors of the area there and back, and pull-off over the exact \
          one",
-        &["wave", "nodes", "nodes a wave", "area there", "area back", "there − back", "pull-off", "applications"],
+        &[
+            "wave",
+            "nodes",
+            "nodes a wave",
+            "area there",
+            "area back",
+            "less the zone",
+            "there − back",
+            "pull-off",
+            "applications",
+        ],
     );
     for n in if quick { vec![32] } else { vec![64, 128] } {
         for (name, shape, periods) in [
@@ -146,15 +156,17 @@ fn directions(quick: bool) -> Outcome<()> {
         ] {
             let wave = Wave::across(shape, periods)?;
             let law = Jkr::new(wave.work_of_adhesion())?;
-            let ((areas, taken), (off, of_search)) = (wave.areas(law)?, wave.pull_off(law)?);
+            let ((both, taken), (off, of_search)) = (wave.both_areas(law)?, wave.pull_off(law)?);
             let spacing = wave.grid.spacing();
-            let [there, back, apart] = distances(&areas);
+            let [areas, less_zone] = [0, 1].map(|k| both.iter().map(|areas| areas[k]).collect::<Vec<_>>());
+            let ([there, back, apart], [less_there, less_back, _]) = (distances(&areas), distances(&less_zone));
             row(&[
                 name.to_owned(),
                 format!("{} × {}", shape.0, shape.1),
                 format!("{:.0}", wave.wavelength / spacing.0.max(spacing.1)),
                 format!("{there:.4}"),
                 format!("{back:.4}"),
+                format!("{less_there:.4}, {less_back:.4}"),
                 format!("{apart:.4}"),
                 format!("{off:.4}"),
                 format!("{taken}, {of_search}"),
