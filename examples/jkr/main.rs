@@ -1,0 +1,90 @@
+//! How right the law without a range is: spheres, waves, rough surfaces, its shape, and the error of its grid.
+//!
+//! `cargo run --release -p asperity-examples --example jkr -- TABLE`
+//!
+//! The law [`Jkr`](asperity::Jkr) has the range of the grid. The tables `sphere` and `wave` have it beside the exact
+//! solutions of Johnson, Kendall and Roberts (1971) and Johnson (1995); `shapes`, laws of other shapes and steepness;
+//! `rough`, self-affine surfaces on grids from coarse to fine; and `errors`, random scenes, with what a grid and one of
+//! half as many nodes along the sides say of the limit, beside what grids two and four times as fine say.
+//!
+//! Lengths, E* and loads are in consistent units; counts and figures are deterministic. The random scenes take four
+//! minutes on one thread, all else one.
+
+mod case;
+mod errors;
+mod estimate;
+mod law;
+mod rough;
+mod scene;
+mod shapes;
+mod sphere;
+mod wave;
+
+use std::path::PathBuf;
+
+use clap::{Parser, ValueEnum};
+use common::{Outcome, arguments};
+use rayon::ThreadPoolBuilder;
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Table {
+    /// A sphere on a free half-space, beside that of Johnson, Kendall and Roberts.
+    Sphere,
+    /// A wave on a line and on a grid, beside that of Johnson.
+    Wave,
+    /// Other shapes of the law, and other steepest slopes.
+    Shapes,
+    /// Self-affine surfaces: the pull-off, and the area.
+    Rough,
+    /// Random scenes: what two grids say of the limit.
+    Errors,
+}
+
+#[derive(Parser)]
+struct Arguments {
+    /// The table; all of them if none is named
+    table: Option<Table>,
+    /// Small grids and a few scenes: some seconds
+    #[arg(long)]
+    quick: bool,
+    /// Nodes along a side of the finest grid of the rough surfaces
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = arguments::power_of_two::<128>)]
+    largest: usize,
+    /// The number of random scenes
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    scenes: usize,
+    /// The seed of the random scenes
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    seed: u64,
+    /// The threads of all solves
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    threads: usize,
+    /// The folder for the values of the random scenes
+    #[arg(long, value_name = "DIR", default_value = "target/figures")]
+    out: PathBuf,
+}
+
+fn main() -> Outcome<()> {
+    let Arguments { table, quick, largest, scenes, seed, threads, out } = arguments::read(include_str!("main.rs"));
+    let wants = |one: Table| table.is_none_or(|table| table == one);
+    ThreadPoolBuilder::new().num_threads(threads).build()?.install(|| {
+        if wants(Table::Sphere) {
+            sphere::tables(quick)?;
+        }
+        if wants(Table::Wave) {
+            wave::tables(quick)?;
+        }
+        if wants(Table::Shapes) {
+            shapes::tables(quick)?;
+        }
+        if wants(Table::Rough) {
+            rough::tables(quick, if quick { 128 } else { largest })?;
+        }
+        if wants(Table::Errors) {
+            std::fs::create_dir_all(&out)?;
+            let path = out.join(format!("jkr-errors-{seed}.csv"));
+            errors::tables(if quick { scenes.min(6) } else { scenes }, seed, quick, &path)?;
+        }
+        Ok(())
+    })
+}
