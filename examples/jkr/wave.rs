@@ -195,7 +195,7 @@ fn layer(quick: bool) -> Outcome<()> {
             let mut at = |load: f64, branch| {
                 let report = solve(&mut problem, Control::MeanPressure(load * closing), branch)?.report;
                 Ok::<_, asperity::Error>((
-                    report.jkr_contact_fraction.unwrap_or(f64::NAN),
+                    report.adhesive_contact_fraction.unwrap_or(f64::NAN),
                     report.operator_applications,
                 ))
             };
