@@ -16,9 +16,12 @@ use crate::stability::EdgeError;
 use crate::surface::{Surface, mirror};
 
 mod goal;
+mod pull_off;
 mod refine;
+mod zone;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
+pub use pull_off::AccuratePullOff;
 
 /// The quantity of which an accuracy is asked.
 #[non_exhaustive]
@@ -26,10 +29,13 @@ pub use goal::{Accuracy, AccurateSolution, Plan};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Quantity {
     /// The contact area corrected for its edge,
-    /// [`ContactArea::corrected_contact_fraction`](crate::contact::ContactArea::corrected_contact_fraction).
+    /// [`ContactArea::corrected_contact_fraction`](crate::contact::ContactArea::corrected_contact_fraction); with
+    /// [`Jkr`](crate::Jkr) that of the limit, [`ContactArea::jkr_contact_fraction`](crate::contact::ContactArea).
     Area,
     /// The mean gap, under a given pressure or force in a periodic cell.
     Gap,
+    /// The approach, under a given force on a free boundary.
+    Approach,
     /// The mean external pressure, where it is not given.
     Pressure,
     /// The contact stiffness, [`ContactStiffness`](crate::stability::ContactStiffness).
@@ -37,11 +43,15 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The name that the tool uses: `"area"`, `"gap"`, `"pressure"` or `"stiffness"`.
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure, Self::Stiffness];
+
+    /// The name that the tool uses: `"area"`, `"gap"`, `"approach"`, `"pressure"` or `"stiffness"`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Area => "area",
             Self::Gap => "gap",
+            Self::Approach => "approach",
             Self::Pressure => "pressure",
             Self::Stiffness => "stiffness",
         }
@@ -60,6 +70,10 @@ impl Quantity {
                 "accuracy of the gap",
                 "a free half-space has no mean gap: ask for that of the pressure, which is that of the force, or of the area",
             ),
+            (Self::Approach, Control::MeanGap(_) | Control::Approach(_)) => (
+                "accuracy of the approach",
+                "bodies in a periodic cell have none, and a given one has no error: ask for that of the area",
+            ),
             (Self::Pressure, Control::MeanPressure(_) | Control::Force(_)) => {
                 ("accuracy of the pressure", "it is given: ask for that of the gap, or of the area")
             }
@@ -72,6 +86,7 @@ impl Quantity {
         Some(match self {
             Self::Area => level.area.corrected_contact_fraction,
             Self::Gap => level.mean_gap,
+            Self::Approach => level.approach?,
             Self::Pressure => level.mean_pressure,
             Self::Stiffness => level.stiffness?.pressure_per_length,
         })
@@ -84,6 +99,7 @@ impl Quantity {
         let error = match self {
             Self::Area => return None,
             Self::Gap => edge.gap / level.mean_gap,
+            Self::Approach => edge.gap / level.approach?,
             Self::Pressure => edge.gap * stiffness.pressure_per_length / level.mean_pressure,
             Self::Stiffness => edge.stiffness / stiffness.pressure_per_length,
         };
@@ -127,7 +143,7 @@ impl Quantity {
     fn expected(self, nodes_per_wave: f64) -> f64 {
         let (share, order) = match self {
             Self::Area => (0.3, 2.0),
-            Self::Gap => (0.05, 2.0),
+            Self::Gap | Self::Approach => (0.05, 2.0),
             Self::Pressure => (0.1, 2.0),
             Self::Stiffness => (0.06, 1.0),
         };
@@ -242,8 +258,8 @@ impl GridError {
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
 
     /// The errors, as by [`GridError::of`], of all quantities that the control does not give.
-    pub fn of_all(levels: &[Level], report: &Report, nodes_per_wave: f64) -> [(Quantity, Option<Self>); 4] {
-        [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness].map(|of| {
+    pub fn of_all(levels: &[Level], report: &Report, nodes_per_wave: f64) -> [(Quantity, Option<Self>); 5] {
+        Quantity::ALL.map(|of| {
             let found = of.check(report.control).is_ok().then(|| Self::of(levels, of, nodes_per_wave, report.mu_rho));
             (of, found.flatten())
         })
@@ -257,14 +273,16 @@ impl GridError {
         let resolves = |factor: f64| {
             nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE && resolves_adhesion(mu_rho, factor.recip())
         };
+        if finest.adhesive_contact_fraction.is_some() {
+            let resolves = |factor: f64| nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE;
+            return zone::error(levels, quantity, resolves);
+        }
         let value = |level: &Level| quantity.of(level).filter(|value| !value.is_nan());
-        let long = |level: &Level| level.shape.0.max(level.shape.1) as f64;
         let mut values = vec![value(finest)?];
         let mut coarser = None;
         for level in levels.iter().rev().skip(1) {
-            let factor = long(finest) / long(level);
-            let next = f64::from(1 << values.len());
-            if (factor / next - 1.0).abs() > HALVED || !resolves(factor) || level.relative_error > SOLVED {
+            let factor = f64::from(1 << values.len());
+            if !is_coarser(level, finest, factor) || !resolves(factor) {
                 break;
             }
             values.push(value(level)?);
@@ -288,6 +306,12 @@ impl GridError {
     pub(crate) fn cautious(&self) -> f64 {
         if self.rough { CAUTION * self.relative } else { self.relative }
     }
+}
+
+/// Whether a level has so many times fewer nodes along the sides than the finest, and was solved well enough.
+fn is_coarser(level: &Level, finest: &Level, factor: f64) -> bool {
+    let [fine, coarse] = [finest, level].map(|level| level.shape.0.max(level.shape.1) as f64);
+    (fine / coarse / factor - 1.0).abs() <= HALVED && level.relative_error <= SOLVED
 }
 
 /// The order of convergence of values on grids, the finest first, where three have one that is believed.

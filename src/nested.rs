@@ -22,7 +22,8 @@ mod level;
 mod part;
 mod transfer;
 
-use hierarchy::{coarsened, coarser};
+pub(crate) use hierarchy::coarsened;
+use hierarchy::coarser;
 pub use level::Level;
 pub(crate) use level::equivalent_applications;
 pub(crate) use transfer::{Deformed, Touching, deformed, prolonged};

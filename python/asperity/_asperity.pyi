@@ -276,6 +276,7 @@ class Problem:
         preload: float | None,
         start: str | _Field | None,
         observe: Callable[[Iteration], object] | None,
+        accuracy: tuple[float | None, str | None, float | None],
     ) -> dict[str, Any]: ...
     def begin(
         self,

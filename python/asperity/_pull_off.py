@@ -26,10 +26,17 @@ class PullOff(NamedTuple):
         Greatest tension that was borne, over the area of the map; None if no state under a tension was found.
     force : float or None
         The force of that tension.
+    limit_pressure, limit_force : float or None
+        Pull-off in the limit of no range that the state tells, with `JKR`: the tension less the share of the process zone
+        at the edges of the contacts, which the nodes make too wide.
+    limit_error : float or None
+        Estimated relative error of the limit, by a grid of half as many nodes along the sides.
+    accuracy : float or None
+        Relative error that was asked for.
     lost_pressure : float or None
         Least tension under which the surfaces came apart.
     reached : bool
-        Whether the two are as close as the tolerance: the pull-off is between them.
+        Whether the two are as close as the tolerance, so that the pull-off is between them, and the accuracy is met.
     rtol : float
         Relative tolerance.
     preload : float or None
@@ -45,6 +52,10 @@ class PullOff(NamedTuple):
 
     pressure: float | None
     force: float | None
+    limit_pressure: float | None
+    limit_force: float | None
+    limit_error: float | None
+    accuracy: float | None
     lost_pressure: float | None
     reached: bool
     rtol: float
@@ -64,6 +75,8 @@ def pull_off(
     law: OwnLaw | None,
     preload: Quantity | None = None,
     rtol: float = 0.02,
+    accuracy: float | None = None,
+    memory: float | None = None,
     body: Body | None = None,
     against: Heights | None = None,
     against_modulus: Quantity | None = None,
@@ -98,6 +111,11 @@ def pull_off(
         were as ``branch`` or ``start`` says.
     rtol : float
         Relative tolerance: width of the bracket over the pull-off.
+    accuracy : float, optional
+        Relative error of the pull-off that is wanted, as 0.05, with `JKR`. The heights are interpolated on finer grids
+        until the estimated error is as small.
+    memory : float, optional
+        Memory that an accuracy may take, in GiB; all that is free by default.
 
     Returns
     -------
@@ -117,9 +135,11 @@ def pull_off(
     given = locals()
     if branch is not None and start is not None:
         raise ValueError("start chooses the branch: leave out branch, or start")
+    if accuracy is not None and start is not None:
+        raise ValueError("an accuracy takes finer grids, which have no start: leave out start, or accuracy")
     scene = Scene.of({**given, "branch": only(branch)})
     of_preload = None if preload is None else number("preload", preload)
-    found = scene.problem.pull_off(number("rtol", rtol), of_preload, scene.start(start), observe)
+    found = scene.problem.pull_off(number("rtol", rtol), of_preload, scene.start(start), observe, (accuracy, None, memory))
     solution = scene.solution(found)
     if found["shortfall"] is not None:
         warn(found["shortfall"], ConvergenceWarning)

@@ -13,7 +13,7 @@ Method: TypeAlias = Literal["default", "rey2017"]
 Precision: TypeAlias = Literal["f64", "f32"]
 Branch: TypeAlias = Literal["loading", "unloading"]
 Branches: TypeAlias = Literal["loading", "unloading", "both"]
-AccuracyOf: TypeAlias = Literal["area", "gap", "pressure", "stiffness"]
+AccuracyOf: TypeAlias = Literal["area", "gap", "approach", "pressure", "stiffness"]
 Code: TypeAlias = Literal["abaqus", "comsol", "moose"]
 AxisOrder: TypeAlias = Literal["xy", "yx"]
 ScanAxis: TypeAlias = Literal["x", "y"]
@@ -101,6 +101,7 @@ class GridErrors(TypedDict):
 
     area: GridError | None
     gap: GridError | None
+    approach: GridError | None
     pressure: GridError | None
     stiffness: GridError | None
 

@@ -105,7 +105,7 @@ pub fn goal((accuracy, of, memory): Accuracy) -> PyResult<Option<Goal>> {
         };
     };
     let of = of.as_deref().unwrap_or("area");
-    let of = named("accuracy_of", of, "one of area, gap, pressure, stiffness")?;
+    let of = named("accuracy_of", of, "one of area, gap, approach, pressure, stiffness")?;
     match memory.filter(|&memory| memory <= 0.0 || memory.is_nan()) {
         None => Ok(Some(Goal { accuracy, of, memory })),
         Some(memory) => Err(PyValueError::new_err(format!("memory is {memory}: it must be positive, in GiB"))),

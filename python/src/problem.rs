@@ -165,7 +165,7 @@ impl Problem {
     }
 
     /// The pull-off, with the last state that holds.
-    #[pyo3(signature = (tolerance, preload, start, observe))]
+    #[pyo3(signature = (tolerance, preload, start, observe, accuracy))]
     fn pull_off<'py>(
         &mut self,
         py: Python<'py>,
@@ -173,11 +173,13 @@ impl Problem {
         preload: Option<f64>,
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
+        accuracy: Accuracy,
     ) -> PyResult<Bound<'py, PyDict>> {
+        let goal = goal(accuracy)?;
         let asked = PullOff::default().tolerance(tolerance).preload(preload);
         self.begins(start.as_ref());
         let (pool, inputs, solves) = self.parts()?;
-        solves.pull_off(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
+        solves.pull_off(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, (asked, goal), start)
     }
 
     /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.

@@ -64,7 +64,7 @@ pub trait Solves: Send {
         &mut self,
         py: Python<'py>,
         run: Run<'_>,
-        asked: PullOff,
+        asked: (PullOff, Option<Goal>),
         start: Option<Begin<'py>>,
     ) -> Answered<'py>;
     fn begin<'py>(
@@ -160,12 +160,12 @@ impl<T: Scalar> Solves for State<T> {
         &mut self,
         py: Python<'py>,
         at: Run<'_>,
-        asked: PullOff,
+        (asked, goal): (PullOff, Option<Goal>),
         start: Option<Begin<'py>>,
     ) -> Answered<'py> {
         let start = self.start(start, &[])?.map(|gap| gap.mapv_into_any(T::lit));
         let (found, raised) = run(py, at.pool, at.observer, |observe: Observe<'_>| {
-            let (found, pulled_off) = self.posed.pull_off(asked, start, &mut |_, state, _| observe(state))?;
+            let (found, pulled_off) = self.posed.pull_off(asked, goal, start, &mut |_, state, _| observe(state))?;
             let (found, last) = self.account("pull-off", at.inputs, found)?;
             let shortfall = pulled_off.shortfall(&last, Skin::Keywords);
             Ok(((found, last), (pulled_off, shortfall)))

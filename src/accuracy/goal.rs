@@ -26,7 +26,7 @@ const COARSEST: usize = 16;
 const MEMORY: f64 = 4.0 * 1_073_741_824.0;
 
 /// The numbers of 8 bytes that a solve holds for each node at most, with those of the surface and of its refinement.
-const NUMBERS: f64 = 12.0;
+pub(super) const NUMBERS: f64 = 12.0;
 
 /// The expected operator applications of a solve, those on coarser grids included.
 const APPLICATIONS: f64 = 40.0;
@@ -111,7 +111,7 @@ impl<T> AccurateSolution<T> {
     }
 }
 
-fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
+pub(super) fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
     surface.absent().is_none() && law.hints().shape.is_none() && surface.grid().nodes() > 1
 }
 
@@ -172,7 +172,7 @@ impl<C> Accuracy<C> {
         let boundary = operator.abilities().boundary;
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
-        let by_edge = self.asks_the_edge::<T>(surface) && boundary == Boundary::Periodic;
+        let by_edge = self.asks_the_edge(surface, law) && boundary == Boundary::Periodic;
         let mu_rho = mu_rho(law, surface.grid(), operator.modulus());
         let needed = |smaller| if refinable { self.refinements((nodes_per_wave, mu_rho), by_edge, smaller) } else { 0 };
         let refinements = needed(1.0);
@@ -199,11 +199,12 @@ impl<C> Accuracy<C> {
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), applications })
     }
 
-    fn asks_the_edge<T: Real>(&self, surface: &Surface) -> bool
+    fn asks_the_edge<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool
     where
         C: ContactConstraint<T>,
     {
-        self.of != Quantity::Area && surface.absent().is_none() && self.nested.solver.constraint.wall().is_rigid()
+        let sharp = self.nested.solver.constraint.wall().is_rigid() && !law.hints().of_grid;
+        self.of != Quantity::Area && surface.absent().is_none() && sharp
     }
 
     /// The expected refinements, if errors are smaller than expected by the factor `smaller`.
@@ -267,7 +268,7 @@ impl<C> Accuracy<C> {
         let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
         self.nested.solver.settings.tolerance = Some(tolerance);
         self.nested.coarse_tolerance = tolerance;
-        if self.of == Quantity::Stiffness || self.asks_the_edge::<T>(surface) {
+        if self.of == Quantity::Stiffness || self.asks_the_edge(surface, &law) {
             let needed = tolerance.min(ContactStiffness::TOLERANCE);
             self.nested.stiffness = Some(kept.2.map_or(needed, |given| given.min(needed)));
         }

@@ -14,7 +14,7 @@ pub(super) fn coarser((nx, ny): (usize, usize), coarsest: usize, odd: bool) -> O
 }
 
 /// The surface on all coarser grids, the coarsest last.
-pub(super) fn coarsened(surface: &Surface, coarsest: usize, odd: bool) -> Result<Vec<Surface>> {
+pub(crate) fn coarsened(surface: &Surface, coarsest: usize, odd: bool) -> Result<Vec<Surface>> {
     let odd = odd && surface.absent().is_none();
     let mut surfaces: Vec<Surface> = Vec::new();
     loop {

@@ -24,12 +24,18 @@ pub struct Level {
     pub relative_error: f64,
     /// The mean gap, [`Report::mean_gap`](crate::Report::mean_gap).
     pub mean_gap: f64,
+    /// The approach, with a free boundary, [`Report::approach`](crate::Report::approach).
+    pub approach: Option<f64>,
     /// The mean external pressure, [`Report::mean_pressure`](crate::Report::mean_pressure).
     pub mean_pressure: f64,
     /// The mean contact pressure, [`Report::mean_contact_pressure`](crate::Report::mean_contact_pressure).
     pub mean_contact_pressure: f64,
     /// The elastic energy per area, [`Report::elastic_energy`](crate::Report::elastic_energy).
     pub elastic_energy: f64,
+    /// The adhesive energy per area, [`Report::adhesive_energy`](crate::Report::adhesive_energy).
+    pub adhesive_energy: f64,
+    /// The contact by that energy, [`Report::adhesive_contact_fraction`](crate::Report::adhesive_contact_fraction).
+    pub adhesive_contact_fraction: Option<f64>,
     /// The contact area, as nodes count it and corrected.
     pub area: ContactArea,
     /// The contact stiffness, by [`Nested::stiffness`].
@@ -46,9 +52,12 @@ impl Level {
             operator_applications: report.operator_applications + 1,
             relative_error: report.relative_error,
             mean_gap: report.mean_gap,
+            approach: report.approach,
             mean_pressure: report.mean_pressure,
             mean_contact_pressure: report.mean_contact_pressure,
             elastic_energy: report.elastic_energy,
+            adhesive_energy: report.adhesive_energy,
+            adhesive_contact_fraction: report.adhesive_contact_fraction,
             area: ContactArea::of_solution(solution)?,
             stiffness: None,
         })

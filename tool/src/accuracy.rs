@@ -29,6 +29,8 @@ pub enum Of {
     Area,
     /// Mean gap
     Gap,
+    /// Approach, with a free boundary
+    Approach,
     /// Mean pressure
     Pressure,
     /// Contact stiffness
@@ -41,6 +43,7 @@ impl AccuracyOptions {
         let of = match self.accuracy_of.unwrap_or(Of::Area) {
             Of::Area => Quantity::Area,
             Of::Gap => Quantity::Gap,
+            Of::Approach => Quantity::Approach,
             Of::Pressure => Quantity::Pressure,
             Of::Stiffness => Quantity::Stiffness,
         };

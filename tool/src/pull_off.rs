@@ -2,13 +2,14 @@
 
 use std::ops::ControlFlow;
 
+use asperity::accuracy::Quantity as Of;
 use asperity::{PullOff, Status};
-use asperity_scene::{Inputs, Precision, Skin};
+use asperity_scene::{Goal, Inputs, Precision, Skin};
 use clap::Args;
 use serde_json::json;
 
 use crate::adhesion::AdhesionOptions;
-use crate::allowed::share;
+use crate::allowed::{positive, share};
 use crate::fields::check_finite;
 use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
@@ -44,6 +45,15 @@ pub struct Options {
     #[arg(long, value_name = "T", default_value = "0.02", allow_hyphen_values = true, value_parser = share)]
     #[arg(help_heading = "Load")]
     rtol: f64,
+    /// Relative error of the pull-off that is wanted, as 0.05, with the law jkr: interpolates the surface on finer grids
+    /// until the estimated error is as small
+    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
+    #[arg(conflicts_with = "initial_gap")]
+    accuracy: Option<f64>,
+    /// Memory that --accuracy may take, in GiB [default: all that is free]
+    #[arg(long, value_name = "GIB", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
+    #[arg(requires = "accuracy")]
+    memory: Option<f64>,
 
     #[command(flatten)]
     adhesion: AdhesionOptions,
@@ -96,11 +106,13 @@ impl Options {
         let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), None, part.wanted())?;
         let slopes = posed.slopes()?;
         let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
+        let goal = self.accuracy.map(|accuracy| Goal { accuracy, of: Of::Area, memory: self.memory });
         let mut progress = Progress::new("", posed.tolerance(None)?, nodes, printing.without_bars());
-        let (mut found, pulled_off) = posed.pull_off(asked, start.map(T::field), &mut |grid, state, tolerance| {
-            progress.update_on(grid, state, tolerance);
-            ControlFlow::Continue(())
-        })?;
+        let (mut found, pulled_off) =
+            posed.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
+                progress.update_on(grid, state, tolerance);
+                ControlFlow::Continue(())
+            })?;
         drop((posed, progress));
         check_finite(&found.solution)?;
         warnings.look_at(&found.solution, &part)?;

@@ -79,6 +79,8 @@ pub struct GridErrors {
     pub area: Option<GridError>,
     /// That of the mean gap.
     pub gap: Option<GridError>,
+    /// That of the approach.
+    pub approach: Option<GridError>,
     /// That of the mean pressure.
     pub pressure: Option<GridError>,
     /// That of the contact stiffness.
@@ -87,14 +89,16 @@ pub struct GridErrors {
 
 impl GridErrors {
     pub(crate) fn of(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Self {
-        let [(_, area), (_, gap), (_, pressure), (_, stiffness)] = GridError::of_all(levels, report, nodes_per_wave);
-        Self { area, gap, pressure, stiffness }
+        let [(_, area), (_, gap), (_, approach), (_, pressure), (_, stiffness)] =
+            GridError::of_all(levels, report, nodes_per_wave);
+        Self { area, gap, approach, pressure, stiffness }
     }
 
     /// The errors with their quantities.
-    pub fn all(&self) -> [(Quantity, Option<GridError>); 4] {
-        let Self { area, gap, pressure, stiffness } = *self;
-        [(Quantity::Area, area), (Quantity::Gap, gap), (Quantity::Pressure, pressure), (Quantity::Stiffness, stiffness)]
+    pub fn all(&self) -> [(Quantity, Option<GridError>); 5] {
+        let Self { area, gap, approach, pressure, stiffness } = *self;
+        let errors = [area, gap, approach, pressure, stiffness];
+        std::array::from_fn(|i| (Quantity::ALL[i], errors[i]))
     }
 }
 

@@ -4,7 +4,7 @@ use std::mem;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use asperity::accuracy::Plan;
+use asperity::accuracy::{Accuracy, Plan, Quantity};
 use asperity::contact::Original;
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::{
@@ -63,7 +63,7 @@ compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Constraint<T>>, &'a 
 compiled!(Planned: (&'a Posed<T>, Control, Goal) => Result<(Plan, f64)> = Posed::planned);
 compiled!(Timed: &'a Posed<T> => Result<f64> = Posed::timed);
 compiled!(Solved: (&'a mut Posed<T>, &'a Asked, Option<Array2<T>>, Observe<'a>) => Result<Found<T>> = Posed::solved);
-compiled!(Pulled: (&'a mut Posed<T>, PullOff, Option<Array2<T>>, Observe<'a>) => Result<(Found<T>, PulledOff)> =
+compiled!(Pulled: (&'a mut Posed<T>, PullOff, Option<Goal>, Option<Array2<T>>, Observe<'a>) => Result<(Found<T>, PulledOff)> =
     Posed::pulled);
 compiled!(Stiff: (&'a mut Posed<T>, &'a Solution<T>) => Result<Option<ContactStiffness>> = Posed::stiff);
 compiled!(Stable: (&'a mut Posed<T>, Control, &'a Array2<T>, f64) => Result<(Steadiness, Array2<T>)> = Posed::stable);
@@ -259,23 +259,38 @@ impl<T: Real> Posed<T> {
         Ok((Steadiness::of(&found), found.mode))
     }
 
-    /// The pull-off, from a gap or the default start, with the last state that holds.
+    /// The pull-off, to an accuracy if one is asked for, from a gap or the default start, with the last state that holds.
+    /// With a law that has the range of the grid a coarser grid tells the error, unless a start is given.
     ///
     /// # Errors
-    /// Those of [`PullOff::find_from`].
+    /// Those of [`PullOff::find_from`] and [`Accuracy::pull_off`](asperity::accuracy::Accuracy::pull_off).
     pub fn pull_off(
         &mut self,
         asked: PullOff,
+        goal: Option<Goal>,
         start: Option<Array2<T>>,
         observe: Observe<'_>,
     ) -> Result<(Found<T>, PulledOff)> {
-        T::call::<Pulled<'_>>((self, asked, start, observe))
+        T::call::<Pulled<'_>>((self, asked, goal, start, observe))
     }
 
     fn pulled(
-        (this, asked, start, observe): (&mut Self, PullOff, Option<Array2<T>>, Observe<'_>),
+        (this, asked, goal, start, observe): (&mut Self, PullOff, Option<Goal>, Option<Array2<T>>, Observe<'_>),
     ) -> Result<(Found<T>, PulledOff)> {
         let clock = Instant::now();
+        if goal.is_some() || start.is_none() && this.law.hints().of_grid {
+            let (solver, tolerance) = (this.solver.clone(), this.solver.settings.tolerance_in::<T>());
+            let mut wanted = match goal {
+                Some(goal) => goal.by(solver, false),
+                None => Accuracy::with_solver(f64::INFINITY, Quantity::Area, solver),
+            };
+            let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
+            let elastic = |grid| this.elastic.operator(grid);
+            let found = wanted.pull_off_observed(this.surface()?, elastic, &*this.law, &asked, observe)?;
+            let last = this.found(found.found.solution.clone(), clock)?;
+            let pulled_off = PulledOff::of(asked, &found.found, &last)?.to_accuracy(&found, goal, &last)?;
+            return Ok((Found { refined: goal.map(|_| found.surface), ..last }, pulled_off));
+        }
         let (solver, problem) = this.parts()?;
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
         let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));

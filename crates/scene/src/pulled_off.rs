@@ -1,9 +1,11 @@
 //! The pull-off of a problem, with the sentences of its report.
 
+use asperity::accuracy::AccuratePullOff;
 use asperity::{Branch, FoundPullOff, PullOff, Real, Status};
 use serde::Serialize;
 
 use crate::account::Account;
+use crate::accuracy::Goal;
 use crate::found::Found;
 use crate::numbers::percent;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
@@ -18,6 +20,14 @@ pub struct PulledOff {
     pub pull_off_pressure: Option<f64>,
     /// The force of that tension.
     pub pull_off_force: Option<f64>,
+    /// The pull-off in the limit of no range that the state tells, a pressure, of a law that has the range of the grid.
+    pub limit_pressure: Option<f64>,
+    /// The force of that tension.
+    pub limit_force: Option<f64>,
+    /// The estimated relative error of the limit, if a coarser grid tells it.
+    pub limit_error: Option<f64>,
+    /// The relative error that was asked for, if one was.
+    pub accuracy: Option<f64>,
     /// The least tension under which the surfaces came apart.
     pub lost_pressure: Option<f64>,
     /// Whether the two are as close as the tolerance.
@@ -45,6 +55,10 @@ impl PulledOff {
         Ok(Self {
             pull_off_pressure: is_borne.then_some(-report.mean_pressure),
             pull_off_force: is_borne.then_some(-report.normal_force),
+            limit_pressure: None,
+            limit_force: None,
+            limit_error: None,
+            accuracy: None,
             lost_pressure: found.lost,
             reached: found.reached,
             rtol: asked.tolerance,
@@ -55,11 +69,41 @@ impl PulledOff {
         })
     }
 
+    /// The same with the limit that a search to an accuracy tells.
+    ///
+    /// # Errors
+    /// Those of [`Found::part`] and [`FoundPullOff::limit`].
+    pub(crate) fn to_accuracy<T: Real>(
+        self,
+        found: &AccuratePullOff<T>,
+        goal: Option<Goal>,
+        last: &Found<T>,
+    ) -> asperity::Result<Self> {
+        let report = &last.part()?.report;
+        let limit = found.found.limit()?;
+        Ok(Self {
+            limit_pressure: limit,
+            limit_force: limit.map(|limit| limit * report.normal_force / report.mean_pressure),
+            limit_error: found.error.map(|error| error.relative),
+            accuracy: goal.map(|goal| goal.accuracy),
+            reached: self.reached && found.reached,
+            ..self
+        })
+    }
+
     /// The shortfall of a search that has not come to its end, with a remedy, in the words of a skin.
     pub fn shortfall(&self, last: &Account, skin: Skin) -> Option<String> {
         // a first state that is none says so itself
         if self.reached || last.status != Status::Converged {
             return None;
+        }
+        if let (Some(accuracy), Some(error)) = (self.accuracy, self.limit_error) {
+            let text = format!(
+                "the accuracy of {accuracy} of the pull-off is not reached: the estimate is {} %: give {{memory}} for a finer \
+                 grid, or a larger {{accuracy}}",
+                percent(error)
+            );
+            return Some(worded(&text, skin));
         }
         let lost = self.lost_pressure.map_or("no bound".to_owned(), |lost| lost.to_string());
         let text = format!(
@@ -81,19 +125,25 @@ impl PulledOff {
             (None, None) => "as given".to_owned(),
         };
         let force = self.pull_off_force.map_or("none".to_owned(), |force| units.number(force, FORCE));
+        let limit = self.limit_pressure.map(|limit| {
+            let error = self.limit_error.map_or(String::new(), |error| format!(", to {} %", percent(error)));
+            let force = self.limit_force.map_or(String::new(), |force| format!(", {}", units.number(force, FORCE)));
+            ("in the limit of no range", format!("{}{force}{error}", units.number(limit, PRESSURE)))
+        });
         let place = match last.approach {
             Some(approach) => ("approach there", units.number(approach, LENGTH)),
             None => ("mean gap there", units.number(last.mean_gap, LENGTH)),
         };
-        vec![
-            ("pull-off pressure", pressure(self.pull_off_pressure)),
-            ("pull-off force", force),
+        let mut rows = vec![("pull-off pressure", pressure(self.pull_off_pressure)), ("pull-off force", force)];
+        rows.extend(limit);
+        rows.extend([
             ("apart under", pressure(self.lost_pressure)),
             ("before", before),
             place,
             ("contact there", format!("{} %", percent(last.contact_fraction))),
             ("solves", self.solves.to_string()),
             ("operator applications", self.operator_applications.to_string()),
-        ]
+        ]);
+        rows
     }
 }

@@ -122,7 +122,7 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
     found.sight.look_at(&mut account, &found.solution).unwrap();
     let report = json!(account);
     assert_eq!(keys(&report["levels"][0]), words(LEVEL));
-    assert_eq!(keys(&report["grid_error"]), ["area", "gap", "pressure", "stiffness"]);
+    assert_eq!(keys(&report["grid_error"]), ["area", "gap", "approach", "pressure", "stiffness"]);
 
     let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
     let (found, account) = solved(&Asked { goal: Some(goal), ..under });

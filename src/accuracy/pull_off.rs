@@ -1,0 +1,185 @@
+//! The pull-off with the error of its grid, of a law that has the range of the grid.
+
+use std::ops::ControlFlow;
+
+use super::goal::{NUMBERS, is_refinable};
+use super::refine::{refined, twice};
+use super::{Accuracy, GridError, observed_order};
+use crate::adhesion::{AdhesionLaw, Discretisation};
+use crate::constraint::ContactConstraint;
+use crate::contact::ContactArea;
+use crate::elastic::{Boundary, ElasticOperator};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::nested::coarsened;
+use crate::problem::Problem;
+use crate::pull_off::{FoundPullOff, PullOff};
+use crate::real::Real;
+use crate::solver::{Iteration, Start, Status};
+use crate::surface::Surface;
+
+/// The factors of the process zone and of the difference to the grid of half as many nodes, in the error.
+const FACTORS: [f64; 2] = [1.0, 1.0];
+
+/// The width of the bracket of a search, as a share of the accuracy.
+const BRACKET: f64 = 0.2;
+
+/// The pull-off on the finest of some grids, and the estimated error of its [limit](FoundPullOff::limit).
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct AccuratePullOff<T> {
+    /// The search on the finest grid.
+    pub found: FoundPullOff<T>,
+    /// The surface on that grid.
+    pub surface: Surface,
+    /// The nodes (Nx, Ny) of each grid, the finest last, and the limit of the pull-off that it tells, a pressure.
+    pub levels: Vec<((usize, usize), f64)>,
+    /// The estimated error of the limit on the finest grid, with the width of its bracket, if two grids tell it.
+    pub error: Option<GridError>,
+    /// Whether the estimate meets the accuracy.
+    pub reached: bool,
+    /// The next finer grid and its memory in bytes, if that was too much.
+    pub unaffordable: Option<((usize, usize), f64)>,
+}
+
+impl<T: Real> FoundPullOff<T> {
+    /// The pull-off in the limit of no range, a pressure, that a state under the greatest tension tells on its grid: the
+    /// tension less the share of the process zone in its adhesive energy. None of a law with a range, and without a
+    /// tension.
+    ///
+    /// ```math
+    /// T = T_grid · A/A_E ,   A_E = −E_adh/w ,   A = A_E − 0.16 S Δx
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`ContactArea::of_solution`].
+    pub fn limit(&self) -> Result<Option<f64>> {
+        let report = &self.solution.report;
+        let (tension, by_energy) = (-report.mean_pressure, report.adhesive_contact_fraction);
+        let area = ContactArea::of_solution(&self.solution)?.jkr_contact_fraction;
+        let share = area.zip(by_energy).map(|(area, by_energy)| area / by_energy);
+        Ok(share.filter(|share| tension > 0.0 && share.is_finite()).map(|share| share * tension))
+    }
+}
+
+impl<C> Accuracy<C> {
+    /// The pull-off to the accuracy, if it can be had; an infinite accuracy asks for the error on the given grid alone.
+    ///
+    /// The given grid and one of half as many nodes along the sides are searched. As long as the estimated error of the
+    /// [limit](FoundPullOff::limit) exceeds the accuracy, the surface is put on twice as many nodes, as by
+    /// [`Accuracy::solve`]. With a law that has a range of its own the given grid alone is searched, without an estimate.
+    ///
+    /// # Errors
+    /// [`Error::Control`] for an accuracy with a law that has a range; [`Error::Value`] for one that is not positive;
+    /// those of `operator` and [`PullOff::find`].
+    ///
+    /// ```
+    /// use asperity::accuracy::{Accuracy, Quantity};
+    /// use asperity::{Boussinesq, Grid, Jkr, PullOff, Surface, exact, exact::Sphere};
+    /// let sphere = Surface::paraboloid(Grid::square(48, 1.6)?, 1.0)?;
+    /// let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
+    /// let mut told = Accuracy::new(f64::INFINITY, Quantity::Area);
+    /// let found = told.pull_off(&sphere, half_space, &Jkr::new(2e-3)?, &PullOff::default())?;
+    /// let force = found.found.limit()?.unwrap() * 1.6 * 1.6;
+    /// let ratio = force / -exact::Jkr::new(1.0, 1.0, 2e-3)?.pull_off().load();
+    /// assert!((ratio - 1.0).abs() < found.error.unwrap().relative);
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn pull_off<T, O>(
+        &mut self,
+        surface: &Surface,
+        operator: impl FnMut(Grid) -> Result<O>,
+        law: &dyn AdhesionLaw<T>,
+        search: &PullOff,
+    ) -> Result<AccuratePullOff<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        C: ContactConstraint<T>,
+    {
+        self.pull_off_observed(surface, operator, law, search, |_, _| ControlFlow::Continue(()))
+    }
+
+    /// As [`Accuracy::pull_off`], and calls `observe` with the grid in every iteration; where it stops a search, no
+    /// finer grid follows.
+    ///
+    /// # Errors
+    /// Those of [`Accuracy::pull_off`].
+    pub fn pull_off_observed<T, O>(
+        &mut self,
+        surface: &Surface,
+        mut operator: impl FnMut(Grid) -> Result<O>,
+        law: &dyn AdhesionLaw<T>,
+        search: &PullOff,
+        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
+    ) -> Result<AccuratePullOff<T>>
+    where
+        T: Real,
+        O: ElasticOperator<T>,
+        C: ContactConstraint<T>,
+    {
+        let hints = law.hints();
+        let refines = self.target.is_finite();
+        if refines {
+            Error::positive("accuracy", self.target)?;
+        }
+        if refines && !hints.of_grid {
+            let reason = "it is known of a law that has the range of the grid alone: take that of JKR, or leave out the accuracy";
+            return Err(Error::Control { control: "accuracy of the pull-off", reason });
+        }
+        let search = search.tolerance(search.tolerance.min(BRACKET * self.target));
+        let mut solver = &mut self.nested.solver;
+        let mut find = |surface: &Surface, law: &dyn AdhesionLaw<T>| {
+            let grid = *surface.grid();
+            let mut problem = Problem::new(surface, operator(grid)?, law)?;
+            let found = search.find_from(&mut solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
+            let limit = found.limit()?;
+            Ok::<_, Error>((found, limit, problem.operator.grid().nodes(), problem.operator.abilities().boundary))
+        };
+        let mut levels = Vec::new();
+        if hints.of_grid && !hints.zero {
+            let coarse = coarsened(surface, self.nested.coarsest, hints.shape.is_none())?.into_iter().next();
+            if let Some(coarse) = &coarse {
+                let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
+                let on_coarse = law.adapted(Discretisation::Coarse(nx / cx, ny / cy));
+                // what cannot be found there says nothing of the finer grid
+                let found = find(coarse, on_coarse.as_deref().unwrap_or(law)).ok();
+                levels.extend(found.and_then(|(_, limit, ..)| Some((coarse.grid().shape(), limit?))));
+            }
+        }
+        let mut surface = surface.clone();
+        let refinable = refines && is_refinable(&surface, law);
+        loop {
+            let (found, limit, nodes, boundary) = find(&surface, law)?;
+            let waves = surface.nodes_per_wave(boundary);
+            let stopped = found.solution.report.status == Status::Stopped;
+            levels.extend(limit.map(|limit| (surface.grid().shape(), limit)));
+            let error = if found.reached { error(&found, &levels, waves) } else { None };
+            let reached = !refines || error.is_some_and(|error| error.cautious() <= self.target);
+            let shape = twice(surface.grid().shape());
+            let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
+            let bytes = 8.0 * NUMBERS * nodes as f64 * growth;
+            if reached || stopped || !found.reached || !refinable || bytes > self.memory {
+                let unaffordable =
+                    (!reached && found.reached && refinable && bytes > self.memory).then_some((shape, bytes));
+                return Ok(AccuratePullOff { found, surface, levels, error, reached, unaffordable });
+            }
+            surface = refined(&surface, boundary == Boundary::Periodic)?;
+        }
+    }
+}
+
+/// The error of the limit on the finest of the levels.
+fn error<T: Real>(found: &FoundPullOff<T>, levels: &[((usize, usize), f64)], nodes_per_wave: f64) -> Option<GridError> {
+    let limits: Vec<f64> = levels.iter().rev().map(|(_, limit)| *limit).collect();
+    let &[limit, coarse, ..] = &limits[..] else { return None };
+    if nodes_per_wave < 2.0 * GridError::LEAST_NODES_PER_WAVE {
+        return None;
+    }
+    let tension = -found.solution.report.mean_pressure;
+    let bracket = found.lost.map_or(0.0, |lost| lost - tension);
+    let [of_zone, of_difference] = FACTORS;
+    let of_grid = (of_zone * (tension - limit)).hypot(of_difference * (limit - coarse));
+    let relative = (of_grid + bracket) / limit;
+    Some(GridError { relative, order: observed_order(&limits), rough: false })
+}
