@@ -85,6 +85,7 @@ class GridLevel(TypedDict):
     elastic_energy: float
     contact_fraction: float
     corrected_contact_fraction: float
+    jkr_contact_fraction: float | None
     contact_stiffness: float | None
 
 

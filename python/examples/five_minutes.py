@@ -31,11 +31,11 @@ surface = asperity.prepare(raw, detrend="plane", fill=True, mirror=True)
 asperity.surface.statistics(surface)
 
 # %% [markdown]
-# Press it against a half-space of E* = 1 GPa by 2 MPa, without and with adhesion of 20 mJ/m² over 5 nm.
+# Press it against a half-space of E* = 1 GPa by 2 MPa, without adhesion and with a work of adhesion of 20 mJ/m².
 
 # %%
 dry = asperity.solve(surface, modulus=1e9, mean_pressure=2e6)
-law = asperity.Exponential(work_of_adhesion=0.02, range=5e-9)
+law = asperity.JKR(work_of_adhesion=0.02)
 sticky = asperity.solve(surface, modulus=1e9, mean_pressure=2e6, law=law, stability=True)
 sticky
 

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Amplitude, Exponential, Grid, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::{AdhesionLaw, Amplitude, Grid, Jkr, NoAdhesion, SelfAffine, Status, Surface};
 use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
 use asperity_scene::Inputs;
@@ -62,7 +62,6 @@ const RMS_HEIGHT: f64 = 5e-9;
 const MODULUS: f64 = 1e9;
 const PRESSURE: f64 = 5e6;
 const WORK_OF_ADHESION: f64 = 0.05;
-const RANGE: f64 = 1e-9;
 
 /// The names of the maps, as yet without endings.
 const MAPS: [&str; 5] = [
@@ -89,16 +88,15 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let surface = rough(grid)?;
     printing.say(&format!(
         "A rough surface of {side} by {side} ({NODES} x {NODES} nodes, rms height {}) pressed with {}\n\
-         against a half-space of contact modulus {}, without and with adhesion (exponential law, {} over {}).\n",
+         against a half-space of contact modulus {}, without adhesion and with a work of adhesion of {}.\n",
         si(RMS_HEIGHT, "m"),
         si(PRESSURE, "Pa"),
         si(MODULUS, "Pa"),
         si(WORK_OF_ADHESION, "J/m²"),
-        si(RANGE, "m"),
         side = si(SIDE, "m"),
     ));
     let heights = surface.heights().clone();
-    let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
+    let law = Jkr::new(WORK_OF_ADHESION)?;
     let part = Part::all(grid);
     let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
         let tolerance = options.problem().scene().tolerance();
@@ -126,7 +124,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
         write_npy(folder.path("heights.npy"), &heights)?;
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
         // a law of no work is no adhesion
-        let none = Exponential::new(0.0, RANGE)?;
+        let none = Jkr::new(0.0)?;
         for (name, solution, law) in [("without adhesion", &bare, &none), ("with adhesion", &sticky, &law)] {
             let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
             let regions = solution.regions(law)?.mapv(f64::from);
@@ -183,7 +181,7 @@ fn draw_heights(grid: Grid, heights: &Array2<f64>, dpi: f64) -> asperity::Result
 
 /// The arguments of `asperity solve` for one of the two cases, with the heights in `folder`.
 fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
-    let law = "--law exponential --work-of-adhesion 50mJ/m2 --range 1nm";
+    let law = "--law jkr --work-of-adhesion 50mJ/m2";
     let given = format!("--lengths 1um --modulus 1GPa --mean-pressure 5MPa {}", if adhesive { law } else { "" });
     let mut arguments: Vec<OsString> = ["asperity", "solve", "--heights"].map(OsString::from).into();
     arguments.push(folder.join("heights.npy").into());

@@ -67,6 +67,8 @@ record! {
         contact_fraction: f64 = level.area.contact_fraction,
         /// The contact area within its edge between the nodes.
         corrected_contact_fraction: f64 = level.area.corrected_contact_fraction,
+        /// The contact area that the theory of JKR means, with a law that has the range of the grid.
+        jkr_contact_fraction: Option<f64> = level.area.jkr_contact_fraction,
         /// The contact stiffness, if it was asked for.
         contact_stiffness: Option<f64> = level.stiffness.map(|found| found.pressure_per_length),
     }

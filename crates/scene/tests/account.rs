@@ -32,7 +32,7 @@ const OTHER_BRANCH: &str = "\
     elastic_energy adhesive_energy distance same";
 const LEVEL: &str = "\
     shape status iterations operator_applications relative_error mean_gap mean_pressure mean_contact_pressure \
-    elastic_energy contact_fraction corrected_contact_fraction contact_stiffness";
+    elastic_energy contact_fraction corrected_contact_fraction jkr_contact_fraction contact_stiffness";
 const STABILITY: &str = "\
     verdict eigenvalue residual lower_bound error_bound smoothed operator_applications";
 
