@@ -135,13 +135,16 @@ impl Quantity {
 
     /// The relative error on a grid without a coarser one.
     fn by_waves(self, nodes_per_wave: f64, [places, adhesion]: [f64; 2]) -> Option<f64> {
-        let error = self.expected(nodes_per_wave).hypot(2.0 * places).hypot(adhesion);
+        let error = self.expected(nodes_per_wave, false).hypot(2.0 * places).hypot(adhesion);
         (self == Self::Area && nodes_per_wave.is_finite() && error.is_finite()).then_some(error)
     }
 
-    /// The expected error with so many nodes in the shortest wave, by that of rough surfaces.
-    fn expected(self, nodes_per_wave: f64) -> f64 {
+    /// The expected error with so many nodes in the shortest wave, by that of rough surfaces; with a law that has the
+    /// range of the grid, by the median of the estimates.
+    fn expected(self, nodes_per_wave: f64, of_grid: bool) -> f64 {
         let (share, order) = match self {
+            Self::Area if of_grid => (0.7, 1.0),
+            _ if of_grid => (0.3, 1.0),
             Self::Area => (0.3, 2.0),
             Self::Gap | Self::Approach => (0.05, 2.0),
             Self::Pressure => (0.1, 2.0),
@@ -233,6 +236,21 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// κ and δA have the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by
 /// luck. The factors are fitted to rough surfaces, strips and lattices; the page [`choosing`](crate::guide::choosing)
 /// has how good the estimates are on others.
+///
+/// With [`Jkr`](crate::Jkr), whose range is that of the grid, the process zone at the edge of the contact, b =
+/// [adhesive](crate::Report::adhesive_contact_fraction) less [JKR contact fraction](crate::Report::jkr_contact_fraction),
+/// makes the errors. With δ the difference of the quantities less their part of the zone to the grid of half as many
+/// nodes they are
+///
+/// | quantity | zone z | error | on one grid |
+/// |---|---|---|---|
+/// | area [by JKR](crate::contact::ContactArea) | b | √((0.6 z)² + (1.2 δ)²) | 0.75 z |
+/// | mean gap ḡ | wb/λ̄ | √((3 z)² + (3 δ)²) | 4 z |
+/// | approach | wb/λ̄ | 2.5 z | 2.5 z |
+/// | mean pressure | wb/ḡ | √((6 z)² + (3 δ)²) | 10 z |
+///
+/// with λ̄ the mean contact pressure; three times as large, and rough, where the area changes between the two grids by more
+/// than b/2, as where a patch of contact is on one of them alone; and rough on one grid. The stiffness has no estimate.
 ///
 /// A grid counts if it has the same waves, the shortest with at least four nodes ([`Surface::nodes_per_wave`]), a
 /// μ_ρ ≤ 0.5, and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;

@@ -173,8 +173,10 @@ impl<C> Accuracy<C> {
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
         let by_edge = self.asks_the_edge(surface, law) && boundary == Boundary::Periodic;
-        let mu_rho = mu_rho(law, surface.grid(), operator.modulus());
-        let needed = |smaller| if refinable { self.refinements((nodes_per_wave, mu_rho), by_edge, smaller) } else { 0 };
+        let (mu_rho, of_grid) = (mu_rho(law, surface.grid(), operator.modulus()), law.hints().of_grid);
+        let needed = |smaller| {
+            if refinable { self.refinements((nodes_per_wave, mu_rho), (by_edge, of_grid), smaller) } else { 0 }
+        };
         let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
         let (nx, ny) = twice(surface.grid().shape());
@@ -192,7 +194,7 @@ impl<C> Accuracy<C> {
                 shape: shape(refinements),
                 bytes: bytes(refinements),
                 available: self.memory,
-                affordable: if resolved { self.of.expected(nodes_per_wave * finer) } else { f64::INFINITY },
+                affordable: if resolved { self.of.expected(nodes_per_wave * finer, of_grid) } else { f64::INFINITY },
             });
         }
         let applications = APPLICATIONS * growth.powi(refinements);
@@ -208,7 +210,7 @@ impl<C> Accuracy<C> {
     }
 
     /// The expected refinements, if errors are smaller than expected by the factor `smaller`.
-    fn refinements(&self, (nodes_per_wave, mu_rho): (f64, f64), by_edge: bool, smaller: f64) -> i32 {
+    fn refinements(&self, (nodes_per_wave, mu_rho): (f64, f64), (by_edge, of_grid): (bool, bool), smaller: f64) -> i32 {
         // without a coarser grid the waves tell the error of the area, and the edge that of the others
         let least = GridError::LEAST_NODES_PER_WAVE;
         let least = if by_edge || self.of == Quantity::Area { least } else { 2.0 * least };
@@ -219,7 +221,7 @@ impl<C> Accuracy<C> {
             let caution = if sure || nodes >= 2.0 * FINE { 1.0 } else { CAUTION };
             resolves_adhesion(mu_rho, finer)
                 && nodes >= least
-                && caution * self.of.expected(nodes) <= smaller * self.target
+                && caution * self.of.expected(nodes, of_grid) <= smaller * self.target
         };
         (0..40).find(enough).unwrap_or(40)
     }

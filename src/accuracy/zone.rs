@@ -3,44 +3,66 @@
 use super::{GridError, Quantity, is_coarser, observed_order};
 use crate::nested::Level;
 
-/// The factors of the process zone and of the difference to the grid of half as many nodes, in the error of a quantity.
-const AREA: [f64; 2] = [0.5, 2.0];
-const LENGTHS: [f64; 2] = [1.5, 1.5];
+/// The factor by which an estimate is larger where the area changes from grid to grid by more than half the zone.
+const APART: f64 = 3.0;
+
+/// A quantity on a grid: as it is reported, less the process zone, and the zone.
+struct Told {
+    value: f64,
+    limit: f64,
+    zone: f64,
+}
 
 impl Quantity {
-    /// The value on a level, and the part of it that the process zone makes.
-    fn with_zone(self, level: &Level) -> Option<(f64, f64)> {
+    /// The quantity on a level of a law that has the range of the grid.
+    fn told(self, level: &Level) -> Option<Told> {
         let (by_energy, area) = (level.adhesive_contact_fraction?, level.area.jkr_contact_fraction?);
-        let zone = by_energy - area;
-        // the energy of the zone over the contact pressure, which moves its edge
-        let length = 0.0 - level.adhesive_energy / by_energy * zone / level.mean_contact_pressure;
+        let (zone, work) = (by_energy - area, 0.0 - level.adhesive_energy / by_energy);
+        let of = |value: f64, sign: f64, zone: f64| Told { value, limit: value + sign * zone, zone };
+        // the energy of the zone over what moves its edge
+        let length = work * zone / level.mean_contact_pressure;
+        let told = match self {
+            Self::Area => Told { value: area, limit: area, zone },
+            Self::Gap => of(level.mean_gap, 1.0, length),
+            Self::Approach => of(level.approach?, -1.0, length),
+            Self::Pressure => of(level.mean_pressure, 1.0, work * zone / level.mean_gap),
+            Self::Stiffness => return None,
+        };
+        Some(told).filter(|told| told.limit.is_finite())
+    }
+
+    /// The factors of the zone and of the difference to the coarser grid, and that of the zone without a coarser grid.
+    fn factors(self) -> [f64; 3] {
         match self {
-            Self::Area => Some((area, zone)),
-            Self::Gap => Some((level.mean_gap, length)),
-            Self::Approach => Some((level.approach?, length)),
-            Self::Pressure | Self::Stiffness => None,
+            Self::Area => [0.6, 1.2, 0.75],
+            Self::Gap => [3.0, 3.0, 4.0],
+            Self::Approach => [2.5, 0.0, 2.5],
+            Self::Pressure | Self::Stiffness => [6.0, 3.0, 10.0],
         }
     }
 }
 
 /// The estimated error of a quantity on the finest of some levels, the coarsest first.
 pub(super) fn error(levels: &[Level], quantity: Quantity, resolves: impl Fn(f64) -> bool) -> Option<GridError> {
-    let (finest, coarser) = levels.split_last()?;
-    let (value, zone) = quantity.with_zone(finest).filter(|_| resolves(1.0))?;
-    let mut values = vec![value];
-    for (i, level) in coarser.iter().rev().enumerate() {
-        let factor = f64::from(1 << (i + 1));
+    let (finest, coarser) = levels.split_last().filter(|_| resolves(1.0))?;
+    let told = quantity.told(finest)?;
+    let area = Quantity::Area.told(finest)?;
+    let mut limits = vec![told.limit];
+    let mut change = None;
+    for level in coarser.iter().rev() {
+        let factor = f64::from(1 << limits.len());
         let usable = is_coarser(level, finest, factor) && resolves(factor);
-        let Some((value, _)) = quantity.with_zone(level).filter(|_| usable) else { break };
-        values.push(value);
+        let Some(coarse) = quantity.told(level).filter(|_| usable) else { break };
+        change = change.or_else(|| Some(Quantity::Area.told(level)?.limit - area.limit));
+        limits.push(coarse.limit);
     }
-    let [of_zone, of_difference] = if quantity == Quantity::Area { AREA } else { LENGTHS };
-    let relative = match values[..] {
-        [value, coarse, ..] => (of_zone * zone).hypot(of_difference * (value - coarse)) / value,
-        _ if quantity == Quantity::Area => zone / value,
-        _ => return None,
+    let [of_zone, of_difference, alone] = quantity.factors();
+    let error = match limits[..] {
+        [limit, coarse, ..] => (of_zone * told.zone).hypot(of_difference * (limit - coarse)),
+        _ => alone * told.zone,
     };
-    let order = observed_order(&values);
-    let rough = values.len() < 2;
-    Some(GridError { relative: relative.abs(), order, rough }).filter(|error| error.relative.is_finite())
+    let apart = change.is_some_and(|change| change.abs() > 0.5 * area.zone);
+    let relative = if apart { APART * error } else { error } / told.value.abs();
+    let rough = apart || change.is_none();
+    Some(GridError { relative, order: observed_order(&limits), rough }).filter(|error| error.relative.is_finite())
 }

@@ -4,6 +4,7 @@
 
 use std::f64::consts::TAU;
 use std::fmt;
+use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
 use asperity::elastic::{Abilities, Foundation, Preconditioned};
@@ -27,6 +28,8 @@ pub enum Kind {
     CutOff,
     /// one of the others with a work of adhesion that varies over the surface, cut off or not
     Varying,
+    /// the law that has the range of the grid; not among [`Features::ALL`]
+    Jkr,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -94,6 +97,13 @@ impl Features {
         ..Self::ALL
     };
 
+    /// The law that has the range of the grid, on every body and at every wall.
+    pub const JKR: Self = Self {
+        laws: &[Kind::Jkr],
+        constraints: &[Constraint::Hard, Constraint::Penalty, Constraint::Uzawa],
+        ..Self::ALL
+    };
+
     /// The combinations that there are, as often as they are to be drawn: most of hard walls.
     fn combinations(&self) -> Vec<(Kind, Constraint, Precision)> {
         let times = |law: Kind, constraint: Constraint| match (law, constraint) {
@@ -134,6 +144,11 @@ impl Law {
 
     /// The law at a node as a function of the gap alone; it counts for the work of adhesion times [`Self::share`].
     pub fn of_gap<T: Real>(&self) -> Box<dyn AdhesionLaw<T>> {
+        if self.base == Kind::Jkr {
+            let law = Jkr::new(self.work).unwrap();
+            let on_one = law.on_nodes(1.0).map_or(1.0, |law: Arc<dyn AdhesionLaw<f64>>| law.hints().range);
+            return Box::new(law.on_nodes(T::lit((self.range / on_one).powi(2))).unwrap());
+        }
         Self { shares: None, ..self.clone() }.boxed()
     }
 
@@ -154,6 +169,7 @@ impl Law {
             Kind::LennardJones if self.wall => self.changed(LennardJones::new(w, range).unwrap().cut()),
             Kind::LennardJones => self.changed(LennardJones::new(w, range).unwrap()),
             Kind::Morse => self.changed(Morse::new(w, range).unwrap()),
+            Kind::Jkr => self.changed(Jkr::new(w).unwrap()),
             Kind::PowerLaw => self.changed(PowerLaw::new(w, range, 3.0).unwrap()),
             Kind::Table => {
                 let points = [(0.0, 1.0), (0.5, 1.2), (1.0, 0.5), (2.0, 0.1), (3.0, 0.0)];
@@ -542,6 +558,9 @@ fn law(
         if patches { least.max(f64::from(u8::from(share > 1.0))) } else { least.max(share) }
     });
     shares[[0, 0]] = 1.0;
+    let on_grid: Option<Arc<dyn AdhesionLaw<f64>>> =
+        if base == Kind::Jkr { Jkr::new(work).unwrap().on_nodes(1.0 / stiff) } else { None };
+    let range = on_grid.map_or(range, |law| law.hints().range);
     let (cut_off, shares) = (cut.then_some(end), (kind == Kind::Varying).then_some(shares));
     Law { kind, base, work, range, wall: constraint != Constraint::None, cut_off, shares }
 }

@@ -339,6 +339,20 @@ fn random_scenes_agree_with_dense_matrices_and_end_as_they_should() {
     Account::of(0..885).check();
 }
 
+#[test]
+fn scenes_of_the_law_that_has_the_range_of_the_grid_agree_with_dense_matrices() {
+    let count = variable("SCENES", 360);
+    let mut ends: BTreeMap<End, u64> = BTreeMap::new();
+    for seed in 0..count {
+        let scene = Scene::of(seed, &Features::JKR);
+        let judged = judge(&scene).unwrap_or_else(|wrong| panic!("{scene}: {wrong}"));
+        *ends.entry(judged.end).or_default() += 1;
+    }
+    println!("{ends:?}");
+    let solved: u64 = [End::Converged, End::Detached, End::Floor].iter().filter_map(|end| ends.get(end)).sum();
+    assert!(solved * 100 >= count * 98, "{ends:?}");
+}
+
 /// A constant of the driver, how scenes end that it decides, and these scenes with iterations that are enough.
 type Decided = (&'static str, End, &'static [(u64, usize)]);
 

@@ -108,6 +108,8 @@ fn run(world: &World) -> Outcome {
     let (square, odd) = (SHAPES[0], SHAPES[1]);
     let (exponential, dugdale) = (Exponential::new(1e-4, 2e-3)?, MaugisDugdale::new(1e-4, 2e-3)?);
     let spring = Control::Spring { stiffness: 1.0, rest: 0.01 };
+    let jkr = Jkr::new(1e-4)?;
+    solves::<f64, _, _>(world, "JKR", odd, jkr, Projection, Control::MeanPressure(1e-3))?;
     solves::<f64, _, _>(world, "exponential", square, exponential, Projection, Control::MeanPressure(1e-3))?;
     nested_grids_are_shared::<f64>(world, odd, Control::MeanPressure(0.01))?;
     free_half_spaces_are_shared::<f64>(world, (256, 256), Control::Force(1e-4))?;
