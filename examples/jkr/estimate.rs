@@ -95,7 +95,7 @@ impl Quantity {
         match self {
             Self::Area => [0.5, 1.0, 0.75],
             Self::PullOff => [0.75, 0.5, 1.0],
-            Self::Gap => [2.0, 2.0, 3.0],
+            Self::Gap => [3.0, 3.0, 4.0],
             Self::Approach => [2.5, 0.0, 2.5],
             Self::Pressure => [3.0, 3.0, 5.0],
         }

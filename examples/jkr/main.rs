@@ -9,7 +9,7 @@
 //! the pull-off over the nodes, with its error.
 //!
 //! Lengths, E* and loads are in consistent units; counts and figures are deterministic. The random scenes take four
-//! minutes on one thread, all else one.
+//! minutes on one thread, all else two.
 
 mod case;
 mod errors;

@@ -159,7 +159,7 @@ impl Panel<'_> {
             .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
         let sides = (found[0].0 / 1.2, found[found.len() - 1].0 * 1.2);
         // room for the legend above
-        let heights = low / 1.1..high * (high / low).powf(0.6);
+        let heights = low / 1.1..high * (high / low).powf(0.5);
         let area = area.titled(self.title, ("sans-serif", 22))?;
         let mut chart = ChartBuilder::on(&area)
             .margin(14)
