@@ -57,7 +57,7 @@ fn jumps(levels: &[Level]) -> bool {
 /// The limit of a quantity, by the two finest grids.
 fn limit(quantity: Quantity, levels: &[Level]) -> f64 {
     let [.., finer, finest] = levels else { return f64::NAN };
-    extrapolated(quantity.found(finest), quantity.found(finer))
+    extrapolated(quantity.found(finest).value, quantity.found(finer).value)
 }
 
 fn share<'a, T: 'a>(of: impl IntoIterator<Item = &'a T>, holds: impl Fn(&T) -> bool) -> String {
@@ -66,17 +66,29 @@ fn share<'a, T: 'a>(of: impl IntoIterator<Item = &'a T>, holds: impl Fn(&T) -> b
         count += u32::from(holds(one));
         all += 1;
     }
-    format!("{:.1} %", 100.0 * f64::from(count) / f64::from(all.max(1)))
+    if all == 0 {
+        return "–".to_owned();
+    }
+    format!("{:.1} %", 100.0 * f64::from(count) / f64::from(all))
 }
 
 /// The median, and what nine in ten do not exceed, in per cent.
 fn quantiles(mut values: Vec<f64>) -> String {
-    if values.iter().any(|value| value.is_nan()) {
-        return String::new();
+    if values.is_empty() || values.iter().any(|value| value.is_nan()) {
+        return "–".to_owned();
     }
     values.sort_by(f64::total_cmp);
     let at = |share: f64| 100.0 * values.get((share * values.len() as f64) as usize).copied().unwrap_or(f64::NAN);
     format!("{:.2}, {:.2}", at(0.5), at(0.9))
+}
+
+fn quartiles(mut values: Vec<f64>) -> String {
+    if values.is_empty() {
+        return "–".to_owned();
+    }
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| values.get((share * values.len() as f64) as usize).copied().unwrap_or(f64::NAN);
+    [0.25, 0.5, 0.75].map(|share| format!("{:.3}", at(share))).join(", ")
 }
 
 /// Whether the areas by energy and within the edge enclose the limit, and how good what is between them is.
@@ -87,6 +99,7 @@ fn brackets(found: &[Found<'_>]) {
         &[
             "nodes",
             "scenes",
+            "excess of the area by energy over the edge, cells: quartiles",
             "enclosed",
             "half width",
             "middle ± ¾ half width",
@@ -124,6 +137,7 @@ fn brackets(found: &[Found<'_>]) {
             row(&[
                 nodes.to_owned() + ", " + name,
                 rows.len().to_string(),
+                quartiles(rows.iter().map(|(areas, _, limit)| (areas.by_energy - limit) / areas.edge).collect()),
                 share(&rows, |(areas, _, limit)| (areas.middle() - limit).abs() <= half(areas)),
                 quantiles(rows.iter().map(|(areas, _, limit)| half(areas) / limit).collect()),
                 share(&rows, |(areas, _, limit)| (areas.middle() - limit).abs() <= 0.75 * half(areas)),
@@ -144,19 +158,22 @@ fn brackets(found: &[Found<'_>]) {
     }
 }
 
-/// The estimated errors beside the true ones.
+/// The estimated errors beside the true ones, where the shortest wave has four nodes on the coarsest grid that is asked.
 fn estimates(found: &[Found<'_>]) {
     head(
-        "What is found, the same less the zone, and extrapolated from two grids: errors in %, the median and nine in ten; \
-         the estimated error of what is found less the zone, and the share of scenes in which it is no less than the true \
-         one, and more than four times and ten times that",
+        "What is reported on n and 2n, its error by two grids and by one: errors in %, the median and nine in ten; shares \
+         of scenes in which the estimate is no less than the true error, and more than four and ten times that: of all, of \
+         the sure ones, and of the rough ones",
         &[
             "quantity",
-            "nodes",
-            "scenes",
+            "grids",
+            "solutions",
+            "jumps",
+            "rough",
             "found",
             "less the zone",
-            "extrapolated",
+            "zone",
+            "difference, less the zone",
             "estimate",
             "true ≤ estimate",
             "estimate > 4 true",
@@ -164,41 +181,71 @@ fn estimates(found: &[Found<'_>]) {
         ],
     );
     for quantity in Quantity::ALL {
-        for finer in 1..3 {
-            for (name, wanted) in [("all", None), ("no jump", Some(false))] {
-                let rows: Vec<[f64; 4]> = found
-                    .iter()
-                    .filter(|(scene, levels)| {
-                        quantity.is_found(scene)
-                            && finer + 1 < levels.len()
-                            && wanted.is_none_or(|wanted| jumps(levels) == wanted)
-                    })
-                    .map(|(_, levels)| {
-                        let (limit, finest) = (limit(quantity, levels), &levels[levels.len() - 1]);
-                        let [fine, coarse] = [&levels[finer], &levels[finer - 1]];
-                        let far = |value: f64| (value - limit).abs() / quantity.scale(limit, finest);
-                        let better = extrapolated(quantity.found(fine), quantity.found(coarse));
-                        let error = quantity.error(fine, coarse) / quantity.scale(limit, finest);
-                        [far(quantity.found(fine)), far(quantity.less_zone(fine)), far(better), error]
-                    })
-                    .filter(|row| row.iter().all(|value| value.is_finite()))
-                    .collect();
-                let column = |i: usize| quantiles(rows.iter().map(|row| row[i]).collect());
-                row(&[
-                    quantity.name().to_owned(),
-                    format!("{}, {name}", ["n/2", "n", "2n"][finer]),
-                    rows.len().to_string(),
-                    column(0),
-                    column(1),
-                    column(2),
-                    column(3),
-                    share(&rows, |row| row[1] <= row[3]),
-                    share(&rows, |row| row[3] > 4.0 * row[1]),
-                    share(&rows, |row| row[3] > 10.0 * row[1]),
-                ]);
-            }
+        for grids in [2, 1] {
+            let rows: Vec<_> = found.iter().flat_map(|found| estimated(quantity, grids, found)).collect();
+            let column = |of: fn(&Estimated) -> f64| quantiles(rows.iter().map(of).collect());
+            let shares = |holds: fn(&Estimated) -> bool| {
+                let of = |rough: bool| share(rows.iter().filter(|row| row.rough == rough), holds);
+                [share(&rows, holds), of(false), of(true)].join(", ")
+            };
+            row(&[
+                quantity.name().to_owned(),
+                grids.to_string(),
+                rows.len().to_string(),
+                share(&rows, |row| row.jumps),
+                share(&rows, |row| row.rough),
+                column(|row| row.found),
+                column(|row| row.less_zone),
+                column(|row| row.zone),
+                if grids == 2 { column(|row| row.difference) } else { String::new() },
+                column(|row| row.estimate),
+                shares(|row| row.truth <= row.estimate),
+                shares(|row| row.estimate > 4.0 * row.truth),
+                shares(|row| row.estimate > 10.0 * row.truth),
+            ]);
         }
     }
+}
+
+/// The errors of a quantity on a grid, relative to its limit.
+struct Estimated {
+    found: f64,
+    less_zone: f64,
+    zone: f64,
+    difference: f64,
+    /// Of what is reported.
+    truth: f64,
+    estimate: f64,
+    rough: bool,
+    jumps: bool,
+}
+
+/// On the grids of n and 2n nodes, by so many grids.
+fn estimated(quantity: Quantity, grids: usize, &(scene, levels): &Found<'_>) -> Vec<Estimated> {
+    if !quantity.is_found(scene) {
+        return Vec::new();
+    }
+    let (limit, finest) = (limit(quantity, levels), &levels[levels.len() - 1]);
+    let scale = quantity.scale(limit, finest);
+    let levels_told = (1..3).filter(|&finer| finer + 1 < levels.len() && scene.resolves(levels[finer + 1 - grids].n));
+    let of = |finer: usize| {
+        let (fine, coarse) = (&levels[finer], (grids == 2).then(|| &levels[finer - 1]));
+        let (here, half) = (quantity.found(fine), quantity.found(&levels[finer - 1]));
+        let rough = quantity.is_rough(scene, fine, coarse);
+        let far = |value: f64| (value - limit).abs() / scale;
+        Estimated {
+            found: far(here.value),
+            less_zone: far(here.less_zone()),
+            zone: here.zone.abs() / scale,
+            difference: (here.less_zone() - half.less_zone()).abs() / scale,
+            truth: far(quantity.reported(&here)),
+            estimate: quantity.error(&here, coarse.map(|_| &half), rough) / scale,
+            rough,
+            jumps: jumps(levels),
+        }
+    };
+    let rows = levels_told.map(of);
+    rows.filter(|row| [row.truth, row.estimate, row.difference].iter().all(|value| value.is_finite())).collect()
 }
 
 fn line(id: usize, scene: &Scene, level: &Level) -> String {

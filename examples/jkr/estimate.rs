@@ -1,6 +1,20 @@
-//! What a grid says of the limit, less the zone at the edge, and how wrong that is, by a grid of half the nodes.
+//! What a grid says of the limit, and how wrong that is, by the zone at the edge and by a grid of half the nodes.
 
 use crate::scene::{Kind, Level, Scene};
+
+/// The most of the measure of [`is_sticky`].
+const STICKY: f64 = 0.01;
+/// The difference of the areas less their zones, over that of the zone, above which the grid is too coarse.
+const FAR: f64 = 0.5;
+
+/// The factor of the error where that may be far larger.
+const ROUGH: f64 = 3.0;
+
+/// Whether surfaces of a work of adhesion over E* times the square of the rms slope and the shortest wave stick so much
+/// that they may jump into contact between grids.
+pub fn is_sticky(stickiness: f64) -> bool {
+    stickiness > STICKY
+}
 
 /// A quantity of a scene.
 #[derive(Clone, Copy, PartialEq)]
@@ -9,21 +23,33 @@ pub enum Quantity {
     Gap,
     Approach,
     Pressure,
-    Stiffness,
     PullOff,
 }
 
+/// A quantity as it is found on a grid, and how much of it is the zone at the edge.
+#[derive(Clone, Copy)]
+pub struct Found {
+    pub value: f64,
+    pub zone: f64,
+}
+
+impl Found {
+    /// It less the zone.
+    pub fn less_zone(&self) -> f64 {
+        self.value - self.zone
+    }
+}
+
 impl Quantity {
-    pub const ALL: [Self; 6] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure, Self::Stiffness, Self::PullOff];
+    pub const ALL: [Self; 5] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure, Self::PullOff];
 
     pub fn name(self) -> &'static str {
         match self {
-            Self::Area => "area",
+            Self::Area => "area, less the zone",
             Self::Gap => "mean gap",
             Self::Approach => "approach",
             Self::Pressure => "mean pressure",
-            Self::Stiffness => "stiffness, two loads",
-            Self::PullOff => "pull-off",
+            Self::PullOff => "pull-off, less the zone",
         }
     }
 
@@ -31,7 +57,7 @@ impl Quantity {
     pub fn is_found(self, scene: &Scene) -> bool {
         let free = scene.kind == Kind::Sphere;
         match self {
-            Self::Area | Self::Stiffness => true,
+            Self::Area => true,
             Self::Gap => !free && !scene.by_gap,
             Self::Approach => free,
             Self::Pressure => scene.by_gap,
@@ -40,32 +66,23 @@ impl Quantity {
     }
 
     /// As it is found on a grid.
-    pub fn found(self, level: &Level) -> f64 {
-        match self {
-            Self::Area => level.areas.by_energy,
-            Self::Gap => level.gap,
-            Self::Approach => level.approach,
-            Self::Pressure => level.pressure,
-            Self::Stiffness => level.secant,
-            Self::PullOff => level.pull_off,
-        }
+    pub fn found(self, level: &Level) -> Found {
+        let (value, zone) = match self {
+            Self::Area => (level.areas.by_energy, level.areas.zone()),
+            Self::Gap => (level.gap, -level.areas.zone_length()),
+            Self::Approach => (level.approach, level.areas.zone_length()),
+            Self::Pressure => (level.pressure, -level.secant * level.areas.zone_length()),
+            Self::PullOff => (level.pull_off, level.pull_off * level.lost.map_or(f64::NAN, |areas| areas.zone_share())),
+        };
+        Found { value, zone }
     }
 
-    /// How much of it is the zone at the edge.
-    pub fn zone(self, level: &Level) -> f64 {
+    /// As it is reported: area and pull-off less the zone, all else as found.
+    pub fn reported(self, found: &Found) -> f64 {
         match self {
-            Self::Area => level.areas.zone(),
-            Self::Gap => -level.areas.zone_length(),
-            Self::Approach => level.areas.zone_length(),
-            Self::Pressure => -level.secant * level.areas.zone_length(),
-            Self::Stiffness => 0.0,
-            Self::PullOff => level.pull_off * level.lost.map_or(f64::NAN, |areas| areas.zone_share()),
+            Self::Area | Self::PullOff => found.less_zone(),
+            Self::Gap | Self::Approach | Self::Pressure => found.value,
         }
-    }
-
-    /// It less the zone.
-    pub fn less_zone(self, level: &Level) -> f64 {
-        self.found(level) - self.zone(level)
     }
 
     /// What its errors are relative to.
@@ -73,20 +90,34 @@ impl Quantity {
         if self == Self::Pressure { finest.contact_pressure } else { limit.abs() }
     }
 
-    /// The shares of the zone and of the difference to the coarser grid in the error.
-    fn shares(self) -> [f64; 2] {
+    /// The factors of the zone and of the difference to the coarser grid in the error, and that of the zone alone.
+    fn factors(self) -> [f64; 3] {
         match self {
-            Self::Area => [0.5, 2.0],
-            Self::PullOff => [1.0, 1.0],
-            Self::Approach => [1.5, 1.5],
-            Self::Gap | Self::Pressure | Self::Stiffness => [3.0, 3.0],
+            Self::Area => [0.5, 1.0, 0.75],
+            Self::PullOff => [0.75, 0.5, 1.0],
+            Self::Gap => [3.0, 3.0, 4.0],
+            Self::Approach => [2.5, 0.0, 2.5],
+            Self::Pressure => [3.0, 3.0, 5.0],
         }
     }
 
-    /// The error of what is found less the zone.
-    pub fn error(self, fine: &Level, coarse: &Level) -> f64 {
-        let zone = if self == Self::Stiffness { fine.secant * fine.areas.zone_share() } else { self.zone(fine) };
-        let [of_zone, of_difference] = self.shares();
-        (of_zone * zone).hypot(of_difference * (self.less_zone(fine) - self.less_zone(coarse)))
+    /// The error of what is reported, by the zone, and by the difference less the zone to a grid of half the nodes.
+    pub fn error(self, fine: &Found, coarse: Option<&Found>, is_rough: bool) -> f64 {
+        let [of_zone, of_difference, alone] = self.factors();
+        let error = match coarse {
+            Some(coarse) => (of_zone * fine.zone).hypot(of_difference * (fine.less_zone() - coarse.less_zone())),
+            None => alone * fine.zone.abs(),
+        };
+        if is_rough { ROUGH * error } else { error }
+    }
+
+    /// Whether the error may be far larger: with much adhesion, or where the areas of the grids differ by too much.
+    pub fn is_rough(self, scene: &Scene, fine: &Level, coarse: Option<&Level>) -> bool {
+        let area = |level: &Level| Self::Area.found(level);
+        let differ = self != Self::PullOff
+            && coarse.is_some_and(|coarse| {
+                (area(fine).less_zone() - area(coarse).less_zone()).abs() > FAR * area(fine).zone
+            });
+        is_sticky(scene.stickiness()) || differ
     }
 }

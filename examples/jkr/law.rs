@@ -17,11 +17,14 @@ pub enum Shape {
     Exponential,
 }
 
+/// The steepest slope of the law of the library, a quintic step, times the compliance of a node.
+pub const STEEPEST: f64 = 3.75 / 13.0;
+
 impl Shape {
     pub const ALL: [Self; 6] =
         [Self::Ramp, Self::HalfCosine, Self::CubicStep, Self::QuinticStep, Self::Square, Self::Exponential];
 
-    pub fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             Self::Ramp => "ramp",
             Self::HalfCosine => "half cosine",
@@ -30,6 +33,23 @@ impl Shape {
             Self::Square => "(1 − g/ρ)²",
             Self::Exponential => "exponential",
         }
+    }
+
+    /// With a steepest slope, said of the law of the library.
+    pub fn name_at(self, steepest: f64) -> String {
+        let of_library =
+            if self == Self::QuinticStep && steepest == STEEPEST { ", the law of the library" } else { "" };
+        self.name().to_owned() + of_library
+    }
+
+    /// Some steepest slopes, and that of the law of the library if it has this shape.
+    pub fn slopes(self, some: &[f64]) -> Vec<f64> {
+        let mut slopes = some.to_vec();
+        if self == Self::QuinticStep {
+            slopes.push(STEEPEST);
+            slopes.sort_by(f64::total_cmp);
+        }
+        slopes
     }
 
     /// The mean of the traction over the range, and its steepest slope, both over the traction in contact.

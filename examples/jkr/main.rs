@@ -5,15 +5,17 @@
 //! The law [`Jkr`](asperity::Jkr) has the range of the grid. The tables `sphere` and `wave` have it beside the exact
 //! solutions of Johnson, Kendall and Roberts (1971) and Johnson (1995); `shapes`, laws of other shapes and steepness;
 //! `rough`, self-affine surfaces on grids from coarse to fine; and `errors`, random scenes, with what a grid and one of
-//! half as many nodes along the sides say of the limit, beside what grids two and four times as fine say.
+//! half as many nodes along the sides say of the limit, beside what grids two and four times as fine say. `picture` draws
+//! the pull-off over the nodes, with its error.
 //!
 //! Lengths, E* and loads are in consistent units; counts and figures are deterministic. The random scenes take four
-//! minutes on one thread, all else one.
+//! minutes on one thread, all else two.
 
 mod case;
 mod errors;
 mod estimate;
 mod law;
+mod picture;
 mod rough;
 mod scene;
 mod shapes;
@@ -38,6 +40,8 @@ enum Table {
     Rough,
     /// Random scenes: what two grids say of the limit.
     Errors,
+    /// A picture of the pull-off of a rough surface and of a sphere over the nodes.
+    Picture,
 }
 
 #[derive(Parser)]
@@ -59,7 +63,7 @@ struct Arguments {
     /// The threads of all solves
     #[arg(long, value_name = "N", default_value_t = 1)]
     threads: usize,
-    /// The folder for the values of the random scenes
+    /// The folder for the picture and for the values of the random scenes
     #[arg(long, value_name = "DIR", default_value = "target/figures")]
     out: PathBuf,
 }
@@ -80,8 +84,11 @@ fn main() -> Outcome<()> {
         if wants(Table::Rough) {
             rough::tables(quick, if quick { 128 } else { largest })?;
         }
+        std::fs::create_dir_all(&out)?;
+        if wants(Table::Picture) {
+            picture::draw(quick, &out.join("pull-off.svg"))?;
+        }
         if wants(Table::Errors) {
-            std::fs::create_dir_all(&out)?;
             let path = out.join(format!("jkr-errors-{seed}.csv"));
             errors::tables(if quick { scenes.min(6) } else { scenes }, seed, quick, &path)?;
         }

@@ -1,6 +1,6 @@
 //! Self-affine surfaces on grids from coarse to fine: the pull-off, and the area.
 
-use asperity::{Amplitude, Branch, Control, Grid, Jkr, Problem, Result, SelfAffine, Surface};
+use asperity::{AdhesionLaw, Amplitude, Branch, Control, Grid, Jkr, Problem, Result, SelfAffine, Surface, Westergaard};
 use common::Outcome;
 
 use crate::case::{Areas, extrapolated, half_space, head, pull_off, row, solve, tension};
@@ -14,8 +14,15 @@ pub struct Rough {
     pub load: f64,
 }
 
+impl Rough {
+    /// The work of adhesion over E* times the square of the rms slope and the shortest wave.
+    pub fn stickiness(&self) -> f64 {
+        self.work_of_adhesion * self.shortest / self.slope.powi(2)
+    }
+}
+
 /// The surfaces whose pull-off is found, and those whose area.
-const PULL_OFF: Rough = Rough { slope: 0.5, shortest: 8.0, work_of_adhesion: 1.5e-3, load: 0.02 };
+pub const PULL_OFF: Rough = Rough { slope: 0.5, shortest: 8.0, work_of_adhesion: 1.5e-3, load: 0.02 };
 pub const AREA: Rough = Rough { slope: 1.0, shortest: 16.0, work_of_adhesion: 7e-5, load: 0.01 };
 const SEEDS: [u64; 6] = [3, 11, 12, 13, 14, 15];
 const BRACKET: f64 = 0.005;
@@ -25,9 +32,15 @@ pub fn surface(rough: Rough, grid: Grid, seed: u64) -> Result<Surface> {
     of.amplitude(Amplitude::RmsSlope(rough.slope)).surface(grid)
 }
 
-fn problem(rough: Rough, n: usize, seed: u64) -> Result<Problem<f64, asperity::Westergaard<f64>, Jkr>> {
+/// The surface on a grid of n² nodes.
+pub fn problem<L: AdhesionLaw<f64>>(
+    rough: Rough,
+    n: usize,
+    seed: u64,
+    law: L,
+) -> Result<Problem<f64, Westergaard<f64>, L>> {
     let grid = Grid::square(n, 1.0)?;
-    Problem::new(&surface(rough, grid, seed)?, half_space(grid)?, Jkr::new(rough.work_of_adhesion)?)
+    Problem::new(&surface(rough, grid, seed)?, half_space(grid)?, law)
 }
 
 pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
@@ -50,7 +63,11 @@ pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
     for &seed in seeds {
         let (mut values, mut less, mut applications) = (Vec::new(), Vec::new(), Vec::new());
         for &n in &sizes {
-            let found = pull_off(&mut problem(PULL_OFF, n, seed)?, BRACKET, Some(PULL_OFF.load))?;
+            let found = pull_off(
+                &mut problem(PULL_OFF, n, seed, Jkr::new(PULL_OFF.work_of_adhesion)?)?,
+                BRACKET,
+                Some(PULL_OFF.load),
+            )?;
             values.push(tension(&found));
             less.push(tension(&found) * (1.0 - Areas::of(&found.solution)?.zone_share()));
             applications.push(found.operator_applications.to_string());
@@ -87,7 +104,7 @@ pub fn tables(quick: bool, largest: usize) -> Outcome<()> {
     for &seed in seeds {
         let mut levels = Vec::new();
         for &n in &sizes {
-            let mut problem = problem(AREA, n, seed)?;
+            let mut problem = problem(AREA, n, seed, Jkr::new(AREA.work_of_adhesion)?)?;
             let [loading, unloading] = [Branch::Loading, Branch::Unloading]
                 .map(|branch| solve(&mut problem, Control::MeanPressure(load), branch));
             levels.push((n, Areas::of(&loading?)?, Areas::of(&unloading?)?));

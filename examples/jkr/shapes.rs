@@ -41,13 +41,13 @@ pub fn tables(quick: bool) -> Outcome<()> {
         ],
     );
     for shape in Shape::ALL {
-        for steepest in if quick { vec![0.25] } else { SLOPES.to_vec() } {
+        for steepest in shape.slopes(if quick { &[0.25] } else { &SLOPES }) {
             let wave = Wave::line(line)?;
             let law = Short::new(wave.work_of_adhesion(), shape, steepest);
             let ((areas, taken), (off, of_search)) = (wave.areas(law)?, wave.pull_off(law)?);
             let largest = areas.iter().fold(0.0_f64, |most, area| most.max((area - 1.0).abs()));
             let apart = (0..3).fold(0.0_f64, |most, i| most.max((areas[6 - i] / areas[i] - 1.0).abs()));
-            let mut line = vec![shape.name().to_owned(), steepest.to_string()];
+            let mut line = vec![shape.name_at(steepest), format!("{steepest:.3}")];
             line.extend([off, largest, apart].map(|value| format!("{value:.4}")));
             line.push(format!("{taken}, {of_search}"));
 
@@ -96,7 +96,7 @@ fn held_fronts(quick: bool) -> Outcome<()> {
     let title = format!("Pull-off of the wave over the exact one, and the range over √(wΔx/E*), on {grids:?} nodes");
     head(&title, &["shape", "c", "range", "least", "mean", "largest", "applications in the mean"]);
     for shape in [Shape::HalfCosine, Shape::CubicStep, Shape::QuinticStep, Shape::Square] {
-        for steepest in if quick { vec![0.25] } else { vec![0.15, 0.2, 0.25, 0.3, 0.35] } {
+        for steepest in shape.slopes(if quick { &[0.25] } else { &[0.15, 0.2, 0.25, 0.3, 0.35] }) {
             let (mut found, mut applications) = (Vec::new(), 0);
             for &n in &grids {
                 let wave = Wave::line(n)?;
@@ -106,7 +106,7 @@ fn held_fronts(quick: bool) -> Outcome<()> {
             }
             let count = found.len();
             found.sort_by(f64::total_cmp);
-            let mut line = vec![shape.name().to_owned(), steepest.to_string()];
+            let mut line = vec![shape.name_at(steepest), format!("{steepest:.3}")];
             line.push(format!("{:.2}", shape.range(steepest)));
             line.extend(
                 [found[0], found.iter().sum::<f64>() / count as f64, found[count - 1]].map(|x| format!("{x:.4}")),
