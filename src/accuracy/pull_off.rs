@@ -76,7 +76,7 @@ impl<C> Accuracy<C> {
     /// ```
     /// use asperity::accuracy::{Accuracy, Quantity};
     /// use asperity::{Boussinesq, Grid, Jkr, PullOff, Surface, exact, exact::Sphere};
-    /// let sphere = Surface::paraboloid(Grid::square(48, 1.6)?, 1.0)?;
+    /// let sphere = Surface::paraboloid(Grid::square(64, 1.6)?, 1.0)?;
     /// let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
     /// let mut told = Accuracy::new(f64::INFINITY, Quantity::Area);
     /// let found = told.pull_off(&sphere, half_space, &Jkr::new(2e-3)?, &PullOff::default())?;

@@ -145,11 +145,16 @@ impl Law {
     /// The law at a node as a function of the gap alone; it counts for the work of adhesion times [`Self::share`].
     pub fn of_gap<T: Real>(&self) -> Box<dyn AdhesionLaw<T>> {
         if self.base == Kind::Jkr {
-            let law = Jkr::new(self.work).unwrap();
-            let on_one = law.on_nodes(1.0).map_or(1.0, |law: Arc<dyn AdhesionLaw<f64>>| law.hints().range);
-            return Box::new(law.on_nodes(T::lit((self.range / on_one).powi(2))).unwrap());
+            let compliance = (self.range / self.range_on(1.0)).powi(2);
+            return Box::new(Jkr::new(self.work).unwrap().on_nodes(T::lit(compliance)).unwrap());
         }
         Self { shares: None, ..self.clone() }.boxed()
+    }
+
+    /// The range of the law that has that of the grid, on nodes of this compliance.
+    fn range_on(&self, compliance: f64) -> f64 {
+        let law: Arc<dyn AdhesionLaw<f64>> = Jkr::new(self.work).unwrap().on_nodes(compliance).unwrap();
+        law.hints().range
     }
 
     pub fn share(&self, node: usize) -> f64 {
@@ -258,7 +263,13 @@ impl Scene {
         }
         let spacing = grid.spacing().0.max(grid.spacing().1);
         let range = height * power(random, -2.0, 1.0);
-        let law = law(random, kind, constraint, grid.shape(), (range, modulus / spacing));
+        let mut law = law(random, kind, constraint, grid.shape(), (range, modulus / spacing));
+        if law.base == Kind::Jkr {
+            // there is no spacing across a line
+            let along = |n: usize, spacing: f64| if n > 1 { spacing } else { 0.0 };
+            let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
+            law.range = law.range_on(along(nx, dx).max(along(ny, dy)) / modulus);
+        }
         let stiffness = modulus / spacing * power(random, -0.5, 3.0);
         let tolerance = power(random, -9.0, -2.0);
         let tolerance = if precision == Precision::Single { tolerance.max(1e-5) } else { tolerance };
@@ -558,9 +569,6 @@ fn law(
         if patches { least.max(f64::from(u8::from(share > 1.0))) } else { least.max(share) }
     });
     shares[[0, 0]] = 1.0;
-    let on_grid: Option<Arc<dyn AdhesionLaw<f64>>> =
-        if base == Kind::Jkr { Jkr::new(work).unwrap().on_nodes(1.0 / stiff) } else { None };
-    let range = on_grid.map_or(range, |law| law.hints().range);
     let (cut_off, shares) = (cut.then_some(end), (kind == Kind::Varying).then_some(shares));
     Law { kind, base, work, range, wall: constraint != Constraint::None, cut_off, shares }
 }

@@ -27,7 +27,7 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
         (format!("{solve} --mean-gap 1 -E 3"), &["did you mean '--modulus'"]),
         (
             format!("{solve} --mean-gap 1 --adhesion morse"),
-            &["did you mean '--law', adhesion law", ": none, maugis-dugdale, "],
+            &["did you mean '--law', adhesion law", ": none, jkr, "],
         ),
         (
             format!("{solve} --mean-pressures 1,2"),
