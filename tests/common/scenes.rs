@@ -265,10 +265,13 @@ impl Scene {
         let range = height * power(random, -2.0, 1.0);
         let mut law = law(random, kind, constraint, grid.shape(), (range, modulus / spacing));
         if law.base == Kind::Jkr {
-            // there is no spacing across a line
-            let along = |n: usize, spacing: f64| if n > 1 { spacing } else { 0.0 };
-            let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
-            law.range = law.range_on(along(nx, dx).max(along(ny, dy)) / modulus);
+            // there is none across a line
+            let spacing = match (grid.shape(), grid.spacing()) {
+                ((_, 1), (dx, _)) => dx,
+                ((1, _), (_, dy)) => dy,
+                (_, (dx, dy)) => dx.max(dy),
+            };
+            law.range = law.range_on(spacing / modulus);
         }
         let stiffness = modulus / spacing * power(random, -0.5, 3.0);
         let tolerance = power(random, -9.0, -2.0);

@@ -25,10 +25,7 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
             &["did you mean '--modulus', contact modulus E*", "Poisson's ratio"],
         ),
         (format!("{solve} --mean-gap 1 -E 3"), &["did you mean '--modulus'"]),
-        (
-            format!("{solve} --mean-gap 1 --adhesion morse"),
-            &["did you mean '--law', adhesion law", ": none, jkr, "],
-        ),
+        (format!("{solve} --mean-gap 1 --adhesion morse"), &["did you mean '--law', adhesion law", ": none, jkr, "]),
         (
             format!("{solve} --mean-pressures 1,2"),
             &["did you mean '--mean-pressure',", "is an option of sweep, cycle and interface"],
