@@ -244,8 +244,8 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// | quantity | zone z | error | on one grid |
 /// |---|---|---|---|
-/// | area [by JKR](crate::contact::ContactArea) | b | √((0.6 z)² + (1.2 δ)²) | 0.75 z |
-/// | mean gap ḡ | wb/λ̄ | √((3 z)² + (3 δ)²) | 4 z |
+/// | area [by JKR](crate::contact::ContactArea) | b | √((0.6 z)² + (1.2 δ)²) | z |
+/// | mean gap ḡ | wb/λ̄ | √((4 z)² + (4 δ)²) | 5 z |
 /// | approach | wb/λ̄ | 2.5 z | 2.5 z |
 /// | mean pressure | wb/ḡ | √((6 z)² + (3 δ)²) | 10 z |
 ///

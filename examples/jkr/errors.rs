@@ -231,7 +231,7 @@ fn estimated(quantity: Quantity, grids: usize, &(scene, levels): &Found<'_>) -> 
     let of = |finer: usize| {
         let (fine, coarse) = (&levels[finer], (grids == 2).then(|| &levels[finer - 1]));
         let (here, half) = (quantity.found(fine), quantity.found(&levels[finer - 1]));
-        let rough = quantity.is_rough(scene, fine, coarse);
+        let rough = quantity.is_rough(fine, coarse);
         let far = |value: f64| (value - limit).abs() / scale;
         Estimated {
             found: far(here.value),

@@ -2,19 +2,11 @@
 
 use crate::scene::{Kind, Level, Scene};
 
-/// The most of the measure of [`is_sticky`].
-const STICKY: f64 = 0.01;
 /// The difference of the areas less their zones, over that of the zone, above which the grid is too coarse.
 const FAR: f64 = 0.5;
 
 /// The factor of the error where that may be far larger.
 const ROUGH: f64 = 3.0;
-
-/// Whether surfaces of a work of adhesion over E* times the square of the rms slope and the shortest wave stick so much
-/// that they may jump into contact between grids.
-pub fn is_sticky(stickiness: f64) -> bool {
-    stickiness > STICKY
-}
 
 /// A quantity of a scene.
 #[derive(Clone, Copy, PartialEq)]
@@ -71,7 +63,7 @@ impl Quantity {
             Self::Area => (level.areas.by_energy, level.areas.zone()),
             Self::Gap => (level.gap, -level.areas.zone_length()),
             Self::Approach => (level.approach, level.areas.zone_length()),
-            Self::Pressure => (level.pressure, -level.secant * level.areas.zone_length()),
+            Self::Pressure => (level.pressure, -level.areas.zone_length() * level.contact_pressure / level.gap),
             Self::PullOff => (level.pull_off, level.pull_off * level.lost.map_or(f64::NAN, |areas| areas.zone_share())),
         };
         Found { value, zone }
@@ -93,11 +85,11 @@ impl Quantity {
     /// The factors of the zone and of the difference to the coarser grid in the error, and that of the zone alone.
     fn factors(self) -> [f64; 3] {
         match self {
-            Self::Area => [0.5, 1.0, 0.75],
-            Self::PullOff => [0.75, 0.5, 1.0],
-            Self::Gap => [3.0, 3.0, 4.0],
+            Self::Area => [0.6, 1.2, 1.0],
+            Self::PullOff => [1.2, 0.75, 1.2],
+            Self::Gap => [4.0, 4.0, 5.0],
             Self::Approach => [2.5, 0.0, 2.5],
-            Self::Pressure => [3.0, 3.0, 5.0],
+            Self::Pressure => [6.0, 3.0, 10.0],
         }
     }
 
@@ -111,13 +103,10 @@ impl Quantity {
         if is_rough { ROUGH * error } else { error }
     }
 
-    /// Whether the error may be far larger: with much adhesion, or where the areas of the grids differ by too much.
-    pub fn is_rough(self, scene: &Scene, fine: &Level, coarse: Option<&Level>) -> bool {
+    /// Whether the error may be far larger: where the areas of the grids differ by too much.
+    pub fn is_rough(self, fine: &Level, coarse: Option<&Level>) -> bool {
         let area = |level: &Level| Self::Area.found(level);
-        let differ = self != Self::PullOff
-            && coarse.is_some_and(|coarse| {
-                (area(fine).less_zone() - area(coarse).less_zone()).abs() > FAR * area(fine).zone
-            });
-        is_sticky(scene.stickiness()) || differ
+        let differ = |coarse| (area(fine).less_zone() - area(coarse).less_zone()).abs() > FAR * area(fine).zone;
+        self != Self::PullOff && coarse.is_some_and(differ)
     }
 }

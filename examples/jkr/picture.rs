@@ -10,7 +10,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::case::{Areas, head, pull_off, row, tension};
-use crate::estimate::{Found, Quantity, is_sticky};
+use crate::estimate::{Found, Quantity};
 use crate::{rough, sphere};
 
 const BRACKET: f64 = 0.005;
@@ -36,7 +36,7 @@ struct Short {
 
 impl Short {
     /// On the grids that are drawn, of those that are found.
-    fn of(sizes: &[usize], is_rough: bool, unit: f64, find: impl Fn(usize) -> Outcome<(f64, Areas)>) -> Outcome<Self> {
+    fn of(sizes: &[usize], unit: f64, find: impl Fn(usize) -> Outcome<(f64, Areas)>) -> Outcome<Self> {
         let (mut of, mut coarse) = (Self::default(), None);
         for &n in sizes {
             let (pull_off, areas) = find(n)?;
@@ -44,7 +44,7 @@ impl Short {
             if n >= COARSEST {
                 of.found.push((n as f64, found.value));
                 of.less_zone.push((n as f64, found.less_zone()));
-                of.errors.push(Quantity::PullOff.error(&found, coarse.as_ref(), is_rough));
+                of.errors.push(Quantity::PullOff.error(&found, coarse.as_ref(), false));
             }
             coarse = Some(found);
         }
@@ -78,7 +78,7 @@ fn of_rough(largest: usize, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Outcom
     // in thousandths of the contact modulus
     let unit = 1e-3;
     let sizes: Vec<_> = (5..=largest.ilog2()).map(|power| 1 << power).collect();
-    let short = Short::of(&sizes, is_sticky(rough::PULL_OFF.stickiness()), unit, |n| {
+    let short = Short::of(&sizes, unit, |n| {
         let (tension, solution) =
             find(&mut rough::problem(rough::PULL_OFF, n, SEED, Jkr::new(work_of_adhesion)?)?, Some(load))?;
         Ok((tension, Areas::of(&solution)?))
@@ -107,7 +107,7 @@ fn of_rough(largest: usize, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Outcom
 fn of_sphere(largest: usize, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<()> {
     let unit = -sphere::exact()?.pull_off().load() / (sphere::SIDE * sphere::SIDE);
     let sizes: Vec<_> = (4..=largest.ilog2()).map(|power| 1 << power).collect();
-    let short = Short::of(&sizes, false, unit, |n| {
+    let short = Short::of(&sizes, unit, |n| {
         let (tension, solution) = find(&mut sphere::problem(n, Jkr::new(sphere::WORK)?)?, None)?;
         Ok((tension, Areas::of(&solution)?))
     })?;

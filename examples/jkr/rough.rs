@@ -14,13 +14,6 @@ pub struct Rough {
     pub load: f64,
 }
 
-impl Rough {
-    /// The work of adhesion over E* times the square of the rms slope and the shortest wave.
-    pub fn stickiness(&self) -> f64 {
-        self.work_of_adhesion * self.shortest / self.slope.powi(2)
-    }
-}
-
 /// The surfaces whose pull-off is found, and those whose area.
 pub const PULL_OFF: Rough = Rough { slope: 0.5, shortest: 8.0, work_of_adhesion: 1.5e-3, load: 0.02 };
 pub const AREA: Rough = Rough { slope: 1.0, shortest: 16.0, work_of_adhesion: 7e-5, load: 0.01 };

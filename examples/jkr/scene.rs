@@ -120,13 +120,6 @@ impl Scene {
         }
     }
 
-    /// Of a rough surface on a periodic half-space, the work of adhesion over E* times the square of the rms slope and the
-    /// shortest wave.
-    pub fn stickiness(&self) -> f64 {
-        let of = self.roughness.filter(|_| self.kind == Kind::Periodic);
-        of.map_or(0.0, |of| self.work_of_adhesion * of.k_s / self.slope.powi(2))
-    }
-
     /// Whether the shortest wave has at least four nodes on a grid.
     pub fn resolves(&self, n: usize) -> bool {
         self.roughness.is_none() || self.nodes_per_wave * n as f64 >= 4.0 * self.n as f64

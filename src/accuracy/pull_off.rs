@@ -19,7 +19,7 @@ use crate::solver::{Iteration, Start, Status};
 use crate::surface::Surface;
 
 /// The factors of the process zone and of the difference to the grid of half as many nodes, in the error.
-const FACTORS: [f64; 2] = [1.0, 0.5];
+const FACTORS: [f64; 2] = [1.2, 0.75];
 
 /// The width of the bracket of a search, as a share of the accuracy.
 const BRACKET: f64 = 0.2;

@@ -34,8 +34,8 @@ impl Quantity {
     /// The factors of the zone and of the difference to the coarser grid, and that of the zone without a coarser grid.
     fn factors(self) -> [f64; 3] {
         match self {
-            Self::Area => [0.6, 1.2, 0.75],
-            Self::Gap => [3.0, 3.0, 4.0],
+            Self::Area => [0.6, 1.2, 1.0],
+            Self::Gap => [4.0, 4.0, 5.0],
             Self::Approach => [2.5, 0.0, 2.5],
             Self::Pressure | Self::Stiffness => [6.0, 3.0, 10.0],
         }
