@@ -128,11 +128,11 @@ impl<C> Accuracy<C> {
             return Err(Error::Control { control: "accuracy of the pull-off", reason });
         }
         let search = search.tolerance(search.tolerance.min(BRACKET * self.target));
-        let mut solver = &mut self.nested.solver;
+        let solver = &mut self.nested.solver;
         let mut find = |surface: &Surface, law: &dyn AdhesionLaw<T>| {
             let grid = *surface.grid();
             let mut problem = Problem::new(surface, operator(grid)?, law)?;
-            let found = search.find_from(&mut solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
+            let found = search.find_from(solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
             let limit = found.limit()?;
             Ok::<_, Error>((found, limit, problem.operator.grid().nodes(), problem.operator.abilities().boundary))
         };
