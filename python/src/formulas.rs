@@ -112,6 +112,7 @@ class! {
     /// >>> found = asperity.pull_off(tip, modulus=1.0, boundary="free", law=law)
     /// >>> f"{found.force / (1.5 * 3.1416 * 2e-3):.2f} of the pull-off of JKR"
     /// '1.05 of the pull-off of JKR'
+    #[expect(clippy::upper_case_acronyms, reason = "Python's name")]
     JKR(work_of_adhesion: f64),
     "(work_of_adhesion)",
     Adhesion { work_of_adhesion: Some(work_of_adhesion), ..Adhesion::of("jkr") }
