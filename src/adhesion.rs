@@ -104,7 +104,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     }
 
     /// The law on nodes of this compliance, length per pressure: for a law without a range of its own, as
-    /// [`Jkr`](crate::Jkr), which is as short there as the nodes can follow. None, the default, for a law that is the same
+    /// [`Jkr`], which is as short there as the nodes can follow. None, the default, for a law that is the same
     /// on every grid. [`Problem::new`](crate::Problem::new) asks, with Δx/E*, and so on each of nested grids.
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let _ = compliance;
