@@ -13,6 +13,7 @@
 mod case;
 mod errors;
 mod estimate;
+mod held;
 mod law;
 mod rough;
 mod scene;
@@ -36,6 +37,8 @@ enum Table {
     Shapes,
     /// Self-affine surfaces: the pull-off, and the area.
     Rough,
+    /// Laws with a range that the grid does not resolve: with which work of adhesion they act.
+    Held,
     /// Random scenes: what two grids say of the limit.
     Errors,
 }
@@ -79,6 +82,9 @@ fn main() -> Outcome<()> {
         }
         if wants(Table::Rough) {
             rough::tables(quick, if quick { 128 } else { largest })?;
+        }
+        if wants(Table::Held) {
+            held::tables(quick)?;
         }
         if wants(Table::Errors) {
             std::fs::create_dir_all(&out)?;
