@@ -7,6 +7,7 @@ use asperity::{
     AdhesionLaw, Control, ElasticOperator, Exponential, Grid, Jkr, MaugisDugdale, Problem, Solution, Start, Status,
 };
 use common::Outcome;
+use common::sharp::Sharp;
 
 use crate::case::{half_space, head, row, solver};
 use crate::rough::{self, Rough};
@@ -26,55 +27,50 @@ const GROWTH: f64 = 1.05;
 /// The works of adhesion of the law without a range, over the given one.
 const WORKS: [f64; 14] = [0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0, 8.0, 13.0, 20.0];
 
-/// A law with a range, and how solves go on from one load to the next.
+/// A law with a range.
 #[derive(Clone, Copy)]
 enum Law {
     Exponential,
-    /// From the gap of the last load.
     MaugisDugdale,
-    /// The same, through the smoothed law.
-    Smoothed,
+    /// The same, of which solves do not smooth the jump.
+    Sharp,
 }
 
 impl Law {
-    const ALL: [Self; 3] = [Self::Exponential, Self::MaugisDugdale, Self::Smoothed];
+    const ALL: [Self; 3] = [Self::Exponential, Self::MaugisDugdale, Self::Sharp];
 
     fn name(self) -> &'static str {
         match self {
             Self::Exponential => "exponential",
             Self::MaugisDugdale => "Maugis–Dugdale",
-            Self::Smoothed => "Maugis–Dugdale, smoothed",
+            Self::Sharp => "Maugis–Dugdale, never smoothed",
         }
     }
 
     fn of(self, w: f64, range: f64) -> Outcome<Box<dyn AdhesionLaw<f64>>> {
         Ok(match self {
             Self::Exponential => Box::new(Exponential::new(w, range)?),
-            Self::MaugisDugdale | Self::Smoothed => Box::new(MaugisDugdale::new(w, range)?),
+            Self::MaugisDugdale => Box::new(MaugisDugdale::new(w, range)?),
+            Self::Sharp => Box::new(Sharp(MaugisDugdale::new(w, range)?)),
         })
     }
 }
 
-/// A problem that goes from load to load.
+/// A problem that goes from load to load, each from the gap of the last.
 struct Followed<O> {
     problem: Problem<f64, O, Box<dyn AdhesionLaw<f64>>>,
-    smoothed: bool,
     last: Option<Solution<f64>>,
     applications: usize,
 }
 
 impl<O: ElasticOperator<f64>> Followed<O> {
-    fn new(problem: Problem<f64, O, Box<dyn AdhesionLaw<f64>>>, smoothed: bool) -> Self {
-        Self { problem, smoothed, last: None, applications: 0 }
+    fn new(problem: Problem<f64, O, Box<dyn AdhesionLaw<f64>>>) -> Self {
+        Self { problem, last: None, applications: 0 }
     }
 
     /// Whether the surfaces still hold each other under a mean pressure.
     fn goes_to(&mut self, pressure: f64) -> Outcome<bool> {
-        let start = match &self.last {
-            None => Start::Default,
-            Some(last) if self.smoothed => Start::Near(last.gap.clone()),
-            Some(last) => Start::From(&last.gap),
-        };
+        let start = self.last.as_ref().map_or(Start::Default, |last| Start::From(&last.gap));
         let control = Control::MeanPressure(pressure);
         let found = solver().solve_with(&mut self.problem, control, start, |_| ControlFlow::Continue(()))?;
         self.applications += found.report.operator_applications;
@@ -96,31 +92,26 @@ fn of_wave(law: Law, mu_rho: f64, n: usize) -> Outcome<([f64; 2], usize)> {
     let wave = Wave::line(n)?;
     let (w, closing) = (wave.work_of_adhesion(), wave.exact()?.closing_pressure());
     let range = (w / n as f64).sqrt() / mu_rho;
-    let problem = wave.problem(half_space(wave.grid())?, law.of(w, range)?)?;
-    let mut followed = Followed::new(problem, matches!(law, Law::Smoothed));
+    let mut followed = Followed::new(wave.problem(half_space(wave.grid())?, law.of(w, range)?)?);
     let mut there = Vec::new();
     for load in THERE {
         followed.goes_to(load * closing)?;
         there.push(wave.effective(followed.last()?) / w);
     }
     let mut load = THERE[THERE.len() - 1];
-    let mut back = Vec::new();
     while followed.goes_to((load - BACK) * closing)? {
         load -= BACK;
-        back.push(wave.effective(followed.last()?) / w);
     }
-    if std::env::var("SHOW").is_ok() {
-        println!("{} {mu_rho}: {load:.3} {there:.3?} {back:.3?}", law.name());
-    }
+    let back = wave.effective(followed.last()?) / w;
     let mean = there.iter().sum::<f64>() / there.len() as f64;
-    Ok(([mean, back.last().copied().unwrap_or(f64::NAN)], followed.applications))
+    Ok(([mean, back], followed.applications))
 }
 
 /// The area under the load, and the tension borne.
-fn of_rough(law: Box<dyn AdhesionLaw<f64>>, smoothed: bool, seed: u64, n: usize) -> Outcome<([f64; 2], usize)> {
+fn of_rough(law: Box<dyn AdhesionLaw<f64>>, seed: u64, n: usize) -> Outcome<([f64; 2], usize)> {
     let grid = Grid::square(n, 1.0)?;
     let problem = Problem::new(&rough::surface(ROUGH, grid, seed)?, half_space(grid)?, law)?;
-    let mut followed = Followed::new(problem, smoothed);
+    let mut followed = Followed::new(problem);
     let part = ROUGH.load / STEPS as f64;
     for step in 1..=STEPS {
         followed.goes_to(part * step as f64)?;
@@ -151,7 +142,9 @@ pub fn tables(quick: bool) -> Outcome<()> {
     let ranges = if quick { &RANGES[2..4] } else { &RANGES[..] };
     let n = if quick { 128 } else { 512 };
     head(
-        &format!("Effective over given work of adhesion, approach / withdrawal: Johnson's wave on a line of {n} nodes"),
+        &format!(
+            "Effective over given work of adhesion, approach / withdrawal (operator applications): Johnson's wave on a line of {n} nodes"
+        ),
         &columns,
     );
     for &mu_rho in ranges {
@@ -174,11 +167,8 @@ pub fn tables(quick: bool) -> Outcome<()> {
     for &seed in seeds {
         let mut points = [Vec::new(), Vec::new()];
         for work in WORKS {
-            let (found, _) = of_rough(Box::new(Jkr::new(work * w)?), false, seed, n)?;
+            let (found, _) = of_rough(Box::new(Jkr::new(work * w)?), seed, n)?;
             points.iter_mut().zip(found).for_each(|(points, found)| points.push((work, found)));
-        }
-        if std::env::var("SHOW").is_ok() {
-            println!("{seed} {points:.4?}");
         }
         of_jkr.push(points);
     }
@@ -188,7 +178,7 @@ pub fn tables(quick: bool) -> Outcome<()> {
             let range = (w / n as f64).sqrt() / mu_rho;
             let mut found = Vec::new();
             for (&seed, points) in seeds.iter().zip(&of_jkr) {
-                let ([area, tension], taken) = of_rough(law.of(w, range)?, matches!(law, Law::Smoothed), seed, n)?;
+                let ([area, tension], taken) = of_rough(law.of(w, range)?, seed, n)?;
                 let [there, back] = [inverted(&points[0], area), inverted(&points[1], tension)];
                 found.push(format!("{there:.2} / {back:.2} ({taken})"));
             }

@@ -5,7 +5,8 @@
 //! The law [`Jkr`](asperity::Jkr) has the range of the grid. The tables `sphere` and `wave` have it beside the exact
 //! solutions of Johnson, Kendall and Roberts (1971) and Johnson (1995); `shapes`, laws of other shapes and steepness;
 //! `rough`, self-affine surfaces on grids from coarse to fine; and `errors`, random scenes, with what a grid and one of
-//! half as many nodes along the sides say of the limit, beside what grids two and four times as fine say.
+//! half as many nodes along the sides say of the limit, beside what grids two and four times as fine say. The table `held`
+//! has the laws with a range: with which work of adhesion they act where the grid holds the edges of contacts.
 //!
 //! Lengths, E* and loads are in consistent units; counts and figures are deterministic. The random scenes take four
 //! minutes on one thread, all else one.
