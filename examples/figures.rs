@@ -6,7 +6,8 @@
 //! the discrete mean of the heights; the lone Hertzian sphere is at their load.
 //!
 //! With adhesion there are several discrete equilibria, and the start chooses among them. Each grid is solved from the
-//! default start, shown in figures 2 and 3, and from the exact gap, to tell the start's part of the error.
+//! default start, shown in figures 2 and 3, and from the exact gap without smoothing the law's jump, to tell the start's
+//! part of the error.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,7 @@ use asperity::{
 };
 use clap::Parser;
 use common::legend::legend;
+use common::sharp::Sharp;
 use common::{Outcome, arguments};
 use ndarray::{Array2, Zip};
 use plotters::coord::Shift;
@@ -133,8 +135,10 @@ fn sweep<S: Sphere + Copy, L: AdhesionLaw<f64> + Copy>(
         let surface = Surface::paraboloid(grid, RADIUS)?;
         let exact = Periodic::new(sphere, 1.0)?.at_mean_gap(gap, surface.mean())?;
         let reference = exact.displacement_field(&grid)?;
-        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, MODULUS)?, law)?;
+        let sharp = Sharp(law);
         for &start in starts {
+            let law: &dyn AdhesionLaw<f64> = if start == Start::Default { &law } else { &sharp };
+            let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, MODULUS)?, law)?;
             let given = match start {
                 Start::Default => None,
                 Start::Exact => Some((&reference - surface.heights()).mapv(|g| g.max(0.0))),

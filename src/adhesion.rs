@@ -130,7 +130,8 @@ pub enum Discretisation<T> {
     /// one over the compliance in the place of the jumps; the functions still agree, and the work of adhesion stays.
     ///
     /// At a jump a node is in equilibrium on both sides, and the edge of the adhesive zone stays where an iteration
-    /// left it. The default start of a solve therefore comes from the smoothed law.
+    /// left it. A solve therefore goes through the equilibrium of the smoothed law, from whatever start. A law that is
+    /// as smooth already is the same.
     Smooth(T),
 }
 

@@ -26,6 +26,7 @@ mod prediction;
 mod quadrature;
 mod saddle;
 mod settings;
+mod sharp;
 mod step;
 
 use account::Account;
@@ -33,6 +34,7 @@ use course::{Course, Way};
 pub use event::{Event, Jump};
 use figures::Mode;
 pub use settings::PathSettings;
+use sharp::Sharp;
 pub use step::{PathCheckpoint, PathStep};
 
 /// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
@@ -310,8 +312,14 @@ where
 
     fn solve(&mut self, control: Control, begin: Begin<'_, T>, observe: Observer<'_>) -> Result<Solved<T>> {
         let Parts { operator, law, flat } = self.problem.parts();
-        let smoothed = if self.settings.smooth && !begin.is_default() { smoothed_law(&*operator, law) } else { None };
-        let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
+        let sharp = Sharp(law);
+        let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
+        let law = match &smoothed {
+            _ if begin.is_default() => law,
+            Some(smoothed) => smoothed,
+            None => &sharp,
+        };
+        let parts = Parts { operator, law, flat };
         self.solver.run(parts, control, begin, observe)
     }
 

@@ -4,6 +4,7 @@ pub mod arguments;
 pub mod chart;
 pub mod legend;
 pub mod memory;
+pub mod sharp;
 
 // what they share with the tests
 #[path = "../../tests/common/authors.rs"]

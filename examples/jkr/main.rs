@@ -7,6 +7,8 @@
 //! `rough`, self-affine surfaces on grids from coarse to fine; and `errors`, random scenes, with what a grid and one of
 //! half as many nodes along the sides say of the limit, beside what grids two and four times as fine say. `picture` draws
 //! the pull-off over the nodes, with its error.
+//! The table `held` has the laws with a range: with which work of adhesion they act where the grid holds the edges of
+//! contacts.
 //!
 //! Lengths, E* and loads are in consistent units; counts and figures are deterministic. The random scenes take four
 //! minutes on one thread, all else two.
@@ -14,6 +16,7 @@
 mod case;
 mod errors;
 mod estimate;
+mod held;
 mod law;
 mod picture;
 mod rough;
@@ -38,6 +41,8 @@ enum Table {
     Shapes,
     /// Self-affine surfaces: the pull-off, and the area.
     Rough,
+    /// Laws with a range that the grid does not resolve: with which work of adhesion they act.
+    Held,
     /// Random scenes: what two grids say of the limit.
     Errors,
     /// A picture of the pull-off of a rough surface and of a sphere over the nodes.
@@ -83,6 +88,9 @@ fn main() -> Outcome<()> {
         }
         if wants(Table::Rough) {
             rough::tables(quick, if quick { 128 } else { largest })?;
+        }
+        if wants(Table::Held) {
+            held::tables(quick)?;
         }
         std::fs::create_dir_all(&out)?;
         if wants(Table::Picture) {

@@ -4,7 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use asperity::elastic::{Base, Layer, Material};
 use asperity::exact::AdhesiveWavyLine;
-use asperity::{AdhesionLaw, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Result, Spectral, Surface, Sweep};
+use asperity::{
+    AdhesionLaw, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Result, Solution, Spectral, Surface, Sweep,
+};
 use common::Outcome;
 
 use crate::case::{Areas, extrapolated, half_space, head, pull_off, row, solve, solver, tension};
@@ -42,12 +44,30 @@ impl Wave {
         STEEPNESS * self.wavelength
     }
 
+    pub fn grid(&self) -> Grid {
+        self.grid
+    }
+
     pub fn work_of_adhesion(&self) -> f64 {
         (ALPHA * PI * self.amplitude()).powi(2) / (2.0 * self.wavelength)
     }
 
     pub fn exact(&self) -> Result<AdhesiveWavyLine> {
         AdhesiveWavyLine::new(self.amplitude(), self.wavelength, 1.0, self.work_of_adhesion())
+    }
+
+    /// The work of adhesion with which a contact has the mean pressure and the mean gap of a solution.
+    ///
+    /// With q = p̄/p*, the mean gap over the amplitude is 1 − s + q ln s, which falls for s > q.
+    pub fn effective(&self, solution: &Solution<f64>) -> f64 {
+        let (closing, report) = (PI * self.amplitude() / self.wavelength, &solution.report);
+        let (q, gap) = (report.mean_pressure / closing, report.mean_gap / self.amplitude());
+        let (mut low, mut high) = (q.max(1e-9), 1.0);
+        for _ in 0..60 {
+            let s: f64 = f64::midpoint(low, high);
+            *if 1.0 - s + q * s.ln() > gap { &mut low } else { &mut high } = s;
+        }
+        (closing * (low - q)).powi(2) * self.wavelength / 2.0 / (low / (1.0 - low)).sqrt()
     }
 
     pub fn problem<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(

@@ -92,6 +92,6 @@ impl<T: Real> AdhesionLaw<T> for MaugisDugdale {
         let Discretisation::Smooth(compliance) = to else { return None };
         let (w, range, _) = self.rounded::<T>();
         let smoothing = (w / range * compliance).min(T::lit(2.0) * range).widen();
-        (smoothing > 0.0).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
+        (smoothing > self.smoothing).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
     }
 }

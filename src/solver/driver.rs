@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::minimisation::{Goal, Left, Nearness};
+use super::minimisation::{Goal, Left};
 use super::operators::Operators;
 use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
@@ -94,9 +94,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     let asked = (control, constraint.wall().name());
     let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
     let (default_start, nearness) = (begin.is_default(), begin.nearness());
-    let near = nearness == Nearness::Near;
     let from_afar = default_start && branch == Some(Branch::Loading);
-    let smooths = (near || default_start) && settings.method == Method::Preconditioned;
+    let smooths = settings.method == Method::Preconditioned;
     let smoothed = if smooths { smoothed_law(operators.state(), law) } else { None };
 
     // a wall stands for the repulsion of a law, in gaps above its equilibrium separation
@@ -140,7 +139,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     } else if let Some(smoothed) = &smoothed {
         state.change_law(&**smoothed, Goal::Start);
         let end = minimise(&mut state, &mut *observe)?;
-        state.sharpen(law)?;
+        state.sharpen(law, branch.is_some())?;
         if let Some(status) = end.is_final() {
             return state.finish(status);
         }

@@ -75,10 +75,11 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.restart();
     }
 
-    /// Goes on with the law itself after the smoothed one.
-    pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>) -> Result<()> {
+    /// Goes on with the law itself after the smoothed one. A given start is on a branch, which ends where the smoothed
+    /// law lets go.
+    pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>, on_any_branch: bool) -> Result<()> {
         self.posed.law = law;
-        if self.is_adrift() {
+        if on_any_branch && self.is_adrift() {
             // the law itself may hold this tension
             self.fields.gap.fill(T::lit(uniform_start(law, self.posed.flat, self.posed.load)));
             self.refresh(Left::Nothing)?;

@@ -48,11 +48,14 @@ pub enum Start<'a, T> {
     /// equilibrium found then becomes the start, all within the same solve.
     #[default]
     Default,
-    /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch.
+    /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch. The jumps of a law are
+    /// smoothed on the way, as for a default start: else the grid holds the edges of contacts where they are, and a
+    /// loop of such solves bears too much tension. So a start that is an equilibrium of such a law takes some iterations,
+    /// and may end at another one.
     From(&'a ArrayRef2<T>),
     /// The gap of the solution of the same problem in another precision or on another grid, which is not copied. Its
-    /// error is of short waves: the first steps are shorter than with [`Start::From`], and the jumps of a law are
-    /// smoothed on the way. [`Nested`](crate::Nested) starts each grid so.
+    /// error is of short waves: the first steps are shorter than with [`Start::From`]. [`Nested`](crate::Nested) starts
+    /// each grid so.
     Near(Array2<T>),
 }
 

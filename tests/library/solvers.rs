@@ -289,14 +289,18 @@ fn no_adhesion_is_not_evaluated() {
 
 #[test]
 fn a_warm_start_from_the_solution_is_the_solution() {
-    let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
-    for control in [Control::MeanGap(0.0429), Control::MeanPressure(-5e-4)] {
+    // the jump of the first law is smoothed on the way
+    let dugdale: Box<dyn AdhesionLaw<f64>> = Box::new(MaugisDugdale::new(1e-4, 2e-3).unwrap());
+    let exponential: Box<dyn AdhesionLaw<f64>> = Box::new(Exponential::new(1e-4, 2e-3).unwrap());
+    for (law, most) in [(dugdale, 20), (exponential, 1)] {
         let mut problem = sphere::<f64, _>(64, law);
-        let first = solve(&mut problem, control, 1e-9);
-        let again = solve_from(&mut problem, control, 1e-8, Some(&first.gap));
-        assert_eq!((first.report.status, again.report.status), (Status::Converged, Status::Converged));
-        assert!(again.report.iterations <= 1);
-        assert_eq!(first.report.contact_nodes, again.report.contact_nodes);
+        for control in [Control::MeanGap(0.0429), Control::MeanPressure(-5e-4)] {
+            let first = solve(&mut problem, control, 1e-9);
+            let again = solve_from(&mut problem, control, 1e-8, Some(&first.gap));
+            assert_eq!((first.report.status, again.report.status), (Status::Converged, Status::Converged));
+            assert!(again.report.iterations <= most, "{}", again.report.iterations);
+            assert_eq!(first.report.contact_nodes, again.report.contact_nodes);
+        }
     }
 }
 

@@ -161,7 +161,7 @@ fn a_range_is_told_once_and_with_how_wrong_the_answer_may_be() {
     let stderr = text(&output.stderr);
     let lines: Vec<_> = stderr.lines().filter(|line| line.contains("mu_rho")).collect();
     assert!(
-        lines.len() == 1 && lines[0].starts_with("warning: range: ") && lines[0].contains("likely to be wrong by"),
+        lines.len() == 1 && lines[0].starts_with("warning: range: ") && lines[0].contains("times the given one"),
         "{stderr}"
     );
     let report = bench.report("short");

@@ -247,18 +247,15 @@ impl Warning {
         let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
         let mut found = Vec::new();
         if mu_rho > RESOLVED {
-            // μ_ρ goes with the root of the spacing, and with the inverse of the range
-            let (finer, longer) = ((mu_rho / RESOLVED).powi(2).ceil(), rounded_up(range * mu_rho / RESOLVED));
-            let mut text = Text::default();
             let message = format!(
-                "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the answer depends on the grid and \
-                 on the start, the contact area is likely to be wrong {}; use a grid {finer} times finer, or a \
-                 range of at least {}",
+                "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the grid holds the edges of contacts, as a \
+                 work of adhesion of {} times the given one would (approach, withdrawal); use the law jkr, the limit of \
+                 no range, as the nodes cannot follow one as short as this{}",
                 Self::figure(mu_rho),
-                likely_error(mu_rho),
-                text.length(longer)
+                held(mu_rho),
+                finer(mu_rho, surface.grid())
             );
-            let text = text.with(message).of_severity(mu_rho / RESOLVED);
+            let text = Text::default().with(message).of_severity(mu_rho / RESOLVED);
             found.push(Self { code: WarningCode::Range, text });
         }
         if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
@@ -360,22 +357,45 @@ impl Warning {
     }
 }
 
-/// The likely error of the contact area for a resolution measure μ_ρ, from a rough surface under one pressure on
-/// coarser and coarser grids against the finest, with nodes counted and corrected by the perimeter: 0.5 % at 0.7, 1 to
-/// 2 % at 1, 13 to 20 % at 1.4, 60 % at 2, and three times too large at 2.8.
-fn likely_error(mu_rho: f64) -> &'static str {
-    match mu_rho {
-        _ if mu_rho <= 1.0 => "by some 2 %",
-        _ if mu_rho <= 1.5 => "by up to 20 %",
-        _ if mu_rho <= 2.0 => "by up to 60 %",
-        _ => "by a factor of two or more",
-    }
+/// By μ_ρ, with how many times the given work of adhesion a front acts that the grid holds, on approach and on
+/// withdrawal: the farthest from one of the exponential law and that of Maugis and Dugdale, by Johnson's wave on a line,
+/// whose straight fronts along the grid are held most (example `jkr`, table `held`).
+const HELD: [(f64, [f64; 2]); 7] = [
+    (0.5, [0.99, 1.01]),
+    (0.7, [0.98, 1.03]),
+    (1.0, [0.95, 1.17]),
+    (1.4, [0.68, 1.78]),
+    (2.0, [0.41, 3.49]),
+    (2.8, [0.32, 6.81]),
+    (4.0, [0.25, 13.8]),
+];
+
+/// The interval of this table at a μ_ρ above the least, in words.
+fn held(mu_rho: f64) -> String {
+    let told = |[low, high]: [f64; 2], [less, more]: [&str; 2]| {
+        format!("{less}{low:.2} to {more}{high:.*}", if high < 2.0 { 2 } else { 1 })
+    };
+    let Some(pair) = HELD.windows(2).find(|pair| mu_rho <= pair[1].0) else {
+        return told(HELD[HELD.len() - 1].1, ["less than ", "more than "]);
+    };
+    let share = (mu_rho / pair[0].0).ln() / (pair[1].0 / pair[0].0).ln();
+    told([0, 1].map(|k| pair[0].1[k].powf(1.0 - share) * pair[1].1[k].powf(share)), [""; 2])
 }
 
-/// A positive number with three digits, no less than this one.
-fn rounded_up(value: f64) -> f64 {
-    let unit = 10_f64.powf(value.log10().floor() - 2.0);
-    (value / unit).ceil() * unit
+/// The most nodes along a side of a grid to which a warning sends.
+const MOST_NODES: f64 = 16384.0;
+
+/// The grid that would resolve the range, as a second remedy, if it may be had.
+fn finer(mu_rho: f64, grid: &Grid) -> String {
+    // μ_ρ goes with the root of the spacing
+    let times = (mu_rho / RESOLVED).powi(2).ceil();
+    let (nx, ny) = grid.shape();
+    let nodes = [nx, ny].into_iter().filter(|&side| side > 1).map(|side| times * side as f64).collect::<Vec<_>>();
+    if nodes.iter().any(|&nodes| nodes > MOST_NODES) {
+        return String::new();
+    }
+    let nodes = nodes.iter().map(f64::to_string).collect::<Vec<_>>().join(" x ");
+    format!(", or a grid {times} times finer, of {nodes} nodes")
 }
 
 fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {

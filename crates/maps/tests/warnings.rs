@@ -1,6 +1,5 @@
 //! Tests of the warnings.
 
-use asperity::contact::ContactStatistics;
 use asperity::*;
 use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{ScanAxis, Topography, Trend};
@@ -280,7 +279,17 @@ fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
     // √(1e-5/64)/ρ
     let (count, code, message) = resolved(found(1e-5, 3e-4));
     assert_eq!((count, code), (1, WarningCode::Range));
-    assert!(["mu_rho = 1.32", "7 times finer", "7.91e-4"].iter().all(|part| message.contains(part)), "{message}");
+    for part in ["mu_rho = 1.32", "adhesion of 0.72 to 1.66 times", "the law jkr", "7 times finer, of 448 x 448 nodes"]
+    {
+        assert!(message.contains(part), "{message}");
+    }
+    // far beyond what was measured, and beyond all grids
+    let (_, _, message) = resolved(found(1e-5, 2e-5));
+    assert!(message.contains("less than 0.25 to more than 13.8 times") && !message.contains("finer"), "{message}");
+    // without a range there is none to resolve
+    assert!(Warning::of_law::<f64>(&Jkr::new(1e-5).unwrap(), &surface, 1.0).is_empty());
+    // a law that jumps is smoothed
+    assert!(Warning::of_law::<f64>(&MaugisDugdale::new(1e-5, 1e-3).unwrap(), &surface, 1.0).is_empty());
     let (count, code, message) = resolved(found(1e-5, 0.1));
     assert_eq!((count, code), (1, WarningCode::Range));
     assert!(["0.1", "0.02", "unit"].iter().all(|part| message.contains(part)), "{message}");
@@ -303,27 +312,20 @@ fn a_contact_pressure_above_the_modulus_is_told() {
 }
 
 #[test]
-fn the_contact_area_is_as_wrong_as_the_warning_says() {
-    let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(8.0).seed(3);
-    // the adhesive zone E*ρ²/w is a 128th of the side
-    let law = Exponential::new(1e-5, (1e-5_f64 / 128.0).sqrt()).unwrap();
-    let found = |n: usize| {
-        let grid = Grid::square(n, 1.0).unwrap();
-        let surface = rough.surface(grid).unwrap();
+fn the_pull_off_is_as_wrong_as_the_warning_says() {
+    let (grid, work) = (Grid::line(256, 1.0).unwrap(), 4.4e-5);
+    let surface = Surface::wave(grid, 0.01, 1).unwrap();
+    let exact = |work| exact::AdhesiveWavyLine::new(0.01, 1.0, 1.0, work).unwrap().pull_off().unwrap().mean_pressure();
+    for (mu_rho, factor) in [(1.0, 1.17), (2.0, 3.49)] {
+        let law = Exponential::new(work, (work / 256.0_f64).sqrt() / mu_rho).unwrap();
+        let warnings = Warning::of_law::<f64>(&law, &surface, 1.0);
+        let told = format!(" to {} times", if factor > 2.0 { "3.5" } else { "1.17" });
+        assert!(warnings[0].message().contains(&told), "{}", warnings[0]);
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
-        // the branch of loading is less wrong
-        let mut solver = Solver::new(Settings::default().branch(Branch::Unloading));
-        let solution = solver.solve(&mut problem, Control::MeanPressure(1e-3)).unwrap();
-        let area = ContactStatistics::of(&solution, &law).unwrap().corrected_contact_fraction;
-        (area, Warning::of_law::<f64>(&law, &surface, 1.0))
-    };
-    let ((fine, none), (middle, small), (coarse, large)) = (found(512), found(128), found(64));
-    assert!(none.is_empty());
-    for (area, warnings, text, expected) in
-        [(middle, small, "some 2 %", 0.005..0.04), (coarse, large, "up to 20 %", 0.08..0.25)]
-    {
-        let error = (area / fine - 1.0).abs();
-        assert!(expected.contains(&error) && warnings[0].message().contains(text), "{error}: {}", warnings[0]);
+        let preload = 0.3 * std::f64::consts::PI * 0.01;
+        let found = PullOff::default().preload(Some(preload)).find(&mut Solver::default(), &mut problem).unwrap();
+        let ratio = found.solution.report.mean_pressure / exact(factor * work);
+        assert!((0.93..1.03).contains(&ratio), "{ratio}");
     }
 }
 
