@@ -9,7 +9,7 @@
 //! has the laws with a range: with which work of adhesion they act where the grid holds the edges of contacts.
 //!
 //! Lengths, E* and loads are in consistent units; counts and figures are deterministic. The random scenes take four
-//! minutes on one thread, all else one.
+//! minutes on one thread, all else two.
 
 mod case;
 mod errors;
