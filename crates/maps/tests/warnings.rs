@@ -279,7 +279,7 @@ fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
     // √(1e-5/64)/ρ
     let (count, code, message) = resolved(found(1e-5, 3e-4));
     assert_eq!((count, code), (1, WarningCode::Range));
-    for part in ["mu_rho = 1.32", "adhesion of 0.72 to 1.66 times", "the law jkr", "7 times finer, of 448 x 448 nodes"]
+    for part in ["mu_rho = 1.32", "adhesion of 0.72 to 1.65 times", "the law jkr", "7 times finer, of 448 x 448 nodes"]
     {
         assert!(message.contains(part), "{message}");
     }
