@@ -291,7 +291,7 @@ impl GridError {
         let resolves = |factor: f64| {
             nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE && resolves_adhesion(mu_rho, factor.recip())
         };
-        if finest.adhesive_contact_fraction.is_some() {
+        if finest.range.is_some() {
             let resolves = |factor: f64| nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE;
             return zone::error(levels, quantity, resolves);
         }

@@ -107,11 +107,12 @@ class! {
     /// Examples
     /// --------
     /// >>> import asperity
-    /// >>> tip = asperity.surface.paraboloid(64, 1.6, radius=1.0)
-    /// >>> law = asperity.JKR(work_of_adhesion=2e-3)
+    /// >>> tip = asperity.surface.paraboloid(64, 0.36, radius=2.0)
+    /// >>> law = asperity.JKR(work_of_adhesion=2e-5)
     /// >>> found = asperity.pull_off(tip, modulus=1.0, boundary="free", law=law)
-    /// >>> f"{found.force / (1.5 * 3.1416 * 2e-3):.2f} of the pull-off of JKR"
-    /// '1.05 of the pull-off of JKR'
+    /// >>> exact = -asperity.exact.Jkr(2.0, 1.0, 2e-5).pull_off().load
+    /// >>> abs(found.limit_force / exact - 1) < found.limit_error < 0.07
+    /// True
     #[expect(clippy::upper_case_acronyms, reason = "Python's name")]
     JKR(work_of_adhesion: f64),
     "(work_of_adhesion)",

@@ -169,6 +169,7 @@ impl<C> Accuracy<C> {
         surface.grid().slab().alone("accuracy")?;
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
+        self.check_law(law)?;
         let boundary = operator.abilities().boundary;
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
@@ -199,6 +200,13 @@ impl<C> Accuracy<C> {
         }
         let applications = APPLICATIONS * growth.powi(refinements);
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), applications })
+    }
+
+    fn check_law<T: Real>(&self, law: &dyn AdhesionLaw<T>) -> Result<()> {
+        let reason = "with a law that has the range of the grid it is that of edges which the nodes hold, and does not \
+                      converge: take the difference of two loads";
+        let holds = self.of == Quantity::Stiffness && law.hints().of_grid;
+        if holds { Err(Error::Control { control: "accuracy of the stiffness", reason }) } else { Ok(()) }
     }
 
     fn asks_the_edge<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool
@@ -267,6 +275,7 @@ impl<C> Accuracy<C> {
     {
         let tolerance = self.tolerance()?;
         self.of.check(control)?;
+        self.check_law(&law)?;
         let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
         self.nested.solver.settings.tolerance = Some(tolerance);
         self.nested.coarse_tolerance = tolerance;

@@ -32,6 +32,8 @@ pub struct Level {
     pub mean_contact_pressure: f64,
     /// The elastic energy per area, [`Report::elastic_energy`](crate::Report::elastic_energy).
     pub elastic_energy: f64,
+    /// The range of the law, if that is the range of the grid, [`Report::range`](crate::Report::range).
+    pub range: Option<f64>,
     /// The adhesive energy per area, [`Report::adhesive_energy`](crate::Report::adhesive_energy).
     pub adhesive_energy: f64,
     /// The contact by that energy, [`Report::adhesive_contact_fraction`](crate::Report::adhesive_contact_fraction).
@@ -56,6 +58,7 @@ impl Level {
             mean_pressure: report.mean_pressure,
             mean_contact_pressure: report.mean_contact_pressure,
             elastic_energy: report.elastic_energy,
+            range: report.range,
             adhesive_energy: report.adhesive_energy,
             adhesive_contact_fraction: report.adhesive_contact_fraction,
             area: ContactArea::of_solution(solution)?,

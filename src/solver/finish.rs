@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::minimisation::Left;
 use super::passes::Fields;
 use super::plastic::to_the_yielded;
-use super::report::{Report, Solution, Solved, Status};
+use super::report::{Plastic, Report, Solution, Solved, Status};
 use super::state::State;
 use crate::adhesion::{mu_rho, noticeable};
 use crate::elastic::Boundary;
@@ -103,7 +103,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
             range: law.hints().of_grid.then(|| law.hints().range.widen()),
             peak_traction: law.hints().of_grid.then(|| law.traction(T::zero()).widen()),
-            adhesive_contact_fraction: self.adhesive_contact_fraction(facing),
+            adhesive_contact_fraction: self.adhesive_contact_fraction(facing, plastic.as_ref().map(|(_, found)| found)),
             mu_rho,
             under_resolved: mu_rho > Report::RESOLVED_MU_RHO,
             precision: T::NAME,
@@ -150,9 +150,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     /// The share of contact that the adhesive energy tells, of a law whose range is that of the grid.
-    fn adhesive_contact_fraction(&self, facing: f64) -> Option<f64> {
+    fn adhesive_contact_fraction(&self, facing: f64, plastic: Option<&Plastic>) -> Option<f64> {
         let hints = self.posed.law.hints();
-        let tells = hints.of_grid && !hints.zero && hints.shape.is_none();
+        // below a wall that gives the energy goes on
+        let hard = self.posed.projects() && plastic.is_none_or(|plastic| plastic.fraction == 0.0);
+        let tells = hints.of_grid && !hints.zero && hints.shape.is_none() && hard;
         tells.then(|| (0.0 - self.sums.tally.adhesive) / hints.work_of_adhesion.widen() / facing)
     }
 

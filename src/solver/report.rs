@@ -159,7 +159,8 @@ pub struct Report {
     pub range: Option<f64>,
     /// The traction in contact, 2w/ρ, of a law that has the range of the grid; none of others.
     pub peak_traction: Option<f64>,
-    /// The share of contact by the adhesive energy, −E_adh/w, of a law that has the range of the grid and does not vary:
+    /// The share of contact by the adhesive energy, −E_adh/w, of a law that has the range of the grid and does not vary,
+    /// at a hard wall, and where nothing has yielded:
     /// in the theory of Johnson, Kendall and Roberts each area of contact has the energy −w. It is smooth in the load,
     /// and too large by the process zone at the edges; see [`Report::jkr_contact_fraction`].
     pub adhesive_contact_fraction: Option<f64>,

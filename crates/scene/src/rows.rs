@@ -93,7 +93,10 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     row("greatest plastic depth", &|s| length(s.plastic_depth_max?));
     row("mean plastic depth", &|s| length(s.plastic_depth_mean?));
     row("plastic work per area", &|s| energy(s.plastic_energy?));
-    row("contact stiffness", &|s| Some(units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)));
+    row("contact stiffness", &|s| {
+        let held = if s.peak_traction.is_some() { ", of edges that the nodes hold" } else { "" };
+        Some(format!("{}{held}", units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)))
+    });
     row("conductance per area", &|s| {
         let found = s.conductance?;
         let error = found.relative_error.map(|error| format!(", to {} %", percent(error))).unwrap_or_default();
