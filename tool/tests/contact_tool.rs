@@ -67,8 +67,8 @@ fn the_tables_are_those_of_the_contact() {
 #[test]
 fn the_edge_of_a_free_map_is_that_of_its_report() {
     let bench = Bench::new();
-    for (nx, ny) in [(24, 24), (24, 16), (24, 1)] {
-        let row = |i| (0..ny).map(|j| ((7 * i + 5 * j) % 11).to_string()).collect::<Vec<_>>().join(" ");
+    for (nx, ny) in [(24, 24), (24, 16)] {
+        let row = |i: usize| (0..ny).map(|j| ((7 * i + 5 * j) % 11).to_string()).collect::<Vec<_>>().join(" ");
         bench.write("heights.txt", &(0..nx).map(row).collect::<Vec<_>>().join("\n"));
         let pressed = "--heights heights.txt --lengths 100 --boundary free --mean-pressure 0.05 --no-pictures --force --out pressed";
         assert!(bench.run(&format!("solve {pressed}")).status.success());
