@@ -170,7 +170,8 @@ pub struct ContactStatistics {
     /// The contact area within the edge between the nodes, as a share of the nominal area.
     pub corrected_contact_fraction: f64,
     /// The length of the edge of the contact, along the sides of the cells, across periodic boundaries too: Δy for
-    /// neighbours along x of which one is in contact, Δx for neighbours along y. On a line the number of end points.
+    /// neighbours along x of which one is in contact, Δx for neighbours along y. Beyond a free boundary nothing is in
+    /// contact, and so its sides count. On a line the number of end points.
     pub perimeter: f64,
     /// The sizes of the [`Clusters`] of contact in nodes, the largest first.
     pub cluster_sizes: Vec<usize>,

@@ -110,8 +110,8 @@ class Symbol:
         ``function(q)`` of the wave number q = √(qx² + qy²), or ``function(qx, qy)`` of a body that differs with the
         direction; which one is told by the number of its parameters without a default. It is given arrays of float64, in
         radians per length, 2π over the wavelength, of the waves of a grid, up to a million at once, and returns the
-        stiffnesses k > 0, a pressure per length, as an array of the same shape: in the units of the call, Pa/m where it
-        has units. A body of two directions has k(−qx, −qy) = k(qx, qy). It is not asked for q = 0.
+        stiffnesses k > 0, real and a pressure per length, as an array of the same shape: in the units of the call, Pa/m
+        where it has units. A body of two directions has k(−qx, −qy) = k(qx, qy). It is not asked for q = 0.
 
     Examples
     --------

@@ -53,6 +53,10 @@ class Rows(Iterator[T]):
         self._seconds_left: float | None = None
         self._keep(scene.problem.pace())
 
+    def __getstate__(self) -> dict[str, Any]:
+        # a table travels complete, and without its view of the memory of this process
+        return {**self.run().__dict__, "_observe": None}
+
     def _solve(self) -> Solution:
         """The next solution, whose row is kept."""
         found = None if self._ended else self._scene.problem.next(self._observe)

@@ -30,7 +30,7 @@ PLURALS = {
 def number(name: str, value: Any) -> float:
     """A number that a parameter has to be."""
     try:
-        if not isinstance(value, str | bytes):
+        if not isinstance(value, str | bytes | bool | np.bool_):
             return float(value)
     except (TypeError, ValueError):
         pass

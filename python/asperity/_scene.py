@@ -102,6 +102,9 @@ class Scene:
                 InputWarning,
             )
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "problem": None, "original": None, "body": None}
+
     @classmethod
     def of(cls, given: dict[str, Any]) -> Scene:
         """The scene among the keywords of a function."""

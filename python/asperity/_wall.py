@@ -85,4 +85,6 @@ def hardness_of(hardness: Hardness | None) -> float | NDArray[np.float64] | None
     """A hardness as the compiled core takes it."""
     if hardness is None or isinstance(hardness, str) or np.ndim(hardness) == 0:
         return None if hardness is None else number("hardness", hardness)
+    if np.asarray(hardness).dtype == bool:
+        raise TypeError("hardness is an array of truth values: it must be one of pressures")
     return field_of(hardness, "hardness")

@@ -13,6 +13,7 @@ use serde_pyobject::to_pyobject;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
+use crate::running::until_interrupted;
 
 /// The gap at a constriction, its node, and the nodes of the widest passage, in rows of two.
 type Narrowest<'py> = (f64, (usize, usize), Bound<'py, PyArray2<i64>>);
@@ -72,7 +73,8 @@ pub fn leakage<'py>(
     let settings = Leakage::default().tolerance(tolerance).max_iterations(max_iterations);
     let asked = LeakAsked { boundary, absent_gap, settings, viscosity, grid_error: true };
     let values = gap.as_array();
-    let (leak, leaked) = py.detach(|| asked.find(gap_on(values, lengths)?)).map_err(refusal)?;
+    let find = |goes_on: &(dyn Fn() -> bool + Sync)| asked.find_while(gap_on(values, lengths)?, goes_on);
+    let (leak, leaked) = until_interrupted(py, find)?.map_err(refusal)?;
     let found = PyDict::new(py);
     found.set_item("report", to_pyobject(py, &leaked)?)?;
     found.set_item("shortfall", leaked.shortfall(Skin::Keywords))?;

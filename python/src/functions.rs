@@ -72,7 +72,7 @@ impl<'py> Functions<'py> {
     /// The exception of the method, and `ValueError` if it returns another number of values.
     pub fn at(&self, function: Function, gaps: &[f64]) -> PyResult<Vec<f64>> {
         let method = function.method();
-        at_arrays(&self.object.getattr(method)?, &format!("law.{method}"), "gap", &[gaps])
+        at_arrays(&self.object.getattr(method)?, &format!("law.{method}"), "gap", &[gaps], true)
     }
 
     /// All functions at one gap.
@@ -90,11 +90,19 @@ impl<'py> Functions<'py> {
     }
 }
 
-/// A function of arrays, by its name, at many of what it is a function `of`, in one call.
+/// A function of arrays, by its name, at many of what it is a function `of`, in one call; `one_of_all` if one value may
+/// stand for all.
 ///
 /// # Errors
-/// The exception of the function, and `ValueError` if it returns another number of values.
-pub fn at_arrays<'py>(function: &Bound<'py, PyAny>, name: &str, of: &str, arrays: &[&[f64]]) -> PyResult<Vec<f64>> {
+/// The exception of the function, `TypeError` if it returns complex values, and `ValueError` if it returns another number
+/// of them.
+pub fn at_arrays<'py>(
+    function: &Bound<'py, PyAny>,
+    name: &str,
+    of: &str,
+    arrays: &[&[f64]],
+    one_of_all: bool,
+) -> PyResult<Vec<f64>> {
     let (py, count) = (function.py(), arrays.first().map_or(0, |array| array.len()));
     let call = |arguments: Vec<Bound<'py, PyAny>>| function.call1(PyTuple::new(py, arguments)?);
     // what is not finite is refused by its place
@@ -115,10 +123,14 @@ pub fn at_arrays<'py>(function: &Bound<'py, PyAny>, name: &str, of: &str, arrays
         hint.set_cause(py, Some(raised));
         hint
     };
-    let found: Numbers<'_> = found.map_err(hinted)?.extract()?;
+    let found = found.map_err(hinted)?;
+    if py.import("numpy")?.call_method1("iscomplexobj", (&found,))?.extract()? {
+        return Err(PyTypeError::new_err(format!("{name} returned complex numbers: it must return real ones")));
+    }
+    let found: Numbers<'_> = found.extract()?;
     let found = found.as_array();
     match found.len() {
-        1 => Ok(vec![found.sum(); count]),
+        1 if one_of_all => Ok(vec![found.sum(); count]),
         values if values == count => Ok(found.iter().copied().collect()),
         _ => Err(PyValueError::new_err(format!(
             "{name} returned an array of shape {:?} for {of}s of shape [{count}]: it must return one value for each {of}",

@@ -128,3 +128,31 @@ pub fn run<R: Send>(
     let found = found.ok_or_else(|| PyRuntimeError::new_err("the solve ended without a result"))?;
     Ok((found, raised))
 }
+
+/// Does `work` on a thread of its own and returns its result, or the exception of a signal, as of Ctrl-C, after which the
+/// work is told not to go on.
+pub fn until_interrupted<R: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> R + Send,
+) -> PyResult<R> {
+    let stop = &AtomicBool::new(false);
+    py.detach(|| {
+        std::thread::scope(|scope| {
+            let (tell, told) = mpsc::channel::<()>();
+            let worker = scope.spawn(move || {
+                // the channel ends with this closure
+                let _tell = tell;
+                work(&|| !stop.load(Ordering::Relaxed))
+            });
+            let mut raised = None;
+            while let Err(RecvTimeoutError::Timeout) = told.recv_timeout(PATIENCE) {
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    stop.store(true, Ordering::Relaxed);
+                    raised.get_or_insert(error);
+                }
+            }
+            let found = worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            raised.map_or(Ok(found), Err)
+        })
+    })
+}

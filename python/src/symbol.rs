@@ -36,6 +36,7 @@ impl Stiffness for Called {
             }
             false => vec![qx, qy],
         };
-        Python::attach(|py| at_arrays(self.function.bind(py), &self.name, "wave", &arrays)).map_err(Error::raised)
+        Python::attach(|py| at_arrays(self.function.bind(py), &self.name, "wave", &arrays, false))
+            .map_err(Error::raised)
     }
 }

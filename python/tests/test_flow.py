@@ -1,8 +1,11 @@
 """What follows a solve: percolation, leakage and conductance."""
 
+import _thread
 import json
 import os
+import signal
 import subprocess
+import threading
 
 import numpy as np
 import pytest
@@ -14,6 +17,17 @@ import asperity
 def solution():
     rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_l=2, k_s=8, seed=1)
     return asperity.solve(rough, modulus=2.0, mean_pressure=0.02, stiffness=True)
+
+
+def test_ctrl_c_ends_a_leakage():
+    gap = np.random.default_rng(1).random((1024, 1024)) ** 4
+    # a program that a script starts in the background ignores Ctrl-C
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        asperity.leakage(gap, tolerance=1e-12)
+    timer.join()
 
 
 def test_slots_leak_as_their_cubes_say():

@@ -51,6 +51,12 @@ def test_a_hardness_above_the_greatest_pressure_has_the_bits_of_none(surface, el
     assert all(elastic.report[key] is None for key in nothing) and "yielded" not in repr(elastic)
 
 
+@pytest.mark.parametrize("hardness", [True, np.True_, np.ones((48, 48), bool)])
+def test_a_truth_value_is_no_hardness(surface, hardness):
+    with pytest.raises(TypeError, match="hardness is .*: it must be"):
+        asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=hardness)
+
+
 def test_a_hardness_may_vary_and_have_a_unit(surface, elastic):
     soft = 0.2 * float(elastic.contact_pressure.max())
     nodes = np.where(np.arange(48)[:, None] < 24, soft, 1.0) * np.ones(48)

@@ -1,6 +1,7 @@
 """The law of an interface, and the contact in tables, as the tool writes them."""
 
 import pathlib
+import pickle
 import subprocess
 
 import numpy as np
@@ -43,6 +44,15 @@ def test_the_slope_is_the_stiffness_to_its_error(rough):
     law = asperity.interface(rough, modulus=1.0, mean_pressures=[0.01, 0.0101], tolerance=1e-9).columns
     slope = np.diff(law["mean_pressure"]) / np.diff(law["closure"])
     assert slope == pytest.approx(law["contact_stiffness"].mean(), rel=law["stiffness_error"].max())
+
+
+def test_an_interface_travels_between_processes(tmp_path, rough):
+    law = asperity.interface(rough, leakage=1e-3, **PRESSED)
+    other = pickle.loads(pickle.dumps(law))
+    assert other.rows == law.rows and len(other) == 3 and not list(other)
+    assert [file.read_text() for file in other.write(tmp_path / "other", "moose")] == [
+        file.read_text() for file in law.write(tmp_path / "law", "moose")
+    ]
 
 
 def test_units_are_told(tmp_path):

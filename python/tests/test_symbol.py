@@ -53,6 +53,17 @@ def test_that_of_a_layer_is_the_layer(rough):
     assert "stiffness of its waves, bonded" in repr(own)
 
 
+def test_complex_numbers_and_one_for_all_waves_are_refused(rough):
+    def lossy(q):
+        return (0.5 + 0.1j) * q
+
+    with pytest.raises(TypeError, match="lossy returned complex numbers: it must return real ones"):
+        pressed(rough, asperity.Symbol(lossy))
+    for one in (lambda q: 7.0, lambda q: np.array([7.0])):
+        with pytest.raises(ValueError, match="lambda> returned an array of shape .* one value for each wave"):
+            pressed(rough, asperity.Symbol(one))
+
+
 def test_an_anisotropic_body_carries_a_wave_by_the_stiffness_of_that_wave():
     body = asperity.Symbol(lambda qx, qy: 0.5 * np.sqrt(4 * qx**2 + qy**2))
     x = 2 * np.pi * np.arange(32) / 32
@@ -71,10 +82,11 @@ def test_a_plate_on_springs_bends_as_a_plate_does():
     np.testing.assert_allclose(flat.pressure, expected, atol=1e-6)
 
 
-def test_springs_alone_may_be_a_number():
+def test_springs_alone_have_one_stiffness():
     heights = 1e-3 * np.random.default_rng(2).standard_normal((16, 16))
     with pytest.warns(asperity.InputWarning, match="thin-body"):
-        found = asperity.solve(heights, 1.0, modulus=1.0, mean_pressure=0.05, body=asperity.Symbol(lambda q: 7.0))
+        body = asperity.Symbol(lambda q: np.full_like(q, 7.0))
+        found = asperity.solve(heights, 1.0, modulus=1.0, mean_pressure=0.05, body=body)
     np.testing.assert_allclose(found.pressure - 0.05, 7.0 * (heights - heights.mean()), atol=1e-7)
 
 

@@ -296,7 +296,8 @@ impl<'a, T: Real> Potential<'a, T> {
     pub(crate) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
         if let Some(Wall::Springs(springs)) = self.wall {
             let pressed = contact.iter_mut().zip(gaps).enumerate();
-            return pressed.for_each(|(i, (contact, &gap))| *contact = -springs.traction(first + i, gap));
+            // from zero, as the negative of no traction is a negative zero
+            return pressed.for_each(|(i, (contact, &gap))| *contact = T::zero() - springs.traction(first + i, gap));
         }
         if !self.is_surface() {
             return contact.fill(T::zero());
@@ -323,6 +324,15 @@ impl<'a, T: Real> Potential<'a, T> {
 mod tests {
     use super::*;
     use crate::{Exponential, Penalty, Projection};
+
+    #[test]
+    fn springs_that_touch_nowhere_have_a_pressure_of_positive_zero() {
+        let springs = Penalty::new(30.0).unwrap();
+        let potential = Potential::new(&crate::NoAdhesion, &springs, None);
+        let mut contact = [1.0; 3];
+        potential.contact_pressures(0, &[-0.1, 0.0, 0.5], &[0.0; 3], &mut contact);
+        assert_eq!(contact.map(f64::to_bits), [3.0_f64, 0.0, 0.0].map(f64::to_bits));
+    }
 
     #[test]
     fn the_law_goes_on_as_its_tangent_into_interpenetration() {

@@ -48,7 +48,7 @@ impl BodyOptions {
             modulus,
             poisson: self.poisson,
             layer: number(self.layer),
-            base: self.base,
+            base: self.base.or(self.layer.is_some().then_some(Base::Bonded)),
             coating: number(self.coating),
             coating_modulus: number(self.coating_modulus),
             coating_poisson: self.coating_poisson,

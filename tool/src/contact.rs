@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::csv;
 use crate::outcome::Outcome;
-use crate::output::{at_destination, check_apart, output_folder, write_text};
+use crate::output::{at_destination, check_apart, commit, output_folder, write_text};
 use crate::pictures::{PictureFormat, Resolution};
 use crate::printing::{Printing, name, say};
 use crate::quantity::{PER_LENGTH, PER_PRESSURE};
@@ -155,7 +155,7 @@ impl Options {
             asperity::Result::Ok(())
         };
         write().map_err(|error| at_destination(error, out))?;
-        folder.commit()?;
+        commit(folder)?;
         Ok(names)
     }
 }

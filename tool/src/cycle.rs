@@ -65,7 +65,7 @@ pub struct Options {
     #[command(flatten)]
     solver: SolverOptions,
 
-    /// File for the rows, .csv
+    /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
     /// Folder for the fields at the jumps, made if needed: of the rows with an event, of those before them, and of the
@@ -108,7 +108,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
         loads,
         control: loads.control(0.0),
         out,
-        format: Format::Csv,
+        format: options.format()?,
         fields: options.fields.as_deref(),
         units,
         scene,
@@ -142,10 +142,13 @@ impl Fill for Options {
 
 impl Options {
     fn check_files(&self) -> Outcome<()> {
-        if Format::of(&self.out) != Some(Format::Csv) {
-            return Err(Error::file(&self.out, "does not end in .csv: rename it").into());
-        }
+        self.format()?;
         check_plot(self.plot.as_deref(), &self.out, self.manner.force)
+    }
+
+    fn format(&self) -> Outcome<Format> {
+        let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it");
+        Ok(Format::of(&self.out).ok_or_else(refused)?)
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.

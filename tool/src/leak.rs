@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use crate::allowed::share;
 use crate::heights::{self, check_room, converted, warn_of_unread};
 use crate::outcome::Outcome;
-use crate::output::{at_destination, check_apart, output_folder, write_text};
+use crate::output::{at_destination, check_apart, commit, output_folder, write_text};
 use crate::pictures::{PictureFormat, Resolution};
 use crate::printing::{Printing, complain, name, say};
 use crate::quantity::{LENGTH, Quantity, VISCOSITY};
@@ -209,7 +209,7 @@ impl Options {
             asperity::Result::Ok(())
         };
         write(&folder, &mut names).map_err(|error| at_destination(error, out))?;
-        folder.commit()?;
+        commit(folder)?;
         Ok(names)
     }
 }

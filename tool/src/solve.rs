@@ -25,7 +25,7 @@ use crate::boundary::{LOAD, LoadOptions};
 use crate::fields::check_finite;
 use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
-use crate::output::{at_destination, check_apart, output_folder};
+use crate::output::{at_destination, check_apart, commit, output_folder};
 use crate::part::Part;
 use crate::pictures::{MapColours, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, in_options, name, say};
@@ -318,7 +318,7 @@ impl Job<'_> {
             let whole = whole.as_deref().zip(law.as_ref());
             let written = self.write(&folder, whole, &beside, &account);
             beyond = written.map_err(|error| at_destination(error, out))?;
-            Ok(folder.commit()?)
+            Ok(commit(folder)?)
         })?;
 
         if printing.for_people() {

@@ -65,6 +65,21 @@ fn the_tables_are_those_of_the_contact() {
 }
 
 #[test]
+fn the_edge_of_a_free_map_is_that_of_its_report() {
+    let bench = Bench::new();
+    for (nx, ny) in [(24, 24), (24, 16)] {
+        let row = |i: usize| (0..ny).map(|j| ((7 * i + 5 * j) % 11).to_string()).collect::<Vec<_>>().join(" ");
+        bench.write("heights.txt", &(0..nx).map(row).collect::<Vec<_>>().join("\n"));
+        let pressed = "--heights heights.txt --lengths 100 --boundary free --mean-pressure 0.05 --no-pictures --force --out pressed";
+        assert!(bench.run(&format!("solve {pressed}")).status.success());
+        bench.said("contact pressed --out contact --force");
+        let [edge, same] =
+            ["pressed", "contact"].map(|name| bench.report(name)).map(|report| report["perimeter"].as_f64().unwrap());
+        assert!(edge > 0.0 && (same / edge - 1.0).abs() < 1e-12, "{nx} x {ny}: {edge} {same}");
+    }
+}
+
+#[test]
 fn the_densities_of_a_sphere_have_the_exponents_of_its_edge() {
     let bench = Bench::new();
     // a radius of contact of 300 nodes

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::bench::Bench;
+use crate::bench::{Bench, text};
 
 const ROUGH: &str = "surface --size 64 --lengths 20um --k-l 2 --k-s 8 --rms-height 0.1um --quiet --out heights.npz";
 const PRESSED: &str = "interface --heights heights.npz --modulus 1GPa";
@@ -153,6 +153,9 @@ fn what_is_no_law_of_an_interface_is_refused_by_name() {
     ] {
         bench.refused_with(&format!("{PRESSED} {arguments}"), parts);
     }
+    let output = bench.run(&format!("{PRESSED} --mean-pressures 1MPa,2GPa,3GPa --for moose --quiet --out full.csv"));
+    let said = text(&output.stderr);
+    assert!(said.contains("error: the contact is full at 2e9, and from there on the closure grows no more"), "{said}");
     let output =
         bench.run(&format!("{PRESSED} --mean-pressures 2MPa --max-iterations 3 --for abaqus --quiet --out few.csv"));
     assert_eq!(output.status.code(), Some(2));

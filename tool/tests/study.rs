@@ -303,6 +303,25 @@ fn files_vary_too_and_a_changed_file_is_another_case() {
 }
 
 #[test]
+fn a_study_of_cycles_has_objects_as_well() {
+    let bench = Bench::new();
+    let study = MADE.replace("sweep", "cycle").replace("\"1e-3:1e-2:3:log\"", "[1e-3, 1e-2]\nsteps = 3");
+    bench.write("study.toml", &study);
+    bench.said("study study.toml --quiet");
+    bench.said("study study.toml --quiet --out study.jsonl");
+    let objects: Vec<serde_json::Value> =
+        bench.read("study.jsonl").lines().map(|row| serde_json::from_str(row).unwrap()).collect();
+    let table = bench.read("study.csv");
+    let rows = cells(&table);
+    let at = rows[0].iter().position(|name| *name == "mean_gap").unwrap();
+    assert_eq!(objects.len() + 1, rows.len());
+    for (object, row) in objects.iter().zip(&rows[1..]) {
+        assert_eq!(object["mean_gap"].as_f64(), row[at].parse().ok());
+    }
+    bench.refused_with("cycle --heights none.npy --mean-gaps 2,1 --out cycle.txt", &["cycle.txt", ".csv or .jsonl"]);
+}
+
+#[test]
 fn rows_that_do_not_converge_are_counted() {
     let bench = Bench::new();
     bench.write("study.toml", &MADE.replace("[make]", "[solver]\nmax-iterations = 1\n[make]"));
@@ -322,7 +341,7 @@ fn studies_that_cannot_be_are_refused_before_anything_is_solved() {
         (base.replace("sweep", "solve"), &["must be sweep or cycle"]),
         (base.replace("out = \"study.csv\"\n", ""), &["names no table", "out = \"study.csv\""]),
         (base.replace("study.csv", "study.txt"), &["study.txt", ".csv or .jsonl"]),
-        (base.replace("sweep", "cycle").replace("study.csv", "study.jsonl"), &["does not end in .csv"]),
+        (base.replace("sweep", "cycle").replace("study.csv", "study.txt"), &["study.txt", ".csv or .jsonl"]),
         (vary("seed = 3"), &["vary.seed is 3", "list"]),
         (vary("seed = []"), &["vary.seed is []"]),
         (vary("seed = [1, { law = \"none\" }]"), &["vary.seed has both"]),

@@ -34,6 +34,19 @@ impl Leakage {
     /// # Errors
     /// Those of [`Self::through`].
     pub fn grid_error(&self, gap: &Gap<'_>, leak: &Leak) -> Result<[Option<f64>; 2]> {
+        self.grid_error_while(gap, leak, &|| true)
+    }
+
+    /// The same, by [`Self::through_while`].
+    ///
+    /// # Errors
+    /// Those of [`Self::through`].
+    pub fn grid_error_while(
+        &self,
+        gap: &Gap<'_>,
+        leak: &Leak,
+        goes_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<[Option<f64>; 2]> {
         let (nx, ny) = gap.grid().shape();
         if !(nx.is_multiple_of(2) && ny.is_multiple_of(2)) {
             return Ok([None; 2]);
@@ -41,7 +54,7 @@ impl Leakage {
         let mut errors = Axis::BOTH.map(|axis| leak.percolation.along(axis).map(|_| 0.0));
         let settings = self.tolerance(self.tolerance.max(COARSE));
         for first in 0..2 {
-            let coarse = settings.through(&gap.every_second(first)?)?;
+            let coarse = settings.through_while(&gap.every_second(first)?, goes_on)?;
             for (axis, error) in Axis::BOTH.into_iter().zip(&mut errors) {
                 let [own, half] = [leak, &coarse].map(|leak| leak.along(axis).transmissivity.upper);
                 *error = error.map(|error: f64| error.max((half / own - 1.0).abs()));

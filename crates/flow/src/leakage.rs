@@ -157,6 +157,15 @@ impl Leakage {
     /// [`Error::Value`] for a setting out of its range, and for an open gap below 1e-100 of the greatest;
     /// [`Error::Memory`] if there is too little.
     pub fn through(&self, gap: &Gap<'_>) -> Result<Leak> {
+        self.through_while(gap, &|| true)
+    }
+
+    /// The same, with no further iteration once `goes_on` is false: the bounds hold then, and are not as close as the
+    /// tolerance.
+    ///
+    /// # Errors
+    /// Those of [`Self::through`].
+    pub fn through_while(&self, gap: &Gap<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<Leak> {
         self.check()?;
         let ((nx, ny), bytes) = (gap.grid().shape(), Self::memory(gap));
         // requested as a whole and given back, since a failed allocation of a part would end the process
@@ -165,13 +174,13 @@ impl Leakage {
         }
         let percolation = gap.percolation();
         let [x, y] = if !gap.is_periodic() {
-            at_once(|axis| self.along(gap, &percolation, axis))
+            at_once(|axis| self.along_while(gap, &percolation, axis, goes_on))
         } else if percolation.is_alike() {
             let prepared = Prepared::new(gap, &percolation, Axis::X)?;
-            at_once(|axis| self.with(gap, &prepared, axis))
+            at_once(|axis| self.with(gap, &prepared, axis, goes_on))
         } else {
             // a cluster winds along one axis alone: each has a network of its own, one after the other
-            Axis::BOTH.map(|axis| self.along(gap, &percolation, axis))
+            Axis::BOTH.map(|axis| self.along_while(gap, &percolation, axis, goes_on))
         };
         Ok(Leak { flows: [x?, y?], percolation })
     }
@@ -181,6 +190,16 @@ impl Leakage {
     /// # Errors
     /// Those of [`Self::through`].
     pub fn along(&self, gap: &Gap<'_>, percolation: &Percolation, axis: Axis) -> Result<Flow> {
+        self.along_while(gap, percolation, axis, &|| true)
+    }
+
+    fn along_while(
+        &self,
+        gap: &Gap<'_>,
+        percolation: &Percolation,
+        axis: Axis,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Flow> {
         self.check()?;
         if percolation.along(axis).is_none() {
             let zero = Array2::zeros(gap.grid().shape());
@@ -193,7 +212,7 @@ impl Leakage {
                 nodes: 0,
             });
         }
-        self.with(gap, &Prepared::new(gap, percolation, axis)?, axis)
+        self.with(gap, &Prepared::new(gap, percolation, axis)?, axis, goes_on)
     }
 
     fn check(&self) -> Result<()> {
@@ -207,9 +226,9 @@ impl Leakage {
         Ok(())
     }
 
-    fn with(&self, gap: &Gap<'_>, prepared: &Prepared, axis: Axis) -> Result<Flow> {
+    fn with(&self, gap: &Gap<'_>, prepared: &Prepared, axis: Axis, goes_on: &dyn Fn() -> bool) -> Result<Flow> {
         let network = &prepared.network;
-        let mut enclosed = Enclosed::new(prepared, axis, self.tolerance, self.max_iterations);
+        let mut enclosed = Enclosed::new(prepared, axis, self, goes_on);
         let hubs: Vec<f64> = network.hubs(&enclosed.pressure, axis).collect();
         enclosed.pressure.extend(hubs);
         if gap.is_periodic() {
@@ -268,8 +287,9 @@ pub(crate) struct Enclosed {
 }
 
 impl Enclosed {
-    /// Iterates until the bounds are as close as the tolerance, or rounding keeps them apart.
-    fn new(prepared: &Prepared, axis: Axis, tolerance: f64, max_iterations: usize) -> Self {
+    /// Iterates while it goes on, until the bounds are as close as the tolerance, or rounding keeps them apart.
+    fn new(prepared: &Prepared, axis: Axis, settings: &Leakage, goes_on: &dyn Fn() -> bool) -> Self {
+        let Leakage { tolerance, max_iterations } = *settings;
         let Prepared { network, elimination, tree } = prepared;
         let n = network.ground();
         // the pressure of the ground, behind those of the rims, is zero
@@ -298,7 +318,7 @@ impl Enclosed {
             direction.iter_mut().zip(&preconditioned).for_each(|(d, z)| *d = z + again * *d);
             network.apply(&direction, &mut change);
             let step = -error / dot(&direction[..n], &change[..n]);
-            let last = iterations == max_iterations || !(error > 0.0 && step.is_finite());
+            let last = iterations == max_iterations || !(error > 0.0 && step.is_finite()) || !goes_on();
             let mut stale = error <= STALE * first;
             if error <= share * tolerance * upper || last {
                 let improved = best.look_at(network, tree, &pressure, axis);

@@ -1,6 +1,7 @@
 //! Leakage against exact solutions, and against dense ones of the same network.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use approx::assert_relative_eq;
 use asperity::{Amplitude, Control, Grid, NoAdhesion, Problem, SelfAffine, Solver, Westergaard};
@@ -383,5 +384,20 @@ fn a_gap_of_2048_squared_nodes_near_percolation_is_enclosed() {
         // far below that of the widest gap everywhere
         let widest = values.iter().copied().fold(0.0, f64::max);
         assert!(flow.transmissivity.upper < widest.powi(3) / 12.0 && constriction.gap < 0.1 * widest);
+    }
+}
+
+#[test]
+fn a_leakage_that_does_not_go_on_has_bounds_that_hold() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let wavy = grid.sample(|x, y| 1.0 + 0.9 * (TAU * (x + 2.0 * y)).cos() * (TAU * 3.0 * x).sin());
+    let gap = Gap::new(wavy.view(), grid).unwrap();
+    let whole = Leakage::default().through(&gap).unwrap();
+    let looks = AtomicUsize::new(0);
+    let ended = Leakage::default().through_while(&gap, &|| looks.fetch_add(1, Ordering::Relaxed) < 4).unwrap();
+    for axis in Axis::BOTH {
+        let [(own, reached), (ended, early)] =
+            [&whole, &ended].map(|leak| (leak.along(axis).transmissivity, leak.along(axis).reached));
+        assert!(reached && !early && ended.lower < own.lower && own.upper < ended.upper, "{own:?} {ended:?}");
     }
 }

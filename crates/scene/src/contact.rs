@@ -252,6 +252,13 @@ fn neighbours((i, j): (usize, usize), grid: Grid, meets: bool) -> impl Iterator<
     along(i, nx).map(move |i| ((i, j), side)).chain(along(j, ny).map(move |j| ((i, j), dx)))
 }
 
+/// The length of the sides of a cell beyond which nothing is.
+fn outer_sides((i, j): (usize, usize), grid: Grid) -> f64 {
+    let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
+    let ends = |at: usize, count: usize| f64::from(u8::from(at == 0) + u8::from(at + 1 == count));
+    if grid.is_line() { ends(i, nx) } else { ends(i, nx) * dy + ends(j, ny) * dx }
+}
+
 /// The autocorrelation of a pressure about its mean, over the variance.
 fn autocorrelation(pressure: ArrayView2<'_, f64>, grid: Grid) -> Result<Vec<(f64, f64)>> {
     let found = Surface::new(grid, pressure.to_owned())?.spectrum().radial_autocorrelation();
@@ -274,8 +281,8 @@ fn spots(contact: &Array2<bool>, pressure: ArrayView2<'_, f64>, grid: Grid, meet
     for (node, label) in labels.indexed_iter() {
         let Some(spot) = label.checked_sub(1).and_then(|spot| spots.get_mut(spot)) else { continue };
         spot.force += pressure[node] * cell;
-        spot.perimeter +=
-            neighbours(node, grid, meets).filter(|(other, _)| !contact[*other]).map(|(_, side)| side).sum::<f64>();
+        let inside = neighbours(node, grid, meets).filter(|(other, _)| !contact[*other]).map(|(_, side)| side);
+        spot.perimeter += inside.sum::<f64>() + if meets { 0.0 } else { outer_sides(node, grid) };
     }
     spots
 }

@@ -40,9 +40,10 @@ pub(crate) fn identity<T: Real>(
     let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
     let field = |field: &ArrayRef2<f64>| Hash::NEW.of_numbers(field).to_string();
     let given_field = |given: Option<&ArrayRef2<f64>>| given.map_or("none".to_owned(), field);
+    let heights = if inputs.shift.is_some() { "surfaces" } else { "heights" };
     let identity = json!({
         "shape": format!("{} {}", grid.shape().0, grid.shape().1),
-        "heights": field(given.surface.heights()),
+        (heights): field(given.surface.heights()),
         "lengths": format!("{} {}", grid.lengths().0, grid.lengths().1),
         "absent_nodes": given.surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
         "boundary": inputs.elastic.boundary,

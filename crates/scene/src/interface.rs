@@ -131,6 +131,15 @@ fn functions(rows: &[Value], adhesive: bool) -> Result<Vec<Function>, String> {
         states.reverse();
     }
     if let Some(two) = states.windows(2).find(|two| two[1].0 <= two[0].0 || two[1].1 <= two[0].1) {
+        let full = rows.iter().filter(|row| number(row, "contact_fraction") == Some(1.0));
+        let mut full: Vec<_> = full.filter_map(|row| number(row, "mean_pressure")).collect();
+        full.sort_by(f64::total_cmp);
+        if let [least, _, ..] = full[..] {
+            return Err(format!(
+                "the contact is full at {least:e}, and from there on the closure grows no more: leave out the loads \
+                 beyond it"
+            ));
+        }
         return Err(format!(
             "the pressure is no function of the closure: {:e} at {:e} comes before {:e} at {:e}: give loads that grow, \
              or loads that fall",

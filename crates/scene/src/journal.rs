@@ -228,6 +228,7 @@ fn resume(
                 "heights" | "initial_gap" | "law_table" | "work_of_adhesion_map" | "hardness_map" => {
                     format!("belongs to another run, with another file of its {name}")
                 }
+                "surfaces" => "belongs to another run, with another of its two surfaces, or another shift".to_owned(),
                 _ => format!("belongs to another run, whose {name} is {}, and not {}", bare(there), bare(here)),
             });
         }

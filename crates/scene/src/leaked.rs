@@ -127,11 +127,20 @@ impl LeakAsked {
     /// # Errors
     /// Those of [`Gap::absent`] and [`Leakage::through`].
     pub fn find(&self, gap: Gap<'_>) -> Result<(Leak, Leaked)> {
+        self.find_while(gap, &|| true)
+    }
+
+    /// The same, by [`Leakage::through_while`].
+    ///
+    /// # Errors
+    /// Those of [`Gap::absent`] and [`Leakage::through`].
+    pub fn find_while(&self, gap: Gap<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<(Leak, Leaked)> {
         let Self { boundary, absent_gap, settings, viscosity, grid_error } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };
         let gap = gap.absent(absent_gap.unwrap_or(0.0))?;
-        let leak = settings.through(&gap)?;
-        let grid_errors = if grid_error { settings.grid_error(&gap, &leak)? } else { [None; 2] };
+        let leak = settings.through_while(&gap, goes_on)?;
+        let grid_errors =
+            if grid_error && goes_on() { settings.grid_error_while(&gap, &leak, goes_on)? } else { [None; 2] };
         let transmissivity = |axis| {
             let flow = leak.along(axis);
             let Bounds { lower, upper } = flow.transmissivity;

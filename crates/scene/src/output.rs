@@ -11,15 +11,31 @@ use crate::outcome::Outcome;
 
 /// The folder `path` for files with these `names`. A file that exists is refused unless `force` replaces it.
 pub fn output_folder(path: &Path, names: &[&str], force: bool) -> Outcome<OutputFolder> {
-    let existing = names.iter().map(|name| path.join(name)).find(|file| file.exists() && !file.is_dir());
-    existing.map_or(Ok(()), |file| check_free(&file, force, "output folder"))?;
-    Ok(OutputFolder::create(path, names, force)?)
+    Ok(OutputFolder::create(path, names, force).map_err(with_remedy)?)
+}
+
+/// Puts the files of a folder in their places. One that has come to be there meanwhile is refused as by
+/// [`output_folder`].
+pub fn commit(folder: OutputFolder) -> asperity::Result<()> {
+    folder.commit().map_err(with_remedy)
+}
+
+/// The error of a folder, with the option that replaces a file that exists.
+fn with_remedy(error: Error) -> Error {
+    match error {
+        Error::File { path, reason, .. } if reason.starts_with("exists:") => taken(&path, "output folder"),
+        other => other,
+    }
+}
+
+fn taken(path: &Path, other: &str) -> Error {
+    Error::file(path, format!("exists: use --force to replace it, or choose another {other}"))
 }
 
 /// Refuses a file that exists, unless it may be replaced; `other` names what else may be chosen.
 pub fn check_free(path: &Path, replaceable: bool, other: &str) -> Outcome<()> {
     match path.exists() && !replaceable {
-        true => Err(Error::file(path, format!("exists: use --force to replace it, or choose another {other}")).into()),
+        true => Err(taken(path, other).into()),
         false => Ok(()),
     }
 }
@@ -73,7 +89,7 @@ impl OutputFile {
 
     /// Puts the file in its place.
     pub fn commit(self) -> asperity::Result<()> {
-        self.folder.commit()
+        commit(self.folder)
     }
 
     /// Puts `files` in their places, and then this one, which stands for all of them: one of its name goes before, so

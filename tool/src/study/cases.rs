@@ -79,11 +79,8 @@ impl Study {
             (None, None) => return Err(refuse(lacks(&table, "out", "names no table", "study.csv")).into()),
             (None, Some(other)) => return Err(refuse(format!("out is {other}: it must be the name of a file")).into()),
         };
-        // a cycle has no other format than CSV
-        let Some(format) = Format::of(&out).filter(|format| name == "sweep" || *format == Format::Csv) else {
-            let allowed = if name == "sweep" { ".csv or .jsonl" } else { ".csv" };
-            return Err(Error::file(&out, format!("does not end in {allowed}: rename it")).into());
-        };
+        let refused = || Error::file(&out, "does not end in .csv or .jsonl: rename it");
+        let format = Format::of(&out).ok_or_else(refused)?;
         let section = |table: &mut Table, name: &str| match table.remove(name) {
             Some(Value::Table(section)) => Ok(Some(section)),
             None => Ok(None),
