@@ -257,7 +257,7 @@ impl<T: Scalar> Solves for State<T> {
     fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value> {
         let mut posed = self.anew()?;
         let loads: Vec<Control> = way.loads().to_vec();
-        let course = Course::new(way, After::default()).yielding(self.scene.adhesion.yields());
+        let course = Course::new(way, After::default()).with(&self.scene.adhesion);
         let start = posed.start_afar(&loads).map(T::field);
         course.check(&mut posed)?;
         let columns = course.columns();

@@ -12,6 +12,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::account::{Account, stiffness};
+use crate::adhesion::Adhesion;
 use crate::after::After;
 use crate::boundary::Boundary;
 use crate::clock::Instant;
@@ -30,6 +31,8 @@ pub struct Course<T> {
     way: Way,
     /// Whether the surface yields
     yields: bool,
+    /// Whether the law has the range of the grid
+    of_grid: bool,
     /// The findings that are asked for after each state
     after: After,
     /// The mean gap at first touch, if its table is that of an interface
@@ -80,6 +83,9 @@ pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part
 const BALANCE: &str = "work dissipated imbalance event energy_drop";
 const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth_mean plastic_energy";
 
+/// The contact by the adhesive energy, and in the limit of no range, of a law that has the range of the grid.
+const LIMIT: &str = "adhesive_contact_fraction jkr_contact_fraction";
+
 const WITHDRAWAL: &str = "withdrawal";
 
 type See<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
@@ -92,7 +98,18 @@ impl<T: Real> Course<T> {
     pub fn new(way: Way, after: After) -> Self {
         let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
         let pace = way.pace();
-        Self { way, after, touch: None, yields: false, start: None, states: 0, place, leg_ends: false, pace }
+        Self {
+            way,
+            after,
+            touch: None,
+            yields: false,
+            of_grid: false,
+            start: None,
+            states: 0,
+            place,
+            leg_ends: false,
+            pace,
+        }
     }
 
     /// The course with the table of an interface whose surfaces first touch at a mean gap.
@@ -100,9 +117,10 @@ impl<T: Real> Course<T> {
         Self { touch: Some(touch), ..self }
     }
 
-    /// The course of a surface that yields, or does not.
-    pub fn yielding(self, yields: bool) -> Self {
-        Self { yields, ..self }
+    /// The course of surfaces with this adhesion, which may yield.
+    pub fn with(self, adhesion: &Adhesion) -> Self {
+        let of_grid = adhesion.law().is_some_and(|law| law.of_grid);
+        Self { yields: adhesion.yields(), of_grid, ..self }
     }
 
     /// The course from a gap in the place of the default start.
@@ -156,7 +174,8 @@ impl<T: Real> Course<T> {
             Way::Cycle(..) => (vec!["leg direction", STATE, BALANCE, OUTCOME, INPUTS, stiffness], ""),
         };
         let plastic = if self.yields { PLASTIC } else { "" };
-        let before = before.into_iter().chain([plastic]).flat_map(str::split_whitespace);
+        let limit = if self.of_grid { LIMIT } else { "" };
+        let before = before.into_iter().chain([limit, plastic]).flat_map(str::split_whitespace);
         before.chain(self.after.columns()).chain(behind.split_whitespace()).collect()
     }
 

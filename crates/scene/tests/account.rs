@@ -182,7 +182,7 @@ fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
     let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
-        let new = || Course::<f64>::new(way.clone(), After::default()).yielding(true);
+        let new = || Course::<f64>::new(way.clone(), After::default()).with(&scene.adhesion);
         let names = new().columns();
         assert!(names.ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
         let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
