@@ -165,7 +165,8 @@ pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()
 /// A gap at which most laws have decayed: ten ranges, from the equilibrium separation on.
 pub fn far(law: &dyn AdhesionLaw<f64>) -> f64 {
     let hints = law.hints();
-    hints.rest.unwrap_or(0.0) + 10.0 * hints.range
+    // a law that has the range of the grid is looked at with any
+    if hints.of_grid { 1.0 } else { hints.rest.unwrap_or(0.0) + 10.0 * hints.range }
 }
 
 impl Called {

@@ -28,6 +28,26 @@ class Exponential:
         return -self.work_of_adhesion / self.range**2 * np.exp(-gap / self.range)
 
 
+def test_the_law_without_a_range_is_that_of_the_grid():
+    law = asperity.JKR("50mJ/m2")
+    asperity.check_law(law)
+    assert law == pickle.loads(pickle.dumps(law)) and law.energy([0.0, 1e-9]).tolist() == [-0.05, 0.0]
+    rough = asperity.surface.self_affine(64, 1e-6, rms_height=3e-9, k_l=2, k_s=8, seed=3)
+    options = {"modulus": 1e9, "mean_pressure": 5e6}
+    report = asperity.solve(rough, law=asperity.JKR(0.05), **options).report
+    spacing = 1e-6 / 64
+    assert report["range"] == pytest.approx(math.sqrt(13 * 0.05 * spacing / 1e9), rel=1e-12)
+    assert report["peak_traction"] == pytest.approx(0.1 / report["range"], rel=1e-12)
+    assert report["corrected_contact_fraction"] < report["jkr_contact_fraction"] < report["adhesive_contact_fraction"]
+    told = asperity.solve(rough, law=asperity.JKR(0.05), accuracy=0.1, **options)
+    assert told.report["grid_error"]["area"]["relative"] < 0.1
+    assert told.report["jkr_contact_fraction"] == pytest.approx(report["jkr_contact_fraction"], rel=0.1)
+    found = asperity.pull_off(rough, modulus=1e9, law=asperity.JKR(0.05), preload=5e6)
+    assert 0 < found.limit_pressure < found.pressure and 0 < found.limit_error < 1 and found.accuracy is None
+    with pytest.raises(TypeError, match="range"):
+        asperity.JKR(0.05, range=1e-9)
+
+
 class Linear:
     """A traction that falls linearly to zero at the range: its slope jumps."""
 

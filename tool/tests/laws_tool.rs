@@ -204,3 +204,36 @@ fn the_laws_are_listed_and_drawn() {
     bench.refused_with("laws --plot law.png", &["--plot needs a law"]);
     bench.refused_with("laws --law table --law-table law.txt --plot table.png", &["exists", "--force"]);
 }
+
+#[test]
+fn the_law_without_a_range_has_that_of_the_grid() {
+    let bench = wave();
+    let law = "--law jkr --work-of-adhesion 2e-6";
+    let report = bench.reported(&format!("{SOLVE} {law} --out limit"));
+    let number = |report: &serde_json::Value, key: &str| report[key].as_f64().unwrap();
+    let range = (13.0 * 2e-6 / 16.0_f64).sqrt();
+    assert!((number(&report, "range") / range - 1.0).abs() < 1e-12);
+    assert!((number(&report, "peak_traction") * range / 4e-6 - 1.0).abs() < 1e-12);
+    let [limit, by_energy] = ["jkr_contact_fraction", "adhesive_contact_fraction"].map(|key| number(&report, key));
+    assert!(0.0 < limit && limit < by_energy, "{limit} {by_energy}");
+    assert!((by_energy * 2e-6 / -number(&report, "adhesive_energy") - 1.0).abs() < 1e-12);
+    for (options, parts) in [
+        ("--range 1e-3", &["--range is 0.001", "limit of no range", "leave it out"][..]),
+        ("--wall none", &["--law jkr does not repel"]),
+        ("--cut-off 1", &["ends by itself"]),
+        ("--accuracy 0.1 --accuracy-of stiffness", &["accuracy of the stiffness", "does not converge"]),
+    ] {
+        bench.refused_with(&format!("{SOLVE} {law} {options} --out no"), parts);
+    }
+    bench.refused_with(&format!("{SOLVE} --law jkr --out no"), &["lacks --work-of-adhesion"]);
+    bench.refused_with(&format!("laws {law} --plot law.png"), &["has the range of a grid"]);
+    // the same in a table, and a search for the pull-off with its limit
+    bench.said(&format!("sweep --heights heights.txt --mean-pressures 1e-3 {law} --out limit.csv"));
+    let table = bench.read("limit.csv");
+    assert!(table.lines().next().unwrap().ends_with("adhesive_contact_fraction,jkr_contact_fraction"), "{table}");
+    let pull_off = "pull-off --heights heights.txt --preload 1e-3";
+    let found = bench.reported(&format!("{pull_off} {law}"));
+    assert!(number(&found, "limit_pressure") < number(&found, "pull_off_pressure"));
+    let long = "--law exponential --work-of-adhesion 2e-6 --range 4e-3 --accuracy 0.1";
+    bench.refused_with(&format!("{pull_off} {long}"), &["accuracy of the pull-off", "range of the grid"]);
+}
