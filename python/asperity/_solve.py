@@ -129,8 +129,8 @@ def solve(
     law : Law or an object of your own, optional
         Adhesion law; none by default. `JKR` is the one of which the work of adhesion alone is known. `Exponential`,
         `MaugisDugdale`, `LennardJones`, `Morse`, `PowerLaw`, `VanDerWaals` and `Tabulated` have a range, `CutOff` ends
-        one, and with `Varying` its work of adhesion differs from node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see
-        `check_law`.
+        one, and with `Varying` its work of adhesion differs from node to node. An object with ``energy(gap)``,
+        ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see `check_law`.
     wall : {"hard", "none"}, Penalty or Uzawa
         What keeps the surfaces apart: a rigid wall at zero gap, a law that repels alone, as `LennardJones` and `Morse`
         do, or springs of a stiffness.

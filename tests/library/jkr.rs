@@ -72,7 +72,7 @@ fn the_range_is_as_short_as_the_nodes_can_follow() {
             assert_eq!(problem.law(), &law);
         }
     }
-    // the layer is stiffer than its half-space there, so that its range is shorter
+    // nothing attracts without a work of adhesion
     assert_eq!(mu_rho::<f64>(&Jkr::new(0.0).unwrap(), &Grid::square(8, 1.0).unwrap(), 1.0), 0.0);
 }
 

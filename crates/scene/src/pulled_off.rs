@@ -97,11 +97,14 @@ impl PulledOff {
         if self.reached || last.status != Status::Converged {
             return None;
         }
-        if let (Some(accuracy), Some(error)) = (self.accuracy, self.limit_error) {
+        // where the search itself has come to its end, the grid falls short
+        let ends = self.lost_pressure.zip(self.pull_off_pressure);
+        let is_narrow = ends.is_some_and(|(lost, borne)| lost - borne <= self.rtol * lost);
+        if let Some(accuracy) = self.accuracy.filter(|_| is_narrow) {
+            let estimate = self.limit_error.map_or("unknown".to_owned(), |error| format!("{} %", percent(error)));
             let text = format!(
-                "the accuracy of {accuracy} of the pull-off is not reached: the estimate is {} %: give {{memory}} for a finer \
-                 grid, or a larger {{accuracy}}",
-                percent(error)
+                "the accuracy of {accuracy} of the pull-off is not reached: the estimate is {estimate}: give {{memory}} for \
+                 a finer grid, or a larger {{accuracy}}"
             );
             return Some(worded(&text, skin));
         }
