@@ -10,7 +10,8 @@ use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{
-    Begin, Branch, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_wall, refuse_hardness,
+    Begin, Branch, Iteration, Observer, Report, STRONGEST, Solution, Solved, Solver, Start, Status, check_wall,
+    refuse_hardness,
 };
 
 /// The most solves of a search; a bracket is halved at least with every other one.
@@ -18,6 +19,9 @@ const MOST: usize = 60;
 
 /// The first tension, over the attraction of the surfaces under no load.
 const FIRST: f64 = 1.0 / 16.0;
+
+/// The attraction of surfaces at rest, over their energy of adhesion and its range: a tension that is tried.
+const AT_REST: f64 = 0.1;
 
 /// The least and the largest tension after one that is borne, over that one, as long as none is too large.
 const GROWTH: (f64, f64) = (1.2, 2.5);
@@ -36,7 +40,7 @@ const MARGIN: f64 = 0.1;
 /// | field | default | meaning | range |
 /// |---|---|---|---|
 /// | `tolerance` | 0.02 | the relative width of the bracket at which the search ends | positive, below 1 |
-/// | `preload` | none | the mean pressure to which surfaces from afar were pressed before; flat if none is given | finite |
+/// | `preload` | none | the mean pressure to which surfaces from afar were pressed before; flat if none is given | zero or positive |
 ///
 /// A branch that the solver's settings name is that of the first solve, in the place of these, and so is a given
 /// [`Start`]. Where the traction of
@@ -134,7 +138,12 @@ impl PullOff {
         if !held.is_settled() {
             return Ok(search.end(held, None, false));
         }
-        let attraction = held.solution.report.mean_contact_pressure;
+        // flat surfaces at rest have the energy of adhesion, and no traction
+        let hints = problem.law_on_grid().hints();
+        let stored = 0.0 - held.solution.report.adhesive_energy;
+        let node = hints.work_of_adhesion.widen() / problem.grid().nodes() as f64;
+        let at_rest = if stored < STRONGEST * node { 0.0 } else { AT_REST * stored / hints.range.widen() };
+        let attraction = held.solution.report.mean_contact_pressure.max(at_rest);
         if attraction <= 0.0 {
             let reason =
                 "the surfaces do not attract each other under no load: give a law of a longer range, or a preload";
@@ -168,7 +177,7 @@ impl PullOff {
             return Err(Error::Value { name: "tolerance of the pull-off", value: self.tolerance, requirement });
         }
         if let Some(preload) = self.preload {
-            Error::finite("preload", preload)?;
+            Error::non_negative("preload", preload)?;
         }
         if problem.law_on_grid().hints().zero {
             let reason = "without adhesion surfaces bear no tension: give a law";

@@ -43,6 +43,7 @@ pub(crate) use report::Solved;
 pub use report::{Iteration, Plastic, Report, Solution, Status};
 pub use start::Start;
 pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
+pub(crate) use tension::STRONGEST;
 
 /// The method of iteration, one of two.
 #[non_exhaustive]

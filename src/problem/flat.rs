@@ -127,6 +127,11 @@ impl<T: Real> PressedFlat<T> {
         })
     }
 
+    /// The rms of K⁻¹h; zero for a flat surface, of which the stiffness is no number.
+    pub(crate) fn rms_pressure(&self) -> f64 {
+        (self.stiffness * self.rms_height).max(0.0)
+    }
+
     /// The grid of the surface, of which the operator's is the `whole`.
     pub(super) fn grid<'a>(&'a self, whole: &'a Grid) -> &'a Grid {
         self.window.as_ref().map_or(whole, Window::grid)

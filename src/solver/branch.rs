@@ -94,8 +94,8 @@ impl Branch {
 }
 
 impl<T: Real> Solution<T> {
-    /// The distance of two solutions under one load in the energy norm, relative to the larger: √(⟨Δu, Δp⟩/⟨u, p⟩), as
-    /// [`Report::relative_error`]; infinite between different grids.
+    /// The distance of two solutions under one load in the energy norm, relative to the larger: √(⟨Δu, Δp⟩/⟨u, p⟩), on
+    /// the scale of [`Report::relative_error`]; infinite between different grids.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.grid != other.grid {
             return f64::INFINITY;
@@ -105,7 +105,8 @@ impl<T: Real> Solution<T> {
         let gaps = Zip::from(&self.gap).and(&other.gap).map_collect(|&g, &h| change(g, h));
         let pressures = &self.pressure - &other.pressure;
         let square = self.grid.mean_of_both(gaps.view(), pressures.view(), |g, p| g.widen() * p.widen());
-        let scale = 2.0 * self.report.elastic_energy.max(other.report.elastic_energy);
+        let [own, its] = [self, other].map(|one| one.report.error_scale.max(2.0 * one.report.elastic_energy));
+        let scale = own.max(its);
         if square == 0.0 { 0.0 } else { (square.abs() / scale).sqrt() }
     }
 

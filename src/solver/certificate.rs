@@ -31,8 +31,8 @@ const NEAR_FLOOR: f64 = 2.0;
 /// The same numbers for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
 
-/// The greatest rounding of the length of a spring, in units of ε.
-const SPRING_ROUNDINGS: f64 = 8.0;
+/// The greatest rounding of a displacement that is none, and of the length of a spring, in units of ε.
+const ROUNDINGS: f64 = 8.0;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least that of rounding.
@@ -51,7 +51,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// k the stiffness of the shortest wave.
     pub(super) fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
-        let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
         // flats that attract each other have no waves but those of rounding
         let traction = self.sums.tally.traction / self.posed.nodes();
         let (softest, stiffest) = self.posed.operators.state().stiffness_range();
@@ -63,10 +62,20 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
-        let waves = self.mean_work().max(apart);
         let mean = (self.sums.tally.sum_gap / self.posed.nodes()).abs();
         let carried = self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height);
-        (waves.max(flat), if waves >= flat { epsilon * epsilon * carried } else { 0.0 })
+        // nodes that bear their own attraction deform nothing, as surfaces apart
+        let bears_itself = self.sums.tally.adhesive < 0.0
+            && traction >= self.sums.given.abs()
+            && self.mean_work() <= (ROUNDINGS * epsilon).powi(2) * carried;
+        let apart = if self.sums.tally.contact > 0.0 && !bears_itself { 0.0 } else { self.posed.flat.work };
+        let waves = self.mean_work().max(apart);
+        if waves >= flat {
+            return (waves, epsilon * epsilon * carried);
+        }
+        // that of flats which only the law holds is the error of the load at each node
+        let held = if self.posed.has_no_wall() { traction.max(self.sums.given.abs()).powi(2) / stiffest } else { 0.0 };
+        (flat.max(held), 0.0)
     }
 
     pub(super) fn is_at_floor(&self) -> bool {
@@ -88,9 +97,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
     pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
         let contact = self.sums.given + self.sums.tally.traction / self.posed.nodes();
-        // a relaxed spring carries only the rounding of its length
+        // a relaxed spring carries only the rounding of its length, and surfaces apart under no load that of K⁻¹h
         let lengths = self.mean_gap().abs() + self.posed.load.rest().abs();
-        let rounding = SPRING_ROUNDINGS * T::epsilon().widen() * self.posed.load.stiffness() * lengths;
+        let unloaded = self.sums.given == 0.0 && self.sums.tally.contact == 0.0;
+        let of_surface = if unloaded { self.posed.flat.rms_pressure() } else { 0.0 };
+        let rounding = ROUNDINGS * T::epsilon().widen() * (self.posed.load.stiffness() * lengths + of_surface);
         if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / self.sums.given.abs().max(contact.abs()) }
     }
 

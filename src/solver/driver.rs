@@ -8,6 +8,7 @@ use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
 use super::start::{Begin, check_hardness, check_wall};
 use super::state::State;
+use super::tension::Hold;
 use super::{Branch, Method, Settings};
 use crate::adhesion::{AdhesionLaw, Discretisation, NoAdhesion};
 use crate::constraint::{ContactConstraint, Projection, Update, Wall};
@@ -145,21 +146,22 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         }
     }
     // a given start is on a branch, which ends where the surfaces come apart
-    let mut seeks = default_start && !from_afar;
+    let mut holds = if default_start && !from_afar { [Hold::Touching, Hold::Gap].iter() } else { [].iter() };
     loop {
-        match minimise(&mut state, &mut *observe)? {
+        let end = minimise(&mut state, &mut *observe)?;
+        if let Some(status) = end.is_final() {
+            return state.finish(status);
+        }
+        if state.is_apart() && state.seek_hold(&mut holds, (law, smoothed.as_deref()), &mut *observe)? {
+            continue;
+        }
+        match end {
             End::Converged => match state.update_constraint() {
                 Update::Done => return state.finish(Status::Converged),
                 Update::Again => {}
                 Update::Failed => return state.finish(Status::IterationLimit),
             },
-            End::Adrift => {
-                let held = seeks && state.seek_hold(&mut *observe)?;
-                if !held {
-                    state.hold_apart();
-                }
-                seeks = false;
-            }
+            End::Adrift => state.hold_apart(),
             End::Gave(status) => return state.finish(status),
         }
     }

@@ -77,6 +77,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             status: self.final_status(status, load_error),
             branch: self.posed.branch,
             relative_error: self.relative_error(),
+            error_scale: padding * self.error_scale().0,
             load_error,
             complementarity: self.scaled_complementarity(),
             iterations: self.counters.iterations,

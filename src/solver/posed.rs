@@ -74,7 +74,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
 
     /// Whether the load of the wall alone hardly presses the surfaces together.
     pub(super) fn is_hardly_pressed(&self) -> bool {
-        let flat = self.flat.stiffness * self.flat.rms_height;
+        let flat = self.flat.rms_pressure();
         self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY * flat)
     }
 }

@@ -100,6 +100,8 @@ pub struct Report {
     /// law holds: √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩ takes the place of √⟨r', K r'⟩, with s = (1 + κ/k)⁻², k 0.4 times
     /// the stiffness of the shortest wave, and r' less its mean weighted by s² where the mean gap is given.
     pub relative_error: f64,
+    /// The ⟨u, p⟩ per area to which this error is relative, or what stands for it.
+    pub error_scale: f64,
     /// The branch of the start; none without adhesion, from a given start, and of [`Method::Rey2017`].
     pub branch: Option<Branch>,
     /// The error of the load, relative to the larger of |p̄| and the mean contact pressure: the larger of the imbalance

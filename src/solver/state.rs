@@ -70,11 +70,12 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(state)
     }
 
-    fn start_undeformed(&mut self) -> Result<()> {
+    /// The gap of undeformed bodies that touch.
+    pub(super) fn start_undeformed(&mut self) -> Result<()> {
         let Fields { gap, residual, preconditioned, change, .. } = &mut self.fields;
         self.posed.operators.displacement(&self.posed.flat.pressure, gap, [residual, preconditioned, change])?;
         self.counters.applications += 1;
-        let peak = T::lit(self.posed.flat.peak);
+        let peak = T::lit(self.posed.flat.peak + self.posed.closest().widen());
         let local = self.posed.potential();
         let Fields { reducer, gap, pressure, .. } = &mut self.fields;
         local.run(reducer, write(gap).zip(write(pressure)), |local, _, (gap, pressure)| {

@@ -1,11 +1,16 @@
 //! Surfaces that come apart under a load: the search for a state that adhesion holds, and the final gap if there is
 //! none.
 
+use std::slice;
+
+use super::Branch;
+use super::coarse::Coarse;
 use super::driver::{Observer, minimise};
 use super::minimisation::{Goal, Left, Nearness};
 use super::passes::Fields;
 use super::posed::Posed;
 use super::state::State;
+use crate::adhesion::AdhesionLaw;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::problem::Load;
@@ -14,6 +19,9 @@ use crate::vector::sums;
 
 /// A share of the load that, held without contact, is hardly any.
 const HARDLY: f64 = 1e-3;
+
+/// The share of the work of adhesion that a law has left at least where its traction is strongest.
+pub(crate) const STRONGEST: f64 = 0.5;
 
 /// The most mean gaps tried in search of a hold, and the share of an interval that a golden section keeps.
 const SECTIONS: usize = 12;
@@ -31,6 +39,15 @@ const BETWEEN: f64 = 1.1;
 /// The distance, in ranges of adhesion beyond the heights, at which surfaces are held apart, and the largest of a hold.
 const REACH: f64 = 10.0;
 
+/// Where adhesion may hold surfaces that have come apart from full contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Hold {
+    /// Where they touch, under no load before.
+    Touching,
+    /// At some mean gap, under more than the tension.
+    Gap,
+}
+
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// The mean gap from which on the surfaces hardly attract each other.
     fn out_of_reach(&self) -> f64 {
@@ -44,7 +61,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     }
 
     /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
-    fn closest(&self) -> T {
+    pub(super) fn closest(&self) -> T {
         let rest = if self.projects() { None } else { self.law.hints().rest };
         rest.unwrap_or_else(T::zero)
     }
@@ -65,20 +82,84 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     }
 }
 
-impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// Whether a tensile load has pulled the surfaces apart: no contact, and hardly any traction.
+impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
+    /// Whether a load that does not press has left the surfaces apart: no contact, and hardly any traction.
+    pub(super) fn is_apart(&self) -> bool {
+        let (hints, nodes) = (self.posed.law.hints(), self.posed.nodes());
+        if hints.zero || self.posed.is_gap_controlled() || self.sums.given > 0.0 || self.sums.tally.contact > 0.0 {
+            return false;
+        }
+        let (held, pulls) = (self.sums.tally.traction, -self.sums.given * nodes);
+        // what one node that touches has
+        let (range, node) = (hints.range.widen(), hints.work_of_adhesion.widen());
+        let stored = -self.sums.tally.adhesive;
+        // a traction that rises with the gap is none at rest
+        let hardly = HARDLY * pulls.max(node / range);
+        let gone = held <= hardly && (hints.concave || stored <= hardly * range);
+        // with less than one node has at the law's strongest traction they fly apart: all, if that is in contact
+        let least = if hints.concave { 1.0 - HARDLY } else { STRONGEST };
+        let flies = stored < least * node && (held < pulls || pulls == 0.0);
+        gone || flies && matches!(self.posed.load, Load::Pressure(_))
+    }
+
+    /// Whether surfaces under a pressure have come apart and would drift for ever.
     pub(super) fn is_adrift(&self) -> bool {
-        let Load::Pressure(pressure) = self.posed.load else { return false };
-        let held = self.sums.tally.traction / self.posed.nodes();
-        pressure < 0.0 && self.sums.tally.contact == 0.0 && held <= HARDLY * -pressure
+        let unloads = self.posed.branch == Some(Branch::Unloading);
+        let drifts = matches!(self.posed.load, Load::Pressure(pressure) if pressure < 0.0 || unloads);
+        drifts && self.is_apart()
+    }
+
+    /// Goes on to the next state that may hold the load; `false` if there is none.
+    pub(super) fn seek_hold(
+        &mut self,
+        holds: &mut slice::Iter<'_, Hold>,
+        laws: (&'a dyn AdhesionLaw<T>, Option<&'a dyn AdhesionLaw<T>>),
+        observe: Observer<'_>,
+    ) -> Result<bool> {
+        for hold in holds {
+            let held = match hold {
+                Hold::Touching => self.touch(laws, &mut *observe)?,
+                Hold::Gap => self.hold_gap(&mut *observe)?,
+            };
+            if held {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Goes on under the load from surfaces that touch undeformed and adhere under no load.
+    fn touch(
+        &mut self,
+        (law, smoothed): (&'a dyn AdhesionLaw<T>, Option<&'a dyn AdhesionLaw<T>>),
+        observe: Observer<'_>,
+    ) -> Result<bool> {
+        let load = std::mem::replace(&mut self.posed.load, Load::Pressure(0.0));
+        self.start_undeformed()?;
+        self.steps.step_length = 1.0;
+        self.steps.coarse.iter_mut().for_each(Coarse::forget);
+        self.change_law(smoothed.unwrap_or(law), if smoothed.is_some() { Goal::Start } else { Goal::Hold });
+        self.sums.certificate = f64::INFINITY;
+        let mut end = minimise(self, &mut *observe)?;
+        if smoothed.is_some() && end.is_final().is_none() {
+            self.go_on(load, Goal::Start)?;
+            end = minimise(self, &mut *observe)?;
+        }
+        self.posed.law = law;
+        self.go_on(load, Goal::Solution)?;
+        // a solve that is cut short ends at once
+        Ok(end.is_final().is_some() || !self.is_apart())
     }
 
     /// Looks for a state that holds more than the tensile load, to go on from under the load; `false` if it finds none.
     ///
     /// The tension at a given mean gap grows up to the pull-off and is lost beyond: a golden section looks for its
     /// largest value, about the gap at which undeformed surfaces would touch.
-    pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
-        let Load::Pressure(load) = self.posed.load else { return Ok(false) };
+    fn hold_gap(&mut self, observe: Observer<'_>) -> Result<bool> {
+        let load = match self.posed.load {
+            Load::Pressure(load) if load < 0.0 => load,
+            _ => return Ok(false),
+        };
         let (touch, rest) = (self.posed.flat.peak, self.posed.closest().widen());
         let mut interval =
             [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.posed.law.hints().range.widen()];

@@ -565,8 +565,8 @@ fn a_tension_beyond_the_pull_off_detaches_and_one_below_it_holds() {
     let lost = Solver::default().solve(&mut problem, Control::Force(-1.1 * pull_off)).unwrap().report;
     assert_eq!((lost.status, lost.contact_nodes, lost.reaches_edge), (Status::Detached, 0, false));
     assert!((lost.normal_force / pull_off + 1.1).abs() < 1e-12 && lost.net_pressure.abs() < 1e-3 * pull_off);
-    // a search for a hold at a few mean gaps, and none where the law itself holds less
-    assert!(lost.operator_applications < 350, "{}", lost.operator_applications);
+    // a search for a hold where they touch and at a few mean gaps, and none where the law itself holds less
+    assert!(lost.operator_applications < 430, "{}", lost.operator_applications);
     let strongest = work / range * 0.24 * 0.24;
     for force in [-1.2 * strongest, -1e3 * strongest] {
         let torn = Solver::default().solve(&mut problem, Control::Force(force)).unwrap().report;

@@ -12,6 +12,7 @@ mod constraints;
 mod cut_off;
 #[cfg(feature = "serde")]
 mod data;
+mod ends;
 mod exact;
 mod exact_solutions;
 mod extremes;
