@@ -93,9 +93,8 @@ impl<'a, T: Real> Judge<'a, T> {
             // of the heights as they go on where there is no surface
             false => None,
         };
-        // flats have no waves but those of rounding, which a body without a wall is measured beside
-        let lifted = epsilon * softest * (largest(&gap) + scene.law.range).powi(2);
-        let scale = scale.map(|scale| if scene.constraint == Constraint::None { scale.max(lifted) } else { scale });
+        // flats have no waves but those of rounding, which a body without a wall is not measured by
+        let scale = scale.map(|scale| if scene.constraint == Constraint::None { report.error_scale } else { scale });
         let scale = scale.filter(|&scale| scale > 0.0 && !scene.is_flat() && report.relative_error.is_finite());
         Self {
             scene,
