@@ -165,7 +165,7 @@ class Solution:
     mode: NDArray[np.floating[Any]] | None
     plan: Plan | None
 
-    def __init__(self, topography: Topography, of: tuple[Any, Any], told: Report, found: dict[str, Any]) -> None:
+    def __init__(self, topography: Topography, of: tuple[Any, Any], told: dict[str, Any], found: dict[str, Any]) -> None:
         self.topography = topography
         self.body, self.law = of
         self.plan = found.get("plan")
@@ -175,7 +175,7 @@ class Solution:
             setattr(self, name, self.part_of(found[name]))
         for name in ("plastic_depth", "mode"):
             setattr(self, name, None if found[name] is None else self.part_of(found[name]))
-        # the report without what is found of the fields, and what finds that
+        # the numbers of the report as they are, without what is found of the fields, and what finds that
         self._told, self._look = told, found["look"]
 
     def part_of(self, field: NDArray[Any]) -> NDArray[Any]:
