@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -165,7 +165,7 @@ class Solution:
     mode: NDArray[np.floating[Any]] | None
     plan: Plan | None
 
-    def __init__(self, topography: Topography, of: tuple[Any, Any], told: dict[str, Any], found: dict[str, Any]) -> None:
+    def __init__(self, topography: Topography, of: tuple[Any, Any], told: Report, found: dict[str, Any]) -> None:
         self.topography = topography
         self.body, self.law = of
         self.plan = found.get("plan")
@@ -349,7 +349,7 @@ class Solution:
     @property
     def relative_error(self) -> float:
         """Certified relative error in the energy norm."""
-        return self._told["relative_error"]
+        return cast("float", self._told["relative_error"])
 
     @property
     def mean_gap(self) -> float:
