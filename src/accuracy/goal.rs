@@ -39,7 +39,8 @@ const DOUBT: f64 = 3.0;
 /// The given grid is solved first, with coarser ones below it ([`Nested`]), and its error estimated ([`GridError`]). As
 /// long as the estimate, half as large again where it is rough, and the certified error of the solver together exceed
 /// the accuracy, the surface is put on twice as many nodes along its sides by Fourier interpolation
-/// ([`resample`](crate::surface::resample); with a free boundary continued by its mirror images).
+/// ([`resample`](crate::surface::resample), but with node (0, 0) in its place; with a free boundary continued by its
+/// mirror images).
 ///
 /// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
 /// absent nodes and a law that varies from node to node are not refined.

@@ -9,7 +9,6 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::Adhesion;
 use crate::boundary::Boundary;
 use crate::elastic::Elastic;
-use crate::entries::list;
 use crate::found::{Found, check_finite};
 use crate::leaked::{Along, LeakAsked, Narrowest, Transmissivity};
 use crate::quantity::{Dimension, ELECTRICAL_CONDUCTANCE, THERMAL_CONDUCTANCE};
@@ -167,10 +166,8 @@ pub struct Conducted {
     /// The relative error of the stiffness, the estimated one of the grid included; none where that is unknown.
     pub relative_error: Option<f64>,
     /// The resistivities of both bodies, if they are given.
-    #[serde(serialize_with = "list")]
     pub resistivities: Option<(f64, f64)>,
     /// The conductivities of both bodies, if they are given.
-    #[serde(serialize_with = "list")]
     pub conductivities: Option<(f64, f64)>,
     /// The conductors.
     #[serde(skip)]
