@@ -16,7 +16,8 @@ use crate::real::Real;
 /// ψ(g) = H ⟨−g⟩₊ ,   λ = H where g < 0 ,   0 ≤ λ ≤ H where g = 0 ,   λ = 0 where g > 0
 /// ```
 ///
-/// The gap g of the surface as it was is negative where this has yielded, by the plastic depth −g. A
+/// A law that pulls with a traction t where the surfaces touch does a part of that work, and H − t of each depth is
+/// dissipated. The gap g of the surface as it was is negative where this has yielded, by the plastic depth −g. A
 /// [`Solution`](crate::Solution) has the gap to the surface as it is now, which is zero there, and the
 /// [depth](crate::Solution::plastic_depth) beside it. A solve is monotonic loading of its problem's surface;
 /// [`Problem::flatten`](crate::Problem::flatten) keeps a depth, so that unloading from there is elastic, as
