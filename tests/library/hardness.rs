@@ -4,6 +4,7 @@
 //! says on how many.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow::{Break, Continue};
 
 use crate::common::dense::Dense;
 use crate::common::{rough, sphere};
@@ -367,6 +368,35 @@ fn the_energy_of_a_cycle_with_adhesion_is_balanced_without_jumps() {
         let range = yields.iter().fold(0.0_f64, |most, step| most.max(step.work));
         assert!(last.imbalance.abs() < 3e-3 * range, "{:e} of {range:e}", last.imbalance);
     }
+}
+
+#[test]
+fn a_load_that_has_not_converged_leaves_no_depth() {
+    let mut solver = capped(0.05, 1e-9);
+    let [low, high] = [1e-3, 0.02].map(Control::MeanPressure);
+    let mut problem = rough::<f64, _>(48, 6, NoAdhesion);
+    let alone: Vec<_> = Sweep::new(&mut solver, &mut problem, [low, low]).collect::<Result<_>>().unwrap();
+    problem.flatten(Array2::zeros((48, 48)).view()).unwrap();
+    let mut sweep = Sweep::new(&mut solver, &mut problem, [low, high, low]);
+    let first = sweep.next().unwrap().unwrap();
+    let mut stopped = |state: &Iteration| if state.iteration < 8 { Continue(()) } else { Break(()) };
+    let second = sweep.next_observed(&mut stopped).unwrap().unwrap();
+    assert!(
+        second.report.status == Status::Stopped
+            && second.plastic_depth.unwrap() != *first.plastic_depth.as_ref().unwrap()
+    );
+    assert_eq!(sweep.problem().plastic_depth(), first.plastic_depth);
+    let third = sweep.next().unwrap().unwrap();
+    assert!(third.distance(&alone[1]) < 1e-8);
+    // a path takes a state that cannot be reached by shorter steps as it is
+    problem.flatten(Array2::zeros((48, 48)).view()).unwrap();
+    solver.settings = solver.settings.max_iterations(8);
+    let mut path = Path::new(&mut solver, &mut problem, [high], PathSettings::default()).unwrap();
+    let begun = path.next().unwrap().unwrap();
+    assert!(
+        begun.solution.report.status == Status::IterationLimit && begun.solution.plastic_depth.unwrap().sum() > 0.0
+    );
+    assert_eq!(path.checkpoint().fields[1].sum(), 0.0);
 }
 
 #[test]

@@ -217,6 +217,25 @@ fn a_sweep_that_goes_on_keeps_the_depth() {
 }
 
 #[test]
+fn a_row_that_has_not_converged_leaves_no_depth() {
+    let (bench, greatest) = rough();
+    let hardness = 0.2 * greatest;
+    let run = |loads: &str, limit: usize, out: &str| {
+        let options = format!("--hardness {hardness} --max-iterations {limit} --force --quiet");
+        bench
+            .run(&format!("sweep --heights heights.npy --mean-pressures {loads} {options} --out {out}.csv"))
+            .status
+            .code()
+    };
+    // so many iterations that the light loads converge, and the heavy one does not
+    let few = (4..100).find(|few| run("0.002,0.002", *few, "light") == Some(0)).unwrap();
+    assert_eq!(run("0.002,0.04,0.002", few, "whole"), Some(2));
+    let [light, whole] = ["light", "whole"].map(|table| column(&bench, &format!("{table}.csv"), "plastic_depth_mean"));
+    assert!(whole[0] == light[0] && whole[1] > 2.0 * whole[0]);
+    assert!((whole[2] / light[1] - 1.0).abs() < 1e-4, "{whole:?} beside {light:?}");
+}
+
+#[test]
 fn the_balance_of_a_cycle_closes_with_the_plastic_work_and_a_second_one_dissipates_nothing() {
     let (bench, greatest) = rough();
     let legs = "1e-4,0.03,1e-4,0.03,1e-4";

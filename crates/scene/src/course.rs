@@ -260,7 +260,7 @@ impl<T: Real> Course<T> {
                 let Some(solution) = sweep.next_observed(observe) else { return Ok(None) };
                 let gaps = sweep.into_history().into_iter().map(|(_, gap)| gap);
                 let solution = solution?;
-                *fields = gaps.chain(solution.plastic_depth.clone()).collect();
+                *fields = gaps.chain(problem.plastic_depth()).collect();
                 (solution, None, None)
             }
             Way::Search(fractions) => {
