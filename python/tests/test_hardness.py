@@ -115,6 +115,11 @@ def test_a_row_that_has_not_converged_leaves_no_depth(surface):
     assert np.allclose(last.plastic_depth, first.plastic_depth, atol=1e-6 * first.plastic_depth.max())
 
 
+def test_a_share_of_contact_is_found_where_the_surface_yields(surface):
+    solution = asperity.solve(surface, modulus=1.0, hardness=0.05, contact_fraction=0.5)
+    assert solution.report["search"]["reached"] and solution.report["mean_pressure"] <= 0.5 * 0.05
+
+
 def test_a_sweep_keeps_the_depth_also_where_a_solve_was_interrupted(surface):
     given = {"modulus": 1.0, "mean_pressures": LOADS, "hardness": 0.08}
     solutions = list(asperity.sweep(surface, **given))

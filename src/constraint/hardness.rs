@@ -97,6 +97,18 @@ impl Hardness {
         self.least
     }
 
+    /// The mean pressure over all nodes that a share of them bears at most.
+    pub(crate) fn bears(&self, share: f64) -> f64 {
+        if !self.varies() {
+            return share * self.mean;
+        }
+        let mut hardest: Vec<f64> = self.field.iter().copied().collect();
+        hardest.sort_by(|a, b| b.total_cmp(a));
+        let nodes = hardest.len() as f64;
+        let borne = hardest.iter().enumerate().map(|(i, cap)| cap * (share * nodes - i as f64).clamp(0.0, 1.0));
+        borne.sum::<f64>() / nodes
+    }
+
     /// Writes the hardness at nodes of the solve's grid, from the node `first` on.
     pub(crate) fn fill<T: Real, C: Copy>(&self, first: usize, caps: &mut [C], cap: impl Fn(T) -> C) {
         let own = first.checked_sub(self.first).and_then(|own| flat(&self.held).get(own..own + caps.len()));

@@ -400,6 +400,32 @@ fn a_load_that_has_not_converged_leaves_no_depth() {
 }
 
 #[test]
+fn any_share_of_contact_is_found_at_any_hardness() {
+    let grid = Grid::square(32, 1.0).unwrap();
+    let surface = SelfAffine::default().k_s(8.0).amplitude(Amplitude::RmsSlope(0.2)).surface(grid).unwrap();
+    fn finds<O: ElasticOperator<f64>>(mut problem: Problem<f64, O, NoAdhesion>, constraint: Hardness) {
+        for fraction in [0.03, 0.3, 0.7, 0.97] {
+            let mut solver = Solver { settings: Settings::default(), constraint: constraint.clone() };
+            let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(fraction).unwrap();
+            let report = &found.solution.report;
+            assert!(found.reached, "{fraction} at {}: {report:?}", constraint.mean());
+            // to a node or 1 %
+            assert!((report.contact_fraction - fraction).abs() <= (0.01 * fraction).max(1.0 / 1024.0));
+        }
+    }
+    for hardness in [1e-3, 0.02, 0.1, 1.0] {
+        let varying = Array2::from_shape_fn((32, 32), |(i, j)| hardness * (1 + (3 * i + j) % 7) as f64);
+        for constraint in [Hardness::new(hardness).unwrap(), Hardness::varying(varying).unwrap()] {
+            finds(
+                Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), NoAdhesion).unwrap(),
+                constraint.clone(),
+            );
+            finds(Problem::new(&surface, Boussinesq::new(grid, 1.0).unwrap(), NoAdhesion).unwrap(), constraint);
+        }
+    }
+}
+
+#[test]
 fn a_path_with_depth_goes_on_bit_for_bit() {
     let legs = [1e-3, 0.03, 1e-3].map(Control::MeanPressure);
     let settings = PathSettings::default().steps(4);

@@ -4,7 +4,7 @@ use asperity_maps::io::{read_field, write_npy};
 use ndarray::{Array2, Zip};
 use serde_json::Value;
 
-use crate::bench::Bench;
+use crate::bench::{Bench, text};
 
 /// A bench with a rough surface of 48 x 48 nodes, and the greatest contact pressure on it at a mean pressure of 0.02.
 fn rough() -> (Bench, f64) {
@@ -233,6 +233,20 @@ fn a_row_that_has_not_converged_leaves_no_depth() {
     let [light, whole] = ["light", "whole"].map(|table| column(&bench, &format!("{table}.csv"), "plastic_depth_mean"));
     assert!(whole[0] == light[0] && whole[1] > 2.0 * whole[0]);
     assert!((whole[2] / light[1] - 1.0).abs() < 1e-4, "{whole:?} beside {light:?}");
+}
+
+#[test]
+fn a_share_of_contact_needs_no_more_than_so_much_of_the_hardness() {
+    let (bench, _) = rough();
+    let run = |options: &str| format!("solve --heights heights.npy --hardness 0.05 --no-pictures --out r {options}");
+    let report = bench.reported(&run("--contact-fraction 0.5"));
+    let of = |key| number(&report[key]);
+    assert!((of("contact_fraction") / 0.5 - 1.0).abs() < 0.01 && of("mean_pressure") <= 0.5 * 0.05);
+    // with adhesion by the mean gap to the surface as it was made, which is not negative
+    let law = "--law exponential --work-of-adhesion 2e-5 --range 2e-3 --force --quiet";
+    let output = bench.run(&run(&format!("--contact-fraction 0.95 {law}")));
+    let told = text(&output.stderr);
+    assert!(output.status.code() == Some(2) && told.contains("95.0 % contact: it grows to"), "{told}");
 }
 
 #[test]
