@@ -217,6 +217,22 @@ fn a_sweep_that_goes_on_keeps_the_depth() {
 }
 
 #[test]
+fn a_sweep_with_a_free_boundary_goes_on_with_the_depth() {
+    let bench = Bench::new();
+    bench.said("surface --form sphere --radius 2 --size 24 --lengths 1 --quiet --out tip.npy");
+    let run = |loads: &str, out: &str| {
+        let body = "--heights tip.npy --lengths 1 --boundary free --hardness 0.02";
+        bench.said(&format!("sweep {body} --mean-pressures {loads} --fields {out} --quiet --out {out}.csv"));
+    };
+    run("1e-4,4e-4,1e-4", "whole");
+    run("1e-4,4e-4", "parts");
+    run("1e-4,4e-4,1e-4", "parts");
+    assert_eq!(bench.bytes("parts.csv"), bench.bytes("whole.csv"));
+    let depths = column(&bench, "whole.csv", "plastic_depth_max");
+    assert!(depths[1] > depths[0] && depths[2] == depths[1]);
+}
+
+#[test]
 fn a_row_that_has_not_converged_leaves_no_depth() {
     let (bench, greatest) = rough();
     let hardness = 0.2 * greatest;
