@@ -106,6 +106,21 @@ def test_an_equilibrium_that_has_yielded_has_no_stability(surface):
         asperity.stability(solution)
 
 
+def test_a_row_that_has_not_converged_leaves_no_depth(surface):
+    given = {"modulus": 1.0, "hardness": 0.05, "tolerance": 1e-8}
+    light = asperity.solve(surface, mean_pressure=0.005, **given)
+    given["max_iterations"] = light.report["iterations"]
+    with pytest.warns(asperity.ConvergenceWarning):
+        first, heavy, last = asperity.sweep(surface, mean_pressures=[0.005, 0.04, 0.005], **given)
+    assert first.converged and not heavy.converged and last.converged
+    assert np.allclose(last.plastic_depth, first.plastic_depth, atol=1e-6 * first.plastic_depth.max())
+
+
+def test_a_share_of_contact_is_found_where_the_surface_yields(surface):
+    solution = asperity.solve(surface, modulus=1.0, hardness=0.05, contact_fraction=0.5)
+    assert solution.report["search"]["reached"] and solution.report["mean_pressure"] <= 0.5 * 0.05
+
+
 def test_a_sweep_keeps_the_depth_also_where_a_solve_was_interrupted(surface):
     given = {"modulus": 1.0, "mean_pressures": LOADS, "hardness": 0.08}
     solutions = list(asperity.sweep(surface, **given))

@@ -197,7 +197,8 @@ pub struct Plastic {
     pub depth_max: f64,
     /// The mean plastic depth.
     pub depth_mean: f64,
-    /// The dissipated energy, the mean of H times the depth over the nominal area.
+    /// The dissipated energy, the mean of H − t times the depth over the nominal area, with t the traction of the law at
+    /// contact.
     pub energy: f64,
 }
 
