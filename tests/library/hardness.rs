@@ -318,8 +318,10 @@ fn the_energy_of_a_cycle_is_balanced_with_the_plastic_work() {
     assert!(ends[3].imbalance.abs() < 3e-3 * range);
 }
 
-/// Adhesion and a hardness that both differ from node to node, on a surface with that many nodes along a side.
-fn both_vary(n: usize) -> (Problem<f64, Westergaard<f64>, adhesion::Varying<Exponential>>, Array2<f64>, Array2<f64>) {
+type Varied = Problem<f64, Westergaard<f64>, adhesion::Varying<Exponential>>;
+
+/// Adhesion that differs from node to node, with its tractions at contact, and a hardness that does.
+fn both_vary(n: usize) -> (Varied, Array2<f64>, Array2<f64>) {
     let (grid, rho) = (Grid::square(n, 1.0).unwrap(), 2e-3);
     let works = Array2::from_shape_fn((n, n), |(i, j)| 2e-5 * (1 + (i + 3 * j) % 4) as f64 / 4.0);
     let caps = Array2::from_shape_fn((n, n), |(i, j)| 0.08 + 0.01 * ((2 * i + j) % 5) as f64);
@@ -379,8 +381,8 @@ fn a_load_that_has_not_converged_leaves_no_depth() {
     problem.flatten(Array2::zeros((48, 48)).view()).unwrap();
     let mut sweep = Sweep::new(&mut solver, &mut problem, [low, high, low]);
     let first = sweep.next().unwrap().unwrap();
-    let mut stopped = |state: &Iteration| if state.iteration < 8 { Continue(()) } else { Break(()) };
-    let second = sweep.next_observed(&mut stopped).unwrap().unwrap();
+    let stopped = |state: &Iteration| if state.iteration < 8 { Continue(()) } else { Break(()) };
+    let second = sweep.next_observed(stopped).unwrap().unwrap();
     assert!(
         second.report.status == Status::Stopped
             && second.plastic_depth.unwrap() != *first.plastic_depth.as_ref().unwrap()
