@@ -94,8 +94,8 @@ pub struct Report {
     ///
     /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control that at the
     /// same mean gap); with adhesion it bounds the error where the equilibrium is stable. It includes the rounding of
-    /// the pressure. Without any contact, and where nodes bear their own attraction and deform nothing, ⟨h, K⁻¹h⟩ stands
-    /// for a smaller ⟨u, p⟩, which may vanish.
+    /// the pressure. Without any contact ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may vanish. Where nodes bear their
+    /// own attraction, so that ⟨u, p⟩ is rounding, the work of this attraction alone on the stiffest wave stands for it.
     ///
     /// With [`NoWall`](crate::NoWall) the norm is that of K⁻¹ + κ, with κ = max(φ'', 0) the slope of the nodes that the
     /// law holds: √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩ takes the place of √⟨r', K r'⟩, with s = (1 + κ/k)⁻², k 0.4 times
