@@ -118,11 +118,12 @@ impl Quantity {
             return None;
         }
         let difference = (value - coarser) / value;
+        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
         if self == Self::Area {
-            return Some((0.25 * difference).hypot(places).hypot(adhesion));
+            let share = if line { 0.5 } else { 0.25 };
+            return Some((share * difference).hypot(places).hypot(adhesion));
         }
         let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
-        let line = fine.shape.0 == 1 || fine.shape.1 == 1;
         let (share, of_edge) = match self {
             // there all is of first order, or of second
             Self::Stiffness if line => (1.0, 0.3),
@@ -139,7 +140,7 @@ impl Quantity {
             Self::Area => (if line { 5.0 } else { 0.6 }, 2.0),
             Self::Gap | Self::Approach => (0.4, 3.0),
             Self::Pressure => (1.0, 3.0),
-            Self::Stiffness => (0.25, 2.0),
+            Self::Stiffness => (0.4, 2.0),
         };
         share * nodes_per_wave.powf(-order)
     }
@@ -150,10 +151,11 @@ impl Quantity {
         match self {
             Self::Area if of_grid => 0.7 / nodes_per_wave,
             _ if of_grid => 0.3 / nodes_per_wave,
-            Self::Area => COVER * self.by_waves(nodes_per_wave, line),
-            Self::Gap | Self::Approach => COVER * 0.05 / nodes_per_wave.powi(2),
-            Self::Pressure => COVER * 0.1 / nodes_per_wave.powi(2),
-            Self::Stiffness => COVER * 0.06 / nodes_per_wave,
+            Self::Area if line => GridError::COVER * 0.6 / nodes_per_wave.powi(2),
+            Self::Area => GridError::COVER * 0.3 / nodes_per_wave.powi(2),
+            Self::Gap | Self::Approach => GridError::COVER * 0.05 / nodes_per_wave.powi(2),
+            Self::Pressure => GridError::COVER * 0.1 / nodes_per_wave.powi(2),
+            Self::Stiffness => GridError::COVER * 0.06 / nodes_per_wave,
         }
     }
 }
@@ -208,9 +210,6 @@ fn resolves_adhesion(mu_rho: f64, finer: f64) -> bool {
 /// The nodes of the shortest wave on the coarser grid below which an estimate may be far off.
 const FINE: f64 = 8.0;
 
-/// The factor from the size of an error to the estimate, which covers 95 of 100.
-const COVER: f64 = 2.4;
-
 /// How far a coarser grid may be from half the nodes along a side, as that of an odd number is.
 const HALVED: f64 = 0.02;
 
@@ -221,7 +220,7 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// With the contact stiffness k of the finest grid ([`Nested::stiffness`](crate::Nested::stiffness)) the errors of the
 /// mean gap, the mean pressure and the stiffness follow from its edge, [`EdgeError`]: that of the pressure under a
 /// given mean gap is k times that of the gap under a given pressure. To their squares are added those of 0.4/n³, 1/n³ and
-/// 0.25/n², with n the number of nodes in the shortest wave.
+/// 0.4/n², with n the number of nodes in the shortest wave.
 ///
 /// Otherwise, with δQ the relative difference of a quantity Q to the grid of half as many nodes along its sides, the
 /// size of the error is the root of the sum of the squares of
@@ -234,9 +233,9 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 ///
 /// where A is the area as nodes count it, and ε = A/A_c − 1; κ and κ' are the neighbours between which the edge runs
 /// ([`ContactArea::edges`]), over the nodes in contact and over those apart; M is the number of them that are
-/// independent ([`ContactArea::places`]). On a line the factors are 1 and 0.3 for the stiffness, and 1/3 and 0.02 for
-/// gap and pressure. Without a coarser grid 0.6/n², on a line 5/n², takes the place of δA_c/4, and the terms with M
-/// count twice.
+/// independent ([`ContactArea::places`]). On a line the factors are 1/2 for the area, 1 and 0.3 for the
+/// stiffness, and 1/3 and 0.02 for gap and pressure. Without a coarser grid 0.6/n², on a line 5/n², takes the place of
+/// δA_c/4, and the terms with M count twice.
 ///
 /// κ and δA have the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by
 /// luck. The factors are fitted to rough surfaces, strips and lattices. The estimate is 2.4 times that size, which
@@ -276,6 +275,9 @@ pub struct GridError {
 impl GridError {
     /// A [`Nested::coarse_tolerance`](crate::Nested::coarse_tolerance) at which coarser grids tell the error.
     pub const COARSE_TOLERANCE: f64 = 1e-3;
+
+    /// The factor from the size of an error, as of an [`EdgeError`], to an estimate that covers 95 of 100.
+    pub const COVER: f64 = 2.4;
 
     /// The nodes that the shortest wave needs on a grid whose solution tells the error.
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
@@ -317,7 +319,7 @@ impl GridError {
         let waves = quantity.by_waves(nodes_per_wave, line);
         if let Some(size) = quantity.by_edge(finest).filter(|_| resolves(1.0)) {
             let rough = quantity == Quantity::Stiffness && !fine;
-            return Some(Self { relative: COVER * size.hypot(waves), order, rough });
+            return Some(Self { relative: Self::COVER * size.hypot(waves), order, rough });
         }
         let at_edge @ [places, adhesion] = at_edge(&finest.area, nodes_per_wave, mu_rho);
         let (size, sure) = match coarser {
@@ -328,7 +330,7 @@ impl GridError {
             None => return None,
         };
         let rough = quantity != Quantity::Area || !sure || size == 0.0;
-        Some(Self { relative: COVER * size, order, rough }).filter(|error| error.relative.is_finite())
+        Some(Self { relative: Self::COVER * size, order, rough }).filter(|error| error.relative.is_finite())
     }
 }
 
