@@ -80,6 +80,12 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         0.0
     }
 
+    /// Whether the rounds end at a rigid wall, of which the springs are only a means: stiffness and stability then hold
+    /// the nodes that the springs press, as a rigid wall does. Other springs resist with their slopes.
+    fn ends_rigid(&self) -> bool {
+        false
+    }
+
     /// Updates the multipliers when a solve has converged, and tells whether to solve again. The gap is infinite at
     /// [absent](crate::Surface::with_absent) nodes. `work` is the scale of the square of relative errors, Σ u·p over
     /// the nodes.

@@ -133,6 +133,9 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn round_tolerance(&self) -> f64 {
         self.present
     }
+    fn ends_rigid(&self) -> bool {
+        true
+    }
     fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
         let (Some(grid), stiffness) = (self.grid, self.stiffness) else { return Update::Failed };
         let gap = gap.as_standard_layout();

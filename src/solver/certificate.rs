@@ -2,7 +2,7 @@
 
 use super::minimisation::{Goal, Left};
 use super::report::Status;
-use super::state::State;
+use super::state::{SCALED, State};
 use super::{Criterion, Method};
 use crate::constraint::Wall;
 use crate::error::Result;
@@ -99,14 +99,23 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.sums.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
     }
 
-    /// The error of the load under pressure control. Without contact the mean of r is the load that adhesion lacks.
+    /// The error of the load. Without contact the mean of r is the load that adhesion lacks.
     pub(super) fn load_error(&self) -> f64 {
         match (self.posed.load, self.sums.tally.free) {
-            (Load::Gap(_), _) => 0.0,
+            (Load::Gap(gap), _) => self.gap_error(gap),
             // contact everywhere: in balance, unless it is under tension somewhere
             (_, 0.0) => self.share_of_load((-self.sums.tally.min_r).max(0.0)),
             _ => self.share_of_load(self.imbalance()),
         }
+    }
+
+    /// How far the mean gap is from one that is held, beyond rounding, as a share of it. Where the law alone keeps the
+    /// surfaces apart a mean gap may be nearly zero: then as a share of the range.
+    fn gap_error(&self, held: f64) -> f64 {
+        let off = (self.mean_gap() - held).abs();
+        let rounding = SCALED * T::epsilon().widen() * (held.abs() + self.posed.flat.rms_height);
+        let range = if self.posed.has_no_wall() { self.posed.law.hints().range.widen() } else { 0.0 };
+        if off <= rounding { 0.0 } else { off / held.abs().max(range) }
     }
 
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.

@@ -1,5 +1,6 @@
 //! The findings that are asked for after a solve: the contact stiffness, and the conductance and the flow that follow.
 
+use asperity::accuracy::GridError;
 use asperity::stability::ContactStiffness;
 use asperity::{Grid, Real, Result};
 use asperity_flow::{Conductance, Gap, Leakage};
@@ -283,5 +284,5 @@ fn stiffness_error(stiffness: &ContactStiffness) -> Option<f64> {
     if pressure_per_length == 0.0 {
         return Some(relative_error);
     }
-    Some(relative_error + (edge?.stiffness / pressure_per_length).abs())
+    Some(relative_error + GridError::COVER * (edge?.stiffness / pressure_per_length).abs())
 }

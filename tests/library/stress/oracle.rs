@@ -93,8 +93,12 @@ impl<'a, T: Real> Judge<'a, T> {
             // of the heights as they go on where there is no surface
             false => None,
         };
-        // flats have no waves but those of rounding, which a body without a wall is not measured by
-        let scale = scale.map(|scale| if scene.constraint == Constraint::None { report.error_scale } else { scale });
+        // where the attraction that nodes bear themselves deforms no more than rounding, it is what that would deform
+        let strength = scene.law.work / scene.law.range;
+        let attracts = strength * -report.adhesive_energy / scene.law.range / stiffest;
+        let most = scale.map(|scale| if attracts > scale { attracts } else { scale });
+        let named = |most: f64| scene.constraint == Constraint::None || report.error_scale <= 1.01 * most + noise * noise;
+        let scale = scale.filter(|_| most.is_some_and(named)).map(|scale| scale.max(report.error_scale));
         let scale = scale.filter(|&scale| scale > 0.0 && !scene.is_flat() && report.relative_error.is_finite());
         Self {
             scene,
@@ -426,7 +430,9 @@ impl<'a, T: Real> Judge<'a, T> {
         let mut allowed = admitted + self.noise;
         if !matches!(held, Held::Shift(_)) {
             let unbalanced = self.unbalanced() + self.load_noise() + self.rounding;
-            allowed += unbalanced * self.reach(&free, held, &slopes);
+            // of a law that bends on the way
+            let others: Vec<f64> = exact.iter().enumerate().map(|(i, &g)| local(i, g)[1]).collect();
+            allowed += unbalanced * self.reach(&free, held, &slopes).max(self.reach(&free, held, &others));
         }
         allowed *= 1.01 * amplified;
         need(distance <= allowed, || {
