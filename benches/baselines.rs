@@ -2,20 +2,21 @@
 //! sphere of Table 2 of Rey, Anciaux and Molinari (2017) and on a rough surface, without adhesion and with it.
 //!
 //! `cargo bench --bench baselines`. At the end stands a table: the error of the pressures that each reaches, in L² over
-//! that of a projection to 1e-10, its operator applications, the stiffness of its springs over that of the shortest
-//! wave, Uzawa's rounds, and times over that of projection, as medians on one thread. With `-- --test` each is solved
-//! once, and the table has no times.
+//! that of a projection to 1e-10, its operator applications, the stiffness of a penalty over that of the shortest wave,
+//! Uzawa's rounds, and times of the processor over that of projection, as medians on one thread. With `-- --test` each
+//! is solved once, and the table has no times.
 
 mod common;
 
 use std::cell::OnceCell;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use asperity::{
     ContactConstraint, Control, ElasticOperator, Exponential, Grid, Penalty, Projection, Settings, Solution, Solver,
     Status, Surface, Uzawa,
 };
 use common::{Make, authors, group, none, problem, rough};
+use cpu_time::ProcessTime;
 use criterion::{Criterion, criterion_group, criterion_main};
 use ndarray::Array2;
 
@@ -162,10 +163,11 @@ fn baselines(criterion: &mut Criterion) {
                 group.bench_function(format!("{method:?}"), |b| {
                     let Run { stiffness, tolerance, .. } = *run.get_or_insert_with(|| scene.run(method, error));
                     b.iter_custom(|count| {
-                        let clock = Instant::now();
+                        let clock = ProcessTime::now();
                         (0..count).for_each(|_| drop(scene.solve(method, stiffness, tolerance)));
-                        times.push(clock.elapsed() / count as u32);
-                        clock.elapsed()
+                        let time = clock.elapsed();
+                        times.push(time / count as u32);
+                        time
                     });
                 });
                 runs.extend(run.map(|run| (run, times)));
