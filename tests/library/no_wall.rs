@@ -78,7 +78,8 @@ fn flats_under_a_tension_have_their_limit_point_at_the_strongest_traction() {
     // past it every state is on the law, and the surfaces come apart without a jump
     for step in &steps {
         let report = &step.solution.report;
-        assert!((report.mean_pressure + law.traction(report.mean_gap)).abs() < 1e-7 * strongest);
+        // to the tolerance of the load
+        assert!((report.mean_pressure + law.traction(report.mean_gap)).abs() < 1e-6 * strongest);
     }
     let last = &steps[steps.len() - 1];
     assert!(last.solution.report.mean_gap > 10.0 * range && last.dissipated == 0.0);
