@@ -92,7 +92,7 @@ def a_seal(found):
 def a_thermal_joint(found):
     law = found["law"]
     assert [f"{value / 1e3:.1f}" for value in law["thermal_conductance"][[0, -1]]] == ["4.8", "205.6"]
-    assert f"{found['power']:.2f}" == "0.82" and law["conductance_error"].max() < 0.02
+    assert f"{found['power']:.2f}" == "0.82" and law["conductance_error"].max() < 0.05
     assert [file.name for file in found["files"]] == ["joint.inp"]
     assert "*GAP CONDUCTANCE, PRESSURE" in found["files"][0].read_text()
 
