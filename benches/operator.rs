@@ -1,6 +1,6 @@
 //! One operator application, forward and inverse transform with the product, beside a copy of the field.
 //!
-//! `RAYON_NUM_THREADS=1 cargo bench -p asperity-benches --bench operator`
+//! `RAYON_NUM_THREADS=1 cargo bench --bench operator`
 
 use std::hint::black_box;
 use std::time::Duration;

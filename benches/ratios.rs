@@ -1,7 +1,7 @@
 //! Ratios of times, measured one after the other in one run: two threads and one, `f32` and `f64`, no adhesion
 //! and laws of no energy and of hardly any range, lines, narrow grids and a square of as many nodes.
 //!
-//! `cargo bench -p asperity-benches --bench ratios`. All but the first pair are on one thread.
+//! `cargo bench --bench ratios`. All but the first pair are on one thread.
 
 mod common;
 

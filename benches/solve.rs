@@ -1,7 +1,7 @@
 //! Solves of a rough surface by size, precision, law, control and method, to a certified error of 1e-6 (in `f32` 1e-4,
 //! which it reaches on every grid), with all that it takes from the heights on; and one iteration.
 //!
-//! `RAYON_NUM_THREADS=1 cargo bench -p asperity-benches --bench solve`. With `ASPERITY_BENCH=all` also what takes
+//! `RAYON_NUM_THREADS=1 cargo bench --bench solve`. With `ASPERITY_BENCH=all` also what takes
 //! longer, solves at 4096² and Algorithm 3 at 1024².
 
 mod common;

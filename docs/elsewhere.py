@@ -26,6 +26,7 @@ TITLES = {
     "branches": "Branches and jumps",
     "choosing": "Accuracy",
     "cluster": "Clusters",
+    "comparison": "Projection, penalty, Uzawa",
     "driver": "The solver",
     "laws": "Adhesion laws",
     "own_constraint": "A constraint of your own",

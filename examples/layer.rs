@@ -1,6 +1,6 @@
 //! A sphere on an elastic layer of finite thickness, from the half-space to an elastic foundation.
 //!
-//! `cargo run --release -p asperity-examples --example layer`. It takes a second.
+//! `cargo run --release --example layer`. It takes a second.
 //!
 //! The peak pressure is that over the limit of a thick layer, Hertz, and that over the limit of a thin one: springs of
 //! stiffness M/t (bonded) or E*/t (sliding), or for an incompressible layer the flow of the material sideways through
@@ -10,22 +10,13 @@ use std::f64::consts::PI;
 
 use asperity::elastic::{Base, Layer, Material};
 use asperity::{Control, Grid, NoAdhesion, Problem, Result, Solver, Spectral, Status, Surface};
-use clap::Parser;
-use common::arguments;
 
 const MODULUS: f64 = 1.0;
 const RADIUS: f64 = 2.0;
 const LOAD: f64 = 0.003;
-
-#[derive(Parser)]
-struct Arguments {
-    /// Nodes along a side
-    #[arg(default_value_t = 256, value_parser = arguments::nodes::<16>)]
-    size: usize,
-}
+const SIZE: usize = 256;
 
 fn main() -> Result<()> {
-    let Arguments { size } = arguments::read(include_str!("layer.rs"));
     println!("peak pressure under a sphere of radius {RADIUS} L pressed with {LOAD} E*L², over that of the limits\n");
     let kinds = ["bonded, ν = 0.3", "bonded, ν = ½", "sliding"];
     println!("| t/L |{} applications |", kinds.map(|kind| format!(" {kind}, thick | {kind}, thin |")).concat());
@@ -44,7 +35,7 @@ fn main() -> Result<()> {
             (Layer::new(rubber, thickness, Base::Bonded)?, flow(thickness)),
             (Layer::new(steel, thickness, Base::Sliding)?, springs(MODULUS / thickness)),
         ]
-        .map(|(layer, thin)| press(size, layer, thin));
+        .map(|(layer, thin)| press(layer, thin));
         let (mut ratios, mut applications) = (String::new(), Vec::new());
         for found in pressed {
             let (thick, thin, taken) = found?;
@@ -57,8 +48,8 @@ fn main() -> Result<()> {
 }
 
 /// The peak pressure over those of the thick and the thin limit, and the operator applications of the solve.
-fn press(size: usize, layer: Layer, thin: f64) -> Result<(f64, f64, usize)> {
-    let grid = Grid::square(size, 1.0)?;
+fn press(layer: Layer, thin: f64) -> Result<(f64, f64, usize)> {
+    let grid = Grid::square(SIZE, 1.0)?;
     let layer = Spectral::<f64>::of(grid, layer)?;
     let mut problem = Problem::new(&Surface::paraboloid(grid, RADIUS)?, layer, NoAdhesion)?;
     let solution = Solver::default().solve(&mut problem, Control::MeanPressure(LOAD))?;

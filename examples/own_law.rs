@@ -1,6 +1,6 @@
 //! An adhesion law of your own: a cubic that ends at its range, in fifteen lines.
 //!
-//! `cargo run --release -p asperity-examples --example own_law`
+//! `cargo run --release --example own_law`
 
 use asperity::adhesion::check_law;
 use asperity::{AdhesionLaw, Control, Exponential, Grid, Problem, Real, Result, Solver, Surface, Westergaard};
@@ -30,7 +30,6 @@ impl<T: Real> AdhesionLaw<T> for Cubic<T> {
 }
 
 fn main() -> Result<()> {
-    common::arguments::none(include_str!("own_law.rs"));
     // in SI units: a silica sphere of radius 2 µm on a half-space of 1 GPa, on a patch of 1 µm
     let grid = Grid::square(256, 1e-6)?;
     let sphere = Surface::paraboloid(grid, 2e-6)?;

@@ -1,7 +1,7 @@
 //! Adhesion in patches and a wall with a soft coat, both written outside of the crate: a law and a constraint that
 //! differ from node to node.
 //!
-//! `cargo run --release -p asperity-examples --example patches`
+//! `cargo run --release --example patches`
 
 #[path = "patches/law.rs"]
 mod law;
@@ -11,8 +11,6 @@ use asperity::constraint::{Springs, Wall};
 use asperity::{
     ContactConstraint, Control, Exponential, Grid, NoAdhesion, Problem, Result, Settings, Solver, Surface, Westergaard,
 };
-use clap::Parser;
-use common::arguments;
 use law::Patches;
 
 /// A coat on part of the rigid surface, which resists being compressed below its thickness at each node.
@@ -45,15 +43,8 @@ impl Springs<f64> for Coat {
     }
 }
 
-#[derive(Parser)]
-struct Arguments {
-    /// Nodes along a side
-    #[arg(default_value_t = 256, value_parser = arguments::nodes::<16>)]
-    size: usize,
-}
-
 fn main() -> Result<()> {
-    let Arguments { size } = arguments::read(include_str!("patches.rs"));
+    let size = 256;
     let grid = Grid::square(size, 1.0)?;
     let waves = Surface::wave_2d(grid, 5e-3, 4)?;
     let half_space = Westergaard::<f64>::new(grid, 1.0)?;

@@ -1,7 +1,7 @@
 //! Time against the number of nodes, from the medians that the benches leave in `target/criterion`.
 //!
 //! ```text
-//! RAYON_NUM_THREADS=1 ASPERITY_BENCH=all cargo bench -p asperity-benches
+//! RAYON_NUM_THREADS=1 ASPERITY_BENCH=all cargo bench
 //! cargo run --release -p asperity-examples --example scaling
 //! ```
 //!
@@ -42,11 +42,7 @@ fn main() -> Outcome<()> {
     let target = PathBuf::from(std::env::var_os("CARGO_TARGET_DIR").unwrap_or("target".into()));
     let lines: Vec<_> = LINES.iter().map(|(group, ..)| medians(&target.join("criterion").join(group))).collect();
     if lines.iter().all(|points| points.len() < 2) {
-        return Err(format!(
-            "there are no results in {}/criterion: run cargo bench -p asperity-benches",
-            target.display()
-        )
-        .into());
+        return Err(format!("there are no results in {}/criterion: run cargo bench", target.display()).into());
     }
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;

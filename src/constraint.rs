@@ -4,6 +4,7 @@ use std::fmt;
 
 use ndarray::ArrayView2;
 
+use crate::adhesion::Values;
 use crate::derivatives::{self, Named};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -80,6 +81,12 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         0.0
     }
 
+    /// Whether the rounds end at a rigid wall, of which the springs are only a means: stiffness and stability then hold
+    /// the nodes that the springs press, as a rigid wall does. Other springs resist with their slopes.
+    fn ends_rigid(&self) -> bool {
+        false
+    }
+
     /// Updates the multipliers when a solve has converged, and tells whether to solve again. The gap is infinite at
     /// [absent](crate::Surface::with_absent) nodes. `work` is the scale of the square of relative errors, Σ u·p over
     /// the nodes.
@@ -148,6 +155,19 @@ pub trait Springs<T: Real>: Sync {
 
     /// The second derivative of the energy by the gap.
     fn slope(&self, node: usize, gap: T) -> T;
+
+    /// Sets the values that are asked for at the nodes from `first` on, a few hundred at once. The default calls the
+    /// functions of one node, and compiles them into its loops.
+    fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) {
+        values.each(|order, values| {
+            let nodes = values.iter_mut().zip(gaps).enumerate();
+            match order {
+                0 => nodes.for_each(|(i, (value, &gap))| *value = self.energy(first + i, gap)),
+                1 => nodes.for_each(|(i, (value, &gap))| *value = self.traction(first + i, gap)),
+                _ => nodes.for_each(|(i, (value, &gap))| *value = self.slope(first + i, gap)),
+            }
+        });
+    }
 }
 
 /// The decision of [`ContactConstraint::update`]; [`own_constraint`](crate::guide::own_constraint) uses all three.

@@ -11,7 +11,8 @@
 //! | [`branches`] | loading and unloading with adhesion: jumps, limit points, loss of symmetry |
 //! | [`choosing`] | grid, tolerance and precision for the accuracy you want; rounding and extreme input |
 //! | [`performance`] | the cost of a solve: applications, nested grids, time, memory, threads |
-//! | [`paper_checked`] | the paper's misprints; penalty and Uzawa beside projection |
+//! | [`comparison`] | projection, penalty and Uzawa side by side, at equal error |
+//! | [`paper_checked`] | the paper's misprints |
 //! | [`cluster`] | job scripts for studies, and solves on several processes by MPI |
 //! | [`driver`] | the energy, its minimisation, the certificate, one iteration step by step, and every constant in it |
 //! | [`architecture`] | the layers of the crate, the way of the data, and places for new parts |
@@ -35,6 +36,7 @@ page!(boundary);
 page!(branches);
 page!(choosing);
 page!(performance);
+page!(comparison);
 page!(paper_checked);
 page!(cluster);
 page!(driver);

@@ -83,8 +83,8 @@ pub use step::{PathCheckpoint, PathStep};
 ///
 /// # Yielding
 ///
-/// At a [`Hardness`](crate::Hardness) the path keeps the plastic depth of each state: unloading is elastic on the
-/// flattened surface. A mean gap that is given is that to the surface as it was made, less than the mean of the gap by
+/// At a [`Hardness`](crate::Hardness) the path keeps the plastic depth of each state that has converged, or is at the floor
+/// of rounding: unloading is elastic on the flattened surface. A mean gap that is given is that to the surface as it was made, less than the mean of the gap by
 /// the mean plastic depth, and the energy has that dissipated by yielding. Where the path ends the problem is left as
 /// it then is; [`Problem::flatten`] by zeros makes it new.
 ///
@@ -290,10 +290,9 @@ where
             }
             (solved, on_saddle) = left.map_or((solved, true), |left| (left, false));
         }
-        let (solution, gap) = solved.with_gap();
-        self.course.begin(&solution.report);
+        self.course.begin(&solved.solution.report);
         self.course.on_saddle = on_saddle;
-        self.keep(gap, &solution)?;
+        let solution = self.keep(solved)?;
         Ok(Some(self.step(solution, None)))
     }
 
@@ -378,29 +377,31 @@ where
                 way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
             }
         }
-        let (solution, gap) = solved.with_gap();
-        if self.course.overshoots(&solution.report, &self.settings) {
+        let report = &solved.solution.report;
+        if self.course.overshoots(report, &self.settings) {
             return Ok(None);
         }
-        let event = self.course.accept(target, &solution.report, trial, way, &self.settings);
+        let event = self.course.accept(target, report, trial, way, &self.settings);
         self.course.on_saddle = on_saddle;
         if way.is_new() {
             self.gaps.clear();
         } else if self.gaps.len() == 2 {
             self.gaps.remove(0);
         }
-        self.keep(gap, &solution)?;
+        let solution = self.keep(solved)?;
         Ok(Some(self.step(solution, event)))
     }
 
     /// Keeps the gap of a state, and how far the surface has yielded: gaps are to the surface as it is now.
-    fn keep(&mut self, mut gap: Array2<T>, solution: &Solution<T>) -> Result<()> {
+    fn keep(&mut self, solved: Solved<T>) -> Result<Solution<T>> {
+        let stays = solved.is_settled();
+        let (solution, mut gap) = solved.with_gap();
         if let Some(depth) = &solution.plastic_depth {
-            let lowered = self.problem.lower(depth.view(), &mut gap)?;
+            let lowered = self.problem.lower(depth.view(), stays, &mut gap)?;
             self.gaps.iter_mut().for_each(|gap| *gap += &lowered);
         }
         self.gaps.push(gap);
-        Ok(())
+        Ok(solution)
     }
 
     fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {

@@ -158,14 +158,24 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         self.flat.flatten(&mut self.operator, depth)
     }
 
-    /// As [`flatten`](Self::flatten), where a gap is zero then that was negative. Returns by how much the surface is lower
-    /// than before, on the operator's grid, as the gap is.
-    pub(crate) fn lower(&mut self, depth: ArrayView2<'_, T>, gap: &mut Array2<T>) -> Result<Array2<T>> {
-        let before = self.flat.yielded.as_ref().map(|yielded| yielded.depth().clone());
-        self.flatten(depth)?;
-        let mut lowered = self.flat.yielded.as_ref().map(|yielded| yielded.depth().clone()).unwrap_or_default();
-        before.iter().for_each(|before| lowered -= before);
+    /// The plastic depth by which the surface is lower than it was made, on its grid; none if it never was lowered.
+    pub fn plastic_depth(&self) -> Option<Array2<T>> {
+        let depth = self.flat.yielded.as_ref()?.depth();
+        Some(self.flat.window.as_ref().map_or_else(|| depth.clone(), |window| window.crop(depth, T::zero())))
+    }
+
+    /// As [`flatten`](Self::flatten), if the depth `stays`, with a gap of zero where the surface has yielded beyond its
+    /// depth before. Returns by how much it is lower than before, on the operator's grid, as the gap is.
+    pub(crate) fn lower(&mut self, depth: ArrayView2<'_, T>, stays: bool, gap: &mut Array2<T>) -> Result<Array2<T>> {
+        let depth = self.flat.placed(&self.operator, depth)?;
+        let mut lowered = depth.clone();
+        self.flat.yielded.iter().for_each(|before| lowered -= before.depth());
         gap.zip_mut_with(&lowered, |gap, &lowered| *gap = if lowered > T::zero() { T::zero() } else { *gap });
+        if stays {
+            self.flatten_on_grid(depth)?;
+        } else {
+            lowered.fill(T::zero());
+        }
         Ok(lowered)
     }
 

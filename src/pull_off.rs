@@ -33,7 +33,9 @@ const MARGIN: f64 = 0.1;
 ///
 /// The tension grows, each solve from the gap under the greatest one that was borne, until the surfaces come apart
 /// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is `tolerance`
-/// wide. Contacts that are lost on the way are lost under the load, as on a soft spring. Before, the surfaces are
+/// wide. A loss counts from a state within the tolerance of it: from one farther off it may be a jump that shorter steps do
+/// not make, and is tried again from a closer one. Contacts that are lost on the way are lost under the load, as on a soft
+/// spring. Before, the surfaces are
 /// pressed flat, as on the branch of unloading ([`Branch`]), or to a `preload`. On the branch of unloading that is the
 /// largest tension that has an equilibrium at all, if the traction of the law falls with the gap.
 ///
@@ -77,7 +79,8 @@ pub struct PullOff {
 pub struct FoundPullOff<T> {
     /// The state under the greatest tension that was borne; its mean pressure is minus that.
     pub solution: Solution<T>,
-    /// The least tension under which the surfaces came apart, a pressure; none if there was no such one.
+    /// The least tension under which the surfaces came apart, a pressure; none if there was no such one. If
+    /// [`reached`](Self::reached), they did so from a state under a tension within the tolerance of it.
     pub lost: Option<f64>,
     /// Whether the bracket is as narrow as the tolerance.
     pub reached: bool,
@@ -149,17 +152,17 @@ impl PullOff {
                 "the surfaces do not attract each other under no load: give a law of a longer range, or a preload";
             return Err(Error::Control { control: "pull-off", reason });
         }
-        let mut bracket = Bracket { borne: vec![Place::of(&held.solution.report)], lost: None };
+        let mut bracket = Bracket { borne: vec![Place::of(&held.solution.report)], lost: None, from: 0.0 };
         while !bracket.is_narrow(tolerance) && search.solves < MOST {
             let tension = bracket.next(FIRST * attraction, tolerance);
             let begin = Begin::Found(held.gap().clone());
             let solved = search.solve(solver, problem, Control::MeanPressure(-tension), begin)?;
             let report = &solved.solution.report;
             if solved.is_settled() {
-                bracket.borne.push(Place { tension, ..Place::of(report) });
+                bracket.bear(Place { tension, ..Place::of(report) });
                 held = solved;
             } else if report.status == Status::Detached {
-                bracket.lost = Some(tension);
+                bracket.lose(tension);
             } else {
                 break;
             }
@@ -245,15 +248,26 @@ impl Place {
 struct Bracket {
     borne: Vec<Place>,
     lost: Option<f64>,
+    /// the tension that was borne before the loss
+    from: f64,
 }
 
 impl Bracket {
+    fn bear(&mut self, place: Place) {
+        self.lost = self.lost.filter(|&lost| lost > place.tension);
+        self.borne.push(place);
+    }
+
+    fn lose(&mut self, tension: f64) {
+        (self.lost, self.from) = (Some(tension), self.greatest());
+    }
+
     fn greatest(&self) -> f64 {
         self.borne.last().map_or(0.0, |place| place.tension)
     }
 
     fn is_narrow(&self, tolerance: f64) -> bool {
-        self.lost.is_some_and(|lost| lost - self.greatest() <= tolerance * lost)
+        self.lost.is_some_and(|lost| lost - self.from <= tolerance * lost)
     }
 
     /// The tension to try.
@@ -264,6 +278,10 @@ impl Bracket {
             let beyond = peak.map_or(f64::INFINITY, |peak| peak * (1.0 + 0.25 * tolerance));
             return if low > 0.0 { beyond.clamp(least * low, most * low) } else { first };
         };
+        if lost - low <= tolerance * lost {
+            // lost from farther off
+            return lost;
+        }
         let inside = MARGIN * (lost - low);
         let Some(peak) = peak.filter(|&peak| low < peak && peak < lost) else {
             return if low > 0.0 && lost > 2.0 * low { (low * lost).sqrt() } else { 0.5 * (low + lost) };
@@ -291,32 +309,52 @@ mod tests {
     fn the_peak_of_a_parabola_is_found_and_enclosed() {
         let curve = |x: f64| 3.0 - (x - 2.0).powi(2);
         let places = [0.3, 0.8, 1.1].map(|distance| Place { distance, tension: curve(distance) });
-        let mut bracket = Bracket { borne: places.to_vec(), lost: None };
+        let mut bracket = Bracket { borne: places.to_vec(), lost: None, from: 0.0 };
         assert!((bracket.peak().unwrap() - 3.0).abs() < 1e-12);
         let mut tries = 0;
         while !bracket.is_narrow(0.02) {
             let tension = bracket.next(0.1, 0.02);
             match tension <= 3.0 {
-                true => bracket.borne.push(Place { distance: 2.0 - (3.0 - tension).sqrt(), tension }),
-                false => bracket.lost = Some(tension),
+                true => bracket.bear(Place { distance: 2.0 - (3.0 - tension).sqrt(), tension }),
+                false => bracket.lose(tension),
             }
             tries += 1;
         }
-        assert!(tries <= 3 && bracket.greatest() <= 3.0 && bracket.lost > Some(3.0), "{tries}: {bracket:?}");
+        assert!(tries <= 4 && bracket.greatest() <= 3.0 && bracket.lost > Some(3.0), "{tries}: {bracket:?}");
     }
 
     #[test]
     fn a_curve_of_teeth_is_enclosed_by_halving() {
-        let mut bracket = Bracket { borne: vec![Place { distance: 1.0, tension: 0.0 }], lost: None };
+        let mut bracket = Bracket { borne: vec![Place { distance: 1.0, tension: 0.0 }], lost: None, from: 0.0 };
         let mut tries = 0;
         while !bracket.is_narrow(1e-3) {
             let tension = bracket.next(1e-3, 1e-3);
             match tension <= 0.7 {
-                true => bracket.borne.push(Place { distance: 1.0 + (f64::from(tries) * 0.7).fract(), tension }),
-                false => bracket.lost = Some(tension),
+                true => bracket.bear(Place { distance: 1.0 + (f64::from(tries) * 0.7).fract(), tension }),
+                false => bracket.lose(tension),
             }
             tries += 1;
         }
         assert!(tries < 40 && bracket.greatest() <= 0.7 && bracket.lost > Some(0.7), "{tries}: {bracket:?}");
+    }
+
+    #[test]
+    fn a_loss_by_a_long_step_is_tried_again_from_close_by() {
+        let mut bracket = Bracket { borne: vec![Place { distance: 1.0, tension: 0.6 }], lost: None, from: 0.0 };
+        let (mut tries, mut early) = (0, 0);
+        while !bracket.is_narrow(0.02) {
+            let tension = bracket.next(0.6, 0.02);
+            // a step longer than 0.2 jumps
+            match tension <= 1.0 && tension <= bracket.greatest() + 0.2 {
+                true => bracket.bear(Place { distance: tension, tension }),
+                false => bracket.lose(tension),
+            }
+            early += usize::from(bracket.lost.is_some_and(|lost| lost <= 1.0));
+            tries += 1;
+        }
+        assert!(
+            early > 0 && tries < 40 && bracket.greatest() <= 1.0 && bracket.lost > Some(1.0),
+            "{tries}: {bracket:?}"
+        );
     }
 }

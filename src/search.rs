@@ -28,11 +28,16 @@ const MARGIN: f64 = 0.02;
 /// The largest step outside of a bracket, in the same units, and the most that it grows to.
 const STEP: (f64, f64) = (1.4, 8.0);
 
+/// The least mean gap of a search, over the rms height, where surfaces yield: it is to the surface as it was made, and
+/// the contact may grow on below zero.
+const CLOSEST: f64 = 0.01;
+
 /// The load under which a given share of the nodes is in contact, found by solves.
 ///
 /// Without adhesion the search is for the mean pressure, from Persson's A = erf(p/(√2 p_rms)) on, with p_rms the rms
 /// pressure that presses the surface flat: by the secant of ln(−ln(1 − A)) over ln p, nearly straight for rough
-/// surfaces, and by a bracket as soon as there is one.
+/// surfaces, and by a bracket as soon as there is one. At a [`Hardness`](crate::Hardness) H it ends at A·H, under which
+/// no less is in contact.
 ///
 /// With adhesion the contact jumps, and the search is for the mean gap, with a free boundary for the approach, under
 /// which more states are equilibria. It goes from its start towards the fraction, and never on from a state beyond it,
@@ -235,10 +240,20 @@ where
         let (goal, allowed) = (level(fraction), (TOLERANCE * wanted).max(1.0));
         let adhesion = !self.problem.law_on_grid().hints().zero;
         let mut bracket = Bracket::default();
-        let mut x = self.axis.first(fraction);
+        let hardness = self.solver.constraint.wall().hardness();
+        let (end, anew) = match (self.axis, hardness) {
+            // surfaces that yield bear no more with fewer nodes in contact
+            (Axis::Pressure { .. }, Some(hardness)) => {
+                ((facing / nodes as f64 * hardness.bears(fraction.min(1.0 - facing.recip()))).ln(), false)
+            }
+            // to so much less of the mean gap no scaled gap of surfaces that have yielded leads
+            (Axis::Gap { rms_height }, Some(_)) => (-(CLOSEST * rms_height).ln(), true),
+            _ => (f64::INFINITY, false),
+        };
+        let mut x = self.axis.first(fraction).min(end);
         if let [.., last] = self.points[..] {
             bracket.add(last, wanted);
-            x = bracket.next(self.axis, goal, self.slope());
+            x = bracket.next(self.axis, goal, self.slope()).min(end);
         }
         let branch = self.branch();
         // the side from which the path comes
@@ -251,8 +266,8 @@ where
         let reached = loop {
             let begin = match (&self.start, &self.gap) {
                 (Some(gap), _) => Begin::At(Start::From(gap)),
-                (None, Some(gap)) => Begin::Found(gap.clone()),
-                (None, None) => branch.map_or(Begin::At(Start::Default), Begin::On),
+                (None, Some(gap)) if !anew => Begin::Found(gap.clone()),
+                (None, _) => branch.map_or(Begin::At(Start::Default), Begin::On),
             };
             let solved = self.solver.run(self.problem.parts(), self.axis.control(x), begin, &mut observe)?;
             let report = &solved.solution.report;
@@ -276,10 +291,10 @@ where
                 nearest = Some((point, solved));
             }
             self.remember(point);
-            if solves == MOST || bracket.is_narrow(self.axis) {
+            x = bracket.next(self.axis, goal, self.slope()).min(end);
+            if solves == MOST || bracket.is_narrow(self.axis) || bracket.below.is_some_and(|below| below.x == x) {
                 break false;
             }
-            x = bracket.next(self.axis, goal, self.slope());
         };
         let Some((point, solved)) = nearest else {
             // the loop ends with a solution

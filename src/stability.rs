@@ -8,7 +8,7 @@ use std::fmt;
 use ndarray::Array2;
 
 use crate::adhesion::{AdhesionLaw, Discretisation};
-use crate::constraint::{ContactConstraint, Projection};
+use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Partial, flat, write};
@@ -182,7 +182,9 @@ impl StabilityTest {
     }
 
     /// Tests a solution that was found with a constraint. Under springs, as those of [`Penalty`](crate::Penalty), or
-    /// without a wall ([`NoWall`](crate::NoWall)) every node may move; the stiffness of springs adds to φ''.
+    /// without a wall ([`NoWall`](crate::NoWall)) every node may move; the stiffness of springs adds to φ''. Under
+    /// springs that [end at a rigid wall](ContactConstraint::ends_rigid), as those of [`Uzawa`](crate::Uzawa) after the
+    /// solve, the nodes that they press do not move.
     ///
     /// # Errors
     /// Those of [`StabilityTest::run`]; [`Error::Wall`] for another wall than that of the solution or the law;
@@ -316,7 +318,7 @@ fn check_gap<T: Real>(problem: &Parts<'_, T>, constraint: &dyn ContactConstraint
     problem.grid().agreed(refused)
 }
 
-/// φ'' at every node of the operator's grid, infinite where a rigid wall is touched.
+/// φ'' at every node of the operator's grid, infinite where a rigid wall is touched, or springs press that end as one.
 fn slopes<T: Real>(
     gap: &Array2<T>,
     (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
@@ -329,11 +331,15 @@ fn slopes<T: Real>(
     let gap = gap.as_standard_layout();
     let gaps = gap.as_slice().unwrap_or_default();
     let mut slopes = Array2::zeros(gap.dim());
+    let touches = |node, gap| match constraint.wall() {
+        Wall::Springs(springs) => constraint.ends_rigid() && springs.traction(node, gap) < T::zero(),
+        _ => local.projects() && gap <= T::zero(),
+    };
     let wrong = grid.reducer().run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut part = Partial::NONE;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
-            if local.projects() && gap <= T::zero() {
+            if touches(first + i, gap) {
                 *slope = T::infinity();
             } else if !(slope.is_finite() && gap.is_finite()) && (window.is_none() || gap != T::infinity()) {
                 part.min = part.min.min((first + i) as f64);

@@ -24,6 +24,7 @@ pub use fill::fill;
 pub use fourier::FourierSeries;
 pub use low_pass::low_pass;
 pub(crate) use philox::uniform;
+pub(crate) use resample::refine;
 pub use resample::{mirror, resample};
 pub use self_affine::{Amplitude, SelfAffine};
 pub use slope::rms_slope;

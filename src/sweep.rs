@@ -27,7 +27,8 @@ use crate::solver::{Begin, Iteration, Potential, Solution, Solved, Solver, Start
 /// were pulled apart ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
 ///
 /// At a [`Hardness`](crate::Hardness) each load starts from the last gap, and the problem keeps the plastic depth
-/// ([`Problem::flatten`]): unloading is elastic. A sweep that is continued needs the depth of its last solution there.
+/// ([`Problem::flatten`]): unloading is elastic. A solve that does not converge leaves it as it was, unless rounding lets
+/// the fields be no better. A sweep that is continued needs the [depth](Problem::plastic_depth) that it left there.
 ///
 /// A mean gap that is given scales the start, as in [`Start::From`], or is the start where no gap is left to scale.
 /// Fine steps save a third of the work without adhesion and almost half of it with adhesion; steps by half the load or
@@ -131,15 +132,18 @@ where
             (None, Some(begin)) => begin,
             (None, None) => Begin::At(Start::Default),
         };
-        let solved = self.solver.run(self.problem.parts(), control, begin, &mut observe).map(Solved::with_gap);
-        self.failed = solved.is_err();
-        Some(solved.and_then(|(solution, gap)| self.keep(control, solution, gap).inspect_err(|_| self.failed = true)))
+        let solved = self.solver.run(self.problem.parts(), control, begin, &mut observe);
+        let kept = solved.and_then(|solved| self.keep(control, solved));
+        self.failed = kept.is_err();
+        Some(kept)
     }
 
     /// Keeps a solution's gap for the next start, and how far the surface has yielded.
-    fn keep(&mut self, control: Control, solution: Solution<T>, mut gap: Array2<T>) -> Result<Solution<T>> {
+    fn keep(&mut self, control: Control, solved: Solved<T>) -> Result<Solution<T>> {
+        let stays = solved.is_settled();
+        let (solution, mut gap) = solved.with_gap();
         if let Some(depth) = &solution.plastic_depth {
-            self.problem.lower(depth.view(), &mut gap)?;
+            self.problem.lower(depth.view(), stays, &mut gap)?;
             self.history.clear();
         }
         self.history.push((control, gap));

@@ -1,6 +1,8 @@
 //! The cases that the benches solve.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+#[path = "../../tests/common/authors.rs"]
+pub mod authors;
 #[path = "../../tests/common/rough.rs"]
 pub mod rough;
 

@@ -10,7 +10,8 @@
 //! The fifth, `knob`, is another experiment: on 120 rough scenes it compares the estimated error of the grid with the
 //! true one, and asks for accuracies of the contact area, which it compares with the best choice by hand. The sixth,
 //! `strips`, asks for them on surfaces whose contact edges are at few independent places: waves, scratches and ground
-//! surfaces along the sides and at angles to them, and lattices.
+//! surfaces along the sides and at angles to them, and lattices. The seventh, `estimates`, counts how many true errors
+//! the estimates cover, of every quantity, on band-limited maps: rough, smooth, white noise, thin strips, and lines.
 //!
 //! Errors are relative, and root mean squares over a few loads, as the error of an area depends on how the edge falls
 //! between the nodes. The discretisation error is the difference between the solution converged to 1e-12 on the grid
@@ -22,6 +23,7 @@
 
 mod choice;
 mod error;
+mod estimates;
 mod front;
 mod knob;
 mod picture;
@@ -41,13 +43,15 @@ use scene::Scene;
 const KNOB: &str = "knob";
 /// That of strips and lattices.
 const STRIPS: &str = "strips";
+/// That of maps of many kinds, on which estimated errors are compared with true ones.
+const ESTIMATES: &str = "estimates";
 
 #[derive(Parser)]
 struct Arguments {
     /// Small grids and some seconds; without it all takes a few minutes, most of them for the references
     #[arg(long)]
     quick: bool,
-    /// One scene alone: hertz, wave, rough, adhesive, knob or strips
+    /// One scene alone: hertz, wave, rough, adhesive, knob, strips or estimates
     #[arg(long, value_name = "NAME")]
     scene: Option<String>,
     /// The threads on which solves are timed; the references are computed on all
@@ -64,11 +68,12 @@ struct Arguments {
 fn main() -> Outcome<()> {
     let options: Arguments = arguments::read(include_str!("main.rs"));
     let mut scenes = Scene::all(options.quick, options.reference)?;
-    let names: Vec<_> = scenes.iter().map(|scene| scene.name).chain([KNOB, STRIPS]).collect();
-    let [knob, strips] = [KNOB, STRIPS].map(|own| options.scene.as_ref().is_none_or(|name| name == own));
+    let names: Vec<_> = scenes.iter().map(|scene| scene.name).chain([KNOB, STRIPS, ESTIMATES]).collect();
+    let [knob, strips, estimates] =
+        [KNOB, STRIPS, ESTIMATES].map(|own| options.scene.as_ref().is_none_or(|name| name == own));
     if let Some(name) = &options.scene {
         scenes.retain(|scene| scene.name == name);
-        if scenes.is_empty() && !knob && !strips {
+        if scenes.is_empty() && !knob && !strips && !estimates {
             return Err(format!("--scene {name}: the scenes are {}", names.join(", ")).into());
         }
     }
@@ -93,6 +98,9 @@ fn main() -> Outcome<()> {
     }
     if strips {
         pool.install(|| strips::measure(options.quick))?;
+    }
+    if estimates {
+        pool.install(|| estimates::measure(options.quick))?;
     }
     Ok(())
 }

@@ -120,7 +120,7 @@ class Scene:
 
     def solution(self, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
-        told, topography = found["report"], self.topography
+        told, topography = found["told"], self.topography
         if "heights" in found:
             # those of an accuracy
             topography = refined(topography, found["heights"])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -175,7 +175,7 @@ class Solution:
             setattr(self, name, self.part_of(found[name]))
         for name in ("plastic_depth", "mode"):
             setattr(self, name, None if found[name] is None else self.part_of(found[name]))
-        # the report without what is found of the fields, and what finds that
+        # the numbers of the report as they are, without what is found of the fields, and what finds that
         self._told, self._look = told, found["look"]
 
     def part_of(self, field: NDArray[Any]) -> NDArray[Any]:
@@ -349,7 +349,7 @@ class Solution:
     @property
     def relative_error(self) -> float:
         """Certified relative error in the energy norm."""
-        return self._told["relative_error"]
+        return cast("float", self._told["relative_error"])
 
     @property
     def mean_gap(self) -> float:

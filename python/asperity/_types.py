@@ -59,15 +59,15 @@ class OtherBranch(TypedDict):
 
     branch: Branch | None
     status: Status
-    relative_error: float
-    load_error: float
+    relative_error: float | None
+    load_error: float | None
     operator_applications: int
     contact_fraction: float
     mean_gap: float
     mean_pressure: float
     elastic_energy: float
     adhesive_energy: float
-    distance: float
+    distance: float | None
     same: bool
 
 
@@ -78,13 +78,13 @@ class GridLevel(TypedDict):
     status: Status
     iterations: int
     operator_applications: int
-    relative_error: float
+    relative_error: float | None
     mean_gap: float
     mean_pressure: float
     mean_contact_pressure: float
     elastic_energy: float
     contact_fraction: float
-    corrected_contact_fraction: float
+    corrected_contact_fraction: float | None
     jkr_contact_fraction: float | None
     contact_stiffness: float | None
 
@@ -92,7 +92,7 @@ class GridLevel(TypedDict):
 class GridError(TypedDict):
     """The estimated error of a quantity by the grid: relative, its order, and whether it is a rough estimate."""
 
-    relative: float
+    relative: float | None
     order: float | None
     rough: bool
 
@@ -140,9 +140,9 @@ Steadiness = TypedDict(
     "Steadiness",
     {
         "verdict": Literal["stable", "unstable", "undecided"],
-        "eigenvalue": float,
+        "eigenvalue": float | None,
         "residual": float,
-        "lower_bound": float,
+        "lower_bound": float | None,
         "error_bound": float | None,
         "smoothed": bool,
         "operator_applications": int,
@@ -178,15 +178,17 @@ class Told(TypedDict):
 class Report(TypedDict):
     """The report of a solve, with the keys of the tool's report.json: its outcome, then its inputs.
 
-    Numbers are in the units of the input, energies per area; None where a key does not apply.
+    Numbers are in the units of the input, energies per area; None where a key does not apply, or where a number is
+    not finite, as an error that is not known yet: the report is what ``json.loads`` reads from that file. Attributes of
+    a solution, as ``relative_error``, are infinite there.
     """
 
     command: str
     status: Status
     branch: Branch | None
     other_branch: OtherBranch | None
-    relative_error: float
-    load_error: float
+    relative_error: float | None
+    load_error: float | None
     criterion: Literal["energy-norm", "complementarity"]
     iterations: int
     operator_applications: int
@@ -208,7 +210,7 @@ class Report(TypedDict):
     edge_traction: float | None
     adhesive_contact_fraction: float | None
     jkr_contact_fraction: float | None
-    corrected_contact_fraction: float
+    corrected_contact_fraction: float | None
     perimeter: float
     repulsive_fraction: float
     attractive_fraction: float

@@ -7,11 +7,18 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde::Serialize;
 use serde_pyobject::to_pyobject;
 
 use crate::look::Look;
 use crate::numbers::Scalar;
 use crate::refusal::refusal;
+
+/// A report as Python reads it from its file: what is not finite is None there.
+pub fn reported<'py>(py: Python<'py>, report: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    let text = serde_json::to_string(report).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    py.import("json")?.call_method1("loads", (text,))
+}
 
 /// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(
@@ -29,7 +36,8 @@ pub fn answer<'py, T: Scalar>(
         check_finite(&solution).map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
     }
     let found = PyDict::new(py);
-    found.set_item("report", to_pyobject(py, &account)?)?;
+    // the numbers of the solution, which may be infinite; its report comes with the look
+    found.set_item("told", to_pyobject(py, &account)?)?;
     found.set_item("shortfalls", shortfalls(&account, Skin::Keywords))?;
     let Solution { gap, pressure, contact_pressure, plastic_depth, .. } = solution;
     let fields = [gap, pressure, contact_pressure].map(|field| field.into_pyarray(py));

@@ -9,8 +9,8 @@ use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_pyobject::to_pyobject;
 
+use crate::answer::reported;
 use crate::numbers::Field;
 use crate::refusal::refusal;
 
@@ -78,10 +78,10 @@ pub fn contact_tables<'py>(
     let tables = py.detach(find).map_err(refusal)?;
     let found = PyDict::new(py);
     let tabulated = |of: Tabulated| {
-        let exponent = of.exponent.map(|exponent| to_pyobject(py, &exponent)).transpose()?;
+        let exponent = of.exponent.map(|exponent| reported(py, &exponent)).transpose()?;
         PyResult::Ok((of.density.into_pyarray(py), of.edges.into_pyarray(py), exponent))
     };
-    found.set_item("figures", to_pyobject(py, &tables.figures())?)?;
+    found.set_item("figures", reported(py, &tables.figures())?)?;
     let ContactTables { gap, pressure, autocorrelation, spots, .. } = tables;
     found.set_item("gap", tabulated(gap)?)?;
     found.set_item("pressure", tabulated(pressure)?)?;

@@ -8,8 +8,8 @@ use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_pyobject::to_pyobject;
 
+use crate::answer::reported;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
@@ -76,7 +76,7 @@ pub fn leakage<'py>(
     let find = |goes_on: &(dyn Fn() -> bool + Sync)| asked.find_while(gap_on(values, lengths)?, goes_on);
     let (leak, leaked) = until_interrupted(py, find)?.map_err(refusal)?;
     let found = PyDict::new(py);
-    found.set_item("report", to_pyobject(py, &leaked)?)?;
+    found.set_item("report", reported(py, &leaked)?)?;
     found.set_item("shortfall", leaked.shortfall(Skin::Keywords))?;
     for axis in Axis::BOTH {
         let flow = leak.along(axis);

@@ -6,8 +6,8 @@ use asperity::contact::ContactStatistics;
 use asperity_scene::{Account, Sight, Skin, rows};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use serde_pyobject::to_pyobject;
 
+use crate::answer::reported;
 use crate::numbers::Scalar;
 use crate::pools::Pool;
 use crate::refusal::refusal;
@@ -69,7 +69,7 @@ impl<T: Scalar> Looks for Seen<T> {
         let rows = rows(&[&account], &account.inputs.units(), Skin::Keywords)
             .into_iter()
             .map(|(name, texts)| (name, texts.concat()));
-        Ok((statistics_of(py, found), to_pyobject(py, &account)?, rows.collect()))
+        Ok((statistics_of(py, found), reported(py, &account)?, rows.collect()))
     }
 
     fn displacements<'py>(&self, py: Python<'py>) -> PyResult<Option<Both<'py>>> {

@@ -20,7 +20,7 @@ use pyo3::types::{PyDict, PyList};
 use serde_json::Value;
 use serde_pyobject::to_pyobject;
 
-use crate::answer::answer;
+use crate::answer::{answer, reported};
 use crate::inputs::Begin;
 use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
@@ -173,7 +173,7 @@ impl<T: Scalar> Solves for State<T> {
         let (found, pulled_off) = found.map_or_else(|error| (Err(error), None), |(found, of)| (Ok(found), Some(of)));
         let answer = answer(py, self.threads, (found, raised))?;
         if let Some((pulled_off, shortfall)) = pulled_off {
-            answer.set_item("pull_off", to_pyobject(py, &pulled_off)?)?;
+            answer.set_item("pull_off", reported(py, &pulled_off)?)?;
             answer.set_item("shortfall", shortfall)?;
         }
         Ok(answer)
@@ -230,11 +230,9 @@ impl<T: Scalar> Solves for State<T> {
         };
         let (course, table, processes, rows) = py.detach(|| at.pool.get().install(open)).map_err(refusal_of_table)?;
         (self.course, self.table) = (Some(course), Some((table, processes)));
-        // null alone would become an empty tuple
-        let cells =
-            |row: &Value| names.iter().map(|&name| Some(row[name].clone()).filter(|cell| !cell.is_null())).collect();
-        let rows: Vec<Vec<Option<Value>>> = rows.iter().map(cells).collect();
-        Ok((names, to_pyobject(py, &rows)?))
+        let rows: Vec<Vec<&Value>> = rows.iter().map(|row| names.iter().map(|&name| &row[name]).collect()).collect();
+        let rows = reported(py, &rows)?;
+        Ok((names, rows))
     }
 
     fn next<'py>(&mut self, py: Python<'py>, at: Run<'_>) -> PyResult<Option<Bound<'py, PyDict>>> {
@@ -269,7 +267,7 @@ impl<T: Scalar> Solves for State<T> {
         let mut entries = None;
         let found = found.map(|(found, row)| (found, entries.insert(row).account.clone()));
         let found = answer(py, self.threads, (found, raised))?;
-        found.set_item("row", entries.map(|row| to_pyobject(py, &row)).transpose()?)?;
+        found.set_item("row", entries.map(|row| reported(py, &row)).transpose()?)?;
         found.set_item("pace", self.pace())?;
         Ok(Some(found))
     }

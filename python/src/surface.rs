@@ -11,8 +11,8 @@ use asperity_scene::{Body, Log, Preparation, Roughness, Skin, in_unit, worded};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use serde_pyobject::to_pyobject;
 
+use crate::answer::reported;
 use crate::inputs::keys;
 use crate::numbers::Field;
 use crate::pools::Pool;
@@ -194,5 +194,5 @@ pub fn prepare<'py>(
     let mut log = Log::default();
     let prepared = apart(py, || steps.run(measured, &mut log))?;
     let lines = log.lines.iter().map(|(step, what)| format!("{step}: {what}")).collect();
-    Ok((map(py, prepared), lines, to_pyobject(py, &log.warnings)?))
+    Ok((map(py, prepared), lines, reported(py, &log.warnings)?))
 }

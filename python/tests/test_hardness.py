@@ -32,7 +32,8 @@ def test_pressures_are_capped_and_the_depth_is_reported(surface, elastic):
     assert report["plastic_fraction"] == (depth > 0).mean()
     assert np.isclose(report["plastic_depth_mean"], depth.mean(), rtol=1e-12)
     assert np.isclose(report["plastic_energy"], hardness * depth.mean(), rtol=1e-12)
-    assert np.isnan(report["corrected_contact_fraction"]) and "greatest plastic depth" in repr(solution)
+    assert report["corrected_contact_fraction"] is None and np.isnan(solution.statistics.corrected_contact_fraction)
+    assert "greatest plastic depth" in repr(solution)
     # u = g + h to the surface as it is now
     assert np.array_equal(solution.displacement, gap + (solution.heights - depth))
     with pytest.raises(ValueError, match="read-only"):
@@ -103,6 +104,20 @@ def test_an_equilibrium_that_has_yielded_has_no_stability(surface):
     solution = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=0.2)
     with pytest.raises(ValueError, match="does not come back"):
         asperity.stability(solution)
+
+
+def test_a_row_that_has_not_converged_leaves_no_depth(surface):
+    loads = [0.002, 0.0495, 0.002]
+    with pytest.warns(asperity.ConvergenceWarning):
+        first, heavy, last = asperity.sweep(surface, modulus=1.0, mean_pressures=loads, hardness=0.05, max_iterations=24)
+    assert first.converged and not heavy.converged and last.converged
+    # the same load leaves no more, to the tolerance
+    assert np.allclose(last.plastic_depth, first.plastic_depth, atol=1e-3 * first.plastic_depth.max())
+
+
+def test_a_share_of_contact_is_found_where_the_surface_yields(surface):
+    solution = asperity.solve(surface, modulus=1.0, hardness=0.05, contact_fraction=0.5)
+    assert solution.report["search"]["reached"] and solution.report["mean_pressure"] <= 0.5 * 0.05
 
 
 def test_a_sweep_keeps_the_depth_also_where_a_solve_was_interrupted(surface):

@@ -1,5 +1,7 @@
 """The types of keywords and reports say what the compiled core takes and gives."""
 
+import json
+import pickle
 from types import NoneType, UnionType
 from typing import Literal, Union, get_args, get_origin, get_type_hints, is_typeddict
 
@@ -62,6 +64,25 @@ def test_the_type_of_a_report_has_the_keys_and_values_of_the_account(rough, sphe
     # each entry with keys of its own was there
     for key in ("other_branch", "levels", "grid_error", "accuracy", "search", "patches", "stability", "given"):
         assert any(solution.report[key] for solution in reports), key
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_reports_and_rows_are_what_json_reads_of_them(rough):
+    yielded = {"modulus": 1.0, "hardness": 0.02}
+    flat = asperity.solve(np.zeros((8, 8)), 1.0, modulus=1.0, mean_pressure=0.01, stiffness=True, stability=True)
+    cut = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, max_iterations=1, method="rey2017")
+    soft = asperity.solve(rough, mean_pressure=0.01, **yielded)
+    sweep = asperity.sweep(rough, mean_pressures=[0.01], **yielded)
+    assert flat.report["contact_stiffness"] is flat.report["stability"]["eigenvalue"] is None
+    assert np.isinf(flat.contact_stiffness) and np.isnan(soft.statistics.corrected_contact_fraction)
+    assert np.isnan(sweep.columns["corrected_contact_fraction"][0])
+    assert (cut.report["relative_error"] is None) == np.isinf(cut.relative_error)
+    found = [solution.report for solution in (flat, cut, soft)]
+    for report in [*found, sweep.rows, asperity.leakage(soft).report, asperity.contact.tables(soft).figures]:
+        assert json.loads(json.dumps(report, allow_nan=False)) == report
+        assert pickle.loads(pickle.dumps(report)) == report
+    for report in found:
+        check(asperity.Report, report, "report")
 
 
 @pytest.mark.parametrize(

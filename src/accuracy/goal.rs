@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 
 use super::refine::{refined, twice};
-use super::{CAUTION, FINE, GridError, Quantity, resolves_adhesion};
+use super::{GridError, Quantity, resolves_adhesion};
 use crate::adhesion::{AdhesionLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Projection};
 use crate::elastic::{Boundary, ElasticOperator};
@@ -37,9 +37,9 @@ const DOUBT: f64 = 3.0;
 /// An accuracy that is asked for: a relative error of a quantity, from which tolerance and grid follow.
 ///
 /// The given grid is solved first, with coarser ones below it ([`Nested`]), and its error estimated ([`GridError`]). As
-/// long as the estimate, half as large again where it is rough, and the certified error of the solver together exceed
-/// the accuracy, the surface is put on twice as many nodes along its sides by Fourier interpolation
-/// ([`resample`](crate::surface::resample); with a free boundary continued by its mirror images).
+/// long as the estimate and the certified error of the solver together exceed the accuracy, the surface is put on twice as
+/// many nodes along its sides by Fourier interpolation ([`resample`](crate::surface::resample), but with node (0, 0) in
+/// its place; with a free boundary continued by its mirror images).
 ///
 /// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
 /// absent nodes and a law that varies from node to node are not refined.
@@ -173,10 +173,11 @@ impl<C> Accuracy<C> {
         let boundary = operator.abilities().boundary;
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
+        let line = surface.grid().shape().0 == 1 || surface.grid().shape().1 == 1;
         let by_edge = self.asks_the_edge(surface, law) && boundary == Boundary::Periodic;
         let (mu_rho, of_grid) = (mu_rho(law, surface.grid(), operator.modulus()), law.hints().of_grid);
         let needed = |smaller| {
-            if refinable { self.refinements((nodes_per_wave, mu_rho), (by_edge, of_grid), smaller) } else { 0 }
+            if refinable { self.refinements((nodes_per_wave, mu_rho), (by_edge, of_grid, line), smaller) } else { 0 }
         };
         let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
@@ -195,7 +196,11 @@ impl<C> Accuracy<C> {
                 shape: shape(refinements),
                 bytes: bytes(refinements),
                 available: self.memory,
-                affordable: if resolved { self.of.expected(nodes_per_wave * finer, of_grid) } else { f64::INFINITY },
+                affordable: if resolved {
+                    self.of.expected(nodes_per_wave * finer, of_grid, line)
+                } else {
+                    f64::INFINITY
+                },
             });
         }
         let applications = APPLICATIONS * growth.powi(refinements);
@@ -218,18 +223,21 @@ impl<C> Accuracy<C> {
     }
 
     /// The expected refinements, if errors are smaller than expected by the factor `smaller`.
-    fn refinements(&self, (nodes_per_wave, mu_rho): (f64, f64), (by_edge, of_grid): (bool, bool), smaller: f64) -> i32 {
+    fn refinements(
+        &self,
+        (nodes_per_wave, mu_rho): (f64, f64),
+        (by_edge, of_grid, line): (bool, bool, bool),
+        smaller: f64,
+    ) -> i32 {
         // without a coarser grid the waves tell the error of the area, and the edge that of the others
         let least = GridError::LEAST_NODES_PER_WAVE;
         let least = if by_edge || self.of == Quantity::Area { least } else { 2.0 * least };
-        let sure = by_edge && self.of != Quantity::Stiffness;
         let enough = |refinements: &i32| {
             let finer = f64::from(*refinements).exp2();
             let nodes = nodes_per_wave * finer;
-            let caution = if sure || nodes >= 2.0 * FINE { 1.0 } else { CAUTION };
             resolves_adhesion(mu_rho, finer)
                 && nodes >= least
-                && caution * self.of.expected(nodes, of_grid) <= smaller * self.target
+                && self.of.expected(nodes, of_grid, line) <= smaller * self.target
         };
         (0..40).find(enough).unwrap_or(40)
     }
@@ -311,7 +319,7 @@ impl<C> Accuracy<C> {
         let (error, reached, unaffordable) = loop {
             let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
             let report = &solution.report;
-            let enough = |error: &GridError| error.cautious() + report.relative_error <= self.target;
+            let enough = |error: &GridError| error.relative + report.relative_error <= self.target;
             let converged = report.status == Status::Converged;
             if !converged || !refinable || error.as_ref().is_some_and(enough) {
                 break (error, converged && error.as_ref().is_some_and(enough), None);

@@ -155,7 +155,7 @@ impl<C> Accuracy<C> {
             let stopped = found.solution.report.status == Status::Stopped;
             levels.extend(limit.map(|limit| (surface.grid().shape(), limit)));
             let error = if found.reached { error(&found, &levels, waves) } else { None };
-            let reached = !refines || error.is_some_and(|error| error.cautious() <= self.target);
+            let reached = !refines || error.is_some_and(|error| error.relative <= self.target);
             let shape = twice(surface.grid().shape());
             let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
             let bytes = 8.0 * NUMBERS * nodes as f64 * growth;

@@ -2,17 +2,17 @@ use ndarray::{Axis, Slice};
 
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::surface::{Surface, mirror, resample};
+use crate::surface::{Surface, mirror, refine};
 
 /// The surface on twice as many nodes along its sides, by Fourier interpolation; unless periodic, mirrored.
 pub(super) fn refined(surface: &Surface, periodic: bool) -> Result<Surface> {
     let shape = twice(surface.grid().shape());
     let fine = if periodic {
-        resample(surface.heights().clone(), shape)?
+        refine(surface.heights().clone(), shape)?
     } else {
         let mirrored = mirror(surface.heights());
         let whole = twice(mirrored.dim());
-        let mut fine = resample(mirrored, whole)?;
+        let mut fine = refine(mirrored, whole)?;
         fine.slice_axis_inplace(Axis(0), Slice::from(..shape.0));
         fine.slice_axis_inplace(Axis(1), Slice::from(..shape.1));
         fine

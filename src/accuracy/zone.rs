@@ -4,7 +4,7 @@ use super::{GridError, Quantity, is_coarser, observed_order};
 use crate::nested::Level;
 
 /// The factor by which an estimate is larger where the area changes from grid to grid by more than half the zone.
-const APART: f64 = 3.0;
+const APART: f64 = 4.5;
 
 /// A quantity on a grid: as it is reported, less the process zone, and the zone.
 struct Told {
@@ -34,10 +34,10 @@ impl Quantity {
     /// The factors of the zone and of the difference to the coarser grid, and that of the zone without a coarser grid.
     fn factors(self) -> [f64; 3] {
         match self {
-            Self::Area => [0.6, 1.2, 1.0],
-            Self::Gap => [4.0, 4.0, 5.0],
-            Self::Approach => [2.5, 0.0, 2.5],
-            Self::Pressure | Self::Stiffness => [6.0, 3.0, 10.0],
+            Self::Area => [0.6, 1.2, 1.5],
+            Self::Gap => [4.0, 4.0, 7.5],
+            Self::Approach => [2.5, 0.0, 3.75],
+            Self::Pressure | Self::Stiffness => [6.0, 3.0, 15.0],
         }
     }
 }

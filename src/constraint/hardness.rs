@@ -16,7 +16,8 @@ use crate::real::Real;
 /// ψ(g) = H ⟨−g⟩₊ ,   λ = H where g < 0 ,   0 ≤ λ ≤ H where g = 0 ,   λ = 0 where g > 0
 /// ```
 ///
-/// The gap g of the surface as it was is negative where this has yielded, by the plastic depth −g. A
+/// A law that pulls with a traction t where the surfaces touch does a part of that work, and H − t of each depth is
+/// dissipated. The gap g of the surface as it was is negative where this has yielded, by the plastic depth −g. A
 /// [`Solution`](crate::Solution) has the gap to the surface as it is now, which is zero there, and the
 /// [depth](crate::Solution::plastic_depth) beside it. A solve is monotonic loading of its problem's surface;
 /// [`Problem::flatten`](crate::Problem::flatten) keeps a depth, so that unloading from there is elastic, as
@@ -94,6 +95,18 @@ impl Hardness {
     /// The least hardness.
     pub(crate) fn least(&self) -> f64 {
         self.least
+    }
+
+    /// The mean pressure over all nodes that a share of them bears at most.
+    pub(crate) fn bears(&self, share: f64) -> f64 {
+        if !self.varies() {
+            return share * self.mean;
+        }
+        let mut hardest: Vec<f64> = self.field.iter().copied().collect();
+        hardest.sort_by(|a, b| b.total_cmp(a));
+        let nodes = hardest.len() as f64;
+        let borne = hardest.iter().enumerate().map(|(i, cap)| cap * (share * nodes - i as f64).clamp(0.0, 1.0));
+        borne.sum::<f64>() / nodes
     }
 
     /// Writes the hardness at nodes of the solve's grid, from the node `first` on.

@@ -4,6 +4,7 @@ use ndarray::{Array2, ArrayView2};
 
 use super::penalty::check_stiffness;
 use super::{ContactConstraint, Springs, Update, Wall};
+use crate::adhesion::Values;
 use crate::error::Result;
 use crate::field::{CHUNK, Partial, flat, read, write};
 use crate::grid::Grid;
@@ -41,7 +42,7 @@ const NEXT: f64 = 0.1;
 ///
 /// Without adhesion the first term bounds the error, since ⟨u − u*, p − p*⟩ ≤ ⟨s, p* − p⟩. The second term is for the
 /// mean pressure close to full contact. In this case, and with adhesion, the criterion is an estimate. The page
-/// [`paper_checked`](crate::guide::paper_checked) has the cost of Uzawa. Memory per node: one scalar.
+/// [`comparison`](crate::guide::comparison) has the cost of Uzawa. Memory per node: one scalar.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Settings, Solver, Surface, Uzawa, Westergaard};
@@ -69,6 +70,8 @@ pub struct Uzawa<T> {
     present: f64,
     multipliers: Array2<T>,
     grid: Option<Grid>,
+    /// the first node of the multipliers
+    first: usize,
     rounds: usize,
 }
 
@@ -93,6 +96,7 @@ impl<T: Real> Uzawa<T> {
             present: 0.0,
             multipliers,
             grid: None,
+            first: 0,
             rounds: 0,
         })
     }
@@ -102,13 +106,22 @@ impl<T: Real> Uzawa<T> {
         self.rounds
     }
 
-    fn pressure(&self, node: usize, gap: T) -> T {
-        (self.multiplier(node) - self.stiffness * gap).max(T::zero())
+    /// The multipliers of so many nodes; none before a solve.
+    fn multipliers(&self, node: usize, count: usize) -> &[T] {
+        let own = node.checked_sub(self.first).and_then(|own| flat(&self.multipliers).get(own..own + count));
+        own.unwrap_or_default()
     }
 
-    fn multiplier(&self, node: usize) -> T {
-        let first = self.grid.as_ref().map_or(0, Grid::first_node);
-        node.checked_sub(first).and_then(|own| flat(&self.multipliers).get(own)).copied().unwrap_or_default()
+    /// Energy, traction and slope at one node.
+    #[inline(always)]
+    fn values(&self, multiplier: T, gap: T) -> [T; 3] {
+        let (pressure, stiffness) = ((multiplier - self.stiffness * gap).max(T::zero()), self.stiffness);
+        let energy = T::lit(0.5) * (pressure - multiplier) * (pressure + multiplier) / stiffness;
+        [energy, -pressure, if pressure > T::zero() { stiffness } else { T::zero() }]
+    }
+
+    fn at(&self, node: usize, gap: T) -> [T; 3] {
+        self.values(self.multipliers(node, 1).first().copied().unwrap_or_default(), gap)
     }
 }
 
@@ -119,7 +132,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         (self.solved_to, self.present) = (tolerance, FIRST);
         self.multipliers = Array2::zeros(grid.field_shape());
-        self.grid = Some(*grid);
+        (self.grid, self.first) = (Some(*grid), grid.first_node());
         self.rounds = 1;
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
@@ -132,6 +145,9 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn round_tolerance(&self) -> f64 {
         self.present
+    }
+    fn ends_rigid(&self) -> bool {
+        true
     }
     fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
         let (Some(grid), stiffness) = (self.grid, self.stiffness) else { return Update::Failed };
@@ -180,13 +196,22 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
 
 impl<T: Real> Springs<T> for Uzawa<T> {
     fn energy(&self, node: usize, gap: T) -> T {
-        let (pressure, multiplier) = (self.pressure(node, gap), self.multiplier(node));
-        T::lit(0.5) * (pressure - multiplier) * (pressure + multiplier) / self.stiffness
+        self.at(node, gap)[0]
     }
     fn traction(&self, node: usize, gap: T) -> T {
-        -self.pressure(node, gap)
+        self.at(node, gap)[1]
     }
     fn slope(&self, node: usize, gap: T) -> T {
-        if self.pressure(node, gap) > T::zero() { self.stiffness } else { T::zero() }
+        self.at(node, gap)[2]
+    }
+    fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) {
+        values.each(|order, values| {
+            let nodes = values.iter_mut().zip(gaps).zip(self.multipliers(first, gaps.len()));
+            match order {
+                0 => nodes.for_each(|((value, &gap), &multiplier)| *value = self.values(multiplier, gap)[0]),
+                1 => nodes.for_each(|((value, &gap), &multiplier)| *value = self.values(multiplier, gap)[1]),
+                _ => nodes.for_each(|((value, &gap), &multiplier)| *value = self.values(multiplier, gap)[2]),
+            }
+        });
     }
 }

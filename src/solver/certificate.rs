@@ -2,7 +2,7 @@
 
 use super::minimisation::{Goal, Left};
 use super::report::Status;
-use super::state::State;
+use super::state::{SCALED, State};
 use super::{Criterion, Method};
 use crate::constraint::Wall;
 use crate::error::Result;
@@ -31,7 +31,7 @@ const NEAR_FLOOR: f64 = 2.0;
 /// The same numbers for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
 
-/// The greatest rounding of a displacement that is none, and of the length of a spring, in units of ε.
+/// The greatest rounding of the length of a spring, and of K⁻¹h, in units of ε.
 const ROUNDINGS: f64 = 8.0;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
@@ -64,18 +64,33 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
         let mean = (self.sums.tally.sum_gap / self.posed.nodes()).abs();
         let carried = self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height);
-        // nodes that bear their own attraction deform nothing, as surfaces apart
-        let bears_itself = self.sums.tally.adhesive < 0.0
-            && traction >= self.sums.given.abs()
-            && self.mean_work() <= (ROUNDINGS * epsilon).powi(2) * carried;
-        let apart = if self.sums.tally.contact > 0.0 && !bears_itself { 0.0 } else { self.posed.flat.work };
-        let waves = self.mean_work().max(apart);
+        let rounding = epsilon * epsilon * carried;
+        let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
+        let mut waves = self.mean_work().max(apart);
+        // nodes that bear their own attraction deform hardly anything: what it would deform without contact
+        let adhesion = self.attraction();
+        if traction.max(adhesion) >= self.sums.given.abs() && rounding > (self.tolerance() / NEAR_FLOOR).powi(2) * waves
+        {
+            let strongest = (self.posed.law.hints().work_of_adhesion / self.posed.law.hints().range).widen();
+            waves = waves.max(adhesion * strongest / stiffest);
+        }
         if waves >= flat {
-            return (waves, epsilon * epsilon * carried);
+            return (waves, rounding);
         }
         // that of flats which only the law holds is the error of the load at each node
         let held = if self.posed.has_no_wall() { traction.max(self.sums.given.abs()).powi(2) / stiffest } else { 0.0 };
         (flat.max(held), 0.0)
+    }
+
+    /// The mean traction that has the energy of adhesion over its range; zero without adhesion.
+    fn attraction(&self) -> f64 {
+        let range = self.posed.law.hints().range.widen();
+        let stored = -self.sums.tally.adhesive / self.posed.nodes();
+        if stored > 0.0 && range > 0.0 { stored / range } else { 0.0 }
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.posed.settings.tolerance_in::<T>()
     }
 
     pub(super) fn is_at_floor(&self) -> bool {
@@ -84,14 +99,23 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.sums.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
     }
 
-    /// The error of the load under pressure control. Without contact the mean of r is the load that adhesion lacks.
+    /// The error of the load. Without contact the mean of r is the load that adhesion lacks.
     pub(super) fn load_error(&self) -> f64 {
         match (self.posed.load, self.sums.tally.free) {
-            (Load::Gap(_), _) => 0.0,
+            (Load::Gap(gap), _) => self.gap_error(gap),
             // contact everywhere: in balance, unless it is under tension somewhere
             (_, 0.0) => self.share_of_load((-self.sums.tally.min_r).max(0.0)),
             _ => self.share_of_load(self.imbalance()),
         }
+    }
+
+    /// How far the mean gap is from one that is held, beyond rounding, as a share of it. Where the law alone keeps the
+    /// surfaces apart a mean gap may be nearly zero: then as a share of the range.
+    fn gap_error(&self, held: f64) -> f64 {
+        let off = (self.mean_gap() - held).abs();
+        let rounding = SCALED * T::epsilon().widen() * (held.abs() + self.posed.flat.rms_height);
+        let range = if self.posed.has_no_wall() { self.posed.law.hints().range.widen() } else { 0.0 };
+        if off <= rounding { 0.0 } else { off / held.abs().max(range) }
     }
 
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
@@ -102,7 +126,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let unloaded = self.sums.given == 0.0 && self.sums.tally.contact == 0.0;
         let of_surface = if unloaded { self.posed.flat.rms_pressure() } else { 0.0 };
         let rounding = ROUNDINGS * T::epsilon().widen() * (self.posed.load.stiffness() * lengths + of_surface);
-        if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / self.sums.given.abs().max(contact.abs()) }
+        // flats at rest have neither load nor traction
+        let adhesion = if self.sums.given == 0.0 { self.attraction() } else { 0.0 };
+        let scale = self.sums.given.abs().max(contact.abs()).max(adhesion);
+        if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / scale }
     }
 
     pub(super) fn scaled_complementarity(&self) -> f64 {
@@ -119,7 +146,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if let Some(tolerance) = self.start_tolerance() {
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
-        let tolerance = self.posed.settings.tolerance_in::<T>();
+        let tolerance = self.tolerance();
         let criterion = match self.posed.settings.criterion {
             Criterion::EnergyNorm => self.relative_error(),
             Criterion::Complementarity if self.sums.residual.working > self.sums.tally.free => f64::INFINITY,
@@ -130,7 +157,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The tolerance of a state from which a minimisation of another energy goes on; none of the solution.
     pub(super) fn start_tolerance(&self) -> Option<f64> {
-        let tolerance = self.posed.settings.tolerance_in::<T>();
+        let tolerance = self.tolerance();
         let start = match self.posed.goal {
             Goal::Wall => WALL,
             Goal::Hold => HOLD,

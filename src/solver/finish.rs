@@ -48,16 +48,16 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if !local.is_surface() {
                 return Partial::NONE;
             }
-            sums!(2, [gap, contact], [], least low, |i| {
+            sums!(3, [gap, contact, pressure], [], least low, |i| {
                 low[i] = gap[i].widen();
-                [contact[i].widen(), gap[i].widen()]
+                [contact[i].widen(), gap[i].widen(), pressure[i].widen()]
             })
         });
         let mean_contact_pressure = total.sum[0] / self.posed.nodes();
         let net_pressure = mean_contact_pressure - self.sums.tally.traction / self.posed.nodes();
         let load_error = match self.posed.load {
             _ if self.sums.detached.is_some() => 1.0,
-            Load::Gap(_) => 0.0,
+            Load::Gap(_) => self.load_error(),
             _ => self.load_error().max(self.share_of_load(net_pressure - mean)),
         };
         let plastic = self.plastic();
@@ -114,7 +114,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             plastic: plastic.as_ref().map(|(_, figures)| *figures),
         };
         let (grid, at_floor) = (*self.posed.operators.state().grid(), self.is_at_floor());
-        let Fields { mut gap, pressure, .. } = self.fields;
+        let missing = mean * self.posed.nodes() - total.sum[2];
+        let Fields { mut gap, mut pressure, .. } = self.fields;
         let plastic_depth = plastic.map(|(depth, _)| depth);
         let Some(window) = &flat.window else {
             let whole = plastic_depth.is_some().then(|| (grid, gap.clone()));
@@ -130,6 +131,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             to_the_yielded(&mut gap);
         }
         let plastic_depth = plastic_depth.map(|depth| window.crop(&depth, T::zero()));
+        // the nodes that face no surface have their part of the residual: the others bear the load
+        let share = T::lit(missing / facing);
+        pressure.mapv_inplace(|p| p + share);
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {

@@ -8,7 +8,7 @@ use crate::adhesion::{AdhesionLaw, Values};
 use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
 use crate::field::flat;
-use crate::problem::Load;
+use crate::problem::{Control, Load};
 use crate::real::Real;
 
 /// The first trial length near the solution: r' then has short waves at contact edges, too stiff for a whole step.
@@ -52,11 +52,16 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(())
     }
 
-    /// Puts the constraint of a law that repels in the place of its wall, moved by the law's equilibrium separation.
+    /// Puts the constraint of a law that repels in the place of its wall, moved by the law's equilibrium separation, or
+    /// by a smaller mean gap that is held.
     pub(super) fn stand_on(&mut self, constraint: &'a mut dyn ContactConstraint<T>, separation: T) -> Result<()> {
         self.posed.constraint = constraint;
         self.posed.prepare()?;
-        self.fields.gap.mapv_inplace(|gap| gap + separation);
+        let lift = match self.posed.asked.0 {
+            Control::MeanGap(held) => separation.min(T::lit(held)),
+            _ => separation,
+        };
+        self.fields.gap.mapv_inplace(|gap| gap + lift);
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 use ndarray::Array2;
 
 use super::passes::count;
+use super::potential::Of;
 use super::report::Plastic;
 use super::state::State;
 use crate::field::{CHUNK, Partial, read, write};
@@ -19,32 +20,37 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     /// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing
-    /// if the wall does not yield. The energy is over all nodes of the operator's grid.
+    /// if the wall does not yield. The energy is over all nodes of the operator's grid. A law that pulls at a node where
+    /// it yields does a part of the work: its energy, which went on below zero gap, is that of touching surfaces.
     pub(super) fn plastic(&mut self) -> Option<(Array2<T>, Plastic)> {
-        let Self { fields, posed, .. } = self;
+        let Self { fields, posed, sums, .. } = self;
         let hardness = posed.constraint.wall().hardness()?.mean();
         let before = posed.flat.yielded.as_ref().map(Yielded::depth);
         let mut depth = before.cloned().unwrap_or_else(|| Array2::zeros(fields.gap.dim()));
         let local = posed.potential();
         let chunks = read(&fields.gap).zip(write(&mut depth));
         let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
-            let (mut caps, mut part) = ([T::zero(); CHUNK], Partial::NONE);
+            let ([mut caps, mut pulls], mut part) = ([[T::zero(); CHUNK]; 2], Partial::NONE);
             if !local.is_surface() {
                 return part;
             }
             local.hardness().into_iter().for_each(|hardness| hardness.fill(first, &mut caps[..gaps.len()], |cap| cap));
-            for ((&gap, depth), &cap) in gaps.iter().zip(depths).zip(&caps) {
-                *depth += (-gap).max(T::zero());
-                let [deep, cap] = [*depth, cap].map(T::widen);
+            local.law(Of::Traction, first, &[T::zero(); CHUNK][..gaps.len()], &mut pulls[..gaps.len()]);
+            for (((&gap, depth), &cap), &pull) in gaps.iter().zip(depths).zip(&caps).zip(&pulls) {
+                let deeper = (-gap).max(T::zero());
+                *depth += deeper;
+                let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);
                 part.min = part.min.min(-deep);
                 part.sum[0] += count(deep > 0.0);
                 part.sum[1] += deep;
-                part.sum[2] += cap * deep;
+                part.sum[2] += (cap - pull) * deep;
+                part.sum[3] += pull * deeper.widen();
             }
             part
         });
         let facing = posed.flat.window.as_ref().map_or(posed.nodes(), |window| window.facing() as f64);
-        let [yielded, sum, energy, ..] = total.sum;
+        let [yielded, sum, energy, pulled, ..] = total.sum;
+        sums.tally.adhesive += pulled;
         let plastic = Plastic {
             hardness,
             fraction: yielded / facing,

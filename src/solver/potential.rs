@@ -164,10 +164,8 @@ impl<'a, T: Real> Potential<'a, T> {
             self.law(Of::Slope, first, gaps, slopes);
             return limits.fill(T::infinity());
         };
-        for (i, &gap) in gaps.iter().enumerate() {
-            slopes[i] = springs.slope(first + i, gap);
-            limits[i] = (-springs.traction(first + i, gap)).max(T::zero());
-        }
+        springs.evaluate(first, gaps, Values::tractions_and_slopes(limits, slopes));
+        limits.iter_mut().for_each(|limit| *limit = (-*limit).max(T::zero()));
     }
 
     /// Whether steps end where the surfaces touch.
@@ -200,13 +198,10 @@ impl<'a, T: Real> Potential<'a, T> {
             return below(hardness, of, first, gaps, out);
         }
         let Some(Wall::Springs(springs)) = self.wall else { return };
-        for (i, (out, &gap)) in out.iter_mut().zip(gaps).enumerate() {
-            *out += match of {
-                Of::Energy => springs.energy(first + i, gap),
-                Of::Traction => springs.traction(first + i, gap),
-                Of::Slope => springs.slope(first + i, gap),
-            };
-        }
+        let mut of_springs = [T::zero(); CHUNK];
+        let of_springs = &mut of_springs[..gaps.len()];
+        springs.evaluate(first, gaps, Values::one(of as usize, of_springs));
+        out.iter_mut().zip(of_springs).for_each(|(out, of_springs)| *out += *of_springs);
     }
 
     /// Whether the tangent of the local energy is nowhere below it, along any step.
@@ -284,10 +279,12 @@ impl<'a, T: Real> Potential<'a, T> {
             }
             _ => return sums,
         };
-        for (i, &gap) in gaps.iter().enumerate() {
-            let touches = gap <= T::zero() || springs.traction(first + i, gap) < T::zero();
-            sums[0] += f64::from(u8::from(touches));
-            sums[1] += springs.energy(first + i, gap).widen();
+        let (mut energies, mut tractions) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+        let (energies, tractions) = (&mut energies[..gaps.len()], &mut tractions[..gaps.len()]);
+        springs.evaluate(first, gaps, Values::energies_and_tractions(energies, tractions));
+        for ((&gap, energy), traction) in gaps.iter().zip(energies).zip(tractions) {
+            sums[0] += f64::from(u8::from(gap <= T::zero() || *traction < T::zero()));
+            sums[1] += energy.widen();
         }
         sums
     }
@@ -295,9 +292,9 @@ impl<'a, T: Real> Potential<'a, T> {
     /// The contact pressures at gaps and full elastic pressures.
     pub(crate) fn contact_pressures(&self, first: usize, gaps: &[T], pressures: &[T], contact: &mut [T]) {
         if let Some(Wall::Springs(springs)) = self.wall {
-            let pressed = contact.iter_mut().zip(gaps).enumerate();
+            springs.evaluate(first, gaps, Values::one(Of::Traction as usize, contact));
             // from zero, as the negative of no traction is a negative zero
-            return pressed.for_each(|(i, (contact, &gap))| *contact = T::zero() - springs.traction(first + i, gap));
+            return contact.iter_mut().for_each(|contact| *contact = T::zero() - *contact);
         }
         if !self.is_surface() {
             return contact.fill(T::zero());

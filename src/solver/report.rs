@@ -94,7 +94,8 @@ pub struct Report {
     ///
     /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control that at the
     /// same mean gap); with adhesion it bounds the error where the equilibrium is stable. It includes the rounding of
-    /// the pressure. Without any contact ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may vanish.
+    /// the pressure. Without any contact ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may vanish. Where nodes bear their
+    /// own attraction, so that ⟨u, p⟩ is rounding, the work of this attraction alone on the stiffest wave stands for it.
     ///
     /// With [`NoWall`](crate::NoWall) the norm is that of K⁻¹ + κ, with κ = max(φ'', 0) the slope of the nodes that the
     /// law holds: √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩ takes the place of √⟨r', K r'⟩, with s = (1 + κ/k)⁻², k 0.4 times
@@ -106,7 +107,7 @@ pub struct Report {
     pub branch: Option<Branch>,
     /// The error of the load, relative to the larger of |p̄| and the mean contact pressure: the larger of the imbalance
     /// of the nodes apart and the difference from the load that the fields carry. One without a contact that the load
-    /// needs; zero under gap control.
+    /// needs. Of a mean gap that is held it is how far that is missed, beyond rounding, as a share of it.
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
     pub complementarity: f64,
@@ -197,7 +198,8 @@ pub struct Plastic {
     pub depth_max: f64,
     /// The mean plastic depth.
     pub depth_mean: f64,
-    /// The dissipated energy, the mean of H times the depth over the nominal area.
+    /// The dissipated energy, the mean of H − t times the depth over the nominal area, with t the traction of the law at
+    /// contact.
     pub energy: f64,
 }
 

@@ -21,7 +21,7 @@ use crate::real::Real;
 const REFRESH: usize = 50;
 
 /// The relative error of the mean gap, in units of the rounding of one number, that is worth a pass.
-const SCALED: f64 = 64.0;
+pub(super) const SCALED: f64 = 64.0;
 
 pub(super) struct State<'a, T, Lo> {
     pub(super) posed: Posed<'a, T, Lo>,

@@ -96,7 +96,9 @@ impl ContactStiffness {
     }
 
     /// The contact stiffness of a solution that was found with a constraint, to a relative error. Springs of the
-    /// constraint, and laws without a wall, resist with their slopes; no node is fixed then.
+    /// constraint, and laws without a wall, resist with their slopes; no node is fixed then. Under springs that
+    /// [end at a rigid wall](ContactConstraint::ends_rigid), as those of [`Uzawa`](crate::Uzawa) after the solve, the nodes
+    /// that they press are fixed.
     ///
     /// # Errors
     /// Those of [`StabilityTest::run_with`](super::StabilityTest::run_with), its tolerance included.

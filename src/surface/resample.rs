@@ -1,8 +1,12 @@
 //! Heights on other grids: by Fourier interpolation, and with their mirror images.
 
+use std::f64::consts::{PI, TAU};
+
 use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, Zip};
 
+#[cfg(doc)]
+use super::Surface;
 use super::mean_of_finite;
 #[cfg(doc)]
 use crate::error::Error;
@@ -20,19 +24,21 @@ use crate::grid::Grid;
 /// ```
 ///
 /// The shortest wave of an even number of nodes, which the nodes cannot tell from its mirror image, counts half
-/// for k = N/2 and half for k = −N/2. Node (0, 0) stays in its place; with Mx and My multiples of Nx and Ny all
-/// old nodes are among the new ones, and keep their heights. Coarser grids lose the waves that they do not
-/// resolve, which is no sampling of every second node. The mean height stays, and so do all waves that both grids
-/// resolve. The polynomial is periodic: edges that do not meet make it ring. Peaks between the nodes of a coarse grid
-/// may be higher than any node.
+/// for k = N/2 and half for k = −N/2. Nodes are in the middle of their cells, and the cells of both grids fill the same
+/// sides: new node i is at ((i + ½)/Mx − ½/Nx)Lx from old node 0. So a map that is turned over or [mirrored](mirror) is
+/// resampled as it is before, and surfaces that face each other ([`Surface::against`]) still do. With Mx and My odd
+/// multiples of Nx and Ny all old nodes are among the new ones, and keep their heights. Coarser grids lose the waves
+/// that they do not resolve, which is no sampling of every second node. The mean height stays, and so do all waves that
+/// both grids resolve. The polynomial is periodic: edges that do not meet make it ring. Peaks between the nodes of a
+/// coarse grid may be higher than any node.
 ///
 /// ```
 /// use asperity::surface::resample;
 /// use asperity::{Grid, Surface};
 /// let coarse = Surface::wave(Grid::new((8, 1), (1.0, 1.0))?, 0.1, 3)?;
-/// let fine = resample(coarse.heights().clone(), (32, 1))?;
+/// let fine = resample(coarse.heights().clone(), (24, 1))?;
 /// for (i, h) in coarse.heights().iter().enumerate() {
-///     assert!((fine[[4 * i, 0]] - h).abs() < 1e-15);
+///     assert!((fine[[3 * i + 1, 0]] - h).abs() < 1e-15);
 /// }
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -41,8 +47,22 @@ use crate::grid::Grid;
 /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;
 /// [`Error::NotFinite`] if heights are missing.
 pub fn resample(heights: Array2<f64>, nodes: (usize, usize)) -> Result<Array2<f64>> {
+    on_nodes(heights, nodes, |n, m| 0.5 / m as f64 - 0.5 / n as f64)
+}
+
+/// [`resample`], with node 0 in its place: all old nodes are among those of grids that are finer by whole numbers.
+pub(crate) fn refine(heights: Array2<f64>, nodes: (usize, usize)) -> Result<Array2<f64>> {
+    on_nodes(heights, nodes, |_, _| 0.0)
+}
+
+/// Heights on other nodes, of which the first one has moved by a share of the side.
+fn on_nodes(heights: Array2<f64>, nodes: (usize, usize), moved: impl Fn(usize, usize) -> f64) -> Result<Array2<f64>> {
     Grid::new(nodes, (1.0, 1.0))?.slab().afford("a resampled map", 32)?;
     all_finite("heights", heights.view())?;
+    let resampled = |rows: &Array2<f64>, m: usize| {
+        let by = moved(rows.ncols(), m);
+        if rows.ncols() == m { rows.clone() } else { changed(rows, m, |from, to| spread(from, to, by)) }
+    };
     Ok(by_lines(heights, |lines| resampled(lines, nodes.0), |lines| resampled(lines, nodes.1)))
 }
 
@@ -68,11 +88,6 @@ pub fn mirror(heights: &Array2<f64>) -> Array2<f64> {
     let (mx, my) = (if nx == 1 { 1 } else { 2 * nx }, if ny == 1 { 1 } else { 2 * ny });
     let image = |i: usize, n: usize| if i < n { i } else { 2 * n - 1 - i };
     Array2::from_shape_fn((mx, my), |(i, j)| heights[[image(i, nx), image(j, ny)]])
-}
-
-/// Every row on `m` nodes.
-fn resampled(rows: &Array2<f64>, m: usize) -> Array2<f64> {
-    if rows.ncols() == m { rows.clone() } else { changed(rows, m, spread) }
 }
 
 /// Every row on `m` nodes, by a change of its waves that keeps it real. Two rows ride in one complex line.
@@ -104,24 +119,26 @@ pub(super) fn changed(
     result
 }
 
-/// The modes of a line of other length: those that both resolve, with the shortest of the two shared between k and −k.
-fn spread(from: &[Complex<f64>], to: &mut [Complex<f64>]) {
+/// The modes of a line of other length, of which the first node has moved by a share of the side: those that both
+/// resolve, with the shortest of the two shared between k and −k.
+fn spread(from: &[Complex<f64>], to: &mut [Complex<f64>], moved: f64) {
     let (n, m) = (from.len(), to.len());
     let shorter = n.min(m);
     to.fill(Complex::default());
     to[0] = from[0];
     for k in 1..shorter.div_ceil(2) {
-        to[k] = from[k];
-        to[m - k] = from[n - k];
+        let turn = Complex::cis(TAU * k as f64 * moved);
+        to[k] = from[k] * turn;
+        to[m - k] = from[n - k] * turn.conj();
     }
     if shorter.is_multiple_of(2) {
-        let k = shorter / 2;
+        let (k, turn) = (shorter / 2, Complex::cis(PI * shorter as f64 * moved));
         if n < m {
-            to[k] = from[k].scale(0.5);
-            to[m - k] = to[k];
+            to[k] = from[k] * turn.scale(0.5);
+            to[m - k] = from[k] * turn.conj().scale(0.5);
         } else {
             // the nodes cannot tell the two apart
-            to[k] = from[k] + from[n - k];
+            to[k] = from[k] * turn + from[n - k] * turn.conj();
         }
     }
 }

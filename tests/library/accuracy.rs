@@ -7,6 +7,7 @@ use asperity::contact::ContactArea;
 use asperity::exact::WavyLine;
 use asperity::nested::Level;
 use asperity::*;
+use ndarray::Array2;
 
 fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
     Westergaard::new(grid, 1.0)
@@ -77,6 +78,60 @@ fn nearly_closed_contacts_have_an_estimate_on_their_own_grid() {
     }
 }
 
+/// A map through a few random heights, which has no shorter waves than they tell, on square cells.
+fn band_limited(few: (usize, usize), shape: (usize, usize), seed: usize) -> Surface {
+    let random = |(i, j): (usize, usize)| ((1 + i + 37 * j + 1009 * seed) as f64 * 0.754_877_666).fract().powi(2);
+    let heights = asperity::surface::resample(Array2::from_shape_fn(few, random), shape).unwrap();
+    let longest = shape.0.max(shape.1) as f64;
+    let surface =
+        Surface::new(Grid::new(shape, (shape.0 as f64 / longest, shape.1 as f64 / longest)).unwrap(), heights).unwrap();
+    let slope = surface.spectrum().rms_slope();
+    Surface::new(*surface.grid(), surface.heights() * (0.1 / slope)).unwrap()
+}
+
+#[test]
+fn estimates_cover_95_of_100_errors_of_strips_white_noise_and_smooth_maps() {
+    let [mut all, mut covered] = [[0; 4]; 2];
+    for (few, shape) in [((16, 16), (16, 16)), ((128, 4), (128, 4)), ((5, 6), (32, 32)), ((64, 1), (64, 1))] {
+        for (seed, pressure) in [(1, 1e-3), (2, 3e-3), (3, 8e-3), (4, 2e-2), (5, 4e-2)] {
+            let surface = band_limited(few, shape, seed);
+            let gap = truth_of(&surface, Control::MeanPressure(pressure)).last().unwrap().mean_gap;
+            for control in [Control::MeanPressure(pressure), Control::MeanGap(gap)] {
+                let levels = truth_of(&surface, control);
+                let (finest, given) = (levels.last().unwrap(), levels.iter().position(|level| level.shape == shape));
+                for at in (given.unwrap()..levels.len()).filter(|&at| 8 * levels[at].shape.0 <= finest.shape.0) {
+                    let finer = (levels[at].shape.0 / shape.0) as f64;
+                    let waves = finer * surface.nodes_per_wave(Boundary::Periodic);
+                    let quantities = [Quantity::Area, Quantity::Gap, Quantity::Pressure, Quantity::Stiffness];
+                    for (k, quantity) in quantities.into_iter().enumerate().filter(|(_, q)| q.check(control).is_ok()) {
+                        let Some(estimate) = GridError::of(&levels[..=at], quantity, waves, 0.0) else { continue };
+                        let of = |level: &Level| match quantity {
+                            Quantity::Area => level.area.corrected_contact_fraction,
+                            Quantity::Gap => level.mean_gap,
+                            Quantity::Pressure => level.mean_pressure,
+                            _ => level.stiffness.unwrap().pressure_per_length,
+                        };
+                        let error = (of(&levels[at]) / of(finest) - 1.0).abs();
+                        all[k] += 1;
+                        covered[k] += usize::from(error <= estimate.relative);
+                    }
+                }
+            }
+        }
+    }
+    assert!(
+        all.iter().zip(covered).all(|(&all, covered)| all >= 40 && 100 * covered >= 95 * all),
+        "{covered:?} of {all:?}"
+    );
+}
+
+/// All grids of a map, up to one of 256² nodes or as many, with their stiffnesses.
+fn truth_of(surface: &Surface, control: Control) -> Vec<Level> {
+    let mut wanted = Accuracy::new(1e-5, Quantity::Stiffness).memory(7e6);
+    wanted.nested.solver = Solver::new(Settings::default().tolerance(2e-7));
+    wanted.solve(surface, half_space, NoAdhesion, control).unwrap().levels
+}
+
 #[test]
 fn the_edge_of_the_contact_tells_the_error_of_a_single_grid() {
     let [mut all, mut close] = [0; 2];
@@ -100,8 +155,8 @@ fn the_edge_of_the_contact_tells_the_error_of_a_single_grid() {
                     _ => level.stiffness.unwrap().pressure_per_length,
                 };
                 let ratio = estimate.relative / (of(&found.levels[0]) / of(&truth) - 1.0).abs();
-                assert!(ratio > 1.0 / 3.0, "{quantity} {seed} {n}: {ratio}");
-                (all, close) = (all + 1, close + usize::from(ratio < 3.0));
+                assert!(ratio > 0.5, "{quantity} {seed} {n}: {ratio}");
+                (all, close) = (all + 1, close + usize::from((1.0..8.0).contains(&ratio)));
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::common::outrun::Outrun;
 use crate::common::scenes::{Features, Kind, Precision, Scene};
 use crate::common::{energy_norms, rough, solve, sphere};
 use approx::assert_relative_eq;
+use asperity::adhesion::Values;
 use asperity::constraint::{Springs, Wall, check_constraint};
 use asperity::*;
 
@@ -55,6 +56,29 @@ fn uzawa_removes_the_interpenetration_whatever_its_stiffness() {
         let depth = solution.gap.mapv(|g: f64| g.min(0.0).powi(2)).mean().unwrap();
         assert!(depth > 0.0 && 0.5 * stiffest * depth <= 1e-18 * solution.report.elastic_energy);
         assert_relative_eq!(solution.report.mean_pressure, exact.mean_pressure, max_relative = 1e-6);
+    }
+}
+
+#[test]
+fn springs_have_the_same_values_together_as_one_by_one() {
+    let (solution, uzawa) =
+        with(&mut sphere::<f64, _>(32, NoAdhesion), Uzawa::new(500.0).unwrap(), Control::MeanGap(0.0398), 1e-8);
+    let penalty = Penalty::new(500.0).unwrap();
+    let walls: [&dyn ContactConstraint<f64>; 2] = [&penalty, &uzawa];
+    let nodes = 400..700;
+    let gaps: Vec<_> = solution.gap.iter().skip(nodes.start).take(nodes.len()).map(|gap| gap - 1e-5).collect();
+    for wall in walls {
+        let Wall::Springs(springs) = wall.wall() else { unreachable!() };
+        let [mut energies, mut tractions, mut slopes] = [(); 3].map(|()| vec![0.0; gaps.len()]);
+        let values = [&mut energies, &mut tractions, &mut slopes];
+        let [energies_of, tractions_of, slopes_of] = values.map(|all| Some(all.as_mut_slice()));
+        let values = Values { energies: energies_of, tractions: tractions_of, slopes: slopes_of };
+        springs.evaluate(nodes.start, &gaps, values);
+        for (i, (node, &gap)) in nodes.clone().zip(&gaps).enumerate() {
+            let one = [springs.energy(node, gap), springs.traction(node, gap), springs.slope(node, gap)];
+            assert_eq!([energies[i], tractions[i], slopes[i]], one);
+        }
+        assert!(slopes.contains(&0.0) && slopes.contains(&500.0));
     }
 }
 

@@ -517,6 +517,26 @@ fn a_periodic_cell_takes_forces_springs_and_absent_nodes() {
 }
 
 #[test]
+fn the_field_of_pressure_carries_the_load_where_nodes_face_no_surface() {
+    let (whole, holed) = (bumps((12, 10)), bumps_with_holes((12, 10)));
+    let law = || Exponential::new(1e-5, 2e-2).unwrap();
+    let half_space = || Westergaard::new(*holed.grid(), 1.0).unwrap();
+    for load in [-1e-5, 1e-3, 0.1] {
+        let control = Control::MeanPressure(load);
+        let found = [
+            Solver::default().solve(&mut problem(&whole, law()), control).unwrap(),
+            Solver::default().solve(&mut problem(&holed, law()), control).unwrap(),
+            Solver::default().solve(&mut Problem::new(&holed, half_space(), law()).unwrap(), control).unwrap(),
+        ];
+        for Solution { pressure, report, .. } in found {
+            assert_eq!(report.status, Status::Converged);
+            let scale = load.abs().max(largest(&pressure));
+            assert!((pressure.sum() / pressure.len() as f64 - load).abs() < 1e-14 * scale, "{report:?}");
+        }
+    }
+}
+
+#[test]
 fn statistics_do_not_wrap_and_leave_absent_nodes_out() {
     let grid = Grid::square(32, 1.0).unwrap();
     // bumps at two opposite edges

@@ -4,6 +4,7 @@
 //! says on how many.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow::{Break, Continue};
 
 use crate::common::dense::Dense;
 use crate::common::{rough, sphere};
@@ -315,6 +316,115 @@ fn the_energy_of_a_cycle_is_balanced_with_the_plastic_work() {
     assert_relative_eq!(ends[1].work, plastic(0), epsilon = 3e-3 * range);
     assert!((ends[3].work - ends[1].work).abs() < 3e-3 * range, "{:e} {:e}", ends[3].work, ends[1].work);
     assert!(ends[3].imbalance.abs() < 3e-3 * range);
+}
+
+type Varied = Problem<f64, Westergaard<f64>, adhesion::Varying<Exponential>>;
+
+/// Adhesion that differs from node to node, with its tractions at contact, and a hardness that does.
+fn both_vary(n: usize) -> (Varied, Array2<f64>, Array2<f64>) {
+    let (grid, rho) = (Grid::square(n, 1.0).unwrap(), 2e-3);
+    let works = Array2::from_shape_fn((n, n), |(i, j)| 2e-5 * (1 + (i + 3 * j) % 4) as f64 / 4.0);
+    let caps = Array2::from_shape_fn((n, n), |(i, j)| 0.08 + 0.01 * ((2 * i + j) % 5) as f64);
+    let law = adhesion::Varying::new(Exponential::new(2e-5, rho).unwrap(), works.view()).unwrap();
+    let surface = SelfAffine::default().k_s(n as f64 / 4.0).amplitude(Amplitude::RmsSlope(0.2)).surface(grid).unwrap();
+    let problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
+    (problem, works / rho, caps)
+}
+
+#[test]
+fn yielding_dissipates_the_hardness_less_the_traction_of_the_law() {
+    let (mut problem, pulls, caps) = both_vary(32);
+    let constraint = Hardness::varying(caps.clone()).unwrap();
+    let mut solver = Solver { settings: Settings::default(), constraint };
+    let loads = [0.02, 0.03, 0.01].map(Control::MeanPressure);
+    for solution in Sweep::new(&mut solver, &mut problem, loads) {
+        let solution = solution.unwrap();
+        let (plastic, depth) = (solution.report.plastic.unwrap(), solution.plastic_depth.unwrap());
+        assert!(plastic.fraction > 0.0);
+        assert_relative_eq!(plastic.energy, ((&caps - &pulls) * depth).mean().unwrap(), max_relative = 1e-12);
+        // φ = −tρ exp(−g/ρ) at the gap to the surface as it is now
+        let adhesive = -2e-3 * (&pulls * solution.gap.mapv(|gap| (-gap / 2e-3).exp())).mean().unwrap();
+        assert_relative_eq!(solution.report.adhesive_energy, adhesive, max_relative = 1e-12);
+    }
+}
+
+#[test]
+fn the_energy_of_a_cycle_with_adhesion_is_balanced_without_jumps() {
+    let (mut problem, pulls, caps) = both_vary(32);
+    let legs = [1e-3, 0.03, 1e-3].map(Control::MeanPressure);
+    let mut steps = |caps| {
+        let mut solver = Solver { settings: Settings::default().tolerance(1e-8), constraint: caps };
+        problem.flatten(Array2::zeros((32, 32)).view()).unwrap();
+        let path = Path::new(&mut solver, &mut problem, legs, PathSettings::default().steps(12)).unwrap();
+        path.collect::<Result<Vec<_>>>().unwrap()
+    };
+    let elastic = steps(Hardness::new(1e3).unwrap());
+    for caps in [Hardness::varying(caps).unwrap(), Hardness::new(0.1).unwrap()] {
+        let yields = steps(caps);
+        assert!(yields.iter().all(|step| step.event.is_none()));
+        assert!(yields.len() < 2 * elastic.len(), "{} for {}", yields.len(), elastic.len());
+        let last = yields.last().unwrap();
+        let plastic = last.solution.report.plastic.unwrap();
+        // what the balance missed
+        assert!(pulls.mean().unwrap() * plastic.depth_mean > 0.05 * last.work);
+        let range = yields.iter().fold(0.0_f64, |most, step| most.max(step.work));
+        assert!(last.imbalance.abs() < 3e-3 * range, "{:e} of {range:e}", last.imbalance);
+    }
+}
+
+#[test]
+fn a_load_that_has_not_converged_leaves_no_depth() {
+    let mut solver = capped(0.05, 1e-9);
+    let [low, high] = [1e-3, 0.02].map(Control::MeanPressure);
+    let mut problem = rough::<f64, _>(48, 6, NoAdhesion);
+    let alone: Vec<_> = Sweep::new(&mut solver, &mut problem, [low, low]).collect::<Result<_>>().unwrap();
+    problem.flatten(Array2::zeros((48, 48)).view()).unwrap();
+    let mut sweep = Sweep::new(&mut solver, &mut problem, [low, high, low]);
+    let first = sweep.next().unwrap().unwrap();
+    let stopped = |state: &Iteration| if state.iteration < 8 { Continue(()) } else { Break(()) };
+    let second = sweep.next_observed(stopped).unwrap().unwrap();
+    assert!(
+        second.report.status == Status::Stopped
+            && second.plastic_depth.unwrap() != *first.plastic_depth.as_ref().unwrap()
+    );
+    assert_eq!(sweep.problem().plastic_depth(), first.plastic_depth);
+    let third = sweep.next().unwrap().unwrap();
+    assert!(third.distance(&alone[1]) < 1e-8);
+    // a path takes a state that cannot be reached by shorter steps as it is
+    problem.flatten(Array2::zeros((48, 48)).view()).unwrap();
+    solver.settings = solver.settings.max_iterations(8);
+    let mut path = Path::new(&mut solver, &mut problem, [high], PathSettings::default()).unwrap();
+    let begun = path.next().unwrap().unwrap();
+    assert!(
+        begun.solution.report.status == Status::IterationLimit && begun.solution.plastic_depth.unwrap().sum() > 0.0
+    );
+    assert_eq!(path.checkpoint().fields[1].sum(), 0.0);
+}
+
+#[test]
+fn any_share_of_contact_is_found_at_any_hardness() {
+    let grid = Grid::square(32, 1.0).unwrap();
+    let surface = SelfAffine::default().k_s(8.0).amplitude(Amplitude::RmsSlope(0.2)).surface(grid).unwrap();
+    fn finds<O: ElasticOperator<f64>>(mut problem: Problem<f64, O, NoAdhesion>, constraint: Hardness) {
+        for fraction in [0.03, 0.3, 0.7, 0.97] {
+            let mut solver = Solver { settings: Settings::default(), constraint: constraint.clone() };
+            let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(fraction).unwrap();
+            let report = &found.solution.report;
+            assert!(found.reached, "{fraction} at {}: {report:?}", constraint.mean());
+            // to a node or 1 %
+            assert!((report.contact_fraction - fraction).abs() <= (0.01 * fraction).max(1.0 / 1024.0));
+        }
+    }
+    for hardness in [1e-3, 0.02, 0.1, 1.0] {
+        let varying = Array2::from_shape_fn((32, 32), |(i, j)| hardness * (1 + (3 * i + j) % 7) as f64);
+        for constraint in [Hardness::new(hardness).unwrap(), Hardness::varying(varying).unwrap()] {
+            finds(
+                Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), NoAdhesion).unwrap(),
+                constraint.clone(),
+            );
+            finds(Problem::new(&surface, Boussinesq::new(grid, 1.0).unwrap(), NoAdhesion).unwrap(), constraint);
+        }
+    }
 }
 
 #[test]

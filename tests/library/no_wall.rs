@@ -237,6 +237,21 @@ fn a_sphere_pulls_off_between_dmt_and_jkr_and_above_maugis_and_dugdale() {
     }
 }
 
+#[test]
+fn a_mean_gap_below_the_separation_of_the_law_is_held_on_either_branch() {
+    let law = LennardJones::new(1e-5, 4e-3).unwrap();
+    let wave = Surface::wave_2d(Grid::square(16, 1.0).unwrap(), 1e-3, 1).unwrap();
+    let mut wavy = Problem::new(&wave, Westergaard::new(*wave.grid(), 1.0).unwrap(), law).unwrap();
+    for problem in [&mut flats(law), &mut wavy] {
+        for (branch, held) in [Branch::Loading, Branch::Unloading].into_iter().flat_map(|b| [(b, 0.002), (b, 0.0041)]) {
+            let mut solver = Solver { settings: Settings::default().branch(branch), constraint: NoWall };
+            let report = solver.solve(problem, Control::MeanGap(held)).unwrap().report;
+            assert_eq!((report.status, report.load_error), (Status::Converged, 0.0), "{branch} {held}");
+            assert!((report.mean_gap / held - 1.0).abs() < 1e-13, "{branch} {held}: {}", report.mean_gap);
+        }
+    }
+}
+
 /// The largest tension that surfaces hold from contact on, at mean gaps or at approaches one after the other.
 fn most_tension(
     problem: &mut Problem<f64, impl ElasticOperator<f64>, &dyn AdhesionLaw<f64>>,

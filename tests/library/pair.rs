@@ -1,6 +1,7 @@
 //! Two surfaces that face each other.
 
 use asperity::elastic::{HalfSpace, Series};
+use asperity::surface::resample;
 use asperity::{
     Boussinesq, Control, ElasticOperator, Error, Grid, NoAdhesion, Problem, SelfAffine, Solver, Spectral, Surface,
     Westergaard,
@@ -51,6 +52,21 @@ fn the_heights_of_both_add_as_they_face_each_other() {
     let slope = |surface: &Surface| surface.spectrum().rms_slope().powi(2);
     let share = slope(&one.against(&other, (0.0, 0.0)).unwrap()) / (slope(&one) + slope(&other));
     assert!((share - 1.0).abs() < 0.05, "{share}");
+}
+
+#[test]
+fn surfaces_on_finer_and_coarser_grids_face_each_other_alike() {
+    let (one, other) = (rough(1), rough(2));
+    for nodes in [(96, 80), (384, 41), (31, 30)] {
+        let grid = Grid::new(nodes, (1.2, 1.0)).unwrap();
+        let on = |surface: &Surface| Surface::new(grid, resample(surface.heights().clone(), nodes).unwrap()).unwrap();
+        // by lengths, half a node of the first grid among them
+        for shift in [(0.0, 0.0), (0.5 * spacing(), 0.3)] {
+            let between = one.against(&other, shift).unwrap();
+            // sums of some thousand waves of heights of some 1e-2
+            close(on(&one).against(&on(&other), shift).unwrap().heights(), on(&between).heights(), 1e-14);
+        }
+    }
 }
 
 #[test]

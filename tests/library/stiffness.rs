@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::common::{rough, solve, solve_from, sphere};
-use asperity::stability::ContactStiffness;
+use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::*;
 
 const PUNCH: f64 = 0.3;
@@ -148,6 +148,33 @@ fn springs_and_laws_without_a_wall_resist_with_their_slopes() {
     let expected = (low.mean_pressure - high.mean_pressure) / (high.mean_gap - low.mean_gap);
     let found = ContactStiffness::of_constrained(&mut soft, &NoWall, &solution, 1e-8).unwrap();
     assert!((found.pressure_per_length / expected - 1.0).abs() < 1e-3, "{found:?} {expected}");
+}
+
+#[test]
+fn under_uzawa_stiffness_and_stability_are_those_of_the_rigid_wall() {
+    for law in [&NoAdhesion as &dyn AdhesionLaw<f64>, &Exponential::new(1e-3, 3e-2).unwrap()] {
+        let mut problem = rough(32, 8, law);
+        for pressure in [0.05, 1.0] {
+            let (control, settings) = (Control::MeanPressure(pressure), Settings::default().tolerance(1e-9));
+            let rigid = Solver::new(settings).solve(&mut problem, control).unwrap();
+            let stiffness = ContactStiffness::of(&mut problem, &rigid).unwrap().pressure_per_length;
+            let eigenvalue = StabilityTest::default().run(&mut problem, &rigid).unwrap().eigenvalue;
+            for softest in [10.0, 1e4] {
+                let mut solver = Solver { settings, constraint: Uzawa::new(softest).unwrap() };
+                let solution = solver.solve(&mut problem, control).unwrap();
+                let wall = &solver.constraint;
+                assert_eq!(solution.report.contact_nodes, rigid.report.contact_nodes);
+                let found = ContactStiffness::of_constrained(&mut problem, wall, &solution, 1e-6).unwrap();
+                assert!(
+                    (found.pressure_per_length / stiffness - 1.0).abs() < 1e-5,
+                    "{pressure}: {found:?} {stiffness}"
+                );
+                // each eigenvalue is right to the square of the test's tolerance
+                let found = StabilityTest::default().run_with(&mut problem, wall, &solution).unwrap().eigenvalue;
+                assert!((found / eigenvalue - 1.0).abs() < 1e-4, "{pressure}: {found} {eigenvalue}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -193,9 +193,9 @@ impl Options {
             say(&format!("{} rows in {}", table.rows(), printing::name(&self.out)));
             if tension > 0.0 {
                 if !free {
-                    say(&format!("greatest tension        {}", units.number(tension, PRESSURE)));
+                    say(&format!("greatest tension        at least {}", units.number(tension, PRESSURE)));
                 }
-                say(&format!("greatest tensile force  {}", units.number(-least("normal_force"), FORCE)));
+                say(&format!("greatest tensile force  at least {}", units.number(-least("normal_force"), FORCE)));
             }
             for &k in events.iter().take(MOST_EVENTS) {
                 let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);

@@ -61,10 +61,10 @@ fn an_error_of_the_grid_that_cannot_be_told_says_why() {
 #[test]
 fn an_accuracy_that_is_not_reached_says_why() {
     let bench = rough();
-    let output = bench.run(&format!("{PRESSED} --accuracy 0.002 --memory 1e-3 --out near"));
+    let output = bench.run(&format!("{PRESSED} --accuracy 0.004 --memory 1e-3 --out near"));
     let warning = text(&output.stderr);
     assert_eq!((output.status.code(), warning.lines().count()), (Some(2), 1), "{warning}");
-    for part in ["the accuracy of 0.002 of the area is not reached: the estimate is", "would be next", "--memory"] {
+    for part in ["the accuracy of 0.004 of the area is not reached: the estimate is", "would be next", "--memory"] {
         assert!(warning.contains(part), "{warning}");
     }
     assert_eq!(bench.report("near")["accuracy"]["reached"], false);

@@ -4,7 +4,7 @@ use asperity_maps::io::{read_field, write_npy};
 use ndarray::{Array2, Zip};
 use serde_json::Value;
 
-use crate::bench::Bench;
+use crate::bench::{Bench, text};
 
 /// A bench with a rough surface of 48 x 48 nodes, and the greatest contact pressure on it at a mean pressure of 0.02.
 fn rough() -> (Bench, f64) {
@@ -214,6 +214,55 @@ fn a_sweep_that_goes_on_keeps_the_depth() {
     // a table of another hardness is another one
     let other = "sweep --heights heights.npy --mean-pressures 0.005 --fields parts --quiet --out parts.csv";
     bench.refused_with(other, &["whose hardness is"]);
+}
+
+#[test]
+fn a_sweep_with_a_free_boundary_goes_on_with_the_depth() {
+    let bench = Bench::new();
+    bench.said("surface --form sphere --radius 2 --size 24 --lengths 1 --quiet --out tip.npy");
+    let run = |loads: &str, out: &str| {
+        let body = "--heights tip.npy --lengths 1 --boundary free --hardness 0.02";
+        bench.said(&format!("sweep {body} --mean-pressures {loads} --fields {out} --quiet --out {out}.csv"));
+    };
+    run("1e-4,4e-4,1e-4", "whole");
+    run("1e-4,4e-4", "parts");
+    run("1e-4,4e-4,1e-4", "parts");
+    assert_eq!(bench.bytes("parts.csv"), bench.bytes("whole.csv"));
+    let depths = column(&bench, "whole.csv", "plastic_depth_max");
+    assert!(depths[1] > depths[0] && depths[2] == depths[1]);
+}
+
+#[test]
+fn a_row_that_has_not_converged_leaves_no_depth() {
+    let (bench, greatest) = rough();
+    let hardness = 0.2 * greatest;
+    let run = |loads: &str, limit: usize, out: &str| {
+        let options = format!("--hardness {hardness} --max-iterations {limit} --force --quiet");
+        bench
+            .run(&format!("sweep --heights heights.npy --mean-pressures {loads} {options} --out {out}.csv"))
+            .status
+            .code()
+    };
+    // so many iterations that the light loads converge, and the heavy one does not
+    let few = (4..100).find(|few| run("0.002,0.002", *few, "light") == Some(0)).unwrap();
+    assert_eq!(run("0.002,0.04,0.002", few, "whole"), Some(2));
+    let [light, whole] = ["light", "whole"].map(|table| column(&bench, &format!("{table}.csv"), "plastic_depth_mean"));
+    assert!(whole[0] == light[0] && whole[1] > 2.0 * whole[0]);
+    assert!((whole[2] / light[1] - 1.0).abs() < 1e-4, "{whole:?} beside {light:?}");
+}
+
+#[test]
+fn a_share_of_contact_needs_no_more_than_so_much_of_the_hardness() {
+    let (bench, _) = rough();
+    let run = |options: &str| format!("solve --heights heights.npy --hardness 0.05 --no-pictures --out r {options}");
+    let report = bench.reported(&run("--contact-fraction 0.5"));
+    let of = |key| number(&report[key]);
+    assert!((of("contact_fraction") / 0.5 - 1.0).abs() < 0.01 && of("mean_pressure") <= 0.5 * 0.05);
+    // with adhesion by the mean gap to the surface as it was made, which is not negative
+    let law = "--law exponential --work-of-adhesion 2e-5 --range 2e-3 --force --quiet";
+    let output = bench.run(&run(&format!("--contact-fraction 0.95 {law}")));
+    let told = text(&output.stderr);
+    assert!(output.status.code() == Some(2) && told.contains("95.0 % contact: it grows to"), "{told}");
 }
 
 #[test]

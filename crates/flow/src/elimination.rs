@@ -26,8 +26,8 @@ pub(crate) struct Elimination {
 }
 
 impl Elimination {
-    /// The factorisation of a network.
-    pub fn new(network: &Network) -> Self {
+    /// The factorisation of a network; once it does not go on, the vertices that are left have no neighbours.
+    pub fn new(network: &Network, goes_on: &dyn Fn() -> bool) -> Self {
         let n = network.ground();
         let mut made = Self {
             order: Vec::with_capacity(n),
@@ -38,10 +38,13 @@ impl Elimination {
         };
         let mut random = Random(0);
         let mut graph = Graph::new((0..n as u32).collect(), cliques(network));
-        while !graph.names.is_empty() {
+        while !graph.names.is_empty() && goes_on() {
             let (names, edges) = made.round(&graph, &mut random);
             graph = Graph::new(names, edges.into_iter());
         }
+        made.order.extend(graph.names);
+        made.pivots.resize(n, 0.0);
+        made.starts.resize(n + 1, made.rows.len());
         let mut place = vec![0; n];
         made.order.iter().enumerate().for_each(|(k, vertex)| place[*vertex as usize] = k as u32);
         made.rows.iter_mut().for_each(|row| *row = place[*row as usize]);

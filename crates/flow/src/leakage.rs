@@ -160,7 +160,7 @@ impl Leakage {
         self.through_while(gap, &|| true)
     }
 
-    /// The same, with no further iteration once `goes_on` is false: the bounds hold then, and are not as close as the
+    /// The same, with no further preparation and iteration once `goes_on` is false: the bounds hold then, and are not as close as the
     /// tolerance.
     ///
     /// # Errors
@@ -176,7 +176,7 @@ impl Leakage {
         let [x, y] = if !gap.is_periodic() {
             at_once(|axis| self.along_while(gap, &percolation, axis, goes_on))
         } else if percolation.is_alike() {
-            let prepared = Prepared::new(gap, &percolation, Axis::X)?;
+            let prepared = Prepared::new(gap, &percolation, Axis::X, goes_on)?;
             at_once(|axis| self.with(gap, &prepared, axis, goes_on))
         } else {
             // a cluster winds along one axis alone: each has a network of its own, one after the other
@@ -212,7 +212,7 @@ impl Leakage {
                 nodes: 0,
             });
         }
-        self.with(gap, &Prepared::new(gap, percolation, axis)?, axis, goes_on)
+        self.with(gap, &Prepared::new(gap, percolation, axis, goes_on)?, axis, goes_on)
     }
 
     fn check(&self) -> Result<()> {
@@ -265,11 +265,11 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn new(gap: &Gap<'_>, percolation: &Percolation, axis: Axis) -> Result<Self> {
+    fn new(gap: &Gap<'_>, percolation: &Percolation, axis: Axis, goes_on: &dyn Fn() -> bool) -> Result<Self> {
         let network = Network::new(gap, percolation, axis)?;
         let (elimination, tree) = std::thread::scope(|scope| {
             let tree = scope.spawn(|| Tree::new(&network));
-            let elimination = Elimination::new(&network);
+            let elimination = Elimination::new(&network, goes_on);
             (elimination, tree.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
         });
         Ok(Self { network, elimination, tree })

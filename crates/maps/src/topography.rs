@@ -246,8 +246,7 @@ impl Topography {
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation: [`resample`].
     ///
     /// Edges that do not meet make it ring: use [`window`](Self::window) or [`mirror`](Self::mirror) first. The
-    /// original of a mirrored map has the new nodes that are on it; its mirror lines may now pass through nodes, so
-    /// that images are met to a node.
+    /// original of a mirrored map has the new nodes that are on it, with one in the mirror line of an odd number.
     ///
     /// # Errors
     /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;

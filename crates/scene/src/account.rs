@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::adhesion::Adhesion;
 use crate::after::Conducted;
 use crate::elastic::Elastic;
-use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, list};
+use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::{Found, Sight};
 use crate::leaked::{Along, Narrowest, Transmissivity};
 use crate::record::record;
@@ -134,7 +134,6 @@ record! {
         /// The resolution measure μ_ρ.
         mu_rho: f64 = report.mu_rho,
         /// The node with the largest work of adhesion, where that varies.
-        #[serde(serialize_with = "list")]
         mu_rho_node: Option<(usize, usize)> = strongest,
         /// Whether the grid does not resolve the adhesion.
         under_resolved: bool = report.under_resolved,
@@ -242,20 +241,16 @@ pub struct Inputs {
     /// The file of the heights on the other side, or a word for them, if there are any.
     pub against: Option<String>,
     /// The shift of these along both axes.
-    #[serde(serialize_with = "list")]
     pub shift: Option<(f64, f64)>,
     /// The file of the gap from which the solve started, or a word for it.
     pub initial_gap: Option<String>,
     /// The part of a mirrored map that results are of.
     pub part: Option<String>,
     /// The nodes that are solved, if results are of fewer.
-    #[serde(serialize_with = "list")]
     pub solved_shape: Option<(usize, usize)>,
     /// The nodes of the results.
-    #[serde(serialize_with = "list")]
     pub shape: (usize, usize),
     /// The side lengths of the results.
-    #[serde(serialize_with = "list")]
     pub lengths: (f64, f64),
     /// The rms slopes of the surface.
     #[serde(flatten)]

@@ -1,5 +1,6 @@
 //! The findings that are asked for after a solve: the contact stiffness, and the conductance and the flow that follow.
 
+use asperity::accuracy::GridError;
 use asperity::stability::ContactStiffness;
 use asperity::{Grid, Real, Result};
 use asperity_flow::{Conductance, Gap, Leakage};
@@ -9,7 +10,6 @@ use serde_json::{Map, Value, json};
 use crate::adhesion::Adhesion;
 use crate::boundary::Boundary;
 use crate::elastic::Elastic;
-use crate::entries::list;
 use crate::found::{Found, check_finite};
 use crate::leaked::{Along, LeakAsked, Narrowest, Transmissivity};
 use crate::quantity::{Dimension, ELECTRICAL_CONDUCTANCE, THERMAL_CONDUCTANCE};
@@ -167,10 +167,8 @@ pub struct Conducted {
     /// The relative error of the stiffness, the estimated one of the grid included; none where that is unknown.
     pub relative_error: Option<f64>,
     /// The resistivities of both bodies, if they are given.
-    #[serde(serialize_with = "list")]
     pub resistivities: Option<(f64, f64)>,
     /// The conductivities of both bodies, if they are given.
-    #[serde(serialize_with = "list")]
     pub conductivities: Option<(f64, f64)>,
     /// The conductors.
     #[serde(skip)]
@@ -286,5 +284,5 @@ fn stiffness_error(stiffness: &ContactStiffness) -> Option<f64> {
     if pressure_per_length == 0.0 {
         return Some(relative_error);
     }
-    Some(relative_error + (edge?.stiffness / pressure_per_length).abs())
+    Some(relative_error + GridError::COVER * (edge?.stiffness / pressure_per_length).abs())
 }

@@ -250,6 +250,8 @@ impl<T: Real> Course<T> {
                 let Some(&load) = loads.get(done) else { return Ok(None) };
                 // the surface as it has yielded, also under the loads of another run
                 let depth = if this.yields && done > 0 { fields.pop() } else { None };
+                let shape = problem.grid().field_shape();
+                let depth = depth.map(|depth| Array2::from_shape_fn(shape, |node| depth[node]));
                 depth.map_or(Ok(()), |depth| problem.flatten(depth.view()))?;
                 let before = &loads[done.saturating_sub(fields.len())..done];
                 let history = before.iter().copied().zip(mem::take(fields)).collect();
@@ -258,9 +260,13 @@ impl<T: Real> Course<T> {
                     sweep = sweep.starting_from(start);
                 }
                 let Some(solution) = sweep.next_observed(observe) else { return Ok(None) };
-                let gaps = sweep.into_history().into_iter().map(|(_, gap)| gap);
                 let solution = solution?;
-                *fields = gaps.chain(solution.plastic_depth.clone()).collect();
+                *fields = sweep.into_history().into_iter().map(|(_, gap)| gap).collect();
+                if let Some((depth, gap)) = problem.plastic_depth().zip(fields.last()) {
+                    // fields that are kept have one shape
+                    let at = |node| depth.get(node).copied().unwrap_or_else(T::zero);
+                    fields.push(Array2::from_shape_fn(gap.dim(), at));
+                }
                 (solution, None, None)
             }
             Way::Search(fractions) => {

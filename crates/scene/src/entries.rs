@@ -5,7 +5,7 @@ use asperity::nested::Level;
 use asperity::search::FoundContact;
 use asperity::stability::{Stability, Verdict};
 use asperity::{Branch, Report, Status};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::record::record;
 
@@ -45,7 +45,6 @@ record! {
     #[derive(Clone, Debug, Serialize)]
     GridLevel of (level: &Level) {
         /// The nodes (Nx, Ny) of the grid.
-        #[serde(serialize_with = "list")]
         shape: (usize, usize) = level.shape,
         /// The status of its solve.
         status: Status = level.status,
@@ -176,17 +175,6 @@ pub struct Left {
     pub energy_drop: f64,
     /// The distance to the next equilibrium in the energy norm.
     pub distance: f64,
-}
-
-/// A pair, if there is one, as a list: in Python a tuple would be another value.
-pub(crate) fn list<P, T, S>(pair: &P, serializer: S) -> Result<S::Ok, S::Error>
-where
-    P: Copy + Into<Option<(T, T)>>,
-    T: Serialize,
-    S: Serializer,
-{
-    let pair: Option<(T, T)> = (*pair).into();
-    pair.map(|(first, second)| vec![first, second]).serialize(serializer)
 }
 
 /// The place of a state on a cycle, by the names of its columns; see [`PathStep`](asperity::path::PathStep).

@@ -91,11 +91,13 @@ fn unstable(account: &Account) -> Option<String> {
 impl Search {
     /// The end of a search that has not reached its contact fraction.
     pub fn jump(&self) -> String {
-        let share = |share: Option<f64>| share.map_or("nothing".to_owned(), |share| format!("{} %", percent(share)));
-        let [wanted, below, above] = [Some(self.wanted), self.below, self.above].map(share);
-        format!(
-            "no load was found with {wanted} contact: it jumps from {below} to {above}, and the nearer one is taken"
-        )
+        let share = |share: f64| format!("{} %", percent(share));
+        let found = match (self.below.map(share), self.above.map(share)) {
+            (Some(below), Some(above)) => format!("it jumps from {below} to {above}, and the nearer one is taken"),
+            (Some(most), None) => format!("it grows to {most} at most, which is taken: give a pressure"),
+            (None, least) => format!("it falls to {} at least, which is taken", least.unwrap_or_default()),
+        };
+        format!("no load was found with {} contact: {found}", share(self.wanted))
     }
 }
 

@@ -92,6 +92,9 @@ impl<T: Real> ContactConstraint<T> for Constraint<T> {
     fn round_tolerance(&self) -> f64 {
         if let Self::Uzawa(wall) = self { wall.round_tolerance() } else { 0.0 }
     }
+    fn ends_rigid(&self) -> bool {
+        matches!(self, Self::Uzawa(_))
+    }
     fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
         if let Self::Uzawa(wall) = self { wall.update(gap, work) } else { Update::Done }
     }

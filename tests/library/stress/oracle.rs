@@ -106,9 +106,13 @@ impl<'a, T: Real> Judge<'a, T> {
             // of the heights as they go on where there is no surface
             false => None,
         };
-        // flats have no waves but those of rounding, which a body without a wall is measured beside
-        let lifted = epsilon * softest * (largest(&gap) + scene.law.range).powi(2);
-        let scale = scale.map(|scale| if scene.constraint == Constraint::None { scale.max(lifted) } else { scale });
+        // where the attraction that nodes bear themselves deforms no more than rounding, it is what that would deform
+        let strength = scene.law.work / scene.law.range;
+        let attracts = strength * -report.adhesive_energy / scene.law.range / stiffest;
+        let scale = scale.map(|scale| {
+            let named = scene.constraint == Constraint::None || report.error_scale <= 1.01 * scale.max(attracts);
+            if named { scale.max(report.error_scale) } else { scale }
+        });
         let scale = scale.filter(|&scale| scale > 0.0 && !scene.is_flat() && report.relative_error.is_finite());
         Self {
             scene,
@@ -481,9 +485,12 @@ impl<'a, T: Real> Judge<'a, T> {
         let mut allowed = admitted + self.noise;
         if !matches!(held, Held::Shift(_)) {
             let unbalanced = self.unbalanced() + self.load_noise() + self.rounding;
-            allowed += unbalanced * self.reach(&free, held, &slopes);
+            // of a law that bends on the way
+            let others: Vec<f64> = exact.iter().enumerate().map(|(i, &g)| local(i, g)[1]).collect();
+            allowed += unbalanced * self.reach(&free, held, &slopes).max(self.reach(&free, held, &others));
         }
-        allowed *= 1.01 * amplified;
+        // the norm in which a law holds nodes is not that of the waves alone
+        allowed *= amplified * if self.scene.constraint == Constraint::None { 1.1 } else { 1.01 };
         need(distance <= allowed, || {
             format!(
                 "claims {allowed:e} ({:e}, amplified by {amplified:.1}) and is {distance:e} off",

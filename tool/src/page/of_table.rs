@@ -119,10 +119,10 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
         let is_lost = row["direction"] == "withdrawal" && k + 1 < rows.len();
         let name = if is_lost { "pull-off force" } else { "greatest tensile force" };
         let force = columns.number("normal_force", -value(row, "normal_force"));
-        figures.push((name.to_owned(), format!("{force} at {at} of {}", told(row, place))));
+        figures.push((name.to_owned(), format!("at least {force}, at {at} of {}", told(row, place))));
         if !free {
             let tension = columns.number("mean_pressure", -value(row, "mean_pressure"));
-            figures.push(("greatest tension".to_owned(), tension));
+            figures.push(("greatest tension".to_owned(), format!("at least {tension}")));
         }
     }
     let jumps: Vec<_> = rows.iter().filter(|row| value(row, "energy_drop") > 0.0).collect();

@@ -80,7 +80,8 @@ impl Topography {
     /// all points that are not missing. Distances are taken along z. A part of a sphere that is much smaller than its
     /// radius is nearly a [`Trend::Quadric`], which fits two curvatures freely; a form has one.
     ///
-    /// By Levenberg and Marquardt's method, from the quadric.
+    /// By Levenberg and Marquardt's method, from the quadric; for a cylinder from both principal curvatures, since that of
+    /// the roughness across a narrow map may be the greater one.
     ///
     /// ```
     /// use asperity_maps::Form;
@@ -130,30 +131,36 @@ impl Fitted {
         let points = measured.map(|((i, j), h)| [place(i, nx, dx), place(j, ny, dy), (h - mean) / unit]).collect();
 
         let (xx, xy, yy) = quadric.curvatures;
-        // the direction of the greater curvature, and the two principal curvatures
+        // the mean curvature, and the two principal curvatures, each with the direction across it
         let (turn, spread) = (0.5 * (2.0 * xy).atan2(xx - yy), 0.5 * (xx - yy).hypot(2.0 * xy));
-        let (greater, less) = (0.5 * (xx + yy) + spread, 0.5 * (xx + yy) - spread);
-        let quarter = 0.5 * std::f64::consts::PI;
-        let (curvature, axis) = match form {
-            Form::Sphere => (0.5 * (xx + yy), 0.0),
-            Form::Cylinder if greater.abs() >= less.abs() => (greater, turn + quarter),
-            Form::Cylinder => (less, turn),
+        let mean_curvature = 0.5 * (xx + yy);
+        let mut bends = match form {
+            Form::Sphere => vec![(mean_curvature, 0.0)],
+            Form::Cylinder => {
+                vec![(mean_curvature + spread, turn + std::f64::consts::FRAC_PI_2), (mean_curvature - spread, turn)]
+            }
         };
+        bends.sort_by(|(a, _), (b, _)| b.abs().total_cmp(&a.abs()));
         let (sx, sy) = quadric.slopes;
-        let start = |share: f64| [(quadric.height - mean) / unit, sx, sy, share * curvature * unit, axis];
-        let mut fitted = Self { form, unit, points, parameters: start(1.0), squares: f64::INFINITY };
-        // the quadric may be bent more than any form below all points
-        for share in [1.0, 0.5, 0.25, 0.0] {
-            if let Some(squares) = fitted.squares_of(&start(share)) {
-                (fitted.parameters, fitted.squares) = (start(share), squares);
-                break;
+        let mut fitted = Self { form, unit, points, parameters: [0.0; PARAMETERS], squares: f64::INFINITY };
+        for &(curvature, axis) in &bends {
+            let before = (fitted.parameters, fitted.squares);
+            // the quadric may be bent more than any form below all points
+            let starts = [1.0, 0.5, 0.25, 0.0]
+                .map(|share| [(quadric.height - mean) / unit, sx, sy, share * curvature * unit, axis]);
+            if let Some((start, squares)) = starts.iter().find_map(|start| Some((*start, fitted.squares_of(start)?))) {
+                (fitted.parameters, fitted.squares) = (start, squares);
+                fitted.descend();
+            }
+            // one minimum, found twice, differs by rounding
+            if before.1 <= fitted.squares * (1.0 + 1e-9) {
+                (fitted.parameters, fitted.squares) = before;
             }
         }
         if !fitted.squares.is_finite() {
             let requirement = "such that a form is below all heights: take a plane or a quadric";
-            return Err(Error::Value { name: "curvature of the map", value: curvature, requirement });
+            return Err(Error::Value { name: "curvature of the map", value: bends[0].0, requirement });
         }
-        fitted.descend();
         Ok(fitted)
     }
 

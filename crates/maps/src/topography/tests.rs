@@ -160,16 +160,23 @@ fn trends_are_found_and_removed_exactly_whatever_is_missing() {
 }
 
 #[test]
-fn refinement_keeps_nodes_mean_and_spectrum() {
+fn refinement_keeps_nodes_mean_and_mirror_images() {
     for (shape, fine) in
-        [((16, 10), (32, 40)), ((15, 9), (45, 18)), ((16, 9), (16, 27)), ((12, 1), (60, 1)), ((1, 7), (1, 14))]
+        [((16, 10), (48, 50)), ((15, 9), (45, 9)), ((16, 9), (16, 27)), ((12, 1), (60, 1)), ((1, 7), (1, 21))]
     {
         let map = map(shape, (2.0, 3.0), |i, j| 1e3 + ((3.1 * i + 1.7 * j * j).sin() * 2.0).exp());
         let refined = map.clone().resample(fine).unwrap();
         assert_eq!((refined.heights.dim(), refined.lengths), (fine, map.lengths));
         let (a, b) = (fine.0 / shape.0, fine.1 / shape.1);
-        let kept = Array2::from_shape_fn(shape, |(i, j)| refined.heights[[a * i, b * j]]);
+        let kept = Array2::from_shape_fn(shape, |(i, j)| refined.heights[[a * i + a / 2, b * j + b / 2]]);
         assert_same(&kept, &map.heights, 1e-11);
+        let turned = |map: &Topography| {
+            Array2::from_shape_fn(map.heights.dim(), |(i, j)| map.heights[[map.heights.nrows() - 1 - i, j]])
+        };
+        for nodes in [fine, (shape.0.div_ceil(2), 2 * shape.1)] {
+            let facing = Topography { heights: turned(&map), ..map.clone() }.resample(nodes).unwrap();
+            assert_same(&facing.heights, &turned(&map.clone().resample(nodes).unwrap()), 1e-11);
+        }
         assert_relative_eq!(refined.mean(), map.mean(), max_relative = 1e-14);
         // and back again, the shortest waves too
         assert_same(&refined.resample(shape).unwrap().heights, &map.heights, 1e-11);
@@ -186,10 +193,20 @@ fn band_limited_surfaces_are_resampled_exactly() {
     assert_relative_eq!(spectrum.rms_slope, high.statistics().rms_slope, max_relative = 1e-11);
     assert_relative_eq!(spectrum.rms_curvature, high.statistics().rms_curvature, max_relative = 1e-11);
     assert_relative_eq!(refined.rms_height(), low.rms_height(), max_relative = 1e-12);
-    // even sizes have their origins on the same point
-    assert_same(&refined.heights, &fine.heights, 1e-11);
+    // half a coarse node less half a fine one before its nodes; behind them where it is turned over
+    let facing = |map: &Topography, nodes: (f64, f64)| {
+        let surface = map.clone().surface().unwrap();
+        let (grid, (dx, dy)) = (*surface.grid(), surface.grid().spacing());
+        Surface::from_fn(grid, |_, _| 0.0).unwrap().against(&surface, (nodes.0 * dx, nodes.1 * dy)).unwrap()
+    };
+    let behind = (0.5 * 3.0 - 0.5, 0.5 - 0.5 * 2.5);
+    assert_same(facing(&refined, behind).heights(), facing(&fine, (0.0, 0.0)).heights(), 1e-11);
     assert_same(&refined.clone().resample((32, 36)).unwrap().heights, &coarse.heights, 1e-12);
-    assert_same(&refined.resample((64, 34)).unwrap().resample((96, 90)).unwrap().heights, &fine.heights, 1e-11);
+    assert_same(
+        &refined.clone().resample((64, 34)).unwrap().resample((96, 90)).unwrap().heights,
+        &refined.heights,
+        1e-11,
+    );
 }
 
 #[test]
@@ -197,14 +214,14 @@ fn the_shortest_wave_of_an_even_grid_is_a_cosine() {
     let alternating = map((6, 1), (1.0, 1.0), |i, _| if i % 2.0 == 0.0 { 1.0 } else { -1.0 });
     let refined = alternating.clone().resample((17, 1)).unwrap();
     for (i, h) in refined.heights.iter().enumerate() {
-        assert_relative_eq!(*h, (3.0 * TAU * i as f64 / 17.0).cos(), epsilon = 1e-14);
+        assert_relative_eq!(*h, (3.0 * TAU * ((i as f64 + 0.5) / 17.0 - 0.5 / 6.0)).cos(), epsilon = 1e-14);
     }
     // coarser: a wave that is too short for the nodes vanishes, and the shortest one that they resolve is sampled
     let coarse = alternating.resample((3, 1)).unwrap();
     assert!(coarse.heights.iter().all(|h| h.abs() < 1e-15));
     let wave = map((12, 1), (1.0, 1.0), |i, _| (3.0 * TAU * i / 12.0 + 0.5).cos());
     for (i, h) in wave.resample((6, 1)).unwrap().heights.iter().enumerate() {
-        assert_relative_eq!(*h, (3.0 * TAU * i as f64 / 6.0 + 0.5).cos(), epsilon = 1e-14);
+        assert_relative_eq!(*h, (3.0 * TAU * ((i as f64 + 0.5) / 6.0 - 0.5 / 12.0) + 0.5).cos(), epsilon = 1e-14);
     }
 }
 
@@ -217,7 +234,12 @@ fn a_mirrored_map_is_periodic_and_continuous() {
     assert_relative_eq!(mirrored.rms_height(), map.rms_height(), max_relative = 1e-14);
     assert_eq!((map.original, mirrored.original), (None, Some((7, 4))));
     assert_eq!(mirrored.clone().mirror().original, Some((7, 4)));
-    assert_eq!(mirrored.clone().resample((21, 16)).unwrap().original, Some((11, 8)));
+    let refined = mirrored.clone().resample((21, 16)).unwrap();
+    assert_eq!(refined.original, Some((11, 8)));
+    for ((i, j), value) in refined.heights.indexed_iter() {
+        // images are met exactly
+        assert_relative_eq!(*value, refined.heights[[20 - i, 15 - j]], epsilon = 1e-12);
+    }
     assert_eq!(mirrored.clone().crop(0..7, 0..4).unwrap().original, None);
     let h = &mirrored.heights;
     for ((i, j), value) in h.indexed_iter() {

@@ -44,6 +44,19 @@ fn forms_are_found_and_removed_exactly_whatever_is_missing() {
 }
 
 #[test]
+fn a_rod_across_a_narrow_map_is_found_below_roughness_that_is_bent_more() {
+    let along = |k: usize| (k as f64 - 31.5) / 64.0;
+    let rod = |radius: f64| move |i: f64, _: f64| (radius * radius - along(i as usize).powi(2)).sqrt() - radius;
+    let mut narrow = map((64, 6), (1.0, 0.1), rod(12.5));
+    let ridge = |j: usize| 1e-3 * (1.5 * (j as f64 - 2.5)).cos();
+    narrow.heights.indexed_iter_mut().for_each(|((_, j), h)| *h += ridge(j));
+    let fit = narrow.fit_form(Form::Cylinder).unwrap();
+    assert_relative_eq!(fit.axis.unwrap().abs(), std::f64::consts::FRAC_PI_2, epsilon = 1e-6);
+    // what does not depend on x has no part in the rod
+    assert_relative_eq!(fit.radius, 12.5, max_relative = 1e-6);
+}
+
+#[test]
 fn a_fitted_form_has_the_least_squares_on_a_rough_body() {
     for form in [Form::Sphere, Form::Cylinder] {
         let roughness = rough((40, 30), 8.0);
