@@ -192,10 +192,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let present = self.sums.tally.sum_gap;
         let scale = if self.posed.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
         let possible = scale.is_finite() && scale > 0.0;
+        let of_both_signs = self.has_yielded() || yields && self.sums.tally.contact > 0.0;
         // rounded as in the passes
         let scale = T::lit(scale).widen();
         let rest = scale - 1.0;
-        Trial {
+        let trial = Trial {
             clipped: clipped > 0.0 || kink > 0.0,
             blocked: blocked > 0.0,
             slope: if possible { scale * descent + rest * gap_descent } else { f64::INFINITY },
@@ -207,7 +208,30 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             kink: if possible { scale * kink } else { 0.0 },
             traction,
             slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
+        };
+        let keeps = clipped == 0.0 || !self.posed.is_gap_controlled();
+        if of_both_signs && !keeps { self.scale_apart(trial) } else { trial }
+    }
+
+    /// A change of which the gaps above zero alone are scaled: all of them, of both signs, may have hardly any mean.
+    fn scale_apart(&mut self, trial: Trial) -> Trial {
+        let local = self.posed.potential();
+        let Fields { reducer, gap, change, .. } = &mut self.fields;
+        let next = |gap: T, change: Lo| gap + cast::<_, T>(change);
+        let total = local.run(reducer, read(gap).zip(read(change)), |_, _, (gap, change)| {
+            let mut part = Partial::NONE;
+            part.sum[0] = gap.iter().zip(change).map(|(&gap, &c)| next(gap, c).max(T::zero()).widen()).sum();
+            part
+        });
+        let scale = 1.0 - trial.change / total.sum[0];
+        if !(scale.is_finite() && scale > 0.0) {
+            return Trial { slope: f64::INFINITY, ..trial };
         }
+        let scale = T::lit(scale);
+        self.remake(trial, move |_, gap, [_, _, change]| match next(gap, change) {
+            next if next > T::zero() => cast(scale * next - gap),
+            _ => change,
+        })
     }
 
     /// A change that puts the blocked nodes into contact and lifts the others; both lower the energy.
@@ -223,7 +247,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         // a node that touches moves to one side only
         let lifted = move |gap: T, r: Lo| !(idles(r) || capped && gap == T::zero());
-        let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
+        let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
         let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
             let (mut part, faces) = (Partial::NONE, local.is_surface());
@@ -238,24 +262,35 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         });
         let [landed, others, ..] = total.sum;
         let lift = Lo::lit(if held { landed / others } else { 0.0 });
+        self.remake(trial, move |faces, gap, [r, z, _]| {
+            if faces && lands(gap, r, z) {
+                cast(-gap)
+            } else if lifted(gap, r) {
+                lift
+            } else {
+                Lo::zero()
+            }
+        })
+    }
+
+    /// Writes a change anew, of each node by whether it faces the surface, its gap, its residual before and after the
+    /// preconditioner, and its change.
+    fn remake(&mut self, trial: Trial, anew: impl Fn(bool, T, [Lo; 3]) -> Lo + Sync + Send) -> Trial {
+        let local = self.posed.potential();
+        let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
         let total = local.run(reducer, fields, |local, first, (((gap, residual), z), change)| {
-            let faces = local.is_surface();
+            let nodes = gap.iter().zip(residual).zip(z).zip(&mut *change);
+            nodes.for_each(|(((&gap, &r), &z), d)| *d = anew(local.is_surface(), gap, [r, z, *d]));
+            let mut part = Partial::NONE;
             let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
             if !local.is_zero() {
                 let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
                 local.tractions_and_slopes(first, gap, tractions, slopes);
+                part.sum[5] = local.yielding(first, gap, change, tractions, slopes);
             }
-            let mut part = Partial::NONE;
-            for (i, (((&gap, &r), &z), d)) in gap.iter().zip(residual).zip(z).zip(change).enumerate() {
-                *d = if faces && lands(gap, r, z) {
-                    cast(-gap)
-                } else if lifted(gap, r) {
-                    lift
-                } else {
-                    Lo::zero()
-                };
-                let ([r, d], [t, s]) = ([r, *d].map(Lo::widen), [tractions[i], slopes[i]].map(T::widen));
+            for (i, (&r, &d)) in residual.iter().zip(&*change).enumerate() {
+                let ([r, d], [t, s]) = ([r, d].map(Lo::widen), [tractions[i], slopes[i]].map(T::widen));
                 part.sum[0] += r * d;
                 part.sum[1] += d;
                 part.sum[2] += t * d;
@@ -264,8 +299,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
             part
         });
-        let [slope, change, traction, slopes, square, ..] = total.sum;
-        Trial { slope, scale: 1.0, change, descent: slope, square, kink: 0.0, traction, slopes, ..trial }
+        let [slope, change, traction, slopes, square, kink, ..] = total.sum;
+        Trial { slope, scale: 1.0, change, descent: slope, square, kink, traction, slopes, ..trial }
     }
 
     /// The length of a step with `elastic` = ⟨c, K⁻¹c⟩; `None` if the energy rises at every length.

@@ -107,7 +107,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             let (scale, present) =
                 (mean * self.posed.nodes() / self.sums.tally.sum_gap, self.sums.tally.sum_gap / self.posed.nodes());
             // the rounding summed up in the mean gap, if it is worth a pass
-            if self.posed.projects() {
+            if self.posed.projects() && !self.has_yielded() {
                 if scale.is_finite() && (scale - 1.0).abs() > SCALED * T::epsilon().widen() {
                     let scale = T::lit(scale);
                     self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
@@ -116,10 +116,13 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                     });
                 }
             } else if self.sums.tally.free > 0.0 && present != mean {
-                // gaps of both signs may have hardly any mean
-                let shift = T::lit(mean - present);
+                // gaps of both signs may have hardly any mean; where some yield, nodes that touch stay
+                let (projects, nodes) = (self.posed.projects(), self.posed.nodes());
+                let apart = if projects { nodes - self.sums.tally.contact } else { nodes };
+                let shift = T::lit((mean - present) * nodes / apart);
                 self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
-                    gap.iter_mut().for_each(|gap| *gap += shift);
+                    let moves = gap.iter_mut().filter(|gap| !projects || **gap > T::zero());
+                    moves.for_each(|gap| *gap = if projects { (*gap + shift).max(T::zero()) } else { *gap + shift });
                     Partial::NONE
                 });
             }
@@ -197,7 +200,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             if working > 0.0 {
                 level = (tally.sum_r + released.sum_r) / working;
             }
-            yields = yields && (released.most > level || yielded);
+            yields = yields && (released.most > release.widen() || yielded);
         }
         // where some yield, both sides of the corner have one level
         let release = if yields { T::lit(level) } else { release };

@@ -57,8 +57,13 @@ fn nodes_of((nx, ny): (usize, usize)) -> impl Iterator<Item = (usize, usize)> {
 }
 
 impl Dense {
-    /// A periodic cell: K⁻¹ and K by their defining sums over waves.
-    pub fn new((nx, ny): (usize, usize), (lx, ly): (f64, f64), modulus: f64) -> Self {
+    /// A half-space in a periodic cell.
+    pub fn new(shape: (usize, usize), lengths: (f64, f64), modulus: f64) -> Self {
+        Self::of(shape, lengths, |qx, qy| 0.5 * modulus * qx.hypot(qy))
+    }
+
+    /// A periodic cell of the stiffness of every wave: K⁻¹ and K by their defining sums over waves.
+    pub fn of((nx, ny): (usize, usize), (lx, ly): (f64, f64), stiffness: impl Fn(f64, f64) -> f64) -> Self {
         let nodes = nx * ny;
         let wave = |i: usize, n: usize, length: f64| {
             let signed = if 2 * i > n { i as f64 - n as f64 } else { i as f64 };
@@ -69,7 +74,7 @@ impl Dense {
         let circle = |n: usize| (0..n).map(|k| (TAU * k as f64 / n as f64).sin_cos()).collect::<Vec<_>>();
         let (along_x, along_y) = (circle(nx), circle(ny));
         for (i, j) in nodes_of((nx, ny)).skip(1) {
-            let k = 0.5 * modulus * wave(i, nx, lx).hypot(wave(j, ny, ly));
+            let k = stiffness(wave(i, nx, lx), wave(j, ny, ly));
             (softest, stiffest) = (softest.min(k), stiffest.max(k));
             for (a, b) in nodes_of((nx, ny)) {
                 let ((sx, cx), (sy, cy)) = (along_x[(i * a) % nx], along_y[(j * b) % ny]);
@@ -195,36 +200,43 @@ impl Dense {
     }
 
     /// The gap in equilibrium, from one near by: K⁻¹u + traction + load vanish where nodes are apart, and press where
-    /// they touch a wall at zero gap. Nothing if the elimination finds none.
+    /// they touch a wall at zero gap, if there is one, which yields where they press with more than `most`. Nothing if
+    /// the elimination finds none.
     pub fn equilibrium(
         &self,
         heights: &[f64],
         held: Held,
         local: Local<'_>,
-        wall: bool,
+        most: Option<f64>,
         start: &[f64],
     ) -> Option<Vec<f64>> {
         let n = self.faces.len();
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let (mut gap, mut contact) = (start.to_vec(), start.iter().map(|&g| wall && g <= 0.0).collect::<Vec<_>>());
+        // above the wall, at it, and below where it yields
+        let side = |gap: f64| if most.is_none() || gap > 0.0 { 1.0 } else { -f64::from(u8::from(gap < 0.0)) };
+        let (mut gap, mut sides) = (start.to_vec(), start.iter().map(|&g| side(g)).collect::<Vec<f64>>());
+        let local = |i: usize, gap: f64, side: f64| match most {
+            Some(most) if side < 0.0 => [local(i, 0.0)[0] - most, 0.0],
+            _ => local(i, gap),
+        };
         let length = largest(heights).max(largest(start));
         let mut last = f64::INFINITY;
         for round in 0..300 {
-            let locals: Vec<[f64; 2]> = (0..n).map(|i| local(i, gap[i])).collect();
+            let locals: Vec<[f64; 2]> = (0..n).map(|i| local(i, gap[i], sides[i])).collect();
             let slopes: Vec<f64> = locals.iter().map(|[_, slope]| *slope).collect();
             let rigid = slopes.iter().all(|slope| *slope == 0.0) && matches!(held, Held::Pressure(_));
-            if rigid && !contact.contains(&true) {
+            if rigid && most.is_some() && !sides.contains(&0.0) {
                 // nothing but a contact resists the load
-                contact[(0..n).max_by(|&a, &b| heights[a].total_cmp(&heights[b]))?] = wall;
+                sides[(0..n).max_by(|&a, &b| heights[a].total_cmp(&heights[b]))?] = 0.0;
             }
-            let free: Vec<usize> = (0..n).filter(|&i| !contact[i]).collect();
+            let free: Vec<usize> = (0..n).filter(|&i| sides[i] != 0.0).collect();
             let mut level = 0.0;
-            let residual = |gap: &[f64], level: f64| -> Vec<f64> {
+            let residual = |gap: &[f64], sides: &[f64], level: f64| -> Vec<f64> {
                 let u: Vec<f64> = gap.iter().zip(heights).map(|(g, h)| g + h).collect();
                 let mean = held.pressure(self.shift(&u)) + level;
-                self.full(&u, mean).iter().enumerate().map(|(i, p)| p + local(i, gap[i])[0]).collect()
+                self.full(&u, mean).iter().enumerate().map(|(i, p)| p + local(i, gap[i], sides[i])[0]).collect()
             };
-            let (r, before) = (residual(&gap, 0.0), gap.clone());
+            let (r, before) = (residual(&gap, &sides, 0.0), gap.clone());
             if !free.is_empty() {
                 let mut right: Vec<f64> = free.iter().map(|&i| -r[i]).collect();
                 if let Held::Shift(x) = held {
@@ -235,22 +247,25 @@ impl Dense {
                 free.iter().zip(&step).for_each(|(&i, step)| gap[i] += step);
                 level = if step.len() > free.len() { step[free.len()] } else { 0.0 };
             }
-            let (r, size) = (residual(&gap, level), largest(&self.pressure(heights)).max(level.abs()));
-            let wrong = |i: usize| match contact[i] {
-                true => r[i] < -1e-11 * size.max(held.pressure(0.0).abs()),
-                false => wall && gap[i] < -1e-12 * length,
+            let (r, size) = (residual(&gap, &sides, level), largest(&self.pressure(heights)).max(level.abs()));
+            let edge = 1e-11 * size.max(held.pressure(0.0).abs());
+            // the side on which a node has to be
+            let right = |i: usize| match most {
+                Some(_) if sides[i] == 0.0 && r[i] < -edge => 1.0,
+                Some(most) if sides[i] == 0.0 && r[i] > most + edge => -1.0,
+                Some(_) if sides[i] * gap[i] < -1e-12 * length => 0.0,
+                _ => sides[i],
             };
-            let wrong: Vec<usize> = (0..n).filter(|&i| wrong(i)).collect();
+            let wrong: Vec<(usize, f64)> =
+                (0..n).map(|i| (i, right(i))).filter(|&(i, side)| side != sides[i]).collect();
             let change = gap.iter().zip(&before).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
             if wrong.is_empty() && (change <= 1e-13 * length || change <= 1e-9 * length && change >= 0.5 * last) {
                 return gap.iter().all(|g| g.is_finite()).then_some(gap);
             }
             last = change;
             let flipped = if round < 40 { wrong.len() } else { 1 };
-            for &i in wrong.iter().rev().take(flipped) {
-                contact[i] = !contact[i];
-            }
-            (0..n).filter(|&i| contact[i]).for_each(|i| gap[i] = 0.0);
+            wrong.iter().rev().take(flipped).for_each(|&(i, side)| sides[i] = side);
+            (0..n).filter(|&i| sides[i] == 0.0).for_each(|i| gap[i] = 0.0);
         }
         None
     }

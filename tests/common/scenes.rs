@@ -7,7 +7,9 @@ use std::fmt;
 use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::elastic::{Abilities, Foundation, Preconditioned};
+use asperity::elastic::{
+    self, Abilities, Base, Coating, Foundation, HalfSpace, Layer, Material, Preconditioned, Series,
+};
 use asperity::*;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use rand::rngs::ChaCha8Rng;
@@ -41,6 +43,8 @@ pub enum Constraint {
     Uzawa,
     /// the law alone keeps the surfaces apart
     None,
+    /// a wall that yields; not among [`Features::ALL`]
+    Hardness,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,6 +71,8 @@ pub struct Features {
     pub bodies: &'static [Body],
     /// whether some have absent nodes
     pub absent: bool,
+    /// whether some have bodies in layers, the weak laws of stiff bodies, and no load
+    pub more: bool,
 }
 
 impl Features {
@@ -86,6 +92,7 @@ impl Features {
         precisions: &[Precision::Single, Precision::Double, Precision::Mixed],
         bodies: &[Body::Periodic, Body::Free],
         absent: true,
+        more: false,
     };
 
     /// Hard walls in a periodic cell without adhesion: one solution, convex.
@@ -104,11 +111,25 @@ impl Features {
         ..Self::ALL
     };
 
+    /// What [`Features::ALL`] lacks, beside what it has.
+    pub const MORE: Self = Self {
+        constraints: &[
+            Constraint::Hard,
+            Constraint::Hardness,
+            Constraint::Penalty,
+            Constraint::Uzawa,
+            Constraint::Paper,
+            Constraint::None,
+        ],
+        more: true,
+        ..Self::ALL
+    };
+
     /// The combinations that there are, as often as they are to be drawn: most of hard walls.
     fn combinations(&self) -> Vec<(Kind, Constraint, Precision)> {
         let times = |law: Kind, constraint: Constraint| match (law, constraint) {
-            (Kind::None, Constraint::Hard) => 8,
-            (_, Constraint::Hard) => 3,
+            (Kind::None, Constraint::Hard | Constraint::Hardness) => 8,
+            (_, Constraint::Hard | Constraint::Hardness) => 3,
             (Kind::None, Constraint::None) => 0,
             (Kind::None, _) => 1,
             (_, Constraint::Paper) => 0,
@@ -161,6 +182,11 @@ impl Law {
         self.shares.as_ref().map_or(1.0, |shares| shares.as_slice().expect("in rows")[node])
     }
 
+    /// Whether it is zero beyond some gap.
+    pub fn ends(&self) -> bool {
+        self.cut_off.is_some() || matches!(self.base, Kind::MaugisDugdale | Kind::Table)
+    }
+
     /// The gap at which the law alone holds the surfaces apart.
     pub fn rest(&self) -> f64 {
         if self.base == Kind::LennardJones && !self.wall { self.range } else { 0.0 }
@@ -202,12 +228,58 @@ impl Law {
 /// A problem whose body and law are known at run time.
 pub type Boxed<T> = Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
 
+/// An elastic body in layers.
+#[derive(Clone, Copy, Debug)]
+pub enum Layered {
+    Layer(Layer),
+    Coating(Coating),
+    /// two bodies that both deform
+    Pair(Series<Coating, Series<Layer, HalfSpace>>),
+}
+
+impl Layered {
+    fn draw(random: &mut ChaCha8Rng, side: f64, modulus: f64) -> Self {
+        let material = |random: &mut ChaCha8Rng| {
+            let poisson = random.random_range(-0.5_f64..0.6).min(0.5);
+            Material::new(modulus * power(random, -1.5, 1.5), poisson).unwrap()
+        };
+        let [coat, substrate] = std::array::from_fn(|_| material(random));
+        let [thickness, other] = std::array::from_fn(|_| side * power(random, -2.5, 0.5));
+        let base = if random.random_bool(0.5) { Base::Bonded } else { Base::Sliding };
+        let (layer, coating) = (Layer::new(substrate, other, base), Coating::new(coat, thickness, substrate));
+        match random.random_range(0..3) {
+            0 => Self::Layer(layer.unwrap()),
+            1 => Self::Coating(coating.unwrap()),
+            _ => Self::Pair(Series(coating.unwrap(), Series(layer.unwrap(), HalfSpace::new(modulus).unwrap()))),
+        }
+    }
+
+    fn body(&self) -> &dyn elastic::Body {
+        match self {
+            Self::Layer(layer) => layer,
+            Self::Coating(coating) => coating,
+            Self::Pair(pair) => pair,
+        }
+    }
+}
+
+impl elastic::Body for Layered {
+    fn stiffness(&self, qx: f64, qy: f64) -> f64 {
+        self.body().stiffness(qx, qy)
+    }
+    fn modulus(&self) -> f64 {
+        self.body().modulus()
+    }
+}
+
 /// A scene: all that a solve is told.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub seed: u64,
     pub grid: Grid,
     pub body: Body,
+    /// of the periodic body, if it is no half-space
+    pub layers: Option<Layered>,
     pub modulus: f64,
     /// the shape of the surface by name
     pub relief: &'static str,
@@ -217,6 +289,8 @@ pub struct Scene {
     pub constraint: Constraint,
     /// of the springs of a wall
     pub stiffness: f64,
+    /// the most that a wall bears, at which it yields
+    pub hardness: f64,
     pub control: Control,
     pub start: Option<Array2<f64>>,
     pub settings: Settings,
@@ -234,7 +308,7 @@ impl fmt::Display for Scene {
             self.relief
         )?;
         let start = if self.start.is_some() { ", with a start" } else { "" };
-        write!(f, ", {control:?}, {precision:?} to {tolerance:.1e}{start}")
+        write!(f, ", {control:?}, {precision:?} to {tolerance:.1e}{start}, {:?}", self.physics())
     }
 }
 
@@ -255,6 +329,9 @@ impl Scene {
         let holes = features.absent && constraint != Constraint::Paper && random.random_bool(0.3);
         let grid = grid(random, body);
         let modulus = power(random, -3.0, 12.0);
+        let layered = features.more && body == Body::Periodic && random.random_bool(0.6);
+        let layers = layered.then(|| Layered::draw(random, grid.lengths().0.max(grid.lengths().1), modulus));
+        let modulus = layers.map_or(modulus, |layers| elastic::Body::modulus_on(&layers, &grid));
         let height = power(random, -6.0, 0.5) * grid.lengths().0;
         let (relief, mut heights) = relief(random, grid.shape());
         heights.mapv_inplace(|h| h * height);
@@ -264,6 +341,11 @@ impl Scene {
         let spacing = grid.spacing().0.max(grid.spacing().1);
         let range = height * power(random, -2.0, 1.0);
         let mut law = law(random, kind, constraint, grid.shape(), (range, modulus / spacing));
+        if features.more && law.ends() {
+            law.range = height * power(random, -2.0, 0.0);
+            law.work = law.range.powi(2) * modulus / spacing * power(random, -3.5, 0.0);
+            law.cut_off = law.cut_off.map(|_| law.range * random.random_range(2.0..10.0));
+        }
         if law.base == Kind::Jkr {
             // there is none across a line
             let spacing = match (grid.shape(), grid.spacing()) {
@@ -286,12 +368,14 @@ impl Scene {
             seed,
             grid,
             body,
+            layers,
             modulus,
             relief,
             heights,
             law,
             constraint,
             stiffness,
+            hardness: f64::INFINITY,
             control,
             start: None,
             settings,
@@ -299,7 +383,49 @@ impl Scene {
         };
         scene.control = scene.load(random, height);
         scene.start = scene.begin(random, height);
+        if features.more {
+            scene.add(random, height);
+        }
         scene
+    }
+
+    /// A tension of a law that ends, no load on a branch, and the hardness of a wall.
+    fn add(&mut self, random: &mut ChaCha8Rng, height: f64) {
+        let (tension, unloaded) = (random.random_bool(0.3), random.random_bool(0.15));
+        let branch = if random.random_bool(0.5) { Branch::Loading } else { Branch::Unloading };
+        if tension && self.law.ends() {
+            self.control = Control::MeanPressure(-self.law.work / self.law.range * power(random, -4.0, 0.0));
+        }
+        if unloaded && !self.law.is_none() {
+            (self.control, self.start) = (Control::MeanPressure(0.0), None);
+            self.settings = self.settings.branch(branch);
+        }
+        if self.constraint == Constraint::Hardness {
+            let (nodes, facing) = (self.heights.len() as f64, self.centred().len() as f64);
+            let pressure = match self.held(&self.dense()) {
+                Held::Pressure(pressure) => pressure.max(0.0) * nodes / facing,
+                _ => 0.0,
+            };
+            let least = self.law.boxed::<f64>().traction(0.0) + pressure;
+            self.hardness = least * (1.0 + power(random, -2.0, 1.0)) + self.flat(height) * power(random, -3.0, 0.3);
+        }
+    }
+
+    /// What a scene has that those of [`Features::ALL`] lack; of a wall that yields, that alone.
+    pub fn physics(&self) -> Vec<&'static str> {
+        if self.constraint == Constraint::Hardness {
+            return vec![if self.law.is_none() { "hardness" } else { "hardness with adhesion" }];
+        }
+        let unloaded = matches!(self.control, Control::MeanPressure(0.0));
+        let found = [
+            ("layer", matches!(self.layers, Some(Layered::Layer(_)))),
+            ("coating", matches!(self.layers, Some(Layered::Coating(_)))),
+            ("pair", matches!(self.layers, Some(Layered::Pair(_)))),
+            ("law that ends", self.law.ends()),
+            ("no load, loading", unloaded && self.settings.branch == Some(Branch::Loading)),
+            ("no load, unloading", unloaded && self.settings.branch == Some(Branch::Unloading)),
+        ];
+        found.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect()
     }
 
     pub fn is_whole(&self) -> bool {
@@ -312,8 +438,8 @@ impl Scene {
         largest(&self.centred()) <= 1e-12 * largest(&self.heights.iter().copied().collect::<Vec<_>>())
     }
 
-    /// The pressure about which the surface is pressed flat.
-    fn steepness(&self) -> f64 {
+    /// The pressure about which a surface of some height is pressed flat.
+    fn flat(&self, height: f64) -> f64 {
         let ((nx, ny), (dx, dy)) = (self.grid.shape(), self.grid.spacing());
         let slope = |(i, j): (usize, usize), (k, l): (usize, usize), length: f64| {
             (self.heights[[i, j]] - self.heights[[k, l]]).abs() / length
@@ -322,14 +448,15 @@ impl Scene {
         let slopes = nodes.flat_map(|(i, j)| {
             [slope((i, j), ((i + 1) % nx, j), dx), slope((i, j), (i, (j + 1) % ny), dy)].map(|s| s.max(0.0))
         });
-        0.5 * self.modulus * slopes.fold(0.0, f64::max)
+        let steep = 0.5 * self.modulus * slopes.fold(0.0, f64::max);
+        steep.max(1e-3 * self.modulus * height / self.grid.lengths().0)
     }
 
     fn load(&self, random: &mut ChaCha8Rng, height: f64) -> Control {
         let Law { work, range, .. } = self.law;
         let area = self.grid.lengths().0 * self.grid.lengths().1;
         let tension = random.random_bool(if self.law.is_none() { 0.03 } else { 0.3 });
-        let flat = self.steepness().max(1e-3 * self.modulus * height / self.grid.lengths().0);
+        let flat = self.flat(height);
         let share = power(random, -6.0, 0.7);
         let pressure = match tension {
             true if self.law.is_none() => -flat * share,
@@ -373,12 +500,14 @@ impl Scene {
     }
 
     pub fn operator<T: Real>(&self) -> Box<dyn ElasticOperator<T>> {
+        fn boxed<T: Real>(operator: impl ElasticOperator<T> + 'static, alone: bool) -> Box<dyn ElasticOperator<T>> {
+            if alone { Box::new(Alone(operator)) } else { Box::new(operator) }
+        }
         let alone = self.precision == Precision::Double;
-        match self.body {
-            Body::Periodic if alone => Box::new(Alone(Westergaard::<T>::new(self.grid, self.modulus).unwrap())),
-            Body::Periodic => Box::new(Westergaard::<T>::new(self.grid, self.modulus).unwrap()),
-            Body::Free if alone => Box::new(Alone(Boussinesq::<T>::new(self.grid, self.modulus).unwrap())),
-            Body::Free => Box::new(Boussinesq::<T>::new(self.grid, self.modulus).unwrap()),
+        match (self.body, self.layers) {
+            (Body::Periodic, Some(layers)) => boxed(Spectral::<T>::of(self.grid, layers).unwrap(), alone),
+            (Body::Periodic, None) => boxed(Westergaard::<T>::new(self.grid, self.modulus).unwrap(), alone),
+            (Body::Free, _) => boxed(Boussinesq::<T>::new(self.grid, self.modulus).unwrap(), alone),
         }
     }
 
@@ -390,7 +519,7 @@ impl Scene {
         self.start.as_ref().map(|start| start.mapv(T::lit))
     }
 
-    /// The solution by a rigid wall, or none where the law keeps the surfaces apart.
+    /// The solution by a rigid wall or one that yields, or none where the law keeps the surfaces apart.
     pub fn solution<T: Real>(&self) -> Result<Solution<T>> {
         let (mut problem, start) = (self.problem()?, self.start_in());
         let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
@@ -400,6 +529,10 @@ impl Scene {
                 let mut solver = Solver { settings: self.settings, constraint: NoWall };
                 solver.solve_with(&mut problem, self.control, start, go_on)
             }
+            Constraint::Hardness => {
+                let mut solver = Solver { settings: self.settings, constraint: Hardness::new(self.hardness)? };
+                solver.solve_with(&mut problem, self.control, start, go_on)
+            }
             _ => Solver::new(self.settings).solve_with(&mut problem, self.control, start, go_on),
         }
     }
@@ -407,9 +540,11 @@ impl Scene {
     /// The elastic body as a matrix between the nodes that face it.
     pub fn dense(&self) -> Dense {
         let faces: Vec<bool> = self.heights.iter().map(|h| !h.is_nan()).collect();
-        match self.body {
-            Body::Periodic => Dense::new(self.grid.shape(), self.grid.lengths(), self.modulus),
-            Body::Free => Dense::free(&self.grid, self.modulus),
+        let (shape, lengths) = (self.grid.shape(), self.grid.lengths());
+        match (self.body, self.layers) {
+            (Body::Periodic, Some(layers)) => Dense::of(shape, lengths, |qx, qy| layers.body().stiffness(qx, qy)),
+            (Body::Periodic, None) => Dense::new(shape, lengths, self.modulus),
+            (Body::Free, _) => Dense::free(&self.grid, self.modulus),
         }
         .facing(&faces)
     }

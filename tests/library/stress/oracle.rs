@@ -21,7 +21,12 @@ pub struct Judge<'a, T> {
     dense: Dense,
     held: Held,
     heights: Vec<f64>,
+    /// to the surface as it was: negative by the plastic depth
     gap: Vec<f64>,
+    /// the plastic depth
+    depth: Vec<f64>,
+    /// the most that the wall bears
+    most: f64,
     pressure: Vec<f64>,
     contact: Vec<f64>,
     /// what the law and the springs of a wall do at each node: tractions
@@ -61,24 +66,30 @@ impl<'a, T: Real> Judge<'a, T> {
             dense.faces.iter().map(|&node| field[node].widen()).collect()
         };
         let [gap, pressure, contact] = [&solution.gap, &solution.pressure, &solution.contact_pressure].map(at_faces);
+        let depth: Vec<f64> = solution.plastic_depth.as_ref().map_or_else(|| vec![0.0; gap.len()], at_faces);
+        let gap: Vec<f64> = gap.iter().zip(&depth).map(|(gap, depth)| gap - depth).collect();
+        let most = T::lit(scene.hardness).widen();
         let law = scene.law.of_gap::<T>();
         let soft = scene.constraint == Constraint::None;
         let within = |g: f64| T::lit(if soft { g } else { g.max(0.0) });
         let faces = || dense.faces.iter().zip(&gap);
         let tractions: Vec<f64> =
             faces().map(|(&i, &g)| scene.law.share(i) * law.traction(within(g)).widen()).collect();
-        let springs = match wall {
+        let springs: Vec<f64> = match wall {
             asperity::constraint::Wall::Springs(springs) => {
                 faces().map(|(&i, &g)| springs.traction(i, T::lit(g)).widen()).collect()
             }
-            _ => vec![0.0; gap.len()],
+            _ => depth.iter().map(|&depth| if depth > 0.0 { -most } else { 0.0 }).collect(),
         };
         let (epsilon, (softest, stiffest)) = (T::epsilon().widen(), operator.stiffness_range());
         let nodes = operator.grid().nodes() as f64;
         let length = largest(&heights).max(largest(&gap));
         let rounding = ROUNDINGS
             * epsilon
-            * (nodes.sqrt() * stiffest * length + report.net_pressure.abs() + largest(&tractions) + largest(&springs));
+            * (nodes.sqrt() * stiffest * length
+                + report.net_pressure.abs().max(report.mean_pressure.abs())
+                + largest(&tractions)
+                + largest(&springs));
         let noise = if softest > 0.0 { rounding / softest.sqrt() } else { 0.0 };
         // a rigid shift is no wave: its energy is not in the scale
         let padding = nodes / dense.nodes as f64;
@@ -87,9 +98,11 @@ impl<'a, T: Real> Judge<'a, T> {
             _ => 0.0,
         };
         let work = 2.0 * report.elastic_energy - of_mean;
+        let surface = dense.work(&heights);
         let scale = match report.contact_nodes > 0 {
-            true => Some(work),
-            false if scene.is_whole() => Some(work.max(dense.work(&heights))),
+            // nodes that bear their own attraction may deform nothing
+            true => Some(work).filter(|&work| work > (ROUNDINGS * epsilon).powi(2) * surface),
+            false if scene.is_whole() => Some(work.max(surface)),
             // of the heights as they go on where there is no surface
             false => None,
         };
@@ -109,6 +122,8 @@ impl<'a, T: Real> Judge<'a, T> {
             held,
             heights,
             gap,
+            depth,
+            most,
             pressure,
             contact,
             tractions,
@@ -133,7 +148,7 @@ impl<'a, T: Real> Judge<'a, T> {
     }
 
     fn projects(&self) -> bool {
-        matches!(self.scene.constraint, Constraint::Hard | Constraint::Paper)
+        matches!(self.scene.constraint, Constraint::Hard | Constraint::Paper | Constraint::Hardness)
     }
 
     fn detached(&self) -> bool {
@@ -160,7 +175,8 @@ impl<'a, T: Real> Judge<'a, T> {
 
     /// Feasibility, and that the figures are those of the fields.
     fn fields(&self) -> Result<(), String> {
-        let Self { scene, report, solution, gap, contact, pressure, .. } = self;
+        let Self { scene, report, solution, contact, pressure, depth, most, .. } = self;
+        let (raw, gap) = (&self.gap, self.gap.iter().zip(depth).map(|(gap, depth)| gap + depth).collect::<Vec<_>>());
         need(gap.iter().chain(pressure).chain(contact).all(|x| x.is_finite()), || "a field is not finite".into())?;
         let absent = scene.heights.iter().zip(&solution.gap).zip(&solution.pressure).filter(|((h, _), _)| h.is_nan());
         let empty = |((_, g), p): ((&f64, &T), &T)| g.is_infinite() && p.widen() == 0.0;
@@ -170,6 +186,17 @@ impl<'a, T: Real> Judge<'a, T> {
         if self.projects() {
             need(gap.iter().all(|&g| g >= 0.0), || "a gap is negative".into())?;
             need(gap.iter().zip(contact).all(|(g, p)| g * p == 0.0), || "complementarity".into())?;
+        }
+        if scene.constraint == Constraint::Hardness {
+            let plastic = report.plastic.ok_or("nothing plastic")?;
+            need(contact.iter().all(|p| p <= most), || "more than the hardness".into())?;
+            let yields = |((&d, &p), &g): ((&f64, &f64), &f64)| d == 0.0 || d > 0.0 && p == *most && g == 0.0;
+            need(depth.iter().zip(contact).zip(&gap).all(yields), || "a depth where nothing yields".into())?;
+            let (count, sum) = (depth.iter().filter(|&&d| d > 0.0).count(), depth.iter().sum::<f64>());
+            let of = depth.len() as f64;
+            close("yielded share", plastic.fraction, count as f64 / of, f64::EPSILON)?;
+            close("greatest depth", plastic.depth_max, largest(depth), 0.0)?;
+            close("mean depth", plastic.depth_mean, sum / of, ROUNDINGS * f64::EPSILON * sum / of)?;
         }
         let touching = solution.contact_map().iter().filter(|&&touches| touches).count();
         // without a wall a node at the gap of rest touches or does not
@@ -181,7 +208,7 @@ impl<'a, T: Real> Judge<'a, T> {
         close("contact fraction", report.contact_fraction, fraction, 0.0)?;
         close("least gap", report.min_gap, gap.iter().copied().fold(f64::INFINITY, f64::min), 0.0)?;
         let (count, sums) = (gap.len() as f64, ROUNDINGS * Self::epsilon());
-        let size = gap.iter().map(|g| g.abs()).sum::<f64>() / count;
+        let size = raw.iter().map(|g| g.abs()).sum::<f64>() / count;
         close("mean gap", report.mean_gap, gap.iter().sum::<f64>() / count, sums * size)?;
         close("mean contact pressure", report.mean_contact_pressure, self.mean(contact), sums * self.mean(contact))?;
         let carried = self.mean(contact) - self.mean(&self.tractions);
@@ -205,8 +232,10 @@ impl<'a, T: Real> Judge<'a, T> {
             8.0 * f64::EPSILON * report.normal_force.abs(),
         )?;
         let length = size + largest(&self.heights);
+        // to the surface as it was
+        let mean_gap = report.mean_gap - report.plastic.map_or(0.0, |plastic| plastic.depth_mean);
         match scene.control {
-            Control::MeanGap(given) => close("given gap", report.mean_gap, given, 1e3 * epsilon * size),
+            Control::MeanGap(given) => close("given gap", mean_gap, given, 1e3 * epsilon * size),
             _ if self.detached() => Ok(()),
             Control::MeanPressure(given) => close("load", report.mean_pressure, given, epsilon * given.abs()),
             Control::Force(given) => close("given force", report.normal_force, given, 4.0 * epsilon * given.abs()),
@@ -216,7 +245,7 @@ impl<'a, T: Real> Judge<'a, T> {
             }
             Control::Spring { stiffness, rest } => {
                 let length = length + rest.abs() + report.approach.unwrap_or(0.0).abs();
-                let stretched = report.approach.map_or(report.mean_gap - rest, |approach| rest - approach);
+                let stretched = report.approach.map_or(mean_gap - rest, |approach| rest - approach);
                 // what the mean displacement of the half-space takes of the force
                 let allowed = ROUNDINGS * epsilon * (stiffness * length + report.normal_force.abs());
                 close("force of the spring", report.normal_force, stiffness * stretched, allowed)
@@ -267,6 +296,9 @@ impl<'a, T: Real> Judge<'a, T> {
             let sums = Self::epsilon().sqrt() * expected;
             close("root of the elastic work", found, expected, 4.0 * (admitted + self.noise + soft) + sums)?;
         }
+        if self.depth.iter().any(|&depth| depth > 0.0) {
+            return Ok(());
+        }
         let (law, epsilon) = (scene.law.of_gap::<T>(), Self::epsilon());
         let energy = |(&node, &g): (&usize, &f64)| {
             let inside = if scene.constraint == Constraint::None { 0.0 } else { g.min(0.0) };
@@ -312,17 +344,35 @@ impl<'a, T: Real> Judge<'a, T> {
         };
         let share: Vec<f64> = self.dense.share.iter().map(|share| share * self.dense.nodes as f64).collect();
         let full = self.dense.full(&u, mean);
-        let r: Vec<f64> = (0..n).map(|i| full[i] + self.tractions[i] + self.springs[i]).collect();
-        let free: Vec<bool> = self.gap.iter().map(|&g| !self.projects() || g > 0.0).collect();
-        let level = |of: &[bool]| {
+        let mut r: Vec<f64> = (0..n).map(|i| full[i] + self.tractions[i] + self.springs[i]).collect();
+        let free: Vec<bool> = self.gap.iter().map(|&g| !self.projects() || g != 0.0).collect();
+        let level = |r: &[f64], of: &[bool]| {
             let sum = |values: &[f64]| (0..n).filter(|&i| of[i]).map(|i| values[i]).sum::<f64>();
-            if centred && of.contains(&true) { sum(&r) / sum(&share) } else { 0.0 }
+            if centred && of.contains(&true) { sum(r) / sum(&share) } else { 0.0 }
         };
         let lowest = (0..n).map(|i| r[i] / share[i]).fold(f64::INFINITY, f64::min);
-        let release = if centred && !free.contains(&true) { lowest } else { level(&free) };
-        let clear = (0..n).all(|i| free[i] || (r[i] - release * share[i]).abs() > self.rounding);
-        let working: Vec<bool> = (0..n).map(|i| free[i] || r[i] < release * share[i]).collect();
-        let level = level(&working);
+        let release = if centred && !free.contains(&true) { lowest } else { level(&r, &free) };
+        // how far a node that touches is from where it comes off, and from where it yields
+        let over =
+            |r: &[f64], release: f64, i: usize| [r[i] - release * share[i], r[i] - release * share[i] - self.most];
+        let clear = (0..n).all(|i| free[i] || over(&r, release, i).iter().all(|over| over.abs() > self.rounding));
+        let moves = |r: &[f64], release: f64, i: usize| {
+            let [off, deeper] = over(r, release, i);
+            (free[i] || off < 0.0 || deeper > 0.0, !free[i] && deeper > 0.0)
+        };
+        let working = |r: &mut [f64], release: f64| -> Vec<bool> {
+            let moves: Vec<_> = (0..n).map(|i| moves(r, release, i)).collect();
+            r.iter_mut().zip(&moves).for_each(|(r, (_, yields))| *r -= if *yields { self.most } else { 0.0 });
+            moves.into_iter().map(|(moves, _)| moves).collect()
+        };
+        let mut first = r.clone();
+        let moved = working(&mut first, release);
+        // where some yield, both sides of the corner have one level
+        let yields = self.depth.iter().any(|&depth| depth > 0.0) || first != r;
+        let release = if centred && yields { level(&first, &moved) } else { release };
+        let working = working(&mut r, release);
+        let level =
+            level(if centred && yields { &first } else { &r }, if centred && yields { &moved } else { &working });
         let residual = (0..n).map(|i| if working[i] { r[i] - level * share[i] } else { 0.0 }).collect();
         (residual, release, clear)
     }
@@ -364,13 +414,15 @@ impl<'a, T: Real> Judge<'a, T> {
         let size = report.mean_pressure.abs().max(report.mean_contact_pressure);
         let magnitude =
             self.mean(&self.contact).max(self.mean(&self.tractions.iter().map(|t| t.abs()).collect::<Vec<_>>()));
-        let allowed = 1.01 * tolerance * size + ROUNDINGS * Self::epsilon() * magnitude + self.load_noise();
+        // surfaces apart under no load carry the rounding of what would press them flat
+        let apart = if report.mean_pressure == 0.0 && report.contact_nodes == 0 { self.rounding } else { 0.0 };
+        let allowed = 1.01 * tolerance * size + ROUNDINGS * Self::epsilon() * magnitude + self.load_noise() + apart;
         close("carried load", report.net_pressure, report.mean_pressure, allowed)
     }
 
     /// The nodes that may move.
     fn free(&self) -> Vec<usize> {
-        (0..self.gap.len()).filter(|&i| !self.projects() || self.gap[i] > 0.0).collect()
+        (0..self.gap.len()).filter(|&i| !self.projects() || self.gap[i] != 0.0).collect()
     }
 
     /// The traction and the slope of a node's energy, in `f64`.
@@ -409,13 +461,15 @@ impl<'a, T: Real> Judge<'a, T> {
             }
         }
         let amplified = if attracts > 0.0 { 1.0 + attracts / margin } else { 1.0 };
-        // at the mean gap that the state has, where that is held; and with springs, where the error of the load makes
-        // more than the matrix says, as some come to rest
+        // at the mean gap that the state has, where that is held; and with springs and walls that yield, where the error
+        // of the load makes more than the matrix says, as some come to rest
+        let gives = matches!(self.scene.constraint, Constraint::Penalty | Constraint::Hardness);
         let held = match self.held {
-            Held::Pressure(_) | Held::Spring { .. } if self.scene.constraint != Constraint::Penalty => self.held,
+            Held::Pressure(_) | Held::Spring { .. } if !gives => self.held,
             _ => Held::Shift(self.dense.shift(&self.displacement())),
         };
-        let Some(exact) = self.dense.equilibrium(&self.heights, held, &local, self.projects(), &self.gap) else {
+        let most = self.projects().then_some(self.most);
+        let Some(exact) = self.dense.equilibrium(&self.heights, held, &local, most, &self.gap) else {
             return Ok(None);
         };
         let off: Vec<f64> = self.gap.iter().zip(&exact).map(|(a, b)| a - b).collect();
@@ -479,7 +533,7 @@ impl<'a, T: Real> Judge<'a, T> {
     {
         let (scene, free) = (self.scene, self.free());
         let jumps = scene.law.base == Kind::MaugisDugdale;
-        let rounds = scene.constraint == Constraint::Uzawa;
+        let rounds = matches!(scene.constraint, Constraint::Uzawa | Constraint::Hardness);
         if scene.law.is_none() || jumps || rounds || !self.converged() || free.len() < 3 {
             return Ok(Vec::new());
         }
