@@ -122,6 +122,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         settings,
         goal,
         leads_on: true,
+        from_full_contact: default_start && branch == Some(Branch::Unloading),
     };
     let mut state = State::new(posed, begin)?;
     state.begins(nearness);

@@ -28,6 +28,8 @@ pub(super) struct Posed<'a, T, Lo> {
     pub(super) goal: Goal,
     /// whether the present round of the constraint may lead to another one
     pub(super) leads_on: bool,
+    /// whether full contact may have thrown the surfaces apart
+    pub(super) from_full_contact: bool,
 }
 
 impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {

@@ -3,7 +3,6 @@
 
 use std::slice;
 
-use super::Branch;
 use super::coarse::Coarse;
 use super::driver::{Observer, minimise};
 use super::minimisation::{Goal, Left, Nearness};
@@ -98,14 +97,14 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let gone = held <= hardly && (hints.concave || stored <= hardly * range);
         // with less than one node has at the law's strongest traction they fly apart: all, if that is in contact
         let least = if hints.concave { 1.0 - HARDLY } else { STRONGEST };
-        let flies = stored < least * node && (held < pulls || pulls == 0.0);
+        let flies = stored < least * node && (held < pulls || pulls == 0.0 && self.posed.from_full_contact);
         gone || flies && matches!(self.posed.load, Load::Pressure(_))
     }
 
     /// Whether surfaces under a pressure have come apart and would drift for ever.
     pub(super) fn is_adrift(&self) -> bool {
-        let unloads = self.posed.branch == Some(Branch::Unloading);
-        let drifts = matches!(self.posed.load, Load::Pressure(pressure) if pressure < 0.0 || unloads);
+        let thrown = self.posed.from_full_contact;
+        let drifts = matches!(self.posed.load, Load::Pressure(pressure) if pressure < 0.0 || thrown);
         drifts && self.is_apart()
     }
 
@@ -135,6 +134,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         observe: Observer<'_>,
     ) -> Result<bool> {
         let load = std::mem::replace(&mut self.posed.load, Load::Pressure(0.0));
+        self.posed.from_full_contact = false;
         self.start_undeformed()?;
         self.steps.step_length = 1.0;
         self.steps.coarse.iter_mut().for_each(Coarse::forget);
