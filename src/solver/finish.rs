@@ -131,8 +131,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             to_the_yielded(&mut gap);
         }
         let plastic_depth = plastic_depth.map(|depth| window.crop(&depth, T::zero()));
-        // the nodes that face no surface have their part of the residual: the others bear the load
-        let share = T::lit(missing / facing);
+        // the nodes that face no surface have their part of the residual: in balance the others bear the load
+        let share = T::lit(if report.status == Status::Converged { missing / facing } else { 0.0 });
         pressure.mapv_inplace(|p| p + share);
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
