@@ -58,8 +58,8 @@ def test_a_line_is_refined_along_itself():
 
 
 def test_an_accuracy_that_is_not_reached_is_a_warning_with_the_reason(coarse):
-    with pytest.warns(asperity.AccuracyWarning, match=r"0.006 of the area is not reached.*would be next.*raise memory"):
-        found = asperity.solve(coarse, accuracy=0.006, memory=1e-3, **PRESSED)
+    with pytest.warns(asperity.AccuracyWarning, match=r"0.003 of the area is not reached.*would be next.*raise memory"):
+        found = asperity.solve(coarse, accuracy=0.003, memory=1e-3, **PRESSED)
     assert found.converged and found.report["accuracy"]["reached"] is False
     holes = np.where(coarse.heights > np.quantile(coarse.heights, 0.05), coarse.heights, np.nan)
     with pytest.warns(asperity.AccuracyWarning, match="the estimate is .*absent nodes.*give a finer one"):
