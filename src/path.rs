@@ -83,10 +83,10 @@ pub use step::{PathCheckpoint, PathStep};
 ///
 /// # Yielding
 ///
-/// At a [`Hardness`](crate::Hardness) the path keeps the plastic depth of each state that has converged, or is at the floor
-/// of rounding: unloading is elastic on the flattened surface. A mean gap that is given is that to the surface as it was made, less than the mean of the gap by
-/// the mean plastic depth, and the energy has that dissipated by yielding. Where the path ends the problem is left as
-/// it then is; [`Problem::flatten`] by zeros makes it new.
+/// At a [`Hardness`](crate::Hardness) the path keeps the plastic depth of each state that has converged, or is at the
+/// floor of rounding: unloading is elastic on the flattened surface. A mean gap that is given is that to the surface as
+/// it was made, less than the mean of the gap by the mean plastic depth, and the energy has that dissipated by yielding.
+/// Where the path ends the problem is left as it then is; [`Problem::flatten`] by zeros makes it new.
 ///
 /// # Going on
 ///
