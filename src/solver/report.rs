@@ -108,7 +108,8 @@ pub struct Report {
     /// The error of the load, relative to the larger of |p̄| and the mean contact pressure: the larger of the imbalance
     /// of the nodes apart and the difference from the load that the fields carry. One without a contact that the load
     /// needs. Under no load the energy of adhesion over its range is a pressure as well that it may be relative to, since
-    /// nodes at rest have no traction. Of a mean gap that is held it is how far that is missed, beyond rounding, as a share of it.
+    /// nodes at rest have no traction. Of a mean gap that is held it is how far that is missed, beyond rounding, as a
+    /// share of it.
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
     pub complementarity: f64,

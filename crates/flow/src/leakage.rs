@@ -160,8 +160,8 @@ impl Leakage {
         self.through_while(gap, &|| true)
     }
 
-    /// The same, with no further preparation and iteration once `goes_on` is false: the bounds hold then, and are not as close as the
-    /// tolerance.
+    /// The same, with no further preparation and iteration once `goes_on` is false: the bounds hold then, and are not as
+    /// close as the tolerance.
     ///
     /// # Errors
     /// Those of [`Self::through`].
