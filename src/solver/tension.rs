@@ -22,6 +22,9 @@ const HARDLY: f64 = 1e-3;
 /// The share of the work of adhesion that a law has left at least where its traction is strongest.
 pub(crate) const STRONGEST: f64 = 0.5;
 
+/// The relative error at which the waves of surfaces apart are at rest.
+const AT_REST: f64 = 1e-2;
+
 /// The most mean gaps tried in search of a hold, and the share of an interval that a golden section keeps.
 const SECTIONS: usize = 12;
 const GOLDEN: f64 = 0.618;
@@ -95,10 +98,12 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         // a traction that rises with the gap is none at rest
         let hardly = HARDLY * pulls.max(node / range);
         let gone = held <= hardly && (hints.concave || stored <= hardly * range);
-        // with less than one node has at the law's strongest traction they fly apart: all, if that is in contact
+        // With less than one node has at the law's strongest traction they fly apart, once their waves are at rest: all,
+        // if that is in contact. Where the law varies one node may have less than another.
         let least = if hints.concave { 1.0 - HARDLY } else { STRONGEST };
-        let flies = stored < least * node && (held < pulls || pulls == 0.0 && self.posed.from_full_contact);
-        gone || flies && matches!(self.posed.load, Load::Pressure(_))
+        let pulled = held < pulls && (hints.concave || hints.shape.is_none());
+        let flies = stored < least * node && (pulled || pulls == 0.0 && self.posed.from_full_contact);
+        gone || flies && matches!(self.posed.load, Load::Pressure(_)) && self.relative_error() <= AT_REST
     }
 
     /// Whether surfaces under a pressure have come apart and would drift for ever.
