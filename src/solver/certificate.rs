@@ -31,8 +31,8 @@ const NEAR_FLOOR: f64 = 2.0;
 /// The same numbers for [`Method::Rey2017`], whose energy and residual need not fall.
 const STALL_REY2017: (usize, usize) = (400, 800);
 
-/// The greatest rounding of the length of a spring, and of K⁻¹h, in units of ε.
-const ROUNDINGS: f64 = 8.0;
+/// The roundings of a spring's length, and of K⁻¹h under no load, that count as no load, in units of ε.
+const NO_LOAD: f64 = 8.0;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least that of rounding.
@@ -125,7 +125,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let lengths = self.mean_gap().abs() + self.posed.load.rest().abs();
         let unloaded = self.sums.given == 0.0 && self.sums.tally.contact == 0.0;
         let of_surface = if unloaded { self.posed.flat.rms_pressure() } else { 0.0 };
-        let rounding = ROUNDINGS * T::epsilon().widen() * (self.posed.load.stiffness() * lengths + of_surface);
+        let rounding = NO_LOAD * T::epsilon().widen() * (self.posed.load.stiffness() * lengths + of_surface);
         // flats at rest have neither load nor traction
         let adhesion = if self.sums.given == 0.0 { self.attraction() } else { 0.0 };
         let scale = self.sums.given.abs().max(contact.abs()).max(adhesion);
