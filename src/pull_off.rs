@@ -145,7 +145,8 @@ impl PullOff {
         let hints = problem.law_on_grid().hints();
         let stored = 0.0 - held.solution.report.adhesive_energy;
         let node = hints.work_of_adhesion.widen() / problem.grid().nodes() as f64;
-        let at_rest = if stored < STRONGEST * node { 0.0 } else { AT_REST * stored / hints.range.widen() };
+        let at_rest = AT_REST * stored / hints.range.widen();
+        let at_rest = if stored < STRONGEST * node || !at_rest.is_finite() { 0.0 } else { at_rest };
         let attraction = held.solution.report.mean_contact_pressure.max(at_rest);
         if attraction <= 0.0 {
             let reason =

@@ -68,9 +68,14 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         rest.unwrap_or_else(T::zero)
     }
 
-    /// The largest of many tractions of the law, which no uniform gap exceeds; narrow peaks may be missed.
+    /// The largest of many tractions of the law, which no uniform gap exceeds; narrow peaks may be missed. Without bound
+    /// if the law does not say over which range it acts.
     fn strongest_traction(&self) -> f64 {
-        let range = self.law.hints().range.widen();
+        let hints = self.law.hints();
+        let range = hints.range.widen();
+        if range <= 0.0 && !hints.zero {
+            return f64::INFINITY;
+        }
         let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
         gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
     }
@@ -92,12 +97,13 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             return false;
         }
         let (held, pulls) = (self.sums.tally.traction, -self.sums.given * nodes);
-        // what one node that touches has
+        // what one node that touches has, if the law says over which range
         let (range, node) = (hints.range.widen(), hints.work_of_adhesion.widen());
+        let one = if range > 0.0 { node / range } else { 0.0 };
         let stored = -self.sums.tally.adhesive;
         // a traction that rises with the gap is none at rest
-        let hardly = HARDLY * pulls.max(node / range);
-        let gone = held <= hardly && (hints.concave || stored <= hardly * range);
+        let hardly = HARDLY * pulls.max(one);
+        let gone = held <= hardly && (hints.concave || range == 0.0 || stored <= hardly * range);
         // With less than one node has at the law's strongest traction they fly apart, once their waves are at rest: all,
         // if that is in contact. Where the law varies one node may have less than another.
         let least = if hints.concave { 1.0 - HARDLY } else { STRONGEST };

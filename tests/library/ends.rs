@@ -168,6 +168,35 @@ fn flat_and_nearly_flat_surfaces_hold_what_their_law_holds() {
     }
 }
 
+/// A law of one's own, φ = −w(1 + g/ρ)e^(−g/ρ), that says nothing of its range: it does not pull in contact.
+#[derive(Clone, Copy)]
+struct Rising;
+
+impl AdhesionLaw<f64> for Rising {
+    fn energy(&self, gap: f64) -> f64 {
+        -1e-5 * (1.0 + gap / 4e-3) * (-gap / 4e-3).exp()
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        1e-5 * gap / 4e-3 / 4e-3 * (-gap / 4e-3).exp()
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        1e-5 / 4e-3 / 4e-3 * (1.0 - gap / 4e-3) * (-gap / 4e-3).exp()
+    }
+}
+
+#[test]
+fn a_law_without_a_range_holds_and_lets_go() {
+    let surface = rough(Grid::square(16, 1.0).unwrap(), 1e-3, 4, 1);
+    let mut problem = boxed(&surface, false, Box::new(Rising));
+    let found = PullOff::default().find(&mut Solver::default(), &mut problem).unwrap();
+    let borne = -found.solution.report.mean_pressure;
+    assert!(found.reached && borne > 0.5 * 1e-5 / 4e-3 * (-1.0_f64).exp(), "{borne:e}");
+    let status = |share: f64, problem: &mut Boxed| {
+        Solver::default().solve(problem, Control::MeanPressure(-share * borne)).unwrap().report.status
+    };
+    assert_eq!([0.5, 1.2].map(|share| status(share, &mut problem)), [Status::Converged, Status::Detached]);
+}
+
 #[test]
 fn a_preload_that_pulls_is_refused() {
     let surface = Surface::wave(Grid::line(32, 1.0).unwrap(), 0.01, 1).unwrap();
