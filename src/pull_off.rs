@@ -33,11 +33,11 @@ const MARGIN: f64 = 0.1;
 ///
 /// The tension grows, each solve from the gap under the greatest one that was borne, until the surfaces come apart
 /// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is `tolerance`
-/// wide. A loss counts from a state within the tolerance of it: from one farther off it may be a jump that shorter steps do
-/// not make, and is tried again from a closer one. Contacts that are lost on the way are lost under the load, as on a soft
-/// spring. Before, the surfaces are
-/// pressed flat, as on the branch of unloading ([`Branch`]), or to a `preload`. On the branch of unloading that is the
-/// largest tension that has an equilibrium at all, if the traction of the law falls with the gap.
+/// wide. A loss counts from a state within the tolerance of it: from one farther off it may be a jump that shorter steps
+/// do not make, and is tried again from a closer one. Contacts that are lost on the way are lost under the load, as on a
+/// soft spring. Before, the surfaces are pressed flat, as on the branch of unloading ([`Branch`]), or to a `preload`. On
+/// the branch of unloading that is the largest tension that has an equilibrium at all, if the traction of the law falls
+/// with the gap.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|

@@ -132,8 +132,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         let plastic_depth = plastic_depth.map(|depth| window.crop(&depth, T::zero()));
         // the nodes that face no surface have their part of the residual: in balance the others bear the load
-        let share = T::lit(if report.status == Status::Converged { missing / facing } else { 0.0 });
-        pressure.mapv_inplace(|p| p + share);
+        if report.status == Status::Converged {
+            let share = T::lit(missing / facing);
+            pressure.mapv_inplace(|p| p + share);
+        }
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {

@@ -65,10 +65,10 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(())
     }
 
-    /// Goes on with adhesion, under the load, from the gap of the wall alone.
+    /// Goes on with adhesion, under the load, from a gap without it.
     pub(super) fn adhere(&mut self, law: &'a dyn AdhesionLaw<T>, load: Load) -> Result<()> {
         (self.posed.load, self.steps.step_length) = (load, 1.0);
-        // the contacts of the wall alone are not those that adhesion makes
+        // the contacts before are not those that adhesion makes
         self.steps.coarse.iter_mut().for_each(Coarse::forget);
         self.change_law(law, Goal::Solution);
         self.sums.certificate = f64::INFINITY;

@@ -3,7 +3,6 @@
 
 use std::slice;
 
-use super::coarse::Coarse;
 use super::driver::{Observer, minimise};
 use super::minimisation::{Goal, Left, Nearness};
 use super::passes::Fields;
@@ -144,13 +143,11 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         (law, smoothed): (&'a dyn AdhesionLaw<T>, Option<&'a dyn AdhesionLaw<T>>),
         observe: Observer<'_>,
     ) -> Result<bool> {
-        let load = std::mem::replace(&mut self.posed.load, Load::Pressure(0.0));
+        let load = self.posed.load;
         self.posed.from_full_contact = false;
         self.start_undeformed()?;
-        self.steps.step_length = 1.0;
-        self.steps.coarse.iter_mut().for_each(Coarse::forget);
-        self.change_law(smoothed.unwrap_or(law), if smoothed.is_some() { Goal::Start } else { Goal::Hold });
-        self.sums.certificate = f64::INFINITY;
+        self.adhere(smoothed.unwrap_or(law), Load::Pressure(0.0))?;
+        self.posed.goal = if smoothed.is_some() { Goal::Start } else { Goal::Hold };
         let mut end = minimise(self, &mut *observe)?;
         if smoothed.is_some() && end.is_final().is_none() {
             self.go_on(load, Goal::Start)?;
