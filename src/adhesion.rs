@@ -1,5 +1,7 @@
 //! The adhesion law: energy, traction and slope of the attraction as functions of the gap.
 
+use std::fmt;
+use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::grid::Grid;
@@ -112,7 +114,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     }
 
     /// The law adapted to a discretisation; none if it is the same there, which is the default. All processes ask.
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let _ = to;
         None
     }
@@ -144,11 +146,34 @@ macro_rules! forward {
             fn hints(&self) -> Hints<T> { (**self).hints() }
             fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) { (**self).evaluate(first, gaps, values) }
             fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> { (**self).on_nodes(compliance) }
-            fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> { (**self).adapted(to) }
+            fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> { (**self).adapted(to) }
         }
     )*};
 }
 forward!(&L, Box<L>, Arc<L>);
+
+/// The adhesion law of a problem and of its solutions.
+#[derive(Clone)]
+pub(crate) struct SharedLaw<T: Real>(pub(crate) Arc<dyn AdhesionLaw<T>>);
+
+impl<T: Real> SharedLaw<T> {
+    pub(crate) fn new(law: impl AdhesionLaw<T> + 'static) -> Self {
+        Self(Arc::new(law))
+    }
+}
+
+impl<T: Real> Deref for SharedLaw<T> {
+    type Target = dyn AdhesionLaw<T>;
+    fn deref(&self) -> &Self::Target {
+        &*self.0
+    }
+}
+
+impl<T: Real> fmt::Debug for SharedLaw<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.hints().known_as())
+    }
+}
 
 /// The adhesive traction above which surfaces are said to attract each other; zero where w/ρ has no bound.
 pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {

@@ -54,22 +54,18 @@ impl From<Region> for f64 {
 }
 
 impl<T: Real> Solution<T> {
-    /// The region of each node under the law of the solution.
-    ///
-    /// # Errors
-    /// [`Error::Value`](crate::Error::Value) if the law has another name or work of adhesion than that of the solution.
-    pub fn regions(&self, law: &impl AdhesionLaw<T>) -> Result<Array2<Region>> {
-        self.check_law(law)?;
+    /// The region of each node.
+    pub fn regions(&self) -> Array2<Region> {
         let contact = self.contact_map();
-        let on_grid = on_grid(law, &self.grid, self.report.modulus);
-        let attracts = attracting(&contact, self.gap.view(), &self.grid, on_grid.as_deref().unwrap_or(law));
+        let on_grid = on_grid(&*self.law, &self.grid, self.report.modulus);
+        let attracts = attracting(&contact, self.gap.view(), &self.grid, on_grid.as_deref().unwrap_or(&*self.law));
         let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
-        Ok(Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
+        Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
             Some(((_, true), _)) => Region::Contact,
             Some((_, true)) => Region::Attractive,
             Some(((gap, _), _)) if gap.is_finite() => Region::Apart,
             _ => Region::Absent,
-        }))
+        })
     }
 
     /// The contact map: true at nodes without a gap (g ≤ 0) and at nodes with a contact pressure (λ > 0).
@@ -188,16 +184,13 @@ pub struct ContactStatistics {
 }
 
 impl ContactStatistics {
-    /// The statistics of a solution, with the law with which it was found. Memory per node: ten bytes, and with
-    /// adhesion two scalars.
+    /// The statistics of a solution. Memory per node: ten bytes, and with adhesion two scalars.
     ///
     /// # Errors
-    /// [`Error::Value`](crate::Error::Value) if the law has another name or work of adhesion than that of the solution;
     /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
-    pub fn of<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<Self> {
-        solution.check_law(law)?;
-        let Solution { gap, contact_pressure, grid, report, .. } = solution;
-        Self::of_fields(gap.view(), contact_pressure.view(), grid, (report.boundary, report.modulus), law)
+    pub fn of<T: Real>(solution: &Solution<T>) -> Result<Self> {
+        let Solution { gap, contact_pressure, grid, report, law, .. } = solution;
+        Self::of_fields(gap.view(), contact_pressure.view(), grid, (report.boundary, report.modulus), &**law)
     }
 
     /// The statistics of a gap, infinite at absent nodes, and a contact pressure, as from a file, on their grid, with
@@ -210,7 +203,7 @@ impl ContactStatistics {
         contact_pressure: ArrayView2<'_, T>,
         grid: &Grid,
         (boundary, modulus): (Boundary, f64),
-        law: &impl AdhesionLaw<T>,
+        law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
         statistics(gap, contact_pressure, grid, (boundary, modulus), law)
     }

@@ -116,6 +116,21 @@ pub trait ElasticOperator<T: Real>: Send {
     }
 }
 
+/// The operators of one body on many grids: a closure that makes an operator of a grid.
+pub trait OnGrids<T: Real> {
+    /// The operator on a grid.
+    ///
+    /// # Errors
+    /// The reason, if there is none on that grid.
+    fn on(&mut self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>>;
+}
+
+impl<T: Real, O: ElasticOperator<T> + 'static, F: FnMut(Grid) -> Result<O>> OnGrids<T> for F {
+    fn on(&mut self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
+        Ok(Box::new(self(grid)?))
+    }
+}
+
 /// The boundary of the elastic body: periodic, as of [`Westergaard`], or free, as of [`Boussinesq`].
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -3,17 +3,15 @@
 use std::borrow::Borrow;
 use std::ops::ControlFlow;
 
-use crate::adhesion::{AdhesionLaw, Discretisation, Jkr, mu_rho};
-use crate::constraint::{ContactConstraint, Projection};
-use crate::elastic::ElasticOperator;
+use crate::adhesion::{AdhesionLaw, Discretisation, Jkr, SharedLaw, mu_rho};
+use crate::constraint::ContactConstraint;
+use crate::elastic::OnGrids;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::problem::{Control, Parts, Problem};
+use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::setters::setters;
-use crate::solver::{
-    Begin, Branch, Iteration, Method, Observer, Report, Settings, Solution, Solved, Solver, Start, Status,
-};
+use crate::solver::{Begin, Branch, Iteration, Method, Report, Settings, Solution, Solved, Solver, Start, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -27,6 +25,9 @@ use hierarchy::coarser;
 pub use level::Level;
 pub(crate) use level::equivalent_applications;
 pub(crate) use transfer::{Deformed, Touching, deformed, prolonged};
+
+/// The observer of iterations on some grid, which may stop a solve.
+pub(crate) type GridObserver<'a> = &'a mut (dyn FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send);
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
@@ -61,21 +62,20 @@ const CARRIED: f64 = 0.5;
 /// alone; a surface that is handed over, and not lent, leaves before the solve on the finest grid.
 ///
 /// ```
-/// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Status, Westergaard};
+/// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Solver, Status, Westergaard};
 /// let grid = Grid::square(256, 1.0)?;
 /// let surface = SelfAffine::default().k_s(32.0).surface(grid)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-/// let nested = Nested::default().solve(&surface, half_space, NoAdhesion, Control::MeanPressure(0.01))?;
+/// let (mut solver, load) = (Solver::default(), Control::MeanPressure(0.01));
+/// let nested = Nested::default().solve(&mut solver, &surface, half_space, NoAdhesion, load)?;
 /// assert_eq!(nested.solution.report.status, Status::Converged);
 /// assert_eq!(nested.levels.len(), 3); // 64², 128², 256²
 /// assert!(nested.equivalent_applications() < 40.0);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
-#[derive(Clone, Debug)]
-pub struct Nested<C = Projection> {
-    /// The solver of all grids; its tolerance is that of the finest.
-    pub solver: Solver<C>,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nested {
     /// The tolerance on coarser grids, or the solver's if larger. Default 1e-2, below their discretisation error.
     pub coarse_tolerance: f64,
     /// The least number of nodes along a side of a coarser grid. Default 64.
@@ -91,43 +91,29 @@ pub struct Nested<C = Projection> {
 /// The solution on the finest of nested grids, and the grids before it.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
-pub struct NestedSolution<T> {
+pub struct NestedSolution<T: Real> {
     /// The solution; its report counts the finest grid alone.
     pub solution: Solution<T>,
     /// The grids, the finest last.
     pub levels: Vec<Level>,
 }
 
-impl<T> NestedSolution<T> {
+impl<T: Real> NestedSolution<T> {
     /// All operator applications in units of one on the finest grid, the construction of the problems included.
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
     }
 }
 
-impl Nested {
-    /// Nested grids for a solver that confines the gap to g ≥ 0 by projection.
-    pub fn new(settings: Settings) -> Self {
-        Self::with_solver(Solver::new(settings))
-    }
-}
-
-impl<C> Nested<C> {
-    /// Nested grids for a solver with a constraint of its own.
-    pub fn with_solver(solver: Solver<C>) -> Self {
-        Self { solver, coarse_tolerance: 1e-2, coarsest: 64, stiffness: None, closed: 0.8 }
-    }
-
-    setters! { coarse_tolerance: f64, coarsest: usize, stiffness: impl Into<Option<f64>>, closed: f64 }
-}
-
 impl Default for Nested {
     fn default() -> Self {
-        Self::new(Settings::default())
+        Self { coarse_tolerance: 1e-2, coarsest: 64, stiffness: None, closed: 0.8 }
     }
 }
 
-impl<C> Nested<C> {
+impl Nested {
+    setters! { coarse_tolerance: f64, coarsest: usize, stiffness: impl Into<Option<f64>>, closed: f64 }
+
     /// Whether nested grids are the faster way to the same equilibrium, as measured
     /// ([`performance`](crate::guide::performance)): at a given load or approach from 256² nodes on, at a given mean
     /// gap from 512², if there is a coarser grid.
@@ -136,12 +122,18 @@ impl<C> Nested<C> {
     /// no load, at a given approach, or on a branch that [`Settings::branch`](crate::Settings::branch) names; nor with [absent
     /// nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it
     /// was not measured.
-    pub fn pays<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>, control: Control) -> bool {
+    pub fn pays<T: Real>(
+        &self,
+        settings: &Settings,
+        surface: &Surface,
+        law: &dyn AdhesionLaw<T>,
+        control: Control,
+    ) -> bool {
         let (shape, nodes) = (surface.grid().shape(), surface.grid().nodes());
         let hints = law.hints();
         let longer = hints.of_grid && !hints.zero;
         let least = match control {
-            _ if longer && self.solver.settings.branch.is_some() => return false,
+            _ if longer && settings.branch.is_some() => return false,
             Control::MeanGap(_) => PAYS.1,
             Control::Approach(_) if !longer => PAYS.0,
             Control::MeanPressure(load) | Control::Force(load) if hints.zero || load > 0.0 => PAYS.0,
@@ -150,30 +142,25 @@ impl<C> Nested<C> {
             _ => return false,
         };
         let measured = surface.absent().is_none() && hints.shape.is_none();
-        let method = self.solver.settings.method == Method::Preconditioned;
+        let method = settings.method == Method::Preconditioned;
         measured && method && nodes >= least && coarser(shape, self.coarsest, true).is_some()
     }
 
-    /// Solves the contact of `surface` with the elastic body for which `operator` makes an operator on each grid, the
-    /// coarsest first, and with a free boundary on one of the same spacing for a part of the window.
+    /// Solves the contact of `surface` with the elastic body that has `operators` on each grid, the coarsest
+    /// first, and with a free boundary on one of the same spacing for a part of the window.
     ///
     /// # Errors
-    /// Those of `operator`, [`Problem::new`] and [`Solver::solve_with`]; [`Error::Value`] if the coarse tolerance is
+    /// Those of `operators`, [`Problem::new`] and [`Solver::solve_with`]; [`Error::Value`] if the coarse tolerance is
     /// not positive.
-    pub fn solve<T, O, L>(
-        &mut self,
+    pub fn solve<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: impl Borrow<Surface>,
-        operator: impl FnMut(Grid) -> Result<O>,
-        law: L,
+        operators: impl OnGrids<T>,
+        law: impl AdhesionLaw<T> + 'static,
         control: Control,
-    ) -> Result<NestedSolution<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
+    ) -> Result<NestedSolution<T>> {
+        self.solve_observed(solver, surface, operators, law, control, |_, _| ControlFlow::Continue(()))
     }
 
     /// Solves as [`Nested::solve`], and calls `observe` in every iteration, with the grid, or the whole one for a part.
@@ -181,39 +168,31 @@ impl<C> Nested<C> {
     ///
     /// # Errors
     /// Those of [`Nested::solve`].
-    pub fn solve_observed<T, O, L>(
-        &mut self,
+    pub fn solve_observed<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: impl Borrow<Surface>,
-        operator: impl FnMut(Grid) -> Result<O>,
-        law: L,
+        mut operators: impl OnGrids<T>,
+        law: impl AdhesionLaw<T> + 'static,
         control: Control,
-        observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
-    ) -> Result<NestedSolution<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        let (Solved { solution, .. }, levels) = self.run(surface, operator, law, control, observe)?;
+        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
+    ) -> Result<NestedSolution<T>> {
+        let law = SharedLaw::new(law);
+        let (Solved { solution, .. }, levels) =
+            self.run(solver, surface, &mut operators, &law, control, &mut observe)?;
         Ok(NestedSolution { solution, levels })
     }
 
     /// As [`Nested::solve_observed`], with the gap on the operator's grid.
-    pub(crate) fn run<T, O, L>(
-        &mut self,
+    pub(crate) fn run<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         heights: impl Borrow<Surface>,
-        mut operator: impl FnMut(Grid) -> Result<O>,
-        law: L,
+        operators: &mut dyn OnGrids<T>,
+        law: &SharedLaw<T>,
         control: Control,
-        mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
-    ) -> Result<(Solved<T>, Vec<Level>)>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+        observe: GridObserver<'_>,
+    ) -> Result<(Solved<T>, Vec<Level>)> {
         Error::positive("coarse tolerance", self.coarse_tolerance)?;
         let surface: &Surface = heights.borrow();
         let finest = *surface.grid();
@@ -222,27 +201,26 @@ impl<C> Nested<C> {
             stopped = stopped || observe(grid, iteration).is_break();
             if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let (mut levels, coarser) = self.solve_coarser(surface, &mut operator, &law, control, &mut watch)?;
-        let mut half_space = operator(finest)?;
-        let (rigid, touching) = (self.solver.constraint.wall().is_rigid(), Touching::of(self.solver.constraint.wall()));
+        let (mut levels, coarser) = self.solve_coarser(solver, surface, operators, law, control, &mut watch)?;
+        let mut half_space = operators.on(finest)?;
+        let (rigid, touching) = (solver.constraint.wall().is_rigid(), Touching::of(solver.constraint.wall()));
         let prolonged = coarser.map(|coarser| prolonged(coarser, surface, half_space.grid(), touching));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(&finest, iteration);
         let part = match &prolonged {
             Some(gap) if rigid => {
-                self.solve_part(surface, (&mut half_space, &mut operator), &law, control, gap, &mut watch)?
+                part::solve_part(solver, surface, (&mut *half_space, operators), law, control, gap, &mut watch)?
             }
             _ => None,
         };
         let unique = law.hints().zero;
-        let mut problem = Problem::new(surface, half_space, law)?;
+        let mut problem = Problem::of(surface, half_space, law.clone())?;
         drop(heights);
         let mut spent = part.as_ref().map_or(0, |part| part.applications);
-        let wall = self.solver.constraint.wall();
+        let wall = solver.constraint.wall();
         let load = problem.flat.load(control, wall)?;
         let default = Begin::At(Start::Default);
-        let branch =
-            Branch::of_start(&default, &self.solver.settings, problem.law_on_grid(), (load, wall), &problem.flat)?;
+        let branch = Branch::of_start(&default, &solver.settings, problem.law_on_grid(), (load, wall), &problem.flat)?;
         let begin = match (part.filter(|part| part.leads(unique)), prolonged) {
             (Some(part), _) => {
                 spent += 1;
@@ -251,7 +229,7 @@ impl<C> Nested<C> {
             (None, Some(prolonged)) => Begin::Prolonged(prolonged),
             (None, None) => default,
         };
-        let mut solved = self.solver.run(problem.parts(), control, begin, &mut watch)?;
+        let mut solved = solver.run(problem.parts(), control, begin, &mut watch)?;
         let report = &solved.solution.report;
         let lost = match report.status {
             // at the floor of rounding another start would stall as well
@@ -261,61 +239,57 @@ impl<C> Nested<C> {
         if started && lost {
             spent += report.operator_applications;
             drop(solved);
-            solved = self.solver.run(problem.parts(), control, Begin::At(Start::Default), &mut watch)?;
+            solved = solver.run(problem.parts(), control, Begin::At(Start::Default), &mut watch)?;
         }
         solved.solution.report.branch = branch;
-        let stiffness = self.stiffness_of(&mut problem, &solved.solution)?;
+        let stiffness = self.stiffness_of(solver, &mut problem, &solved.solution)?;
         let level = Level::of(&solved.solution)?;
         let operator_applications = level.operator_applications + spent;
         levels.push(Level { operator_applications, stiffness, ..level });
         Ok((solved, levels))
     }
 
-    fn solve_coarser<T, O, L>(
-        &mut self,
+    fn solve_coarser<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
-        operator: &mut impl FnMut(Grid) -> Result<O>,
-        law: &L,
+        operators: &mut dyn OnGrids<T>,
+        law: &SharedLaw<T>,
         control: Control,
-        watch: &mut (impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send),
-    ) -> Result<(Vec<Level>, Option<Deformed<T>>)>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+        watch: GridObserver<'_>,
+    ) -> Result<(Vec<Level>, Option<Deformed<T>>)> {
         let varies = law.hints().shape.is_some();
-        let alike = !varies && self.solver.constraint.wall().is_rigid();
-        let touching = Touching::of(self.solver.constraint.wall());
-        let tolerance = self.coarse_tolerance.max(self.solver.settings.tolerance_in::<T>());
+        let alike = !varies && solver.constraint.wall().is_rigid();
+        let touching = Touching::of(solver.constraint.wall());
+        let tolerance = self.coarse_tolerance.max(solver.settings.tolerance_in::<T>());
         let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
         while let Some(coarse) = surfaces.pop() {
             let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
-            let half_space = operator(*coarse.grid())?;
-            let [here, finest] = [coarse.grid(), surface.grid()].map(|grid| mu_rho(law, grid, half_space.modulus()));
-            let coarse_law: Box<dyn AdhesionLaw<T> + '_> = if here <= Report::RESOLVED_MU_RHO {
-                law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).unwrap_or_else(|| Box::new(law))
+            let half_space = operators.on(*coarse.grid())?;
+            let [here, finest] = [coarse.grid(), surface.grid()].map(|grid| mu_rho(&**law, grid, half_space.modulus()));
+            let coarse_law = if here <= Report::RESOLVED_MU_RHO {
+                law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).map_or_else(|| law.clone(), SharedLaw)
             } else if alike && finest <= Report::RESOLVED_MU_RHO {
-                Box::new(Jkr::new(law.hints().work_of_adhesion.widen())?)
+                SharedLaw::new(Jkr::new(law.hints().work_of_adhesion.widen())?)
             } else {
                 continue;
             };
-            let mut problem = Problem::new(&coarse, half_space, coarse_law)?;
+            let mut problem = Problem::of(&coarse, half_space, coarse_law)?;
             let prolonged =
                 coarser.take().map(|coarser| prolonged(coarser, &coarse, problem.operator.grid(), touching));
             let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
             let mut smoothed = false;
+            let mut watch = |iteration: &Iteration| {
+                let next = watch(coarse.grid(), iteration);
+                // the equilibrium of the smoothed law is all that the next grid needs
+                let done = smoothed && !iteration.smoothed;
+                smoothed = iteration.smoothed;
+                if done { ControlFlow::Break(()) } else { next }
+            };
             let Solved { solution, whole, .. } =
-                self.run_to(tolerance, problem.parts(), control, begin, &mut |iteration| {
-                    let next = watch(coarse.grid(), iteration);
-                    // the equilibrium of the smoothed law is all that the next grid needs
-                    let done = smoothed && !iteration.smoothed;
-                    smoothed = iteration.smoothed;
-                    if done { ControlFlow::Break(()) } else { next }
-                })?;
-            let stiffness = self.stiffness_of(&mut problem, &solution)?;
+                solver.to(tolerance, |solver| solver.run(problem.parts(), control, begin, &mut watch))?;
+            let stiffness = self.stiffness_of(solver, &mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution)? });
             let yielded = solution.report.plastic.map_or(0.0, |plastic| plastic.fraction);
             if levels.len() == 1 && levels[0].area.contact_fraction - yielded > self.closed {
@@ -330,37 +304,13 @@ impl<C> Nested<C> {
         Ok((levels, coarser))
     }
 
-    /// Runs the solver to another tolerance.
-    fn run_to<T: Real>(
-        &mut self,
-        tolerance: f64,
-        problem: Parts<'_, T>,
-        control: Control,
-        begin: Begin<'_, T>,
-        observe: Observer<'_>,
-    ) -> Result<Solved<T>>
-    where
-        C: ContactConstraint<T>,
-    {
-        let settings = self.solver.settings;
-        self.solver.settings.tolerance = Some(tolerance);
-        let result = self.solver.run(problem, control, begin, observe);
-        self.solver.settings = settings;
-        result
-    }
-
-    pub(crate) fn stiffness_of<T, O, L>(
+    pub(crate) fn stiffness_of<T: Real>(
         &self,
-        problem: &mut Problem<T, O, L>,
+        solver: &Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
         solution: &Solution<T>,
-    ) -> Result<Option<ContactStiffness>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        let find = |tolerance| ContactStiffness::of_constrained(problem, &self.solver.constraint, solution, tolerance);
+    ) -> Result<Option<ContactStiffness>> {
+        let find = |tolerance| ContactStiffness::of_constrained(problem, &solver.constraint, solution, tolerance);
         self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
     }
 }

@@ -1,15 +1,14 @@
 //! A path of equilibria: small steps along a branch, with its jumps and bifurcations.
 //!
-//! [`Path`] is an iterator over the states of a branch. The page [`branches`](crate::guide::branches) has loading and
+//! [`Path`] goes from state to state of a branch. The page [`branches`](crate::guide::branches) has loading and
 //! unloading worked out.
 
 use std::ops::ControlFlow;
 
 use ndarray::Array2;
 
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Projection};
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::constraint::ContactConstraint;
+use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
@@ -35,10 +34,9 @@ pub use event::{Event, Jump};
 use figures::Mode;
 pub use settings::PathSettings;
 use sharp::Sharp;
-pub use step::{PathCheckpoint, PathStep};
+pub use step::PathStep;
 
-/// A path of equilibria: an iterator over the states of a branch that is followed from load to load in small steps,
-/// with its jumps.
+/// A path of equilibria: the states of a branch that is followed from load to load in small steps, with its jumps.
 ///
 /// Each load is any [`Control`] that the problem has; the first one is where the path starts, and from each to the
 /// next leads a *leg*. Mean gap below stands for the approach with a free boundary, and for the rest of a spring. A
@@ -90,7 +88,8 @@ pub use step::{PathCheckpoint, PathStep};
 ///
 /// # Going on
 ///
-/// A path can be interrupted, kept as a [`PathCheckpoint`], and continued, bit for bit. The page
+/// Solver and problem are given with each step. A path is its own checkpoint: a copy, or with the feature `serde` one
+/// that was kept and read again, goes on bit for bit, also at a problem that is made anew. The page
 /// [`branches`](crate::guide::branches) has a cycle with jumps.
 ///
 /// ```
@@ -100,24 +99,25 @@ pub use step::{PathCheckpoint, PathStep};
 /// let mut problem = Problem::new(&Surface::wave(grid, 0.02, 1)?, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let (mut solver, settings) = (Solver::default(), PathSettings::default().steps(4));
 /// let legs = [0.02, 0.01].map(Control::MeanGap);
-/// let whole = Path::new(&mut solver, &mut problem, legs, settings)?.collect::<Result<Vec<_>, _>>()?;
-/// let mut first = Path::new(&mut solver, &mut problem, legs, settings)?;
-/// first.next().transpose()?;
-/// let kept = first.checkpoint();
-/// let rest = Path::new(&mut solver, &mut problem, legs, settings)?.continuing(kept)?.collect::<Result<Vec<_>, _>>()?;
-/// assert_eq!(rest, whole[1..]);
+/// let mut path = Path::new(legs, settings)?;
+/// path.next(&mut solver, &mut problem)?;
+/// let mut kept = path.clone();
+/// while let Some(step) = path.next(&mut solver, &mut problem)? {
+///     assert_eq!(kept.next(&mut solver, &mut problem)?, Some(step));
+/// }
 /// # Ok::<(), asperity::Error>(())
 /// ```
-#[derive(Debug)]
-pub struct Path<'a, T, O, L, C = Projection> {
-    solver: &'a mut Solver<C>,
-    problem: &'a mut Problem<T, O, L>,
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Path<T> {
     legs: Vec<Control>,
     settings: PathSettings,
     start: Option<Array2<T>>,
     course: Course,
     /// the last gaps on the grid of the operator, the latest last: at most two
     gaps: Vec<Array2<T>>,
+    /// the plastic depth of the last state, on the grid of the operator
+    depth: Option<Array2<T>>,
     watch: Watch<T>,
     failed: bool,
 }
@@ -125,42 +125,22 @@ pub struct Path<'a, T, O, L, C = Projection> {
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
-/// The name of the value of a checkpoint whose last field is a plastic depth.
-const YIELDED: &str = "yielded";
-
 /// The roundings that the sums of the energy may have.
 const ROUNDINGS: f64 = 8.0;
 
-impl<'a, T, O, L, C> Path<'a, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+/// What a path is followed with.
+struct Bench<'a, T: Real> {
+    solver: &'a mut Solver<dyn ContactConstraint<T>>,
+    problem: &'a mut Problem<T>,
+    observe: Observer<'a>,
+}
+
+impl<T: Real> Path<T> {
     /// The path through `loads`, of which the first is the start.
     ///
     /// # Errors
-    /// [`Error::Value`] for settings out of range, a load that is not finite, or a negative mean gap;
-    /// [`Error::Control`] for a load that the problem does not have, and a periodic surface with absent nodes;
-    /// [`Error::Wall`] for springs, and for a law that is not made for the wall.
-    pub fn new(
-        solver: &'a mut Solver<C>,
-        problem: &'a mut Problem<T, O, L>,
-        loads: impl IntoIterator<Item = Control>,
-        settings: PathSettings,
-    ) -> Result<Self> {
-        let (legs, wall): (Vec<_>, _) = (loads.into_iter().collect(), solver.constraint.wall());
-        refuse_springs(wall)?;
-        check_wall(problem.law_on_grid(), wall)?;
-        for load in &legs {
-            check_hardness(problem.law_on_grid(), problem.flat.load(*load, wall)?, &problem.flat, wall)?;
-            if problem.flat.window.is_some() && problem.flat.boundary == Boundary::Periodic {
-                let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
-                              solve at one load after the other, as Sweep does, or take a free half-space";
-                return Err(Error::Control { control: "path", reason });
-            }
-        }
+    /// [`Error::Value`] for settings out of range.
+    pub fn new(loads: impl IntoIterator<Item = Control>, settings: PathSettings) -> Result<Self> {
         if settings.steps == 0 {
             return Err(Error::Value { name: "number of steps", value: 0.0, requirement: "at least 1" });
         }
@@ -169,8 +149,16 @@ where
             let (name, value) = ("smallest step", settings.smallest_step);
             return Err(Error::Value { name, value, requirement: "positive and below 1" });
         }
-        let (course, watch) = (Course::on(&problem.flat), Watch::default());
-        Ok(Self { solver, problem, legs, settings, start: None, course, gaps: Vec::new(), watch, failed: false })
+        Ok(Self {
+            legs: loads.into_iter().collect(),
+            settings,
+            start: None,
+            course: Course::default(),
+            gaps: Vec::new(),
+            depth: None,
+            watch: Watch::default(),
+            failed: false,
+        })
     }
 
     /// The path with a gap of shape (Nx, Ny) as the start at the first load.
@@ -189,102 +177,89 @@ where
         self.course.share(self.legs.len())
     }
 
-    /// The present place of the path, from which [`Path::continuing`] goes on.
-    pub fn checkpoint(&self) -> PathCheckpoint<T> {
-        let window = self.problem.flat.window.as_ref();
-        let mode = self.watch.mode.as_ref().map(|mode| match window {
-            Some(window) => window.place(&window.hold(mode.view()).into_owned(), T::zero()),
-            None => mode.clone(),
-        });
-        let depth = self.problem.flat.yielded.as_ref().map(|yielded| yielded.depth().clone());
-        let mut values = self.course.values();
-        values.extend(depth.as_ref().map(|_| (YIELDED.to_owned(), vec![1.0])));
-        PathCheckpoint { values, fields: self.gaps.iter().cloned().chain(mode).chain(depth).collect() }
-    }
-
-    /// The path continued from the checkpoint of another one with the same problem, loads and settings.
+    /// Refuses loads that the problem does not have, as the first step does.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the fields are of another grid, [`Error::Value`] if the values are not a checkpoint's.
-    pub fn continuing(mut self, from: PathCheckpoint<T>) -> Result<Self> {
-        let grid = *self.problem.operator.grid();
-        let PathCheckpoint { mut values, mut fields } = from;
-        for field in &mut fields {
-            grid.fits("field of the checkpoint", field.dim())?;
-            if !field.is_standard_layout() {
-                *field = field.as_standard_layout().into_owned();
-            }
+    /// [`Error::Value`] for a load that is not finite, or a negative mean gap; [`Error::Control`] for a load that the
+    /// problem does not have, and a periodic surface with absent nodes; [`Error::Wall`] for springs, and for a law that
+    /// is not made for the wall.
+    pub fn check(&self, solver: &Solver<dyn ContactConstraint<T>>, problem: &Problem<T>) -> Result<()> {
+        let (law, flat, wall) = (problem.law_on_grid(), &problem.flat, solver.constraint.wall());
+        refuse_springs(wall)?;
+        check_wall(law, wall)?;
+        for &load in &self.legs {
+            check_hardness(law, flat.load(load, wall)?, flat, wall)?;
         }
-        let depth = values.remove(YIELDED).and_then(|_| fields.pop());
-        let course = Course::of_values(&values, Course::on(&self.problem.flat)).filter(|course| {
-            let gaps = course.at.len();
-            course.leg < self.legs.len().max(1)
-                && course.solved != fields.is_empty()
-                && (gaps..=gaps + 1).contains(&fields.len())
-        });
-        let Some(course) = course else {
-            let (name, value) = ("number of values in the checkpoint", values.len() as f64);
-            return Err(Error::Value { name, value, requirement: "as in PathCheckpoint, with all of its fields" });
-        };
-        let mode = fields.drain(course.at.len()..).next();
-        self.watch = Watch::from_mode(match &self.problem.flat.window {
-            Some(window) => mode.map(|mode| window.crop(&mode, T::zero())),
-            None => mode,
-        });
-        if let Some(depth) = depth {
-            self.problem.flatten_on_grid(depth)?;
+        if flat.window.is_some() && flat.boundary == Boundary::Periodic {
+            let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
+                          solve at one load after the other, as Sweep does, or take a free half-space";
+            return Err(Error::Control { control: "path", reason });
         }
-        (self.course, self.gaps) = (course, fields);
-        Ok(self)
+        Ok(())
     }
 
-    /// The next state, with an observer of the iterations; if it stops a solve, the path ends with the state before.
+    /// The next state; none at the end.
     ///
     /// # Errors
-    /// Those of [`Solver::solve_with`]; after one the path ends.
+    /// Those of [`Self::check`] and [`Solver::solve_with`], after which the path ends; [`Error::Shape`] for a problem on
+    /// another grid than that of the state before.
+    pub fn next(
+        &mut self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
+    ) -> Result<Option<PathStep<T>>> {
+        self.next_observed(solver, problem, |_| ControlFlow::Continue(()))
+    }
+
+    /// The same with an observer of the iterations; if it stops a solve, the path ends with the state before.
+    ///
+    /// # Errors
+    /// Those of [`Self::next`].
     pub fn next_observed(
         &mut self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
-    ) -> Option<Result<PathStep<T>>> {
+    ) -> Result<Option<PathStep<T>>> {
         if self.failed {
-            return None;
+            return Ok(None);
         }
-        let step = self.advance(&mut observe);
-        self.failed = matches!(step, Some(Err(_)));
+        let step = self.advance(&mut Bench { solver, problem, observe: &mut observe });
+        self.failed |= step.is_err();
         step
     }
 
-    fn advance(&mut self, observe: Observer<'_>) -> Option<Result<PathStep<T>>> {
+    fn advance(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
         if !self.course.solved {
-            let control = *self.legs.first()?;
-            let start = self.start.take();
-            return self.begin(control, start, observe).transpose();
+            let Some(&load) = self.legs.first() else { return Ok(None) };
+            self.check(bench.solver, bench.problem)?;
+            return self.begin(bench, load);
         }
+        for field in self.gaps.iter().chain(&self.depth) {
+            bench.problem.operator.grid().fits("field of the path", field.dim())?;
+        }
+        self.watch.check(bench.problem.grid())?;
+        bench.problem.yield_to(self.depth.as_ref())?;
         while !self.failed {
             while self.course.is_at_end() {
                 let next = self.course.leg + 1;
-                self.course.enter(next, *self.legs.get(next)?, &self.settings);
+                let Some(&load) = self.legs.get(next) else { return Ok(None) };
+                self.course.enter(next, load, &self.settings);
             }
-            match self.attempt(observe) {
-                Ok(Some(step)) => return Some(Ok(step)),
-                Ok(None) => {}
-                Err(error) => return Some(Err(error)),
+            if let Some(step) = self.attempt(bench)? {
+                return Ok(Some(step));
             }
         }
-        None
+        Ok(None)
     }
 
     /// The first step, unless it was stopped.
-    fn begin(
-        &mut self,
-        control: Control,
-        start: Option<Array2<T>>,
-        observe: Observer<'_>,
-    ) -> Result<Option<PathStep<T>>> {
-        let mut solved = self.first(control, start, observe)?;
-        let mut on_saddle = solved.is_settled() && self.saddle(&solved.solution)?.is_some();
+    fn begin(&mut self, bench: &mut Bench<'_, T>, control: Control) -> Result<Option<PathStep<T>>> {
+        self.course = Course::on(&bench.problem.flat);
+        let mut solved = self.first(bench, control)?;
+        let mut on_saddle = solved.is_settled() && self.saddle(bench, &solved.solution)?.is_some();
         if on_saddle {
-            let (left, _) = self.leave(&solved.solution, control, observe)?;
+            let (left, _) = self.leave(bench, &solved.solution, control)?;
             if self.failed {
                 return Ok(None);
             }
@@ -292,47 +267,47 @@ where
         }
         self.course.begin(&solved.solution.report);
         self.course.on_saddle = on_saddle;
-        let solution = self.keep(solved)?;
+        let solution = self.keep(bench.problem, solved)?;
         Ok(Some(self.step(solution, None)))
     }
 
     /// The first state. The default start is an equilibrium of the law itself.
-    fn first(&mut self, control: Control, start: Option<Array2<T>>, observe: Observer<'_>) -> Result<Solved<T>> {
-        let jumps = self.settings.smooth && smoothed_law(&self.problem.operator, self.problem.law_on_grid()).is_some();
-        match start {
-            Some(start) => self.solve(control, Begin::At(Start::From(&start)), observe),
+    fn first(&mut self, bench: &mut Bench<'_, T>, control: Control) -> Result<Solved<T>> {
+        let problem = &bench.problem;
+        let jumps = self.settings.smooth && smoothed_law(problem.operator(), problem.law_on_grid()).is_some();
+        match self.start.take() {
+            Some(start) => self.solve(bench, control, Begin::At(Start::From(&start))),
             None if jumps => {
-                let (_, sharp) = self.solve(control, Begin::At(Start::Default), observe)?.with_gap();
-                self.solve(control, Begin::Found(sharp), observe)
+                let (_, sharp) = self.solve(bench, control, Begin::At(Start::Default))?.with_gap();
+                self.solve(bench, control, Begin::Found(sharp))
             }
-            None => self.solve(control, Begin::At(Start::Default), observe),
+            None => self.solve(bench, control, Begin::At(Start::Default)),
         }
     }
 
-    fn solve(&mut self, control: Control, begin: Begin<'_, T>, observe: Observer<'_>) -> Result<Solved<T>> {
-        let Parts { operator, law, flat } = self.problem.parts();
-        let sharp = Sharp(law);
-        let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
+    fn solve(&self, bench: &mut Bench<'_, T>, control: Control, begin: Begin<'_, T>) -> Result<Solved<T>> {
+        let parts = bench.problem.parts();
+        let sharp = Sharp(parts.law);
+        let smoothed = if self.settings.smooth { smoothed_law(&*parts.operator, parts.law) } else { None };
         let law = match &smoothed {
-            _ if begin.is_default() => law,
+            _ if begin.is_default() => parts.law,
             Some(smoothed) => smoothed,
             None => &sharp,
         };
-        let parts = Parts { operator, law, flat };
-        self.solver.run(parts, control, begin, observe)
+        bench.solver.run(Parts { law, ..parts }, control, begin, &mut *bench.observe)
     }
 
     /// One step; `None` if it has to be taken back and halved.
-    fn attempt(&mut self, observe: Observer<'_>) -> Result<Option<PathStep<T>>> {
+    fn attempt(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
         let (target, smallest) = self.course.next_target(&self.settings);
         let control = self.course.control(target);
-        let start = self.predict(target);
-        let mut solved = self.solve(control, Begin::Found(start), observe)?;
+        let start = self.predict(bench, target);
+        let mut solved = self.solve(bench, control, Begin::Found(start))?;
         // a long way after a jump may need another run-up
         for _ in 0..RETRIES {
             let short = matches!(solved.solution.report.status, Status::Stalled | Status::IterationLimit);
             if smallest && short && !solved.is_settled() {
-                solved = self.solve(control, Begin::Found(solved.with_gap().1), observe)?;
+                solved = self.solve(bench, control, Begin::Found(solved.with_gap().1))?;
             }
         }
         let (settled, report) = (solved.is_settled(), &solved.solution.report);
@@ -340,17 +315,18 @@ where
             self.failed = true;
             return Ok(None);
         }
-        let w = self.problem.law_on_grid().hints().work_of_adhesion.widen();
-        let flat = self.problem.flat.work * self.problem.flat.padding;
+        let hints = bench.problem.law_on_grid().hints();
+        let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
+        let flat = bench.problem.flat.work * bench.problem.flat.padding;
         // where surfaces hardly touch, the energy is the small difference of sums as large as that of flat surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
         // the tolerance's share in the energy of surfaces that are apart: only adhesion makes them jump
-        let left = if self.problem.law_on_grid().hints().zero { report.tolerance.powi(2) * flat } else { 0.0 };
+        let left = if hints.zero { report.tolerance.powi(2) * flat } else { 0.0 };
         let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.course.judge(target, report, scale, noise);
         let good = trial.balanced && settled;
-        let saddle = if settled && (good || smallest) { self.saddle(&solved.solution)? } else { None };
+        let saddle = if settled && (good || smallest) { self.saddle(bench, &solved.solution)? } else { None };
         let lost = good && saddle.is_some() && !self.course.on_saddle;
         if (!good || lost) && !smallest {
             self.course.halve(&self.settings);
@@ -358,15 +334,15 @@ where
         }
         let detached = report.status == Status::Detached;
         if self.course.mode == Mode::Pressure && (trial.jumped && !good || detached || lost) {
-            let far = 2.0 * (self.problem.flat.height_span + 10.0 * self.problem.law_on_grid().hints().range.widen());
-            let close = self.closest(self.course.end());
+            let far = 2.0 * (bench.problem.flat.height_span + 10.0 * range);
+            let close = bench.closest(self.course.end());
             self.course.leave_pressure_control((close, far), !lost, &self.settings);
             return Ok(None);
         }
         let mut way = Way { jumped: trial.jumped && !good, bifurcation: None };
         let mut on_saddle = saddle.is_some();
         if let Some(saddle) = saddle {
-            let (left, drawn) = self.leave(&solved.solution, control, observe)?;
+            let (left, drawn) = self.leave(bench, &solved.solution, control)?;
             if self.failed {
                 return Ok(None);
             }
@@ -388,18 +364,19 @@ where
         } else if self.gaps.len() == 2 {
             self.gaps.remove(0);
         }
-        let solution = self.keep(solved)?;
+        let solution = self.keep(bench.problem, solved)?;
         Ok(Some(self.step(solution, event)))
     }
 
     /// Keeps the gap of a state, and how far the surface has yielded: gaps are to the surface as it is now.
-    fn keep(&mut self, solved: Solved<T>) -> Result<Solution<T>> {
+    fn keep(&mut self, problem: &mut Problem<T>, solved: Solved<T>) -> Result<Solution<T>> {
         let stays = solved.is_settled();
         let (solution, mut gap) = solved.with_gap();
         if let Some(depth) = &solution.plastic_depth {
-            let lowered = self.problem.lower(depth.view(), stays, &mut gap)?;
+            let lowered = problem.lower(depth.view(), stays, &mut gap)?;
             self.gaps.iter_mut().for_each(|gap| *gap += &lowered);
         }
+        self.depth = problem.yielded().cloned();
         self.gaps.push(gap);
         Ok(solution)
     }
@@ -407,19 +384,5 @@ where
     fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {
         let Account { work, dissipated, imbalance, .. } = self.course.account;
         PathStep { solution, leg: self.course.leg, work, dissipated, imbalance, event }
-    }
-}
-
-impl<T, O, L, C> Iterator for Path<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
-    type Item = Result<PathStep<T>>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        self.next_observed(|_| ControlFlow::Continue(()))
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ndarray::{Array2, ArrayView2};
 
-use crate::adhesion::{AdhesionLaw, Discretisation, mu_rho, on_grid};
+use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho, on_grid};
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::grid::Grid;
@@ -20,7 +20,7 @@ mod yielded;
 pub use control::Control;
 pub(crate) use control::Load;
 pub(crate) use flat::PressedFlat;
-use flat::pressed_flat;
+use flat::{check_law, pressed_flat};
 pub(crate) use window::Window;
 pub(crate) use yielded::Yielded;
 
@@ -41,30 +41,27 @@ const SMOOTHING: f64 = 5.0;
 /// assert_eq!(solution.report.contact_nodes, 61);
 /// # Ok::<(), asperity::Error>(())
 /// ```
-#[derive(Clone)]
-pub struct Problem<T, O, L> {
-    pub(crate) operator: O,
-    law: L,
+pub struct Problem<T: Real> {
+    pub(crate) operator: Box<dyn ElasticOperator<T>>,
+    law: SharedLaw<T>,
     /// the law on the nodes of the operator, if it is another one there
     on_nodes: Option<Arc<dyn AdhesionLaw<T>>>,
     pub(crate) flat: PressedFlat<T>,
 }
 
-impl<T: fmt::Debug, O: fmt::Debug, L: fmt::Debug> fmt::Debug for Problem<T, O, L> {
+impl<T: Real> fmt::Debug for Problem<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { operator, law, flat, .. } = self;
-        f.debug_struct("Problem")
-            .field("operator", operator)
-            .field("law", law)
-            .field("flat", flat)
-            .finish_non_exhaustive()
+        let Self { law, flat, .. } = self;
+        f.debug_struct("Problem").field("law", law).field("flat", flat).finish_non_exhaustive()
     }
 }
 
-/// A problem whose operator and law are of any kind.
-pub(crate) struct Parts<'a, T> {
+/// The parts of a problem, perhaps with another law for a solve than that of the problem.
+pub(crate) struct Parts<'a, T: Real> {
     pub(crate) operator: &'a mut dyn ElasticOperator<T>,
     pub(crate) law: &'a dyn AdhesionLaw<T>,
+    /// the law of the problem, as it was given
+    pub(crate) given: &'a SharedLaw<T>,
     pub(crate) flat: &'a PressedFlat<T>,
 }
 
@@ -76,15 +73,15 @@ impl<T: Real> Parts<'_, T> {
 }
 
 /// A law with its jumps smoothed to the resolution of an operator's grid; `None` if it has no jumps.
-pub(crate) fn smoothed_law<'a, T: Real>(
+pub(crate) fn smoothed_law<T: Real>(
     operator: &dyn ElasticOperator<T>,
-    law: &'a dyn AdhesionLaw<T>,
-) -> Option<Box<dyn AdhesionLaw<T> + 'a>> {
+    law: &dyn AdhesionLaw<T>,
+) -> Option<Arc<dyn AdhesionLaw<T>>> {
     let compliance = SMOOTHING * operator.grid().largest_spacing() / operator.modulus();
     law.adapted(Discretisation::Smooth(T::lit(compliance)))
 }
 
-impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
+impl<T: Real> Problem<T> {
     /// The problem of pressing `surface` against the elastic body of `operator`. Takes one operator application.
     ///
     /// # Errors
@@ -93,10 +90,31 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// [`Error::NotFinite`](crate::Error::NotFinite) if K⁻¹h leaves the range of T;
     /// [`Error::Shared`](crate::Error::Shared) if only one of surface and operator is shared between processes, or the
     /// operator does not take slabs; [`Error::Memory`](crate::Error::Memory) if there is too little for a solve.
-    pub fn new(surface: &Surface, mut operator: O, law: L) -> Result<Self> {
-        let on_nodes = on_grid(&law, operator.grid(), operator.modulus());
-        let flat = pressed_flat(surface, &mut operator, on_nodes.as_deref().unwrap_or(&law))?;
+    pub fn new(
+        surface: &Surface,
+        operator: impl ElasticOperator<T> + 'static,
+        law: impl AdhesionLaw<T> + 'static,
+    ) -> Result<Self> {
+        Self::of(surface, Box::new(operator), SharedLaw::new(law))
+    }
+
+    pub(crate) fn of(surface: &Surface, mut operator: Box<dyn ElasticOperator<T>>, law: SharedLaw<T>) -> Result<Self> {
+        let on_nodes = on_grid(&*law, operator.grid(), operator.modulus());
+        let flat = pressed_flat(surface, &mut *operator, on_nodes.as_deref().unwrap_or(&*law))?;
         Ok(Self { operator, law, on_nodes, flat })
+    }
+
+    /// Puts another law in the place of the adhesion law, without an operator application.
+    ///
+    /// # Errors
+    /// [`Error::Law`](crate::Error::Law) if the law is not finite at zero gap; [`Error::Shape`](crate::Error::Shape) if
+    /// it varies over another grid.
+    pub fn set_law(&mut self, law: impl AdhesionLaw<T> + 'static) -> Result<()> {
+        let law = SharedLaw::new(law);
+        let on_nodes = on_grid(&*law, self.operator.grid(), self.operator.modulus());
+        check_law(on_nodes.as_deref().unwrap_or(&*law), self.grid())?;
+        (self.law, self.on_nodes) = (law, on_nodes);
+        Ok(())
     }
 
     /// The grid of the surface, and of the fields of a solution.
@@ -105,24 +123,24 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     }
 
     /// The elastic operator.
-    pub fn operator(&self) -> &O {
-        &self.operator
+    pub fn operator(&self) -> &dyn ElasticOperator<T> {
+        &*self.operator
+    }
+
+    /// The elastic operator, for another problem on the same grid.
+    pub fn into_operator(self) -> Box<dyn ElasticOperator<T>> {
+        self.operator
     }
 
     /// The adhesion law, as it was given.
-    pub fn law(&self) -> &L {
-        &self.law
+    pub fn law(&self) -> &dyn AdhesionLaw<T> {
+        &*self.law
     }
 
     /// The adhesion law of the energy that is minimised: on the nodes of the grid where the law has no range of its
     /// own, [`AdhesionLaw::on_nodes`], otherwise as it was given.
     pub fn law_on_grid(&self) -> &dyn AdhesionLaw<T> {
-        self.on_nodes.as_deref().unwrap_or(&self.law)
-    }
-
-    /// The operator and the law, for another problem on the same grid.
-    pub fn into_parts(self) -> (O, L) {
-        (self.operator, self.law)
+        self.on_nodes.as_deref().unwrap_or(&*self.law)
     }
 
     /// Lowers the surface, as it was made, by a plastic depth on its grid: that of a
@@ -149,13 +167,13 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn flatten(&mut self, depth: ArrayView2<'_, T>) -> Result<()> {
-        let depth = self.flat.placed(&self.operator, depth)?;
-        self.flat.flatten(&mut self.operator, depth)
+        let depth = self.flat.placed(&*self.operator, depth)?;
+        self.flat.flatten(&mut *self.operator, depth)
     }
 
     /// As [`flatten`](Self::flatten), with a depth on the operator's grid.
     pub(crate) fn flatten_on_grid(&mut self, depth: Array2<T>) -> Result<()> {
-        self.flat.flatten(&mut self.operator, depth)
+        self.flat.flatten(&mut *self.operator, depth)
     }
 
     /// The plastic depth by which the surface is lower than it was made, on its grid; none if it never was lowered.
@@ -167,7 +185,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     /// As [`flatten`](Self::flatten), if the depth `stays`, with a gap of zero where the surface has yielded beyond its
     /// depth before. Returns by how much it is lower than before, on the operator's grid, as the gap is.
     pub(crate) fn lower(&mut self, depth: ArrayView2<'_, T>, stays: bool, gap: &mut Array2<T>) -> Result<Array2<T>> {
-        let depth = self.flat.placed(&self.operator, depth)?;
+        let depth = self.flat.placed(&*self.operator, depth)?;
         let mut lowered = depth.clone();
         self.flat.yielded.iter().for_each(|before| lowered -= before.depth());
         gap.zip_mut_with(&lowered, |gap, &lowered| *gap = if lowered > T::zero() { T::zero() } else { *gap });
@@ -179,13 +197,28 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
         Ok(lowered)
     }
 
+    /// The plastic depth on the operator's grid.
+    pub(crate) fn yielded(&self) -> Option<&Array2<T>> {
+        self.flat.yielded.as_ref().map(Yielded::depth)
+    }
+
+    /// Lowers the surface to the plastic depth of a strategy, if it has one, on the operator's grid.
+    pub(crate) fn yield_to(&mut self, depth: Option<&Array2<T>>) -> Result<()> {
+        match depth {
+            Some(depth) if self.operator.grid().has(self.yielded() != Some(depth)) => {
+                self.flatten_on_grid(depth.clone())
+            }
+            _ => Ok(()),
+        }
+    }
+
     pub(crate) fn parts(&mut self) -> Parts<'_, T> {
-        let law = self.on_nodes.as_deref().unwrap_or(&self.law);
-        Parts { operator: &mut self.operator, law, flat: &self.flat }
+        let law = self.on_nodes.as_deref().unwrap_or(&*self.law);
+        Parts { operator: &mut *self.operator, law, given: &self.law, flat: &self.flat }
     }
 
     /// The measure μ_ρ of how the grid resolves the adhesive zone: [`mu_rho`].
     pub fn mu_rho(&self) -> f64 {
-        mu_rho(&self.law, self.grid(), self.operator.modulus())
+        mu_rho(&*self.law, self.grid(), self.operator.modulus())
     }
 }

@@ -2,9 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Wall};
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Parts, Problem, smoothed_law};
 use crate::real::Real;
@@ -76,7 +75,7 @@ pub struct PullOff {
 /// The end of a search for the pull-off.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
-pub struct FoundPullOff<T> {
+pub struct FoundPullOff<T: Real> {
     /// The state under the greatest tension that was borne; its mean pressure is minus that.
     pub solution: Solution<T>,
     /// The least tension under which the surfaces came apart, a pressure; none if there was no such one. If
@@ -106,10 +105,10 @@ impl PullOff {
     /// # Errors
     /// [`Error::Control`] without adhesion, and where surfaces under no load do not attract each other; [`Error::Value`]
     /// for a tolerance or a preload out of their ranges; [`Error::Wall`] for springs; those of [`Solver::solve_with`].
-    pub fn find<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+    pub fn find<T: Real>(
         &self,
-        solver: &mut Solver<C>,
-        problem: &mut Problem<T, O, L>,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
     ) -> Result<FoundPullOff<T>> {
         self.find_from(solver, problem, Start::Default, |_| ControlFlow::Continue(()))
     }
@@ -118,10 +117,10 @@ impl PullOff {
     ///
     /// # Errors
     /// Those of [`Self::find`].
-    pub fn find_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+    pub fn find_from<T: Real>(
         &self,
-        solver: &mut Solver<C>,
-        problem: &mut Problem<T, O, L>,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
         start: Start<'_, T>,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<FoundPullOff<T>> {
@@ -171,11 +170,7 @@ impl PullOff {
         Ok(search.end(held, bracket.lost, bracket.is_narrow(tolerance)))
     }
 
-    fn check<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
-        &self,
-        solver: &Solver<C>,
-        problem: &Problem<T, O, L>,
-    ) -> Result<()> {
+    fn check<T: Real>(&self, solver: &Solver<dyn ContactConstraint<T>>, problem: &Problem<T>) -> Result<()> {
         if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
             let requirement = "positive, and less than 1";
             return Err(Error::Value { name: "tolerance of the pull-off", value: self.tolerance, requirement });
@@ -207,23 +202,23 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+    fn solve<T: Real>(
         &mut self,
-        solver: &mut Solver<C>,
-        problem: &mut Problem<T, O, L>,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
         control: Control,
         begin: Begin<'_, T>,
     ) -> Result<Solved<T>> {
-        let Parts { operator, law, flat } = problem.parts();
-        let smoothed = smoothed_law(&*operator, law);
-        let parts = Parts { operator, law: smoothed.as_deref().unwrap_or(law), flat };
+        let parts = problem.parts();
+        let smoothed = smoothed_law(&*parts.operator, parts.law);
+        let parts = Parts { law: smoothed.as_deref().unwrap_or(parts.law), ..parts };
         let solved = solver.run(parts, control, begin, &mut *self.observe)?;
         self.solves += 1;
         self.operator_applications += solved.solution.report.operator_applications;
         Ok(solved)
     }
 
-    fn end<T>(self, held: Solved<T>, lost: Option<f64>, reached: bool) -> FoundPullOff<T> {
+    fn end<T: Real>(self, held: Solved<T>, lost: Option<f64>, reached: bool) -> FoundPullOff<T> {
         let Self { branch, solves, operator_applications, .. } = self;
         FoundPullOff { solution: held.solution, lost, reached, branch, solves, operator_applications }
     }

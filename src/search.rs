@@ -5,9 +5,8 @@ use std::ops::ControlFlow;
 
 use ndarray::Array2;
 
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::{ContactConstraint, Projection, Wall};
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::constraint::{ContactConstraint, Wall};
+use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, Problem};
 use crate::real::Real;
@@ -45,7 +44,8 @@ const CLOSEST: f64 = 0.01;
 ///
 /// The fraction is reached within one node or 1 %. Where the contact jumps past it, the state on the nearer side is
 /// returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
-/// [`above`](FoundContact::above) are the ends of the jump. A search goes on from where the last one ended.
+/// [`above`](FoundContact::above) are the ends of the jump. A search goes on from where the last one ended; with the
+/// feature `serde` it is its own checkpoint.
 ///
 /// Memory: four fields beside that of a solve, on a free half-space five, of which two are on the grid of the operator.
 ///
@@ -55,21 +55,19 @@ const CLOSEST: f64 = 0.01;
 /// let surface = SelfAffine::default().k_s(16.0).surface(grid)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
 /// let mut solver = Solver::default();
-/// let mut search = ContactSearch::new(&mut solver, &mut problem)?;
+/// let mut search = ContactSearch::default();
 /// for fraction in [0.05, 0.1, 0.2] {
-///     let found = search.at(fraction)?;
+///     let found = search.at(&mut solver, &mut problem, fraction)?;
 ///     assert!(found.reached && (found.solution.report.contact_fraction / fraction - 1.0).abs() < 0.01);
 /// }
 /// # Ok::<(), asperity::Error>(())
 /// ```
-#[derive(Debug)]
-pub struct ContactSearch<'a, T, O, L, C = Projection> {
-    solver: &'a mut Solver<C>,
-    problem: &'a mut Problem<T, O, L>,
-    axis: Axis,
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ContactSearch<T> {
     /// The given gap from which solves start until one replaces it, on the grid of the surface.
     start: Option<Array2<T>>,
-    /// The gap from which they start otherwise, on the grid of the operator.
+    /// The gap from which they start otherwise, on the grid of the operator; beyond a window the displacement.
     gap: Option<Array2<T>>,
     /// The last two results, the latest last.
     points: Vec<Point>,
@@ -78,7 +76,7 @@ pub struct ContactSearch<'a, T, O, L, C = Projection> {
 /// The result of a search for a contact fraction.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
-pub struct FoundContact<T> {
+pub struct FoundContact<T: Real> {
     /// The state, the wanted one if reached, under a mean pressure, with adhesion a mean gap or an approach.
     pub solution: Solution<T>,
     /// Whether the solve has converged, and its contact fraction is the wanted one to the tolerance.
@@ -94,6 +92,7 @@ pub struct FoundContact<T> {
 }
 
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Point {
     x: f64,
     /// ln(−ln(1 − A)) of the contact fraction A
@@ -168,57 +167,31 @@ impl Axis {
     }
 }
 
-impl<'a, T, O, L, C> ContactSearch<'a, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
-    /// A search on a problem, from the default start.
-    ///
-    /// # Errors
-    /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
-    /// absent nodes; [`Error::Value`] for a flat surface.
-    pub fn new(solver: &'a mut Solver<C>, problem: &'a mut Problem<T, O, L>) -> Result<Self> {
-        if let Wall::None = solver.constraint.wall() {
-            let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
-            return Err(Error::Control { control: "contact-fraction", reason });
-        }
-        let axis = Axis::of(&problem.flat, !problem.law_on_grid().hints().zero)?;
-        Ok(Self { solver, problem, axis, start: None, gap: None, points: Vec::new() })
+impl<T> Default for ContactSearch<T> {
+    fn default() -> Self {
+        Self { start: None, gap: None, points: Vec::new() }
     }
+}
 
-    /// The search from a gap of shape (Nx, Ny), in the place of the default start or the end of the last search.
-    pub fn starting_from(self, gap: Array2<T>) -> Self {
-        Self { start: Some(gap), ..self }
-    }
-
-    /// The problem.
-    pub fn problem(&mut self) -> &mut Problem<T, O, L> {
-        self.problem
-    }
-
-    /// The place of the search: numbers, and the gap from which it goes on, on the grid of the operator; beyond a
-    /// window of a free half-space the gap is the displacement.
-    pub fn checkpoint(&self) -> (Vec<f64>, Option<&Array2<T>>) {
-        let numbers = self.points.iter().flat_map(|point| [point.x, point.level, point.nodes as f64]);
-        (numbers.collect(), self.gap.as_ref())
-    }
-
-    /// The search continued from the [`checkpoint`](Self::checkpoint) of another one, bit for bit.
-    pub fn continuing(self, numbers: &[f64], gap: Option<Array2<T>>) -> Self {
-        let point = |three: &[f64]| Point { x: three[0], level: three[1], nodes: three[2] as usize };
-        Self { points: numbers.chunks_exact(3).map(point).collect(), gap, ..self }
+impl<T: Real> ContactSearch<T> {
+    /// A search from a gap of shape (Nx, Ny), in the place of the default start.
+    pub fn starting_from(gap: Array2<T>) -> Self {
+        Self { start: Some(gap), ..Self::default() }
     }
 
     /// The state in which a share of the nodes is in contact.
     ///
     /// # Errors
-    /// [`Error::Value`] for a fraction that is not between 0 and 1, or less than a node; those of
-    /// [`Solver::solve_with`].
-    pub fn at(&mut self, fraction: f64) -> Result<FoundContact<T>> {
-        self.at_observed(fraction, |_| ControlFlow::Continue(()))
+    /// [`Error::Value`] for a fraction that is not between 0 and 1, or less than a node, and for a flat surface;
+    /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
+    /// absent nodes; those of [`Solver::solve_with`].
+    pub fn at(
+        &mut self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
+        fraction: f64,
+    ) -> Result<FoundContact<T>> {
+        self.at_observed(solver, problem, fraction, |_| ControlFlow::Continue(()))
     }
 
     /// The same with an observer of the iterations; where it breaks off the search ends, short of the wanted state.
@@ -227,21 +200,27 @@ where
     /// Those of [`Self::at`].
     pub fn at_observed(
         &mut self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
         fraction: f64,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<FoundContact<T>> {
-        let nodes = self.problem.grid().nodes();
-        let facing = self.problem.flat.window.as_ref().map_or(nodes, |window| window.facing()) as f64;
+        if let Wall::None = solver.constraint.wall() {
+            let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
+            return Err(Error::Control { control: "contact-fraction", reason });
+        }
+        let adhesion = !problem.law_on_grid().hints().zero;
+        let axis = Axis::of(&problem.flat, adhesion)?;
+        let nodes = problem.grid().nodes();
+        let facing = problem.flat.window.as_ref().map_or(nodes, |window| window.facing()) as f64;
         let wanted = fraction * facing;
         if !(wanted >= 1.0 && fraction < 1.0) {
             let requirement = "at least one node, and less than 1";
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement });
         }
         let (goal, allowed) = (level(fraction), (TOLERANCE * wanted).max(1.0));
-        let adhesion = !self.problem.law_on_grid().hints().zero;
         let mut bracket = Bracket::default();
-        let hardness = self.solver.constraint.wall().hardness();
-        let (end, anew) = match (self.axis, hardness) {
+        let (end, anew) = match (axis, solver.constraint.wall().hardness()) {
             // surfaces that yield bear no more with fewer nodes in contact
             (Axis::Pressure { .. }, Some(hardness)) => {
                 ((facing / nodes as f64 * hardness.bears(fraction.min(1.0 - facing.recip()))).ln(), false)
@@ -250,12 +229,12 @@ where
             (Axis::Gap { rms_height }, Some(_)) => (-(CLOSEST * rms_height).ln(), true),
             _ => (f64::INFINITY, false),
         };
-        let mut x = self.axis.first(fraction).min(end);
+        let mut x = axis.first(fraction).min(end);
         if let [.., last] = self.points[..] {
             bracket.add(last, wanted);
-            x = bracket.next(self.axis, goal, self.slope()).min(end);
+            x = bracket.next(axis, goal, self.slope(axis)).min(end);
         }
-        let branch = self.branch();
+        let branch = self.branch(solver).filter(|_| adhesion);
         // the side from which the path comes
         let mut from_below = match self.points.last() {
             Some(last) => Some((last.nodes as f64) < wanted),
@@ -269,7 +248,7 @@ where
                 (None, Some(gap)) if !anew => Begin::Found(gap.clone()),
                 (None, _) => branch.map_or(Begin::At(Start::Default), Begin::On),
             };
-            let solved = self.solver.run(self.problem.parts(), self.axis.control(x), begin, &mut observe)?;
+            let solved = solver.run(problem.parts(), axis.control(x), begin, &mut observe)?;
             let report = &solved.solution.report;
             solves += 1;
             applications += report.operator_applications;
@@ -291,8 +270,8 @@ where
                 nearest = Some((point, solved));
             }
             self.remember(point);
-            x = bracket.next(self.axis, goal, self.slope()).min(end);
-            if solves == MOST || bracket.is_narrow(self.axis) || bracket.below.is_some_and(|below| below.x == x) {
+            x = bracket.next(axis, goal, self.slope(axis)).min(end);
+            if solves == MOST || bracket.is_narrow(axis) || bracket.below.is_some_and(|below| below.x == x) {
                 break false;
             }
         };
@@ -317,12 +296,11 @@ where
 
     /// The branch of the default start with adhesion: loading, if the settings name none, but for the paper's method
     /// and where springs stand for the wall.
-    fn branch(&self) -> Option<Branch> {
-        let Solver { settings, constraint } = &*self.solver;
+    fn branch(&self, solver: &Solver<dyn ContactConstraint<T>>) -> Option<Branch> {
+        let Solver { settings, constraint } = solver;
         let begins = self.points.is_empty() && self.start.is_none() && self.gap.is_none();
         let usual = settings.method != Method::Rey2017 && constraint.wall().is_rigid();
-        let branch = settings.branch.or(usual.then_some(Branch::Loading));
-        branch.filter(|_| begins && !self.problem.law_on_grid().hints().zero)
+        settings.branch.or(usual.then_some(Branch::Loading)).filter(|_| begins)
     }
 
     fn remember(&mut self, point: Point) {
@@ -332,9 +310,9 @@ where
     }
 
     /// How much the level changes along the axis: as between the last two results, if credible.
-    fn slope(&self) -> f64 {
+    fn slope(&self, axis: Axis) -> f64 {
         let Some(last) = self.points.last() else { return 1.0 };
-        let usual = self.axis.slope(last.x);
+        let usual = axis.slope(last.x);
         let [before, last] = self.points[..] else { return usual };
         let secant = (last.level - before.level) / (last.x - before.x);
         if secant.is_finite() { secant.clamp(0.2 * usual, 5.0 * usual) } else { usual }

@@ -2,9 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection};
-use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::problem::{Control, Parts, Problem};
 use crate::real::Real;
@@ -181,7 +179,7 @@ impl Settings {
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Solver<C = Projection> {
+pub struct Solver<C: ?Sized = Projection> {
     /// The settings of the solve.
     pub settings: Settings,
     /// The constraint that keeps the gap from becoming negative.
@@ -206,12 +204,9 @@ impl<C> Solver<C> {
     ///
     /// # Errors
     /// Those of [`Solver::solve_with`].
-    pub fn solve<T, O, L>(&mut self, problem: &mut Problem<T, O, L>, control: Control) -> Result<Solution<T>>
+    pub fn solve<T: Real>(&mut self, problem: &mut Problem<T>, control: Control) -> Result<Solution<T>>
     where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
+        C: ContactConstraint<T> + 'static,
     {
         self.solve_with(problem, control, Start::Default, |_| ControlFlow::Continue(()))
     }
@@ -225,34 +220,40 @@ impl<C> Solver<C> {
     /// [`Error::NotFinite`](crate::Error::NotFinite) or [`Error::Value`](crate::Error::Value) for a start that does not
     /// fit, is not finite, or is negative somewhere; [`Error::Law`](crate::Error::Law) if the law is not finite at the
     /// start; those of the constraint. Without convergence see [`Report::status`].
-    pub fn solve_with<T, O, L>(
+    pub fn solve_with<T: Real>(
         &mut self,
-        problem: &mut Problem<T, O, L>,
+        problem: &mut Problem<T>,
         control: Control,
         start: Start<'_, T>,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<Solution<T>>
     where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
+        C: ContactConstraint<T> + 'static,
     {
-        self.run(problem.parts(), control, Begin::At(start), &mut observe).map(|solved| solved.solution)
+        let solver: &mut Solver<dyn ContactConstraint<T>> = self;
+        solver.run(problem.parts(), control, Begin::At(start), &mut observe).map(|solved| solved.solution)
+    }
+}
+
+impl<T: Real> Solver<dyn ContactConstraint<T>> {
+    /// Works to another tolerance.
+    pub(crate) fn to<R>(&mut self, tolerance: f64, work: impl FnOnce(&mut Self) -> R) -> R {
+        let settings = self.settings;
+        self.settings.tolerance = Some(tolerance);
+        let result = work(self);
+        self.settings = settings;
+        result
     }
 
-    pub(crate) fn run<T: Real>(
+    pub(crate) fn run(
         &mut self,
         problem: Parts<'_, T>,
         control: Control,
         begin: Begin<'_, T>,
         observe: Observer<'_>,
-    ) -> Result<Solved<T>>
-    where
-        C: ContactConstraint<T>,
-    {
+    ) -> Result<Solved<T>> {
         let Self { settings, constraint } = self;
-        let Parts { operator, law, flat } = problem;
-        precision::solve(operator, Job { law, flat, constraint, control, settings: *settings, begin, observe })
+        let Parts { operator, law, given, flat } = problem;
+        precision::solve(operator, Job { law, given, flat, constraint, control, settings: *settings, begin, observe })
     }
 }

@@ -172,12 +172,7 @@ impl StabilityTest {
     /// [`Error::Shape`] or [`Error::Value`] for a solution of another problem, or a tolerance that is not positive;
     /// [`Error::Wall`] if its wall is not rigid, or the law has no bound at a wall; [`Error::Law`] if φ'' is not
     /// finite somewhere; [`Error::Control`] for a control that the problem does not have.
-    pub fn run<T, O, L>(&self, problem: &mut Problem<T, O, L>, solution: &Solution<T>) -> Result<Stability<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-    {
+    pub fn run<T: Real>(&self, problem: &mut Problem<T>, solution: &Solution<T>) -> Result<Stability<T>> {
         self.run_with(problem, &Projection, solution)
     }
 
@@ -189,18 +184,12 @@ impl StabilityTest {
     /// # Errors
     /// Those of [`StabilityTest::run`]; [`Error::Wall`] for another wall than that of the solution or the law;
     /// [`Error::Law`] if the stiffness of the springs is not finite somewhere.
-    pub fn run_with<T, O, L, C>(
+    pub fn run_with<T: Real>(
         &self,
-        problem: &mut Problem<T, O, L>,
-        constraint: &C,
+        problem: &mut Problem<T>,
+        constraint: &dyn ContactConstraint<T>,
         solution: &Solution<T>,
-    ) -> Result<Stability<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+    ) -> Result<Stability<T>> {
         solution.check(&problem.parts(), constraint)?;
         let control = self.control.unwrap_or(solution.report.control);
         self.of_gap(problem, constraint, control, &solution.gap, solution.report.relative_error)
@@ -210,20 +199,14 @@ impl StabilityTest {
     ///
     /// # Errors
     /// Those of [`StabilityTest::run_with`]; [`Error::Value`] for a negative gap at a rigid wall.
-    pub fn of_gap<T, O, L, C>(
+    pub fn of_gap<T: Real>(
         &self,
-        problem: &mut Problem<T, O, L>,
-        constraint: &C,
+        problem: &mut Problem<T>,
+        constraint: &dyn ContactConstraint<T>,
         control: Control,
         gap: &Array2<T>,
         relative_error: f64,
-    ) -> Result<Stability<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+    ) -> Result<Stability<T>> {
         judge(self, problem.parts(), constraint, control, gap, relative_error)
     }
 
@@ -239,7 +222,7 @@ impl StabilityTest {
         check_gap(&problem, constraint, gap)?;
         // the value of a mean gap is that of the solution, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
-        let Parts { operator, law, flat } = problem;
+        let Parts { operator, law, flat, .. } = problem;
         let (load, window) = (flat.load(kind, constraint.wall())?, flat.window.as_ref());
         let smoothed = smoothed_law(&*operator, law);
         let law = smoothed.as_deref().unwrap_or(law);

@@ -49,7 +49,7 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Patches<L> {
             start = nodes.end;
         }
     }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let (mut shape, mut of) = (self.shape, self.of.clone());
         let adapted: Vec<_> = self.laws.iter().map(|law| law.adapted(to)).collect();
         match to {

@@ -273,7 +273,7 @@ impl<T: Real> AdhesionLaw<T> for Table {
     fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {
         values.set(gaps, |gap| self.at(gap.widen()).map(T::lit));
     }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let Discretisation::Smooth(compliance) = to else { return None };
         let smoothed = Smoothed { table: self, compliance: compliance.widen() };
         (!self.jumps.is_empty()).then(|| Box::new(smoothed) as Box<dyn AdhesionLaw<T>>)

@@ -2,16 +2,16 @@ use std::ops::ControlFlow;
 
 use super::refine::{refined, twice};
 use super::{GridError, Quantity, resolves_adhesion};
-use crate::adhesion::{AdhesionLaw, mu_rho};
-use crate::constraint::{ContactConstraint, Projection};
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::adhesion::{AdhesionLaw, SharedLaw, mu_rho};
+use crate::constraint::{ContactConstraint, Wall};
+use crate::elastic::{Boundary, ElasticOperator, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{Level, Nested, Touching, deformed, equivalent_applications, prolonged};
+use crate::nested::{GridObserver, Level, Nested, Touching, deformed, equivalent_applications, prolonged};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::setters::setters;
-use crate::solver::{Begin, Iteration, Solution, Solved, Solver, Status};
+use crate::solver::{Begin, Iteration, Settings, Solution, Solved, Solver, Status};
 use crate::stability::ContactStiffness;
 use crate::surface::Surface;
 
@@ -46,26 +46,26 @@ const DOUBT: f64 = 3.0;
 ///
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
-/// use asperity::{Control, Grid, NoAdhesion, SelfAffine, Westergaard};
+/// use asperity::{Control, Grid, NoAdhesion, SelfAffine, Solver, Westergaard};
 /// // the shortest wave has four nodes: too few for an area that is right to 2 %
 /// let surface = SelfAffine::default().k_s(16.0).surface(Grid::square(64, 1.0)?)?;
 /// let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-/// let mut wanted = Accuracy::new(0.02, Quantity::Area);
-/// let found = wanted.solve(&surface, half_space, NoAdhesion, Control::MeanPressure(2e-3))?;
+/// let (wanted, load) = (Accuracy::new(0.02, Quantity::Area), Control::MeanPressure(2e-3));
+/// let found = wanted.solve(&mut Solver::default(), &surface, half_space, NoAdhesion, load)?;
 /// assert!(found.reached && found.error.unwrap().relative < 0.02);
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
-#[derive(Clone, Debug)]
-pub struct Accuracy<C = Projection> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
     /// The relative error that is wanted, between 0 and 1.
     pub target: f64,
     /// The quantity that has it.
     pub of: Quantity,
     /// The bytes that a solve on a refined grid may take; 4 GiB by default.
     pub memory: f64,
-    /// The solver, on the given grid and coarser ones, by default all down to 16 nodes along a side.
-    pub nested: Nested<C>,
+    /// The given grid and coarser ones, by default all down to 16 nodes along a side.
+    pub nested: Nested,
 }
 
 /// The expected cost of a solve to an accuracy, from that of other surfaces.
@@ -87,7 +87,7 @@ pub struct Plan {
 /// The solution to an accuracy; [`Accuracy`] has an example.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
-pub struct AccurateSolution<T> {
+pub struct AccurateSolution<T: Real> {
     /// The solution on the finest grid.
     pub solution: Solution<T>,
     /// The surface on that grid.
@@ -104,7 +104,7 @@ pub struct AccurateSolution<T> {
     pub unaffordable: Option<((usize, usize), f64)>,
 }
 
-impl<T> AccurateSolution<T> {
+impl<T: Real> AccurateSolution<T> {
     /// All operator applications, [as of nested grids](crate::nested::NestedSolution::equivalent_applications).
     pub fn equivalent_applications(&self) -> f64 {
         equivalent_applications(&self.levels)
@@ -116,33 +116,26 @@ pub(super) fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>)
 }
 
 impl Accuracy {
-    /// An accuracy of a quantity, by the default solver.
+    /// An accuracy of a quantity.
     pub fn new(target: f64, of: Quantity) -> Self {
-        Self::with_solver(target, of, Solver::default())
-    }
-}
-
-impl<C> Accuracy<C> {
-    /// An accuracy of a quantity, by a solver with settings and a constraint of its own.
-    pub fn with_solver(target: f64, of: Quantity, solver: Solver<C>) -> Self {
         // a coarser grid that gives no start tells the error all the same
-        let nested = Nested::with_solver(solver).coarsest(COARSEST).closed(1.0);
+        let nested = Nested::default().coarsest(COARSEST).closed(1.0);
         Self { target, of, memory: MEMORY, nested }
     }
 
-    setters! { memory: f64, nested: Nested<C> }
+    setters! { memory: f64, nested: Nested }
 
-    /// The tolerance of the solver: a twentieth of the accuracy, and at most 1e-3; or the one that was given.
+    /// The tolerance of a solver: a twentieth of the accuracy, and at most 1e-3; or the one of its settings.
     ///
     /// # Errors
     /// [`Error::Value`] if the accuracy is not between 0 and 1, or the given tolerance is larger.
-    pub fn tolerance(&self) -> Result<f64> {
+    pub fn tolerance(&self, settings: &Settings) -> Result<f64> {
         if !(self.target > 0.0 && self.target < 1.0) {
             let (name, value, requirement) = ("accuracy", self.target, "between 0 and 1, as 0.01 for 1 %");
             return Err(Error::Value { name, value, requirement });
         }
         let needed = (SHARE * self.target).min(LOOSEST);
-        match self.nested.solver.settings.tolerance {
+        match settings.tolerance {
             Some(value) if value > needed => {
                 let requirement = "at most a twentieth of the accuracy, and at most 1e-3; without one it is chosen";
                 Err(Error::Value { name: "tolerance", value, requirement })
@@ -151,30 +144,28 @@ impl<C> Accuracy<C> {
         }
     }
 
-    /// The plan for a surface, a law, a control, and the operator on the grid of the surface.
+    /// The plan of a solver for a surface, the operator on its grid, a law, and a control.
     ///
     /// # Errors
     /// [`Error::Unaffordable`] if the grid is far beyond the memory; [`Error::Control`] if the control gives the
     /// quantity; those of [`Accuracy::tolerance`].
     pub fn plan<T: Real>(
         &self,
+        solver: &Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
         operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
         control: Control,
-    ) -> Result<Plan>
-    where
-        C: ContactConstraint<T>,
-    {
+    ) -> Result<Plan> {
         surface.grid().slab().alone("accuracy")?;
-        let tolerance = self.tolerance()?;
+        let tolerance = self.tolerance(&solver.settings)?;
         self.of.check(control)?;
         self.check_law(law)?;
         let boundary = operator.abilities().boundary;
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
         let line = surface.grid().shape().0 == 1 || surface.grid().shape().1 == 1;
-        let by_edge = self.asks_the_edge(surface, law) && boundary == Boundary::Periodic;
+        let by_edge = self.asks_the_edge(solver.constraint.wall(), surface, law) && boundary == Boundary::Periodic;
         let (mu_rho, of_grid) = (mu_rho(law, surface.grid(), operator.modulus()), law.hints().of_grid);
         let needed = |smaller| {
             if refinable { self.refinements((nodes_per_wave, mu_rho), (by_edge, of_grid, line), smaller) } else { 0 }
@@ -214,11 +205,8 @@ impl<C> Accuracy<C> {
         if holds { Err(Error::Control { control: "accuracy of the stiffness", reason }) } else { Ok(()) }
     }
 
-    fn asks_the_edge<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool
-    where
-        C: ContactConstraint<T>,
-    {
-        let sharp = self.nested.solver.constraint.wall().is_rigid() && !law.hints().of_grid;
+    fn asks_the_edge<T: Real>(&self, wall: Wall<'_, T>, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
+        let sharp = wall.is_rigid() && !law.hints().of_grid;
         self.of != Quantity::Area && surface.absent().is_none() && sharp
     }
 
@@ -242,24 +230,19 @@ impl<C> Accuracy<C> {
         (0..40).find(enough).unwrap_or(40)
     }
 
-    /// Solves to the accuracy, if it can: see [`AccurateSolution::reached`]. `operator` makes that of each grid.
+    /// Solves to the accuracy, if it can: see [`AccurateSolution::reached`]. The body has `operators` on each grid.
     ///
     /// # Errors
     /// [`Error::Control`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
-    pub fn solve<T, O, L>(
-        &mut self,
+    pub fn solve<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
-        operator: impl FnMut(Grid) -> Result<O>,
-        law: L,
+        operators: impl OnGrids<T>,
+        law: impl AdhesionLaw<T> + 'static,
         control: Control,
-    ) -> Result<AccurateSolution<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        self.solve_observed(surface, operator, law, control, |_, _| ControlFlow::Continue(()))
+    ) -> Result<AccurateSolution<T>> {
+        self.solve_observed(solver, surface, operators, law, control, |_, _| ControlFlow::Continue(()))
     }
 
     /// Solves as [`Accuracy::solve`], and calls `observe` with the grid in every iteration; where it stops a solve, no
@@ -267,55 +250,42 @@ impl<C> Accuracy<C> {
     ///
     /// # Errors
     /// Those of [`Accuracy::solve`].
-    pub fn solve_observed<T, O, L>(
-        &mut self,
+    pub fn solve_observed<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
-        mut operator: impl FnMut(Grid) -> Result<O>,
-        law: L,
+        mut operators: impl OnGrids<T>,
+        law: impl AdhesionLaw<T> + 'static,
         control: Control,
         mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
-    ) -> Result<AccurateSolution<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        let tolerance = self.tolerance()?;
+    ) -> Result<AccurateSolution<T>> {
+        let tolerance = self.tolerance(&solver.settings)?;
         self.of.check(control)?;
         self.check_law(&law)?;
-        let kept = (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness);
-        self.nested.solver.settings.tolerance = Some(tolerance);
-        self.nested.coarse_tolerance = tolerance;
-        if self.of == Quantity::Stiffness || self.asks_the_edge(surface, &law) {
+        let mut nested = self.nested.coarse_tolerance(tolerance);
+        if self.of == Quantity::Stiffness || self.asks_the_edge(solver.constraint.wall(), surface, &law) {
             let needed = tolerance.min(ContactStiffness::TOLERANCE);
-            self.nested.stiffness = Some(kept.2.map_or(needed, |given| given.min(needed)));
+            nested = nested.stiffness(nested.stiffness.map_or(needed, |given| given.min(needed)));
         }
-        let found = self.refine(surface, &mut operator, &law, control, &mut observe);
-        (self.nested.solver.settings, self.nested.coarse_tolerance, self.nested.stiffness) = kept;
-        found
+        let (wanted, law) = (Self { nested, ..*self }, SharedLaw::new(law));
+        solver.to(tolerance, |solver| wanted.refine(solver, surface, &mut operators, &law, control, &mut observe))
     }
 
-    fn refine<T, O, L>(
-        &mut self,
+    fn refine<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
-        operator: &mut dyn FnMut(Grid) -> Result<O>,
-        law: &L,
+        operators: &mut dyn OnGrids<T>,
+        law: &SharedLaw<T>,
         control: Control,
-        observe: &mut (dyn FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send),
-    ) -> Result<AccurateSolution<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+        observe: GridObserver<'_>,
+    ) -> Result<AccurateSolution<T>> {
         let (Solved { mut solution, mut whole, .. }, mut levels) =
-            self.nested.run(surface, &mut *operator, law, control, &mut *observe)?;
+            self.nested.run(solver, surface, operators, law, control, &mut *observe)?;
         let periodic = solution.report.boundary == Boundary::Periodic;
         let mut waves = surface.nodes_per_wave(solution.report.boundary);
         let mut surface = surface.clone();
-        let refinable = is_refinable(&surface, law);
+        let refinable = is_refinable(&surface, &**law);
         let (error, reached, unaffordable) = loop {
             let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
             let report = &solution.report;
@@ -325,21 +295,21 @@ impl<C> Accuracy<C> {
                 break (error, converged && error.as_ref().is_some_and(enough), None);
             }
             let shape = twice(surface.grid().shape());
-            let half_space = operator(Grid::new(shape, surface.grid().lengths())?)?;
+            let half_space = operators.on(Grid::new(shape, surface.grid().lengths())?)?;
             let bytes = 8.0 * NUMBERS * half_space.grid().nodes() as f64;
             if bytes > self.memory {
                 break (error, false, Some((shape, bytes)));
             }
             let fine = refined(&surface, periodic)?;
-            let touching = Touching::of(self.nested.solver.constraint.wall());
+            let touching = Touching::of(solver.constraint.wall());
             let coarse = deformed(&surface, solution.gap, whole);
             let start = prolonged(coarse, &fine, half_space.grid(), touching);
-            let mut problem = Problem::new(&fine, half_space, law)?;
+            let mut problem = Problem::of(&fine, half_space, law.clone())?;
             let grid = *fine.grid();
             let begin = Begin::Prolonged(start);
             Solved { solution, whole, .. } =
-                self.nested.solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
-            let stiffness = self.nested.stiffness_of(&mut problem, &solution)?;
+                solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
+            let stiffness = self.nested.stiffness_of(solver, &mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution)? });
             (surface, waves) = (fine, 2.0 * waves);
         };

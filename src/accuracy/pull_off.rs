@@ -5,17 +5,17 @@ use std::ops::ControlFlow;
 use super::goal::{NUMBERS, is_refinable};
 use super::refine::{refined, twice};
 use super::{Accuracy, GridError, observed_order};
-use crate::adhesion::{AdhesionLaw, Discretisation};
+use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw};
 use crate::constraint::ContactConstraint;
 use crate::contact::ContactArea;
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::{Boundary, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::nested::coarsened;
 use crate::problem::Problem;
 use crate::pull_off::{FoundPullOff, PullOff};
 use crate::real::Real;
-use crate::solver::{Iteration, Start, Status};
+use crate::solver::{Iteration, Solver, Start, Status};
 use crate::surface::Surface;
 
 /// The factors of the process zone and of the difference to the grid of half as many nodes, in the error.
@@ -27,7 +27,7 @@ const BRACKET: f64 = 0.2;
 /// The pull-off on the finest of some grids, and the estimated error of its [limit](FoundPullOff::limit).
 #[non_exhaustive]
 #[derive(Clone, Debug)]
-pub struct AccuratePullOff<T> {
+pub struct AccuratePullOff<T: Real> {
     /// The search on the finest grid.
     pub found: FoundPullOff<T>,
     /// The surface on that grid.
@@ -62,7 +62,7 @@ impl<T: Real> FoundPullOff<T> {
     }
 }
 
-impl<C> Accuracy<C> {
+impl Accuracy {
     /// The pull-off to the accuracy, if it can be had; an infinite accuracy asks for the error on the given grid alone.
     ///
     /// The given grid and one of half as many nodes along the sides are searched. As long as the estimated error of the
@@ -71,33 +71,29 @@ impl<C> Accuracy<C> {
     ///
     /// # Errors
     /// [`Error::Control`] for an accuracy with a law that has a range; [`Error::Value`] for one that is not positive;
-    /// those of `operator` and [`PullOff::find`].
+    /// those of `operators` and [`PullOff::find`].
     ///
     /// ```
     /// use asperity::accuracy::{Accuracy, Quantity};
-    /// use asperity::{Boussinesq, Grid, Jkr, PullOff, Surface, exact, exact::Sphere};
+    /// use asperity::{Boussinesq, Grid, Jkr, PullOff, Solver, Surface, exact, exact::Sphere};
     /// let sphere = Surface::paraboloid(Grid::square(64, 1.6)?, 1.0)?;
     /// let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
-    /// let mut told = Accuracy::new(f64::INFINITY, Quantity::Area);
-    /// let found = told.pull_off(&sphere, half_space, &Jkr::new(2e-3)?, &PullOff::default())?;
+    /// let (told, law) = (Accuracy::new(f64::INFINITY, Quantity::Area), Jkr::new(2e-3)?);
+    /// let found = told.pull_off(&mut Solver::default(), &sphere, half_space, law, &PullOff::default())?;
     /// let force = found.found.limit()?.unwrap() * 1.6 * 1.6;
     /// let ratio = force / -exact::Jkr::new(1.0, 1.0, 2e-3)?.pull_off().load();
     /// assert!((ratio - 1.0).abs() < found.error.unwrap().relative);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn pull_off<T, O>(
-        &mut self,
+    pub fn pull_off<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
-        operator: impl FnMut(Grid) -> Result<O>,
-        law: &dyn AdhesionLaw<T>,
+        operators: impl OnGrids<T>,
+        law: impl AdhesionLaw<T> + 'static,
         search: &PullOff,
-    ) -> Result<AccuratePullOff<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        C: ContactConstraint<T>,
-    {
-        self.pull_off_observed(surface, operator, law, search, |_, _| ControlFlow::Continue(()))
+    ) -> Result<AccuratePullOff<T>> {
+        self.pull_off_observed(solver, surface, operators, law, search, |_, _| ControlFlow::Continue(()))
     }
 
     /// As [`Accuracy::pull_off`], and calls `observe` with the grid in every iteration; where it stops a search, no
@@ -105,19 +101,16 @@ impl<C> Accuracy<C> {
     ///
     /// # Errors
     /// Those of [`Accuracy::pull_off`].
-    pub fn pull_off_observed<T, O>(
-        &mut self,
+    pub fn pull_off_observed<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
-        mut operator: impl FnMut(Grid) -> Result<O>,
-        law: &dyn AdhesionLaw<T>,
+        mut operators: impl OnGrids<T>,
+        law: impl AdhesionLaw<T> + 'static,
         search: &PullOff,
         mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
-    ) -> Result<AccuratePullOff<T>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        C: ContactConstraint<T>,
-    {
+    ) -> Result<AccuratePullOff<T>> {
+        let law = SharedLaw::new(law);
         let hints = law.hints();
         let refines = self.target.is_finite();
         if refines {
@@ -128,10 +121,9 @@ impl<C> Accuracy<C> {
             return Err(Error::Control { control: "accuracy of the pull-off", reason });
         }
         let search = search.tolerance(search.tolerance.min(BRACKET * self.target));
-        let solver = &mut self.nested.solver;
-        let mut find = |surface: &Surface, law: &dyn AdhesionLaw<T>| {
+        let mut find = |surface: &Surface, law: SharedLaw<T>| {
             let grid = *surface.grid();
-            let mut problem = Problem::new(surface, operator(grid)?, law)?;
+            let mut problem = Problem::of(surface, operators.on(grid)?, law)?;
             let found = search.find_from(solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
             let limit = found.limit()?;
             Ok::<_, Error>((found, limit, problem.operator.grid().nodes(), problem.operator.abilities().boundary))
@@ -143,14 +135,14 @@ impl<C> Accuracy<C> {
                 let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
                 let on_coarse = law.adapted(Discretisation::Coarse(nx / cx, ny / cy));
                 // what cannot be found there says nothing of the finer grid
-                let found = find(coarse, on_coarse.as_deref().unwrap_or(law)).ok();
+                let found = find(coarse, on_coarse.map_or_else(|| law.clone(), SharedLaw)).ok();
                 levels.extend(found.and_then(|(_, limit, ..)| Some((coarse.grid().shape(), limit?))));
             }
         }
         let mut surface = surface.clone();
-        let refinable = refines && is_refinable(&surface, law);
+        let refinable = refines && is_refinable(&surface, &*law);
         loop {
-            let (found, limit, nodes, boundary) = find(&surface, law)?;
+            let (found, limit, nodes, boundary) = find(&surface, law.clone())?;
             let waves = surface.nodes_per_wave(boundary);
             let stopped = found.solution.report.status == Status::Stopped;
             levels.extend(limit.map(|limit| (surface.grid().shape(), limit)));

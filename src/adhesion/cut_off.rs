@@ -198,12 +198,12 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for CutOff<L> {
         let law = self.law.on_nodes(compliance)?;
         Some(Arc::new(CutOff::between(law, self.start, self.distance)))
     }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let law = self.law.adapted(to)?;
         Some(match to {
             Discretisation::Smooth(_) if self.has_ended() => law,
-            Discretisation::Smooth(_) => Box::new(CutOff::between(law, self.start, self.distance)),
-            _ => Box::new(self.with(law)),
+            Discretisation::Smooth(_) => Arc::new(CutOff::between(law, self.start, self.distance)),
+            _ => Arc::new(self.with(law)),
         })
     }
 }

@@ -1,4 +1,6 @@
 use super::{AdhesionLaw, Discretisation, Hints};
+use std::sync::Arc;
+
 use crate::error::{Error, Result};
 use crate::real::Real;
 
@@ -88,10 +90,10 @@ impl<T: Real> AdhesionLaw<T> for MaugisDugdale {
         let (w, range, _) = self.rounded::<T>();
         Hints { zero: w == T::zero(), ..Hints::new(w, range).named("maugis-dugdale").concave() }
     }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let Discretisation::Smooth(compliance) = to else { return None };
         let (w, range, _) = self.rounded::<T>();
         let smoothing = (w / range * compliance).min(T::lit(2.0) * range).widen();
-        (smoothing > self.smoothing).then(|| Box::new(Self { smoothing, ..*self }) as Box<dyn AdhesionLaw<T>>)
+        (smoothing > self.smoothing).then(|| Arc::new(Self { smoothing, ..*self }) as Arc<dyn AdhesionLaw<T>>)
     }
 }

@@ -101,7 +101,7 @@ impl<L> Varying<L> {
     }
 }
 
-impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
+impl<T: Real, L: AdhesionLaw<T> + Clone + 'static> AdhesionLaw<T> for Varying<L> {
     fn energy(&self, gap: T) -> T {
         T::lit(self.largest) * self.law.energy(gap)
     }
@@ -127,14 +127,13 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
         let law = self.law.on_nodes(compliance * T::lit(largest))?;
         Some(Arc::new(Varying { law, slab, shares: self.shares.clone(), largest, repels }))
     }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let Self { slab, largest, repels, .. } = *self;
-        let law: &dyn AdhesionLaw<T> = &self.law;
         Some(match to {
             Discretisation::Rows(grid) if !slab.is_shared() || slab == grid.slab() => return None,
             Discretisation::Rows(grid) => {
                 let shares = Arc::new(slab.moved(self.shares.view().into(), &grid.slab()).into_owned());
-                Box::new(Varying { law, slab: grid.slab(), shares, largest, repels })
+                Arc::new(Varying { law: self.law.clone(), slab: grid.slab(), shares, largest, repels })
             }
             Discretisation::Coarse(nx, ny) => {
                 let (rows, columns) = slab.shape();
@@ -143,12 +142,12 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Varying<L> {
                 let first = coarse.rows().start;
                 let share = |(ix, iy): (usize, usize)| rows.row((first + ix) * nx)[iy * ny];
                 let shares = Arc::new(Array2::from_shape_fn(coarse.held(), share));
-                Box::new(Varying { law, slab: coarse, shares, largest, repels })
+                Arc::new(Varying { law: self.law.clone(), slab: coarse, shares, largest, repels })
             }
             Discretisation::Smooth(compliance) => {
                 // where the law is strongest its jumps are the largest
                 let law = self.law.adapted(Discretisation::Smooth(compliance * T::lit(largest)))?;
-                Box::new(Varying { law, slab, shares: self.shares.clone(), largest, repels })
+                Arc::new(Varying { law, slab, shares: self.shares.clone(), largest, repels })
             }
         })
     }

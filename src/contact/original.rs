@@ -137,18 +137,25 @@ impl Original {
         };
         let plastic_depth = solution.plastic_depth.as_ref().map(|depth| self.of(depth.view())).transpose()?;
         let (pressure, contact_pressure) = (pressure?, contact_pressure?);
-        Ok(Solution { gap, pressure, contact_pressure, plastic_depth, grid: self.grid, report })
+        Ok(Solution {
+            gap,
+            pressure,
+            contact_pressure,
+            plastic_depth,
+            grid: self.grid,
+            report,
+            law: solution.law.clone(),
+        })
     }
 
-    /// The statistics of the original, from a solution on the whole and its law. Clusters end at its sides, which are
+    /// The statistics of the original, from a solution on the whole. Clusters end at its sides, which are
     /// no part of the perimeter.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the whole, and those of [`ContactStatistics::of`].
-    pub fn statistics<T: Real>(&self, solution: &Solution<T>, law: &impl AdhesionLaw<T>) -> Result<ContactStatistics> {
-        solution.check_law(law)?;
-        let Solution { gap, contact_pressure, report, .. } = solution;
-        self.statistics_of_fields(gap.view(), contact_pressure.view(), report.modulus, law)
+    pub fn statistics<T: Real>(&self, solution: &Solution<T>) -> Result<ContactStatistics> {
+        let Solution { gap, contact_pressure, report, law, .. } = solution;
+        self.statistics_of_fields(gap.view(), contact_pressure.view(), report.modulus, &**law)
     }
 
     /// The statistics from the gap and the contact pressure of the whole, and the contact modulus.
@@ -160,7 +167,7 @@ impl Original {
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,
         modulus: f64,
-        law: &impl AdhesionLaw<T>,
+        law: &dyn AdhesionLaw<T>,
     ) -> Result<ContactStatistics> {
         let body = (Boundary::Periodic, modulus);
         let whole = ContactStatistics::of_fields(gap, contact_pressure, &self.whole, body, law)?;

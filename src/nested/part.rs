@@ -4,15 +4,14 @@ use std::ops::Range;
 
 use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayViewMut1, Axis, Slice, Zip};
 
-use super::Nested;
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
-use crate::elastic::{Boundary, ElasticOperator};
+use crate::elastic::{Boundary, ElasticOperator, OnGrids};
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::problem::{Control, Parts, Problem};
 use crate::real::{Real, compiled};
-use crate::solver::{Begin, Observer, Solution, Solved, Start, Status};
+use crate::solver::{Begin, Observer, Solution, Solved, Solver, Start, Status};
 use crate::surface::Surface;
 
 /// The largest share of the window's nodes of a part that is worth a solve of its own.
@@ -114,7 +113,7 @@ impl Part {
     }
 }
 
-pub(super) struct OnPart<T> {
+pub(super) struct OnPart<T: Real> {
     part: Part,
     solution: Solution<T>,
     /// the operator applications, in units of one on the whole
@@ -162,40 +161,33 @@ impl<T: Real> OnPart<T> {
     }
 }
 
-impl<C> Nested<C> {
-    /// The solution on a small part of a free half-space's window, if it has all contact of a prolonged gap.
-    pub(super) fn solve_part<T, O, L>(
-        &mut self,
-        surface: &Surface,
-        (half_space, operator): (&mut O, &mut impl FnMut(Grid) -> Result<O>),
-        law: &L,
-        control: Control,
-        gap: &Array2<T>,
-        observe: Observer<'_>,
-    ) -> Result<Option<OnPart<T>>>
-    where
-        T: Real,
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
-        let whole = *half_space.grid();
-        let fits = half_space.abilities().boundary != Boundary::Periodic
-            && surface.absent().is_none()
-            && law.hints().shape.is_none()
-            && self.solver.constraint.wall().hardness().is_none_or(|hardness| !hardness.varies());
-        let part = if fits { Part::of(surface.grid().shape(), &whole, gap, law) } else { None };
-        let Some(part) = part else { return Ok(None) };
-        let small = part.surface(surface)?;
-        let mut problem = Problem::new(&small, operator(*small.grid())?, law)?;
-        let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
-        let tolerance = SHARE * self.solver.settings.tolerance_in::<T>();
-        let start = Begin::At(Start::Near(cut(&part, gap, &whole, small.grid())));
-        let control = Part::control(control, surface, &small);
-        let Solved { solution, .. } = self.run_to(tolerance, problem.parts(), control, start, observe)?;
-        let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
-        Ok(Some(OnPart { part, solution, applications }))
-    }
+/// The solution on a small part of a free half-space's window, if it has all contact of a prolonged gap.
+pub(super) fn solve_part<T: Real>(
+    solver: &mut Solver<dyn ContactConstraint<T>>,
+    surface: &Surface,
+    (half_space, operators): (&mut dyn ElasticOperator<T>, &mut dyn OnGrids<T>),
+    law: &SharedLaw<T>,
+    control: Control,
+    gap: &Array2<T>,
+    observe: Observer<'_>,
+) -> Result<Option<OnPart<T>>> {
+    let whole = *half_space.grid();
+    let fits = half_space.abilities().boundary != Boundary::Periodic
+        && surface.absent().is_none()
+        && law.hints().shape.is_none()
+        && solver.constraint.wall().hardness().is_none_or(|hardness| !hardness.varies());
+    let part = if fits { Part::of(surface.grid().shape(), &whole, gap, &**law) } else { None };
+    let Some(part) = part else { return Ok(None) };
+    let small = part.surface(surface)?;
+    let mut problem = Problem::of(&small, operators.on(*small.grid())?, law.clone())?;
+    let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
+    let tolerance = SHARE * solver.settings.tolerance_in::<T>();
+    let start = Begin::At(Start::Near(cut(&part, gap, &whole, small.grid())));
+    let control = Part::control(control, surface, &small);
+    let Solved { solution, .. } =
+        solver.to(tolerance, |solver| solver.run(problem.parts(), control, start, observe))?;
+    let applications = (share * (solution.report.operator_applications + 1) as f64).ceil() as usize;
+    Ok(Some(OnPart { part, solution, applications }))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The account of energy along a path, and the balance of a step.
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Account {
     pub(super) work: f64,
     pub(super) dissipated: f64,

@@ -8,8 +8,6 @@ use crate::elastic::Boundary;
 use crate::problem::{Control, Load, PressedFlat};
 use crate::solver::Report;
 
-mod values;
-
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
     pub(super) jumped: bool,
@@ -24,6 +22,7 @@ impl Way {
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Course {
     pub(super) solved: bool,
     pub(super) leg: usize,

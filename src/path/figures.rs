@@ -3,6 +3,7 @@
 use crate::solver::{Plastic, Report};
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Mode {
     /// the position
     #[default]
@@ -13,6 +14,7 @@ pub(super) enum Mode {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Figures {
     /// what the load works on: the mean gap, or with a free boundary minus the approach
     pub(super) position: f64,

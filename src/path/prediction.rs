@@ -2,10 +2,7 @@
 
 use ndarray::Array2;
 
-use super::Path;
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
+use super::{Bench, Path};
 use crate::real::Real;
 use crate::solver::{Least, Potential, extrapolated};
 
@@ -15,13 +12,7 @@ const CLOSEST: usize = 64;
 /// The farthest extrapolation of the last step, in steps.
 const FARTHEST: f64 = 2.0;
 
-impl<T, O, L, C> Path<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<T: Real> Bench<'_, T> {
     pub(super) fn least(&self) -> Least<T> {
         Potential::new(self.problem.law_on_grid(), &self.solver.constraint, None).least()
     }
@@ -41,18 +32,20 @@ where
         let mut gaps = gaps.skip_while(|&gap| -law.traction(gap).widen() <= pressure);
         gaps.next().map_or(rest.widen(), T::widen)
     }
+}
 
+impl<T: Real> Path<T> {
     /// The gap at `target`, extrapolated from the last two gaps.
-    pub(super) fn predict(&self, target: f64) -> Array2<T> {
+    pub(super) fn predict(&self, bench: &Bench<'_, T>, target: f64) -> Array2<T> {
         match &self.gaps[..] {
             [before, last] => {
                 let steps = self.course.extrapolation(target).clamp(-FARTHEST, FARTHEST);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
-                let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
-                extrapolated([before, last], steps, (self.least(), false), on)
+                let on = (bench.problem.flat.window.as_ref(), *bench.problem.operator.grid());
+                extrapolated([before, last], steps, (bench.least(), false), on)
             }
             [.., last] => last.clone(),
-            [] => Array2::zeros(self.problem.operator.grid().field_shape()),
+            [] => Array2::zeros(bench.problem.operator.grid().field_shape()),
         }
     }
 }

@@ -2,14 +2,11 @@
 
 use ndarray::CowArray;
 
-use super::Path;
-use crate::adhesion::AdhesionLaw;
-use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
+use super::{Bench, Path};
 use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Begin, Observer, Solution, Solved, Start, Status};
+use crate::solver::{Begin, Solution, Solved, Start, Status};
 use crate::stability::{self, Saddle};
 
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
@@ -21,34 +18,28 @@ const DRAWN: f64 = 0.1;
 /// The largest number of saddles that are left one after the other at one load.
 const SADDLES: usize = 4;
 
-impl<T, O, L, C> Path<'_, T, O, L, C>
-where
-    T: Real,
-    O: ElasticOperator<T>,
-    L: AdhesionLaw<T>,
-    C: ContactConstraint<T>,
-{
+impl<T: Real> Path<T> {
     /// Whether a state is a saddle at its mean gap, of the law that the path follows.
-    pub(super) fn saddle(&mut self, solution: &Solution<T>) -> Result<Option<Saddle>> {
-        let load = self.course.held(&self.problem.flat);
-        let Parts { operator, law, flat } = self.problem.parts();
+    pub(super) fn saddle(&mut self, bench: &mut Bench<'_, T>, solution: &Solution<T>) -> Result<Option<Saddle>> {
+        let load = self.course.held(&bench.problem.flat);
+        let Parts { operator, law, flat, .. } = bench.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
         let followed = smoothed.as_deref().unwrap_or(law);
         let gap = (&solution.gap, flat.window.as_ref());
-        stability::saddle(&mut self.watch, operator, (followed, &self.solver.constraint), gap, load)
+        stability::saddle(&mut self.watch, operator, (followed, &bench.solver.constraint), gap, load)
     }
 
     /// Descends from a saddle along its mode to a state that is none, if there is one; and whether the branch led
     /// along the mode itself. The path has failed where the observer stopped a solve.
     pub(super) fn leave(
         &mut self,
+        bench: &mut Bench<'_, T>,
         from: &Solution<T>,
         control: Control,
-        observe: Observer<'_>,
     ) -> Result<(Option<Solved<T>>, bool)> {
-        let grid = *self.problem.grid();
+        let grid = *bench.problem.grid();
         let moved = self.gaps.last().map(|last| {
-            let window = self.problem.flat.window.as_ref();
+            let window = bench.problem.flat.window.as_ref();
             let last = window.map_or(last.view().into(), |window| CowArray::from(window.crop(last, T::infinity())));
             let mut moved = from.gap.clone();
             // absent nodes are infinitely far, and stay there
@@ -59,15 +50,15 @@ where
         let drawn = share.abs() > DRAWN;
         let mut gap = from.gap.clone();
         for _ in 0..SADDLES {
-            let amplitude = PERTURBATION * self.problem.law_on_grid().hints().range.widen();
-            let least = self.least();
+            let amplitude = PERTURBATION * bench.problem.law_on_grid().hints().range.widen();
+            let least = bench.least();
             self.watch.displace((&mut gap, &grid), least, amplitude, drawn.then_some(share));
-            let left = self.solve(control, Begin::At(Start::From(&gap)), observe)?;
+            let left = self.solve(bench, control, Begin::At(Start::From(&gap)))?;
             if !left.is_settled() {
                 self.failed |= left.solution.report.status == Status::Stopped;
                 break;
             }
-            if self.saddle(&left.solution)?.is_none() {
+            if self.saddle(bench, &left.solution)?.is_none() {
                 return Ok((Some(left), drawn));
             }
             gap = left.solution.gap;

@@ -21,6 +21,7 @@ use crate::setters::setters;
 /// the iterations.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default))]
 pub struct PathSettings {
     /// The least number of steps in a leg.
     pub steps: usize,

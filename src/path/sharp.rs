@@ -27,7 +27,7 @@ impl<T: Real> AdhesionLaw<T> for Sharp<'_, T> {
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
         self.0.on_nodes(compliance)
     }
-    fn adapted(&self, to: Discretisation<T>) -> Option<Box<dyn AdhesionLaw<T> + '_>> {
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         if let Discretisation::Smooth(_) = to { None } else { self.0.adapted(to) }
     }
 }

@@ -1,16 +1,13 @@
-//! A state on a path of equilibria, and the checkpoint from which a path goes on.
-
-use std::collections::BTreeMap;
-
-use ndarray::Array2;
+//! A state on a path of equilibria.
 
 use super::Event;
+use crate::real::Real;
 use crate::solver::Solution;
 
 /// A state on a path.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
-pub struct PathStep<T> {
+pub struct PathStep<T: Real> {
     /// The state; its report has the control.
     pub solution: Solution<T>,
     /// The leg that it is on: 0 is the start, 1 the way to the second load.
@@ -24,13 +21,4 @@ pub struct PathStep<T> {
     pub imbalance: f64,
     /// The event between the previous state and this one.
     pub event: Option<Event>,
-}
-
-/// A checkpoint: all that a [`Path`](super::Path) needs to go on. Values and fields must come back bit for bit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathCheckpoint<T> {
-    /// The values of the path's state by their names, as `work` and `step`.
-    pub values: BTreeMap<String, Vec<f64>>,
-    /// The last gaps, the softest mode of the last state, where it was needed, and the plastic depth, if there is one.
-    pub fields: Vec<Array2<T>>,
 }

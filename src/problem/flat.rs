@@ -42,6 +42,20 @@ compiled! {
     ) -> Result<PressedFlat<T>> = PressedFlat::of
 }
 
+/// Refuses a law that varies over another grid, or is not finite where the surfaces touch.
+pub(super) fn check_law<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid) -> Result<()> {
+    let hints = law.hints();
+    if let Some(shape) = hints.shape {
+        Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
+    }
+    let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
+    let bounded = hints.rest.is_none_or(|rest| rest <= T::zero());
+    match at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
+        Some((function, value)) => Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None }),
+        None => Ok(()),
+    }
+}
+
 impl<T: Real> PressedFlat<T> {
     fn of(surface: &Surface, operator: &mut dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<Self> {
         let abilities = operator.abilities();
@@ -59,9 +73,7 @@ impl<T: Real> PressedFlat<T> {
         if !slabs {
             slab.alone("elastic operator")?;
         }
-        if let Some(shape) = law.hints().shape {
-            Error::shape("adhesion law that varies over the surface", shape, grid.shape())?;
-        }
+        check_law(law, grid)?;
         let ((nx, ny), whole) = (expected.shape(), operator.grid().shape());
         Error::shape("grid of the operator", whole, (whole.0.max(nx), whole.1.max(ny)))?;
         if boundary != Boundary::Periodic {
@@ -73,11 +85,6 @@ impl<T: Real> PressedFlat<T> {
                 (_, ly) => ("side length Ly of the surface", ly),
             };
             return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
-        }
-        let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
-        let bounded = law.hints().rest.is_none_or(|rest| rest <= T::zero());
-        if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
-            return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
         }
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
         slab.afford("a solve", 3 * size_of::<T>() + 16)?;

@@ -10,14 +10,16 @@ use super::start::{Begin, check_hardness, check_wall};
 use super::state::State;
 use super::tension::Hold;
 use super::{Branch, Method, Settings};
-use crate::adhesion::{AdhesionLaw, Discretisation, NoAdhesion};
+use crate::adhesion::{AdhesionLaw, Discretisation, NoAdhesion, SharedLaw};
 use crate::constraint::{ContactConstraint, Projection, Update, Wall};
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
 use crate::real::Real;
 
-pub(super) struct Job<'a, T> {
+pub(super) struct Job<'a, T: Real> {
     pub(super) law: &'a dyn AdhesionLaw<T>,
+    /// the law of the problem, as it was given
+    pub(super) given: &'a SharedLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
     pub(super) control: Control,
@@ -85,7 +87,7 @@ pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe:
 
 /// Solves a problem: from afar with the wall alone, then with the law smoothed, then with the law itself.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
-    let Job { law, flat, constraint, control, settings, begin, observe } = job;
+    let Job { law, given, flat, constraint, control, settings, begin, observe } = job;
     let held = flat.window.as_ref().and_then(|window| law.adapted(Discretisation::Rows(*window.held())));
     let law = held.as_deref().unwrap_or(law);
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
@@ -114,6 +116,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     let posed = Posed {
         operators,
         law: first_law,
+        given,
         flat,
         constraint: wall,
         load: first_load,

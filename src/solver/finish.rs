@@ -34,6 +34,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let mean = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
         let shift = T::lit(mean - self.sums.drift);
         let (law, flat) = (self.posed.law, self.posed.flat);
+        let own = self.posed.given.clone();
         let Self { fields, posed, .. } = &mut self;
         let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
         for correction in [residual, preconditioned, change] {
@@ -122,7 +123,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if whole.is_some() {
                 to_the_yielded(&mut gap);
             }
-            let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report };
+            let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law: own };
             return Ok(Solved { solution, whole, at_floor });
         };
         let (whole, grid) = ((grid, gap), *window.grid());
@@ -150,7 +151,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
         Ok(Solved {
-            solution: Solution { gap, pressure, contact_pressure, plastic_depth, grid, report },
+            solution: Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law: own },
             whole: Some(whole),
             at_floor,
         })

@@ -4,7 +4,7 @@ use super::minimisation::Goal;
 use super::operators::Operators;
 use super::potential::Potential;
 use super::{Branch, Method, Settings};
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::{ContactConstraint, Wall};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Load, PressedFlat, Window};
@@ -15,9 +15,11 @@ use crate::real::Real;
 const HARDLY: f64 = 1e-3;
 
 /// The energy to be minimised, and how well. A phase may change law, constraint, load and goal.
-pub(super) struct Posed<'a, T, Lo> {
+pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) operators: &'a mut dyn Operators<T, Lo>,
     pub(super) law: &'a dyn AdhesionLaw<T>,
+    /// the law of the problem, as it was given
+    pub(super) given: &'a SharedLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
     pub(super) load: Load,

@@ -6,7 +6,7 @@ use std::fmt;
 use ndarray::{Array2, CowArray};
 
 use super::{Branch, Criterion, Method};
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
@@ -252,8 +252,8 @@ fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name,
 /// # Ok::<(), asperity::Error>(())
 /// ```
 #[non_exhaustive]
-#[derive(Clone, Debug, PartialEq)]
-pub struct Solution<T> {
+#[derive(Clone, Debug)]
+pub struct Solution<T: Real> {
     /// The gap g ≥ 0 between the surfaces, infinite at [absent nodes](crate::Surface::with_absent). Where the surface
     /// has yielded it is that to the surface as it is now.
     pub gap: Array2<T>,
@@ -267,10 +267,28 @@ pub struct Solution<T> {
     pub grid: Grid,
     /// The account of the solve.
     pub report: Report,
+    /// the law of its problem, as it was given
+    pub(crate) law: SharedLaw<T>,
+}
+
+impl<T: Real> Solution<T> {
+    /// The adhesion law of its problem, as it was given.
+    pub fn law(&self) -> &dyn AdhesionLaw<T> {
+        &*self.law
+    }
+}
+
+impl<T: Real> PartialEq for Solution<T> {
+    /// Of fields, grid and report, which names the law.
+    fn eq(&self, other: &Self) -> bool {
+        let Self { gap, pressure, contact_pressure, plastic_depth, grid, report, law: _ } = self;
+        (gap, pressure, contact_pressure) == (&other.gap, &other.pressure, &other.contact_pressure)
+            && (plastic_depth, grid, report) == (&other.plastic_depth, &other.grid, &other.report)
+    }
 }
 
 /// A solution, and what only other solves need of it.
-pub(crate) struct Solved<T> {
+pub(crate) struct Solved<T: Real> {
     pub(crate) solution: Solution<T>,
     /// the gap on the operator's grid, with that grid, if not all of its nodes face the surface, or some may yield
     pub(crate) whole: Option<(Grid, Array2<T>)>,
@@ -278,7 +296,7 @@ pub(crate) struct Solved<T> {
     pub(crate) at_floor: bool,
 }
 
-impl<T> Solved<T> {
+impl<T: Real> Solved<T> {
     /// Whether the fields are as good as the tolerance asks, or as good as rounding lets them be.
     pub(crate) fn is_settled(&self) -> bool {
         match self.solution.report.status {
@@ -289,7 +307,7 @@ impl<T> Solved<T> {
     }
 }
 
-impl<T: Clone> Solved<T> {
+impl<T: Real> Solved<T> {
     pub(crate) fn gap(&self) -> &Array2<T> {
         self.whole.as_ref().map_or(&self.solution.gap, |(_, gap)| gap)
     }
@@ -312,7 +330,7 @@ impl<T: Real> Solution<T> {
         let plastic_depth = self.plastic_depth.as_ref().and_then(gathered);
         let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
         let (grid, report) = (self.grid.alone(), self.report.clone());
-        Some(Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, grid, report }))
+        Some(Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, grid, report, law: self.law.clone() }))
     }
 
     /// Refuses an adhesion law of another name or work of adhesion than that under which the solution was found.

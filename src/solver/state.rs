@@ -23,7 +23,7 @@ const REFRESH: usize = 50;
 /// The relative error of the mean gap, in units of the rounding of one number, that is worth a pass.
 pub(super) const SCALED: f64 = 64.0;
 
-pub(super) struct State<'a, T, Lo> {
+pub(super) struct State<'a, T: Real, Lo> {
     pub(super) posed: Posed<'a, T, Lo>,
     pub(super) fields: Fields<T, Lo>,
     pub(super) sums: Sums,

@@ -3,18 +3,16 @@
 use std::ops::ControlFlow;
 
 use super::Stability;
-use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
-use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Potential, Solution, Solver, Start, bounded, refuse_hardness, refuse_springs};
+use crate::solver::{Begin, Potential, Solution, Solved, Solver, Start, bounded, refuse_hardness, refuse_springs};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
-pub struct Departure<T> {
+pub struct Departure<T: Real> {
     /// The state in which the minimisation ended.
     pub solution: Solution<T>,
     /// The drop of the energy (under pressure control with that of the load) per area; zero or less if there is none.
@@ -52,17 +50,12 @@ impl<T: Real> Stability<T> {
     /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_nodes > 0);
     /// # Ok::<(), asperity::Error>(())
     /// ```
-    pub fn leave<O, L, C>(
+    pub fn leave(
         &self,
-        solver: &mut Solver<C>,
-        problem: &mut Problem<T, O, L>,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
         from: &Solution<T>,
-    ) -> Result<Option<Departure<T>>>
-    where
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+    ) -> Result<Option<Departure<T>>> {
         refuse_springs(solver.constraint.wall())?;
         let yields = "the way from a saddle is one of an energy, and a surface that yields has none";
         refuse_hardness(solver.constraint.wall(), yields)?;
@@ -100,7 +93,9 @@ impl<T: Real> Stability<T> {
             let mut start = from.gap.clone();
             let least = Potential::new(problem.law_on_grid(), &solver.constraint, None).least();
             start.zip_mut_with(&self.mode, |gap, &mode| *gap = bounded(least, *gap, *gap + step * mode));
-            let solution = solver.solve_with(problem, control, Start::From(&start), |_| ControlFlow::Continue(()))?;
+            let begin = Begin::At(Start::From(&start));
+            let Solved { solution, .. } =
+                solver.run(problem.parts(), control, begin, &mut |_| ControlFlow::Continue(()))?;
             let energy_drop = energy(from) - energy(&solution);
             if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
                 let square = |a: T, b: T| if a == b { 0.0 } else { (a - b).widen().powi(2) };

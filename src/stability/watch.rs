@@ -27,11 +27,19 @@ const SHARP: f64 = 1e-3;
 const NEARLY: f64 = 0.99;
 
 /// The watch for saddles at given mean gaps; each search starts from the last mode.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Watch<T> {
     /// the mode that was last found, of mean square 1
     pub(crate) mode: Option<Array2<T>>,
+    #[cfg_attr(feature = "serde", serde(skip, default = "Option::default"))]
     random: Option<Array2<T>>,
+}
+
+impl<T> Default for Watch<T> {
+    fn default() -> Self {
+        Self { mode: None, random: None }
+    }
 }
 
 /// A saddle, and its unstable mode in [`Watch::mode`].
@@ -52,8 +60,9 @@ compiled! {
 }
 
 impl<T: Real> Watch<T> {
-    pub(crate) fn from_mode(mode: Option<Array2<T>>) -> Self {
-        Self { mode, random: None }
+    /// Refuses a mode of another grid.
+    pub(crate) fn check(&self, grid: &Grid) -> Result<()> {
+        self.mode.iter().try_for_each(|mode| grid.fits("mode of the path", mode.dim()))
     }
 
     fn look(

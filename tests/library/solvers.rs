@@ -543,7 +543,7 @@ impl AdhesionLaw<f64> for Counting<'_> {
         hints.concave = self.concave;
         hints
     }
-    fn adapted(&self, to: Discretisation<f64>) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
+    fn adapted(&self, to: Discretisation<f64>) -> Option<Arc<dyn AdhesionLaw<f64>>> {
         Some(Box::new(Counting { law: self.law.adapted(to)?, concave: self.concave, energies: AtomicUsize::new(0) }))
     }
     fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {

@@ -130,7 +130,7 @@ impl AdhesionLaw<f64> for Spy {
         let law = Exponential::new(1.0, compliance).unwrap();
         self.answer("on_nodes", Some(Arc::new(law)))
     }
-    fn adapted(&self, to: Discretisation<f64>) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
+    fn adapted(&self, to: Discretisation<f64>) -> Option<Arc<dyn AdhesionLaw<f64>>> {
         let shape = match to {
             Discretisation::Coarse(nx, ny) => self.shape.map(|shape| (shape.0 / nx, shape.1 / ny)),
             _ => self.shape,

@@ -105,7 +105,7 @@ impl<L: AdhesionLaw<f64>> AdhesionLaw<f64> for Part<L> {
     fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
         self.law.evaluate(first, gaps, values);
     }
-    fn adapted(&self, to: Discretisation<f64>) -> Option<Box<dyn AdhesionLaw<f64> + '_>> {
+    fn adapted(&self, to: Discretisation<f64>) -> Option<Arc<dyn AdhesionLaw<f64>>> {
         if self.adapts { self.law.adapted(to) } else { None }
     }
 }
