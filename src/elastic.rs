@@ -7,7 +7,6 @@ use crate::field;
 use crate::grid::Grid;
 use crate::real::Real;
 
-mod abilities;
 mod body;
 mod boussinesq;
 mod check;
@@ -15,11 +14,10 @@ mod coarse;
 mod spectral;
 mod westergaard;
 
-pub use abilities::{Abilities, Waves};
 pub use body::{Base, Body, Coating, HalfSpace, Layer, Material, Series};
 pub use boussinesq::Boussinesq;
 pub use check::check_operator;
-pub use coarse::CoarseSpace;
+pub(crate) use coarse::CoarseSpace;
 pub use spectral::Spectral;
 pub use westergaard::Westergaard;
 
@@ -55,19 +53,6 @@ pub trait ElasticOperator<T: Real>: Send {
     /// [`Error::Shape`] if a field does not fit the grid.
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()>;
 
-    /// The elastic pressure p = K⁻¹u, and the mean of u·K⁻¹u, by default the product of the two fields.
-    ///
-    /// # Errors
-    /// [`Error::Shape`] if a field does not fit the grid.
-    fn pressure_and_work(
-        &mut self,
-        displacement: ArrayView2<'_, T>,
-        mut pressure: ArrayViewMut2<'_, T>,
-    ) -> Result<f64> {
-        self.pressure(displacement, pressure.view_mut())?;
-        Ok(mean_product(self.grid(), displacement, pressure.view()))
-    }
-
     /// The displacement u = Kp of a pressure p, both of shape (Nx, Ny). The mean of u is zero.
     ///
     /// # Errors
@@ -87,25 +72,67 @@ pub trait ElasticOperator<T: Real>: Send {
     /// law become; it is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity).
     fn modulus(&self) -> f64;
 
-    /// The boundary of the body, and the operator's abilities beside its applications, which a wrapper passes on.
-    fn abilities(&mut self) -> Abilities<'_, T> {
-        Abilities::default()
+    /// The boundary of the body; periodic by default.
+    fn boundary(&self) -> Boundary {
+        Boundary::Periodic
+    }
+
+    /// Whether the operator takes fields of [`Grid::field_shape`] on a grid that processes share; not by default.
+    fn takes_slabs(&self) -> bool {
+        false
+    }
+
+    /// The spectral operator that does all of this one's applications, if one does. A solve then treats the longest
+    /// waves where the contacts are, and in `f64` has its corrections in `f32`; without one, as by default, it takes more
+    /// iterations, each of which costs more.
+    fn spectral(&mut self) -> Option<&mut Spectral<T>> {
+        None
+    }
+}
+
+/// What a solve asks of an operator, by its spectral one or by the applications alone.
+impl<T: Real> dyn ElasticOperator<T> + '_ {
+    /// The elastic pressure p = K⁻¹u, and the mean of u·K⁻¹u.
+    pub(crate) fn pressure_and_work(
+        &mut self,
+        displacement: ArrayView2<'_, T>,
+        mut pressure: ArrayViewMut2<'_, T>,
+    ) -> Result<f64> {
+        if let Some(spectral) = self.spectral() {
+            return spectral.pressure_and_work(displacement, pressure);
+        }
+        self.pressure(displacement, pressure.view_mut())?;
+        Ok(mean_product(self.grid(), displacement, pressure.view()))
+    }
+
+    /// The elastic pressure K⁻¹h of heights in `f64`, and the mean of h·K⁻¹h; the heights have no mean, or one not
+    /// larger than their rms value.
+    pub(crate) fn surface_pressure(
+        &mut self,
+        heights: ArrayView2<'_, f64>,
+        mut pressure: ArrayViewMut2<'_, T>,
+    ) -> Result<f64> {
+        if let Some(spectral) = self.spectral() {
+            return spectral.surface_pressure(heights, pressure);
+        }
+        self.pressure(heights.mapv(T::lit).view(), pressure.view_mut())?;
+        Ok(mean_product(self.grid(), heights, pressure.view()))
     }
 
     /// Applies the preconditioner, M r.
     ///
     /// M is close to (K⁻¹ + s)⁻¹, with s the stiffness of the foundation, for the mean 1/mean_stiffness, which may be
-    /// zero, and for the waves of a coarse space its response. It must be symmetric, and positive but for the mean. The
-    /// default applies [`displacement`](Self::displacement), and 1/mean_stiffness to the mean.
-    ///
-    /// # Errors
-    /// [`Error::Shape`] if a field does not fit the grid.
-    fn precondition(
+    /// zero, and for the waves of a coarse space its response; without a spectral operator it is the compliance, and
+    /// 1/mean_stiffness for the mean. It is symmetric, and positive but for the mean.
+    pub(crate) fn precondition(
         &mut self,
         residual: ArrayView2<'_, T>,
         foundation: Foundation<'_>,
         mut preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
+        if let Some(spectral) = self.spectral() {
+            return spectral.precondition(residual, foundation, preconditioned);
+        }
         self.displacement(residual, preconditioned.view_mut())?;
         let error = mean_product(self.grid(), residual, preconditioned.view());
         let mean_residual = field::mean_over(self.grid().slab(), residual, T::widen);
@@ -113,6 +140,11 @@ pub trait ElasticOperator<T: Real>: Send {
         let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
         Ok(Preconditioned { error, descent: error + mean_residual * mean, mean })
+    }
+
+    /// Gives back the memory that is kept between two applications; the next one takes it anew.
+    pub(crate) fn release_memory(&mut self) {
+        self.spectral().into_iter().for_each(Spectral::release_memory);
     }
 }
 
@@ -175,63 +207,42 @@ impl Boundary {
 }
 
 /// The foundation on which the half-space rests in the preconditioner, pressures per length.
-#[non_exhaustive]
 #[derive(Debug)]
-pub struct Foundation<'a> {
+pub(crate) struct Foundation<'a> {
     /// The stiffness for every wave.
-    pub stiffness: f64,
+    pub(crate) stiffness: f64,
     /// The stiffness for the mean; may be infinite.
-    pub mean_stiffness: f64,
+    pub(crate) mean_stiffness: f64,
     /// The longest waves and the mean, held where the contacts are; for these it takes the place of the stiffnesses.
-    pub coarse: Option<&'a mut CoarseSpace>,
+    pub(crate) coarse: Option<&'a mut CoarseSpace>,
 }
 
 impl Foundation<'_> {
     /// A foundation that is the same everywhere.
-    pub fn uniform(stiffness: f64, mean_stiffness: f64) -> Self {
+    pub(crate) fn uniform(stiffness: f64, mean_stiffness: f64) -> Self {
         Self { stiffness, mean_stiffness, coarse: None }
     }
 }
 
-impl Preconditioned {
-    /// The three products.
-    pub fn new(error: f64, descent: f64, mean: f64) -> Self {
-        Self { error, descent, mean }
-    }
-}
-
-/// The products of [`ElasticOperator::precondition`] beside M r, all of them means over the nodes.
-#[non_exhaustive]
+/// The products of the preconditioner beside M r, all of them means over the nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Preconditioned {
+pub(crate) struct Preconditioned {
     /// r·Kr without the mean of r, of K itself, as it bounds the error ([`Report::relative_error`](crate::Report))
-    pub error: f64,
+    pub(crate) error: f64,
     /// r·Mr
-    pub descent: f64,
+    pub(crate) descent: f64,
     /// M r
-    pub mean: f64,
+    pub(crate) mean: f64,
 }
 
 fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
     field::mean_of_both(grid.slab(), a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
-/// The elastic pressure K⁻¹h of heights, as [`Waves::surface_pressure`]; rounded for an operator without waves.
-pub(crate) fn surface_pressure<T: Real>(
-    operator: &mut dyn ElasticOperator<T>,
-    heights: ArrayView2<'_, f64>,
-    mut pressure: ArrayViewMut2<'_, T>,
-) -> Result<f64> {
-    if let Some(waves) = operator.abilities().waves {
-        return waves.surface_pressure(heights, pressure);
-    }
-    operator.pressure(heights.mapv(T::lit).view(), pressure.view_mut())?;
-    Ok(mean_product(operator.grid(), heights, pressure.view()))
-}
-
-/// The methods of an operator that is another one, `$inner` of `$this`, with these abilities.
+/// The methods of an operator that is another one, `$inner` of `$this`, with the boundary and the spectral operator of
+/// its own.
 macro_rules! delegate {
-    ($this:ident => $inner:expr, $abilities:expr) => {
+    ($this:ident => $inner:expr, $boundary:expr, $spectral:expr) => {
         fn grid(&self) -> &Grid {
             let $this = self;
             $inner.grid()
@@ -239,14 +250,6 @@ macro_rules! delegate {
         fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
             let $this = self;
             $inner.pressure(displacement, pressure)
-        }
-        fn pressure_and_work(
-            &mut self,
-            displacement: ArrayView2<'_, T>,
-            pressure: ArrayViewMut2<'_, T>,
-        ) -> Result<f64> {
-            let $this = self;
-            $inner.pressure_and_work(displacement, pressure)
         }
         fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
             let $this = self;
@@ -260,27 +263,22 @@ macro_rules! delegate {
             let $this = self;
             $inner.modulus()
         }
-        fn abilities(&mut self) -> Abilities<'_, T> {
+        fn boundary(&self) -> Boundary {
             let $this = self;
-            $abilities
+            $boundary
         }
-        fn precondition(
-            &mut self,
-            residual: ArrayView2<'_, T>,
-            foundation: Foundation<'_>,
-            preconditioned: ArrayViewMut2<'_, T>,
-        ) -> Result<Preconditioned> {
+        fn takes_slabs(&self) -> bool {
             let $this = self;
-            $inner.precondition(residual, foundation, preconditioned)
+            $inner.takes_slabs()
+        }
+        fn spectral(&mut self) -> Option<&mut Spectral<T>> {
+            let $this = self;
+            $spectral
         }
     };
 }
 use delegate;
 
-impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for &mut O {
-    delegate!(this => (**this), (**this).abilities());
-}
-
 impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for Box<O> {
-    delegate!(this => (**this), (**this).abilities());
+    delegate!(this => (**this), (**this).boundary(), (**this).spectral());
 }

@@ -9,7 +9,6 @@ use ndarray::Array2;
 
 use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::{ContactConstraint, Projection, Wall};
-use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Partial, flat, write};
 use crate::grid::Grid;

@@ -161,7 +161,7 @@ impl Accuracy {
         let tolerance = self.tolerance(&solver.settings)?;
         self.of.check(control)?;
         self.check_law(law)?;
-        let boundary = operator.abilities().boundary;
+        let boundary = operator.boundary();
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
         let line = surface.grid().shape().0 == 1 || surface.grid().shape().1 == 1;

@@ -126,7 +126,7 @@ impl Accuracy {
             let mut problem = Problem::of(surface, operators.on(grid)?, law)?;
             let found = search.find_from(solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
             let limit = found.limit()?;
-            Ok::<_, Error>((found, limit, problem.operator.grid().nodes(), problem.operator.abilities().boundary))
+            Ok::<_, Error>((found, limit, problem.operator.grid().nodes(), problem.operator.boundary()))
         };
         let mut levels = Vec::new();
         if hints.of_grid && !hints.zero {

@@ -74,7 +74,7 @@ impl<T: Real> Boussinesq<T> {
 }
 
 impl<T: Real> ElasticOperator<T> for Boussinesq<T> {
-    delegate!(this => this.spectral, Abilities { boundary: this.boundary, ..this.spectral.abilities() });
+    delegate!(this => this.spectral, this.boundary, Some(&mut this.spectral));
 }
 
 /// The nodes of the padded grid along a side of n: at least 2n − 1, even, and a product of 2, 3 and 5.

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{Abilities, Boundary, ElasticOperator, Foundation, mean_product};
+use super::{Boundary, ElasticOperator, Foundation, mean_product};
 use crate::error::{Error, Result};
 use crate::field;
 use crate::real::Real;
@@ -32,7 +32,7 @@ const DIMENSION: usize = 20;
 /// check_operator(&mut Westergaard::<f64>::new(Grid::new((24, 15), (1.0, 0.7))?, 1.0)?)?;
 /// # Ok::<(), asperity::Error>(())
 /// ```
-pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)) -> Result<()> {
+pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<()> {
     let grid = *operator.grid();
     grid.slab().alone("check of an operator")?;
     let shape = grid.shape();
@@ -86,25 +86,24 @@ pub fn check_operator<T: Real>(operator: &mut (impl ElasticOperator<T> + ?Sized)
     }
 
     operator.pressure(a.view(), of_a.view_mut())?;
-    let Abilities { boundary, waves, .. } = operator.abilities();
-    if let Boundary::Free { window, mean_compliance } = boundary {
+    if let Boundary::Free { window, mean_compliance } = operator.boundary() {
         holds("spacing of the window over that of the grid", window.spacing().0 / grid.spacing().0, 1.0, 1e-12)?;
         holds("sign of the mean compliance", mean_compliance.signum(), 1.0, 0.0)?;
     }
     let mut space = None;
-    if let Some(waves) = waves {
+    if let Some(spectral) = operator.spectral() {
         let heights = a.mapv(T::widen);
-        let work = waves.surface_pressure(heights.view(), of_b.view_mut())?;
+        let work = spectral.surface_pressure(heights.view(), of_b.view_mut())?;
         holds("work of surface_pressure", work, product(&a, &of_a), stiff)?;
         holds("pressure of surface_pressure", largest(&(&of_b - &of_a)), 0.0, 4.0 * stiff)?;
-        if let Some(mut single) = waves.in_single() {
+        if let Some(mut single) = spectral.in_single() {
             let (rounded, mut found) = (a.mapv(|x| T::widen(x) as f32), Array2::zeros(shape));
             single.pressure(rounded.view(), found.view_mut())?;
             let difference = largest(&(found.mapv(|p: f32| T::lit(f64::from(p))) - &of_a));
             holds("pressure in single precision", difference, 0.0, 64.0 * f64::from(f32::EPSILON) * stiffest)?;
         }
-        space = waves.coarse_space(DIMENSION);
-        waves.release_memory();
+        space = spectral.coarse_space(DIMENSION);
+        spectral.release_memory();
     }
     operator.pressure(a.view(), of_b.view_mut())?;
     holds("pressure after memory was given back", largest(&(&of_b - &of_a)), 0.0, 0.0)?;

@@ -234,13 +234,18 @@ impl<T: Real> Spectral<T> {
     }
 }
 
-impl<T: Real> Waves<T> for Spectral<T> {
-    fn surface_pressure(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
+impl<T: Real> Spectral<T> {
+    pub(super) fn surface_pressure(
+        &mut self,
+        heights: ArrayView2<'_, f64>,
+        pressure: ArrayViewMut2<'_, T>,
+    ) -> Result<f64> {
         let [work, ..] = T::call::<PressFlat<'_>>((self, heights, pressure))?;
         Ok(work / self.norm())
     }
 
-    fn in_single(&mut self) -> Option<Box<dyn ElasticOperator<f32>>> {
+    /// The operator in `f32`, for the corrections of a solve in `f64`; none if a stiffness leaves the range of `f32`.
+    pub(crate) fn in_single(&self) -> Option<Spectral<f32>> {
         let (stiffness, range) = match &self.stiffness {
             Stiffness::Stored(stiffness) => {
                 check_range::<f32>(self.range.0, self.range.1).ok()?;
@@ -252,15 +257,38 @@ impl<T: Real> Waves<T> for Spectral<T> {
             }
             Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
         };
-        Some(Box::new(self.with(stiffness, range)))
+        Some(self.with(stiffness, range))
     }
 
-    fn release_memory(&mut self) {
+    pub(crate) fn release_memory(&mut self) {
         self.convolver.release_memory();
     }
 
-    fn coarse_space(&mut self, dimension: usize) -> Option<CoarseSpace> {
+    /// The space of the longest waves, of about `dimension` dimensions, that the preconditioner treats with the contacts
+    /// where they are; none where it does not pay.
+    pub(crate) fn coarse_space(&self, dimension: usize) -> Option<CoarseSpace> {
         CoarseSpace::new(&self.grid, self.convolver.layout(), &*self.symbol, dimension)
+    }
+
+    pub(super) fn pressure_and_work(
+        &mut self,
+        displacement: ArrayView2<'_, T>,
+        pressure: ArrayViewMut2<'_, T>,
+    ) -> Result<f64> {
+        let [work, ..] = self.apply(displacement, pressure, Factor::Stiffness)?;
+        Ok(work / self.norm())
+    }
+
+    /// M has the symbol 1/(k + s), but for the waves of the coarse space; the products come from the same transform.
+    pub(super) fn precondition(
+        &mut self,
+        residual: ArrayView2<'_, T>,
+        foundation: Foundation<'_>,
+        preconditioned: ArrayViewMut2<'_, T>,
+    ) -> Result<Preconditioned> {
+        let [error, descent, mean] = self.apply(residual, preconditioned, Factor::Preconditioner(foundation))?;
+        let mean = mean / self.grid.nodes() as f64;
+        Ok(Preconditioned { error: error / self.norm(), descent: descent / self.norm(), mean })
     }
 }
 
@@ -271,11 +299,6 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
 
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
         self.pressure_and_work(displacement, pressure).map(|_| ())
-    }
-
-    fn pressure_and_work(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<f64> {
-        let [work, ..] = self.apply(displacement, pressure, Factor::Stiffness)?;
-        Ok(work / self.norm())
     }
 
     fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
@@ -290,19 +313,11 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
         self.modulus
     }
 
-    fn abilities(&mut self) -> Abilities<'_, T> {
-        Abilities { slabs: true, single: true, waves: Some(self), ..Abilities::default() }
+    fn takes_slabs(&self) -> bool {
+        true
     }
 
-    /// M has the symbol 1/(k + s), but for the waves of the coarse space; the products come from the same transform.
-    fn precondition(
-        &mut self,
-        residual: ArrayView2<'_, T>,
-        foundation: Foundation<'_>,
-        preconditioned: ArrayViewMut2<'_, T>,
-    ) -> Result<Preconditioned> {
-        let [error, descent, mean] = self.apply(residual, preconditioned, Factor::Preconditioner(foundation))?;
-        let mean = mean / self.grid.nodes() as f64;
-        Ok(Preconditioned { error: error / self.norm(), descent: descent / self.norm(), mean })
+    fn spectral(&mut self) -> Option<&mut Spectral<T>> {
+        Some(self)
     }
 }

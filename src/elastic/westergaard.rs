@@ -31,5 +31,5 @@ impl<T: Real> Westergaard<T> {
 }
 
 impl<T: Real> ElasticOperator<T> for Westergaard<T> {
-    delegate!(this => this.0, this.0.abilities());
+    delegate!(this => this.0, this.0.boundary(), Some(&mut this.0));
 }

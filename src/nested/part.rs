@@ -172,7 +172,7 @@ pub(super) fn solve_part<T: Real>(
     observe: Observer<'_>,
 ) -> Result<Option<OnPart<T>>> {
     let whole = *half_space.grid();
-    let fits = half_space.abilities().boundary != Boundary::Periodic
+    let fits = half_space.boundary() != Boundary::Periodic
         && surface.absent().is_none()
         && law.hints().shape.is_none()
         && solver.constraint.wall().hardness().is_none_or(|hardness| !hardness.varies());

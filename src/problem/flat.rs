@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::{Control, Load, Window, Yielded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
-use crate::elastic::{self, Boundary, ElasticOperator};
+use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{all_finite_in, flat};
 use crate::grid::Grid;
@@ -58,8 +58,7 @@ pub(super) fn check_law<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid) -> Resul
 
 impl<T: Real> PressedFlat<T> {
     fn of(surface: &Surface, operator: &mut dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<Self> {
-        let abilities = operator.abilities();
-        let (boundary, slabs) = (abilities.boundary, abilities.slabs);
+        let boundary = operator.boundary();
         let (grid, expected) = match boundary {
             Boundary::Periodic => (surface.grid(), *operator.grid()),
             Boundary::Free { window, .. } => (surface.grid(), window),
@@ -70,7 +69,7 @@ impl<T: Real> PressedFlat<T> {
         if grid.is_shared() != slab.is_shared() {
             return Err(Error::Shared { what: "contact", reason: one });
         }
-        if !slabs {
+        if !operator.takes_slabs() {
             slab.alone("elastic operator")?;
         }
         check_law(law, grid)?;
@@ -110,7 +109,7 @@ impl<T: Real> PressedFlat<T> {
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
         let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
         let heights = centred.as_ref().unwrap_or(whole.heights()).view();
-        let surface_work = elastic::surface_pressure(operator, heights, pressure.view_mut())?.max(0.0);
+        let surface_work = operator.surface_pressure(heights, pressure.view_mut())?.max(0.0);
         drop(centred);
         let mean_square = operator.grid().mean(pressure.view(), |p: T| p.widen().powi(2));
         // squares may be beyond the range of finite pressures

@@ -46,7 +46,7 @@ pub(crate) struct Coarse {
 impl Coarse {
     pub(crate) fn of<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Option<Self> {
         let (grid, nodes) = (*operator.grid(), operator.grid().nodes() as f64);
-        let space = operator.abilities().coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
+        let space = operator.spectral()?.coarse_space((DIMENSION * nodes.cbrt()) as usize)?;
         let [_, blocks] = space.blocks();
         let (contact, counts) = (vec![0.0; blocks.0 * blocks.1], vec![Count::default(); blocks.0 * blocks.1]);
         Some(Self { space, grid, contact, counts, ready: false, due: 0, interval: INTERVAL })

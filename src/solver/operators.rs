@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use crate::elastic::{ElasticOperator, Foundation};
+use crate::elastic::{ElasticOperator, Foundation, Spectral};
 use crate::error::Result;
 use crate::real::Real;
 
@@ -57,12 +57,12 @@ impl<T: Real> Operators<T, T> for One<'_, T> {
 /// An operator in `f64`, and the same one in `f32` for the corrections. Only one at a time keeps a spectrum.
 pub(super) struct Two<'a> {
     state: &'a mut dyn ElasticOperator<f64>,
-    corrections: Box<dyn ElasticOperator<f32>>,
+    corrections: Spectral<f32>,
 }
 
 impl<'a> Two<'a> {
-    pub(super) fn new(state: &'a mut dyn ElasticOperator<f64>, corrections: Box<dyn ElasticOperator<f32>>) -> Self {
-        state.abilities().release_memory();
+    pub(super) fn new(state: &'a mut dyn ElasticOperator<f64>, corrections: Spectral<f32>) -> Self {
+        state.release_memory();
         Self { state, corrections }
     }
 
@@ -73,10 +73,10 @@ impl<'a> Two<'a> {
         apply: impl FnOnce(&mut dyn ElasticOperator<f64>) -> Result<R>,
     ) -> Result<R> {
         let shape = self.state.grid().field_shape();
-        self.corrections.abilities().release_memory();
+        self.corrections.release_memory();
         idle.iter_mut().for_each(|field| **field = Array2::zeros((0, 0)));
         let result = apply(self.state);
-        self.state.abilities().release_memory();
+        self.state.release_memory();
         idle.iter_mut().for_each(|field| **field = Array2::zeros(shape));
         result
     }
@@ -87,7 +87,7 @@ impl Operators<f64, f32> for Two<'_> {
         self.state
     }
     fn corrections(&mut self) -> &mut dyn ElasticOperator<f32> {
-        &mut *self.corrections
+        &mut self.corrections
     }
     fn pressure(&mut self, gap: &Array2<f64>, pressure: &mut Array2<f64>, idle: &mut [&mut Array2<f32>]) -> Result<()> {
         self.apply(idle, |operator| operator.pressure(gap.view(), pressure.view_mut()))

@@ -30,7 +30,8 @@ impl<'a> Compiled for Solve<'a> {
         run(&mut One(operator), job)
     }
     fn double((operator, job): Self::Input<f64>) -> Result<Solved<f64>> {
-        let corrections = if takes_coarse_corrections(&job) { operator.abilities().in_single() } else { None };
+        let corrections =
+            if takes_coarse_corrections(&job) { operator.spectral().and_then(|s| s.in_single()) } else { None };
         match corrections {
             Some(corrections) => run(&mut Two::new(operator, corrections), job),
             None => run(&mut One(operator), job),
