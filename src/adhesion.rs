@@ -26,6 +26,7 @@ mod varying;
 pub use check::check_law;
 pub use cut_off::CutOff;
 pub use exponential::Exponential;
+pub(crate) use exponentials::{exponentials_f32, exponentials_f64};
 pub use hints::Hints;
 pub use jkr::Jkr;
 pub use lennard_jones::LennardJones;
@@ -154,7 +155,7 @@ forward!(&L, Box<L>, Arc<L>);
 
 /// The adhesion law of a problem and of its solutions.
 #[derive(Clone)]
-pub(crate) struct SharedLaw<T: Real>(pub(crate) Arc<dyn AdhesionLaw<T>>);
+pub struct SharedLaw<T: Real>(pub(crate) Arc<dyn AdhesionLaw<T>>);
 
 impl<T: Real> SharedLaw<T> {
     pub(crate) fn new(law: impl AdhesionLaw<T> + 'static) -> Self {

@@ -9,10 +9,10 @@ use crate::adhesion::{AdhesionLaw, Values, noticeable, on_grid};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::real::{Real, compiled};
+use crate::real::Real;
 use crate::solver::Solution;
 
-use outline::Outline;
+pub(crate) use outline::{Edge, Outline};
 
 mod area;
 mod clusters;
@@ -205,10 +205,10 @@ impl ContactStatistics {
         (boundary, modulus): (Boundary, f64),
         law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
-        statistics(gap, contact_pressure, grid, (boundary, modulus), law)
+        T::statistics(gap, contact_pressure, grid, (boundary, modulus), law)
     }
 
-    fn count<T: Real>(
+    pub(crate) fn count<T: Real>(
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,
         grid: &Grid,
@@ -241,11 +241,4 @@ impl ContactStatistics {
             patches: patch::patches(law, grid, nodes),
         })
     }
-}
-
-compiled! {
-    fn statistics<'a, T>(
-        gap: ArrayView2<'a, T>, contact_pressure: ArrayView2<'a, T>, grid: &'a Grid, body: (Boundary, f64),
-        law: &'a dyn AdhesionLaw<T>
-    ) -> Result<ContactStatistics> = ContactStatistics::count
 }

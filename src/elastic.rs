@@ -19,6 +19,7 @@ pub use boussinesq::Boussinesq;
 pub use check::check_operator;
 pub(crate) use coarse::CoarseSpace;
 pub use spectral::Spectral;
+pub(crate) use spectral::{Factor, Stiffness, waves};
 pub use westergaard::Westergaard;
 
 /// The elastic operator of a half-space: the pressure p = K⁻¹u of a displacement u of its surface, and u = Kp.
@@ -208,7 +209,7 @@ impl Boundary {
 
 /// The foundation on which the half-space rests in the preconditioner, pressures per length.
 #[derive(Debug)]
-pub(crate) struct Foundation<'a> {
+pub struct Foundation<'a> {
     /// The stiffness for every wave.
     pub(crate) stiffness: f64,
     /// The stiffness for the mean; may be infinite.

@@ -10,7 +10,7 @@ use num_traits::Zero;
 
 use crate::error::{Error, Result};
 use crate::par::{self, Parts, Pool};
-use crate::real::{Compiled, Real, compiled};
+use crate::real::Real;
 use crate::slab::{Slab, TILE};
 
 mod analysis;
@@ -34,7 +34,7 @@ const SLACK: usize = 8;
 /// Two real rows ride in one complex transform. The half spectrum is transposed, `(n1/2 + 1, n0)`: a column is
 /// transformed, multiplied and transformed back while it is in cache. Memory: the spectrum, one field's worth and `n0`
 /// complex numbers more, a tile per worker, and the spectrum again where processes share the grid.
-pub(crate) struct Convolver<T: Real> {
+pub struct Convolver<T: Real> {
     slab: Slab,
     layout: Layout,
     twiddles: Option<Twiddles<T>>,
@@ -51,19 +51,6 @@ pub(crate) struct Convolver<T: Real> {
 
 pub(crate) type Sums = [f64; 3];
 
-struct Plan;
-
-impl Compiled for Plan {
-    type Input<T: Real> = usize;
-    type Output<T: Real> = Transform<T>;
-    fn single(len: usize) -> Transform<f32> {
-        asperity_fft::single(len)
-    }
-    fn double(len: usize) -> Transform<f64> {
-        asperity_fft::double(len)
-    }
-}
-
 struct Workspace<T> {
     tile: Vec<Complex<T>>,
     /// a column, where it comes in pieces from several processes
@@ -79,14 +66,8 @@ impl<T: Real> fmt::Debug for Convolver<T> {
 
 impl<T: Real> Clone for Convolver<T> {
     fn clone(&self) -> Self {
-        planned(self.slab, self.layout, self.rows.clone(), self.columns.clone())
+        T::convolver(self.slab, self.layout, self.rows.clone(), self.columns.clone())
     }
-}
-
-compiled! {
-    fn planned<T>(
-        slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>
-    ) -> Convolver<T> = Convolver::planned
 }
 
 impl<T: Real> Convolver<T> {
@@ -96,10 +77,10 @@ impl<T: Real> Convolver<T> {
 
     fn with(slab: Slab, layout: Layout) -> Self {
         let (n0, n1) = layout.plane();
-        planned(slab, layout, T::call::<Plan>(n1), T::call::<Plan>(n0))
+        T::convolver(slab, layout, T::transform(n1), T::transform(n0))
     }
 
-    fn planned(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {
+    pub(crate) fn planned(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {
         let (n0, n1) = layout.plane();
         let (own, scratch) = (layout.columns_of(&slab), rows.scratch_len().max(columns.scratch_len()));
         let shared = slab.is_shared().then(|| Shared::new(slab, layout));

@@ -94,6 +94,7 @@ mod fft;
 mod field;
 mod grid;
 pub mod guide;
+mod heavy;
 pub mod nested;
 mod par;
 pub mod path;
@@ -128,8 +129,6 @@ pub use grid::Grid;
 pub use nested::Nested;
 pub use problem::{Control, Problem};
 pub use pull_off::{FoundPullOff, PullOff};
-#[doc(hidden)]
-pub use real::Compiled;
 pub use real::Real;
 #[doc(inline)]
 pub use search::ContactSearch;

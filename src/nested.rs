@@ -24,10 +24,13 @@ pub(crate) use hierarchy::coarsened;
 use hierarchy::coarser;
 pub use level::Level;
 pub(crate) use level::equivalent_applications;
-pub(crate) use transfer::{Deformed, Touching, deformed, prolonged};
+pub(crate) use transfer::{Deformed, Touching};
 
 /// The observer of iterations on some grid, which may stop a solve.
 pub(crate) type GridObserver<'a> = &'a mut (dyn FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send);
+
+/// A surface that is lent, or handed over.
+pub(crate) type Heights<'a> = Box<dyn Borrow<Surface> + 'a>;
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
@@ -179,7 +182,7 @@ impl Nested {
     ) -> Result<NestedSolution<T>> {
         let law = SharedLaw::new(law);
         let (Solved { solution, .. }, levels) =
-            self.run(solver, surface, &mut operators, &law, control, &mut observe)?;
+            T::nested(self, solver, Box::new(surface), &mut operators, &law, control, &mut observe)?;
         Ok(NestedSolution { solution, levels })
     }
 
@@ -187,14 +190,14 @@ impl Nested {
     pub(crate) fn run<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
-        heights: impl Borrow<Surface>,
+        heights: Heights<'_>,
         operators: &mut dyn OnGrids<T>,
         law: &SharedLaw<T>,
         control: Control,
         observe: GridObserver<'_>,
     ) -> Result<(Solved<T>, Vec<Level>)> {
         Error::positive("coarse tolerance", self.coarse_tolerance)?;
-        let surface: &Surface = heights.borrow();
+        let surface: &Surface = (*heights).borrow();
         let finest = *surface.grid();
         let mut stopped = false;
         let mut watch = |grid: &Grid, iteration: &Iteration| {
@@ -204,7 +207,7 @@ impl Nested {
         let (mut levels, coarser) = self.solve_coarser(solver, surface, operators, law, control, &mut watch)?;
         let mut half_space = operators.on(finest)?;
         let (rigid, touching) = (solver.constraint.wall().is_rigid(), Touching::of(solver.constraint.wall()));
-        let prolonged = coarser.map(|coarser| prolonged(coarser, surface, half_space.grid(), touching));
+        let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), touching));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(&finest, iteration);
         let part = match &prolonged {
@@ -224,7 +227,7 @@ impl Nested {
         let begin = match (part.filter(|part| part.leads(unique)), prolonged) {
             (Some(part), _) => {
                 spent += 1;
-                Begin::Found(part::whole(part, problem.parts())?)
+                Begin::Found(part.whole(problem.parts())?)
             }
             (None, Some(prolonged)) => Begin::Prolonged(prolonged),
             (None, None) => default,
@@ -276,8 +279,7 @@ impl Nested {
                 continue;
             };
             let mut problem = Problem::of(&coarse, half_space, coarse_law)?;
-            let prolonged =
-                coarser.take().map(|coarser| prolonged(coarser, &coarse, problem.operator.grid(), touching));
+            let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), touching));
             let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
             let mut smoothed = false;
             let mut watch = |iteration: &Iteration| {
@@ -298,7 +300,7 @@ impl Nested {
             let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED && report.status != Status::Detached {
-                coarser = Some(deformed(&coarse, gap, whole));
+                coarser = Some(Deformed::of(&coarse, gap, whole));
             }
         }
         Ok((levels, coarser))

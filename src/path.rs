@@ -129,7 +129,7 @@ const RETRIES: usize = 3;
 const ROUNDINGS: f64 = 8.0;
 
 /// What a path is followed with.
-struct Bench<'a, T: Real> {
+pub struct Bench<'a, T: Real> {
     solver: &'a mut Solver<dyn ContactConstraint<T>>,
     problem: &'a mut Problem<T>,
     observe: Observer<'a>,
@@ -224,12 +224,12 @@ impl<T: Real> Path<T> {
         if self.failed {
             return Ok(None);
         }
-        let step = self.advance(&mut Bench { solver, problem, observe: &mut observe });
+        let step = T::follow(self, &mut Bench { solver, problem, observe: &mut observe });
         self.failed |= step.is_err();
         step
     }
 
-    fn advance(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
+    pub(crate) fn advance(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
         if !self.course.solved {
             let Some(&load) = self.legs.first() else { return Ok(None) };
             self.check(bench.solver, bench.problem)?;

@@ -20,7 +20,7 @@ mod yielded;
 pub use control::Control;
 pub(crate) use control::Load;
 pub(crate) use flat::PressedFlat;
-use flat::{check_law, pressed_flat};
+use flat::check_law;
 pub(crate) use window::Window;
 pub(crate) use yielded::Yielded;
 
@@ -57,7 +57,7 @@ impl<T: Real> fmt::Debug for Problem<T> {
 }
 
 /// The parts of a problem, perhaps with another law for a solve than that of the problem.
-pub(crate) struct Parts<'a, T: Real> {
+pub struct Parts<'a, T: Real> {
     pub(crate) operator: &'a mut dyn ElasticOperator<T>,
     pub(crate) law: &'a dyn AdhesionLaw<T>,
     /// the law of the problem, as it was given
@@ -100,7 +100,7 @@ impl<T: Real> Problem<T> {
 
     pub(crate) fn of(surface: &Surface, mut operator: Box<dyn ElasticOperator<T>>, law: SharedLaw<T>) -> Result<Self> {
         let on_nodes = on_grid(&*law, operator.grid(), operator.modulus());
-        let flat = pressed_flat(surface, &mut *operator, on_nodes.as_deref().unwrap_or(&*law))?;
+        let flat = T::press_flat(surface, &mut *operator, on_nodes.as_deref().unwrap_or(&*law))?;
         Ok(Self { operator, law, on_nodes, flat })
     }
 

@@ -124,9 +124,19 @@ impl PullOff {
         start: Start<'_, T>,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<FoundPullOff<T>> {
-        let Self { tolerance, preload } = *self;
+        T::pull_off(*self, solver, problem, start, &mut observe)
+    }
+
+    pub(crate) fn search<T: Real>(
+        self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
+        start: Start<'_, T>,
+        observe: Observer<'_>,
+    ) -> Result<FoundPullOff<T>> {
+        let Self { tolerance, preload } = self;
         self.check(solver, problem)?;
-        let mut search = Search { branch: None, solves: 0, operator_applications: 0, observe: &mut observe };
+        let mut search = Search { branch: None, solves: 0, operator_applications: 0, observe };
         let first = Control::MeanPressure(preload.unwrap_or(0.0));
         let usual = if preload.is_some() { Branch::Loading } else { Branch::Unloading };
         let branch = solver.settings.branch.unwrap_or(usual);

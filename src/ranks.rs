@@ -8,7 +8,7 @@ use asperity_fft::num_complex::{Complex32, Complex64};
 pub(crate) use job::Job;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Ranks {
+pub struct Ranks {
     rank: usize,
     count: usize,
 }
@@ -35,7 +35,7 @@ pub(crate) const COUNTED: usize = i32::MAX as usize;
 /// The parts of a buffer, one after the other, that belong to the ranks.
 #[derive(Clone, Debug)]
 #[cfg_attr(not(feature = "mpi"), expect(dead_code, reason = "one process has nothing to send"))]
-pub(crate) struct Shares {
+pub struct Shares {
     counts: Vec<i32>,
     places: Vec<i32>,
 }
@@ -182,7 +182,7 @@ mod job {
     }
 
     /// An MPI job: all processes that `mpiexec` started. MPI ends with it.
-    pub(crate) struct Job(#[expect(dead_code, reason = "kept, as MPI ends where it is dropped")] Universe);
+    pub struct Job(#[expect(dead_code, reason = "kept, as MPI ends where it is dropped")] Universe);
 
     impl Job {
         /// Joins the job; nothing if this process has done so before, or if this MPI cannot be called from threads.

@@ -10,7 +10,7 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Branch, Iteration, Method, Solution, Solved, Solver, Start, Status};
+use crate::solver::{Begin, Branch, Iteration, Method, Observer, Solution, Solved, Solver, Start, Status};
 
 /// The relative error of the contact fraction at which a search ends.
 const TOLERANCE: f64 = 0.01;
@@ -205,6 +205,16 @@ impl<T: Real> ContactSearch<T> {
         fraction: f64,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<FoundContact<T>> {
+        T::search(self, solver, problem, fraction, &mut observe)
+    }
+
+    pub(crate) fn find(
+        &mut self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
+        fraction: f64,
+        observe: Observer<'_>,
+    ) -> Result<FoundContact<T>> {
         if let Wall::None = solver.constraint.wall() {
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
             return Err(Error::Control { control: "contact-fraction", reason });
@@ -248,7 +258,7 @@ impl<T: Real> ContactSearch<T> {
                 (None, Some(gap)) if !anew => Begin::Found(gap.clone()),
                 (None, _) => branch.map_or(Begin::At(Start::Default), Begin::On),
             };
-            let solved = solver.run(problem.parts(), axis.control(x), begin, &mut observe)?;
+            let solved = solver.run(problem.parts(), axis.control(x), begin, &mut *observe)?;
             let report = &solved.solution.report;
             solves += 1;
             applications += report.operator_applications;

@@ -28,7 +28,7 @@ const BANDS: usize = 1024;
 /// processes. Sums go band by band, in the order of the bands. They are therefore the same, bit for bit, for any
 /// distribution of the bands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Slab {
+pub struct Slab {
     /// of the whole grid
     shape: (usize, usize),
     /// rows of a band

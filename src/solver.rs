@@ -34,9 +34,9 @@ mod work;
 
 pub use branch::Branch;
 pub(crate) use coarse::Coarse;
-use driver::Job;
-pub(crate) use driver::Observer;
+pub(crate) use driver::{Job, Observer};
 pub(crate) use potential::{Least, Of, Potential, bounded};
+pub(crate) use precision::{in_double, in_single};
 pub(crate) use report::Solved;
 pub use report::{Iteration, Plastic, Report, Solution, Status};
 pub use start::Start;
@@ -254,6 +254,6 @@ impl<T: Real> Solver<dyn ContactConstraint<T>> {
     ) -> Result<Solved<T>> {
         let Self { settings, constraint } = self;
         let Parts { operator, law, given, flat } = problem;
-        precision::solve(operator, Job { law, given, flat, constraint, control, settings: *settings, begin, observe })
+        T::solve(operator, Job { law, given, flat, constraint, control, settings: *settings, begin, observe })
     }
 }

@@ -14,7 +14,7 @@ use crate::field::{CHUNK, Partial, flat, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Parts, Problem, Window, smoothed_law};
-use crate::real::{Real, compiled};
+use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{Of, Potential, Solution, check_wall, refuse_hardness};
 
@@ -32,7 +32,7 @@ pub use edge::EdgeError;
 use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
 pub use stiffness::ContactStiffness;
-pub(crate) use watch::{Saddle, Watch, saddle};
+pub(crate) use watch::{Saddle, Watch};
 
 /// The verdict on an equilibrium: stable, unstable, or undecided.
 #[non_exhaustive]
@@ -206,10 +206,10 @@ impl StabilityTest {
         gap: &Array2<T>,
         relative_error: f64,
     ) -> Result<Stability<T>> {
-        judge(self, problem.parts(), constraint, control, gap, relative_error)
+        T::stability(self, problem.parts(), constraint, control, gap, relative_error)
     }
 
-    fn judge<T: Real>(
+    pub(crate) fn judge<T: Real>(
         &self,
         problem: Parts<'_, T>,
         constraint: &dyn ContactConstraint<T>,
@@ -274,13 +274,6 @@ impl StabilityTest {
         let more = hessian.applications() - taken;
         Ok(stability(verdict, pair, lower, taken, more))
     }
-}
-
-compiled! {
-    fn judge<'a, T>(
-        test: &'a StabilityTest, problem: Parts<'a, T>, constraint: &'a dyn ContactConstraint<T>, control: Control,
-        gap: &'a Array2<T>, relative_error: f64
-    ) -> Result<Stability<T>> = StabilityTest::judge
 }
 
 fn check_gap<T: Real>(problem: &Parts<'_, T>, constraint: &dyn ContactConstraint<T>, gap: &Array2<T>) -> Result<()> {

@@ -8,7 +8,7 @@ use crate::constraint::ContactConstraint;
 use crate::error::Result;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Iteration, Least, Potential, Solution, Solved, Solver, Start, extrapolated};
+use crate::solver::{Begin, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, extrapolated};
 
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
 ///
@@ -105,6 +105,16 @@ impl<T: Real> Sweep<T> {
         load: Control,
         mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<Solution<T>> {
+        T::sweep(self, solver, problem, load, &mut observe)
+    }
+
+    pub(crate) fn step(
+        &mut self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
+        load: Control,
+        observe: Observer<'_>,
+    ) -> Result<Solution<T>> {
         for gap in self.history.iter().map(|(_, gap)| gap).chain(&self.depth) {
             problem.operator.grid().fits("field of the sweep", gap.dim())?;
         }
@@ -116,7 +126,7 @@ impl<T: Real> Sweep<T> {
             (None, Some(begin)) => begin,
             (None, None) => Begin::At(Start::Default),
         };
-        let solved = solver.run(problem.parts(), load, begin, &mut observe)?;
+        let solved = solver.run(problem.parts(), load, begin, observe)?;
         self.keep(problem, load, solved)
     }
 

@@ -7,7 +7,7 @@ use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::{Boundary, ElasticOperator, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::{GridObserver, Level, Nested, Touching, deformed, equivalent_applications, prolonged};
+use crate::nested::{Deformed, GridObserver, Level, Nested, Touching, equivalent_applications};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::setters::setters;
@@ -268,10 +268,10 @@ impl Accuracy {
             nested = nested.stiffness(nested.stiffness.map_or(needed, |given| given.min(needed)));
         }
         let (wanted, law) = (Self { nested, ..*self }, SharedLaw::new(law));
-        solver.to(tolerance, |solver| wanted.refine(solver, surface, &mut operators, &law, control, &mut observe))
+        solver.to(tolerance, |solver| T::refine(&wanted, solver, surface, &mut operators, &law, control, &mut observe))
     }
 
-    fn refine<T: Real>(
+    pub(crate) fn refine<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
         surface: &Surface,
@@ -281,7 +281,7 @@ impl Accuracy {
         observe: GridObserver<'_>,
     ) -> Result<AccurateSolution<T>> {
         let (Solved { mut solution, mut whole, .. }, mut levels) =
-            self.nested.run(solver, surface, operators, law, control, &mut *observe)?;
+            self.nested.run(solver, Box::new(surface), operators, law, control, &mut *observe)?;
         let periodic = solution.report.boundary == Boundary::Periodic;
         let mut waves = surface.nodes_per_wave(solution.report.boundary);
         let mut surface = surface.clone();
@@ -302,8 +302,8 @@ impl Accuracy {
             }
             let fine = refined(&surface, periodic)?;
             let touching = Touching::of(solver.constraint.wall());
-            let coarse = deformed(&surface, solution.gap, whole);
-            let start = prolonged(coarse, &fine, half_space.grid(), touching);
+            let coarse = Deformed::of(&surface, solution.gap, whole);
+            let start = coarse.prolonged(&fine, half_space.grid(), touching);
             let mut problem = Problem::of(&fine, half_space, law.clone())?;
             let grid = *fine.grid();
             let begin = Begin::Prolonged(start);

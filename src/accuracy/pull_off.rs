@@ -11,7 +11,7 @@ use crate::contact::ContactArea;
 use crate::elastic::{Boundary, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::nested::coarsened;
+use crate::nested::{GridObserver, coarsened};
 use crate::problem::Problem;
 use crate::pull_off::{FoundPullOff, PullOff};
 use crate::real::Real;
@@ -110,7 +110,18 @@ impl Accuracy {
         search: &PullOff,
         mut observe: impl FnMut(&Grid, &Iteration) -> ControlFlow<()> + Send,
     ) -> Result<AccuratePullOff<T>> {
-        let law = SharedLaw::new(law);
+        T::refine_pull_off(self, solver, surface, &mut operators, &SharedLaw::new(law), *search, &mut observe)
+    }
+
+    pub(crate) fn refine_pull_off<T: Real>(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        surface: &Surface,
+        operators: &mut dyn OnGrids<T>,
+        law: &SharedLaw<T>,
+        search: PullOff,
+        observe: GridObserver<'_>,
+    ) -> Result<AccuratePullOff<T>> {
         let hints = law.hints();
         let refines = self.target.is_finite();
         if refines {
@@ -140,7 +151,7 @@ impl Accuracy {
             }
         }
         let mut surface = surface.clone();
-        let refinable = refines && is_refinable(&surface, &*law);
+        let refinable = refines && is_refinable(&surface, &**law);
         loop {
             let (found, limit, nodes, boundary) = find(&surface, law.clone())?;
             let waves = surface.nodes_per_wave(boundary);

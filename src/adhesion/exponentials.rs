@@ -1,34 +1,19 @@
 //! Exponentials of many numbers on vector instructions.
 
-use std::marker::PhantomData;
-
-use crate::real::{Compiled, Real};
+use crate::real::Real;
 use crate::vector::{BLOCK, vectorised};
 
 /// `factor·exp(rate·x)` for many x, to two units in the last place; zero where it would be subnormal.
 ///
 /// Without branches and tables, so that it runs on vector instructions, with the same bits on every platform.
 pub(super) fn exponentials<T: Real>(factor: T, rate: T, x: &[T], results: &mut [T]) {
-    T::call::<Exponentials<'_>>((factor, rate, x, results));
-}
-
-struct Exponentials<'a>(PhantomData<&'a ()>);
-
-impl<'a> Compiled for Exponentials<'a> {
-    type Input<T: Real> = (T, T, &'a [T], &'a mut [T]);
-    type Output<T: Real> = ();
-    fn single((factor, rate, x, results): (f32, f32, &'a [f32], &'a mut [f32])) {
-        exponentials_f32(factor, rate, x, results);
-    }
-    fn double((factor, rate, x, results): (f64, f64, &'a [f64], &'a mut [f64])) {
-        exponentials_f64(factor, rate, x, results);
-    }
+    T::exponentials(factor, rate, x, results);
 }
 
 /// exp x = 2ᵏ exp r with |r| ≤ ½ ln 2: a Taylor series of r, and k into the bits of the exponent.
 macro_rules! exponentials {
     ($name:ident, $float:ty, $mantissa:literal, $bias:literal, $magic:expr, $ln2:expr, $low:expr, $high:expr, $series:expr) => {
-        fn $name(factor: $float, rate: $float, x: &[$float], results: &mut [$float]) {
+        pub(crate) fn $name(factor: $float, rate: $float, x: &[$float], results: &mut [$float]) {
             vectorised(
                 #[inline(always)]
                 || {

@@ -4,7 +4,7 @@ use ndarray::{ArrayView1, ArrayView2};
 
 #[cfg(doc)]
 use super::ContactStatistics;
-use super::outline::{self, Edge, Outline};
+use super::outline::{Edge, Outline};
 use super::{check, contact_map};
 use crate::elastic::Boundary;
 use crate::error::Result;
@@ -86,7 +86,7 @@ impl ContactArea {
     pub(super) fn within_edge<'a, T: Real>(outline: &'a Outline<'a, T>, facing: usize) -> Self {
         let &Outline { map, grid, periodic, modulus, .. } = outline;
         let known = modulus.is_finite() && modulus > 0.0;
-        let edge = |along| if known { outline::edge(outline) } else { edge_of_map(along, grid) };
+        let edge = |along| if known { T::edge(outline) } else { edge_of_map(along, grid) };
         Self::within(map, grid, periodic, facing, edge)
     }
 

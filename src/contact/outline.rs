@@ -6,7 +6,7 @@ use ndarray::ArrayView2;
 
 use super::places::Places;
 use crate::grid::Grid;
-use crate::real::{Real, compiled};
+use crate::real::Real;
 
 /// κ: the gap of the next free node per pressure of the last node in contact, over Δ/E*.
 const SOFTNESS: f64 = 2.0 * E / PI;
@@ -26,7 +26,7 @@ const TURN: f64 = 0.78;
 /// A cell in the fixed-point numbers that are added up: the same sum in any order.
 const CELL: f64 = (1_u64 << 30) as f64;
 
-pub(super) struct Outline<'a, T> {
+pub struct Outline<'a, T> {
     pub gap: ArrayView2<'a, T>,
     pub contact_pressure: ArrayView2<'a, T>,
     pub map: ArrayView2<'a, bool>,
@@ -35,7 +35,7 @@ pub(super) struct Outline<'a, T> {
     pub modulus: f64,
 }
 
-pub(super) struct Edge {
+pub struct Edge {
     /// the area of the nodes in contact beyond that within the edge, in cells
     pub excess: f64,
     /// the neighbours between which the edge runs, and how many are at independent places
@@ -74,12 +74,8 @@ struct Cut {
     kink: f64,
 }
 
-compiled! {
-    pub(super) fn edge<'a, T>(outline: &'a Outline<'a, T>) -> Edge = Outline::edge
-}
-
 impl<T: Real> Outline<'_, T> {
-    fn edge(&self) -> Edge {
+    pub(crate) fn edge(&self) -> Edge {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
         let ((nx, columns), next) = (grid.shape(), |row| [(row + 1) % grid.shape().0]);
         let (dx, dy) = grid.spacing();

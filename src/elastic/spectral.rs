@@ -1,15 +1,14 @@
 use std::f64::consts::TAU;
 use std::fmt;
-use std::marker::PhantomData;
 use std::sync::Arc;
 
 use super::*;
 use crate::fft::{Convolver, Layout, Sums};
-use crate::real::Compiled;
 
 mod stiffness;
 
-use stiffness::{Columns, Stiffness, check_range, half_space, soften, stiffen, stiffness};
+use stiffness::{Columns, check_range, soften, stiffen, stiffness};
+pub(crate) use stiffness::{Stiffness, waves};
 
 /// The stiffness k(qx, qy) of a wave, pressure per displacement.
 type Symbol = Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>;
@@ -91,7 +90,7 @@ impl<T: Real> Spectral<T> {
     pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
-        let (stiffness, range) = half_space(&grid, modulus)?;
+        let (stiffness, range) = T::half_space(&grid, modulus)?;
         Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) })
     }
 
@@ -138,44 +137,28 @@ fn weigh(layout: Layout, column: usize, sums: Sums) -> Sums {
     sums.map(|sum| layout.weight(column) * sum)
 }
 
-enum Factor<'a> {
+pub enum Factor<'a> {
     Stiffness,
     Compliance,
     Preconditioner(Foundation<'a>),
 }
 
-struct Apply<'a>(PhantomData<&'a ()>);
-
-impl<'a> Compiled for Apply<'a> {
-    type Input<T: Real> = (&'a mut Spectral<T>, ArrayView2<'a, T>, ArrayViewMut2<'a, T>, Factor<'a>);
-    type Output<T: Real> = Result<Sums>;
-    fn single((operator, input, output, factor): Self::Input<f32>) -> Result<Sums> {
-        operator.convolve(input, output, factor)
-    }
-    fn double((operator, input, output, factor): Self::Input<f64>) -> Result<Sums> {
-        operator.convolve(input, output, factor)
+impl Spectral<f32> {
+    /// The pressure of heights in `f64`, and its work.
+    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f32>) -> Result<Sums> {
+        self.in_double()?.convolve(heights, pressure, Factor::Stiffness)
     }
 }
 
-struct PressFlat<'a>(PhantomData<&'a ()>);
-
-impl<'a> Compiled for PressFlat<'a> {
-    type Input<T: Real> = (&'a mut Spectral<T>, ArrayView2<'a, f64>, ArrayViewMut2<'a, T>);
-    type Output<T: Real> = Result<Sums>;
-    fn single((operator, heights, pressure): Self::Input<f32>) -> Result<Sums> {
-        operator.in_double()?.convolve(heights, pressure, Factor::Stiffness)
-    }
-    fn double((operator, heights, pressure): Self::Input<f64>) -> Result<Sums> {
-        operator.convolve(heights, pressure, Factor::Stiffness)
+impl Spectral<f64> {
+    /// The pressure of heights, and its work.
+    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f64>) -> Result<Sums> {
+        self.convolve(heights, pressure, Factor::Stiffness)
     }
 }
 
 impl<T: Real> Spectral<T> {
-    fn apply(&mut self, input: ArrayView2<'_, T>, output: ArrayViewMut2<'_, T>, factor: Factor<'_>) -> Result<Sums> {
-        T::call::<Apply<'_>>((self, input, output, factor))
-    }
-
-    fn convolve<U: Real>(
+    pub(crate) fn convolve<U: Real>(
         &mut self,
         input: ArrayView2<'_, T>,
         output: ArrayViewMut2<'_, U>,
@@ -224,7 +207,7 @@ impl<T: Real> Spectral<T> {
         let stiffness = match &self.stiffness {
             Stiffness::Stored(_) => Stiffness::Stored(stiffness(&self.grid, &self.symbol)?),
             Stiffness::Even(modes) => Stiffness::Even(Arc::clone(modes)),
-            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus)?.0,
+            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => waves(&self.grid, self.modulus)?.0,
         };
         Ok(self.with(stiffness, self.range))
     }
@@ -240,7 +223,7 @@ impl<T: Real> Spectral<T> {
         heights: ArrayView2<'_, f64>,
         pressure: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
-        let [work, ..] = T::call::<PressFlat<'_>>((self, heights, pressure))?;
+        let [work, ..] = T::press(self, heights, pressure)?;
         Ok(work / self.norm())
     }
 
@@ -255,7 +238,7 @@ impl<T: Real> Spectral<T> {
                 check_range::<f32>(self.range.0, self.range.1).ok()?;
                 (Stiffness::Even(Arc::clone(modes)), self.range)
             }
-            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => half_space(&self.grid, self.modulus).ok()?,
+            Stiffness::HalfSpace { .. } | Stiffness::Line { .. } => waves(&self.grid, self.modulus).ok()?,
         };
         Some(self.with(stiffness, range))
     }
@@ -275,7 +258,7 @@ impl<T: Real> Spectral<T> {
         displacement: ArrayView2<'_, T>,
         pressure: ArrayViewMut2<'_, T>,
     ) -> Result<f64> {
-        let [work, ..] = self.apply(displacement, pressure, Factor::Stiffness)?;
+        let [work, ..] = T::apply(self, displacement, pressure, Factor::Stiffness)?;
         Ok(work / self.norm())
     }
 
@@ -286,7 +269,7 @@ impl<T: Real> Spectral<T> {
         foundation: Foundation<'_>,
         preconditioned: ArrayViewMut2<'_, T>,
     ) -> Result<Preconditioned> {
-        let [error, descent, mean] = self.apply(residual, preconditioned, Factor::Preconditioner(foundation))?;
+        let [error, descent, mean] = T::apply(self, residual, preconditioned, Factor::Preconditioner(foundation))?;
         let mean = mean / self.grid.nodes() as f64;
         Ok(Preconditioned { error: error / self.norm(), descent: descent / self.norm(), mean })
     }
@@ -302,7 +285,7 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
     }
 
     fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
-        self.apply(pressure, displacement, Factor::Compliance).map(|_| ())
+        T::apply(self, pressure, displacement, Factor::Compliance).map(|_| ())
     }
 
     fn stiffness_range(&self) -> (f64, f64) {

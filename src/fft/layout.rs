@@ -20,7 +20,7 @@ const RUN: usize = 32;
 /// row b of column k multiplied by exp(−2πi bk/AB), the transform of column k holds the modes k + A·i of the line.
 /// Columns k ≤ A/2 suffice, and all transforms fit the cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Layout {
+pub struct Layout {
     shape: (usize, usize),
     plane: (usize, usize),
     exchanged: bool,

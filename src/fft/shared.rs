@@ -1,13 +1,11 @@
 //! The spectrum of a field that several processes share: its way to those that transform the columns, and back.
 
-use std::marker::PhantomData;
-
 use asperity_fft::num_complex::Complex;
 
 use super::{Layout, Sums};
 use crate::par::{self, ChunksMut};
-use crate::ranks::{Ranks, Shares};
-use crate::real::{Compiled, Real};
+use crate::ranks::Shares;
+use crate::real::Real;
 use crate::slab::Slab;
 
 /// The columns of a spectrum that this process transforms, where it has the rows of a slab alone.
@@ -59,14 +57,14 @@ impl<T: Real> Shared<T> {
         self.take_memory();
         if self.is_in_pieces() {
             let Self { slab, sent, received, pieces, .. } = self;
-            T::call::<Exchange<'_>>((slab.ranks(), (spectrum, sent), (pieces, received)));
+            T::exchange(slab.ranks(), spectrum, sent, pieces, received);
         }
     }
 
     pub(super) fn go(&mut self, spectrum: &mut [Complex<T>]) {
         if self.is_in_pieces() {
             let Self { slab, sent, received, pieces, .. } = self;
-            T::call::<Exchange<'_>>((slab.ranks(), (pieces, received), (spectrum, sent)));
+            T::exchange(slab.ranks(), pieces, received, spectrum, sent);
         }
     }
 
@@ -99,19 +97,6 @@ impl<T: Real> Shared<T> {
         let rows = (0..self.slab.ranks().count()).map(|rank| self.slab.rows_of(rank)).find(|rows| rows.contains(&row));
         let rows = rows.unwrap_or_default();
         self.pieces[own.len() * rows.start + (column - own.start) * rows.len() + (row - rows.start)]
-    }
-}
-
-struct Exchange<'a>(PhantomData<&'a ()>);
-
-impl<'a> Compiled for Exchange<'a> {
-    type Input<T: Real> = (Ranks, (&'a [Complex<T>], &'a Shares), (&'a mut [Complex<T>], &'a Shares));
-    type Output<T: Real> = ();
-    fn single((ranks, (from, sent), (into, received)): Self::Input<f32>) {
-        ranks.exchange(from, sent, into, received);
-    }
-    fn double((ranks, (from, sent), (into, received)): Self::Input<f64>) {
-        ranks.exchange(from, sent, into, received);
     }
 }
 

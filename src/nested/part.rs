@@ -10,7 +10,7 @@ use crate::elastic::{Boundary, ElasticOperator, OnGrids};
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::problem::{Control, Parts, Problem};
-use crate::real::{Real, compiled};
+use crate::real::Real;
 use crate::solver::{Begin, Observer, Solution, Solved, Solver, Start, Status};
 use crate::surface::Surface;
 
@@ -120,17 +120,6 @@ pub(super) struct OnPart<T: Real> {
     pub(super) applications: usize,
 }
 
-compiled! {
-    /// The gap of the whole under the pressure of the part, not negative on the window. Takes an operator application.
-    pub(super) fn whole<'a, T>(part: OnPart<T>, problem: Parts<'a, T>) -> Result<Array2<T>> = OnPart::whole
-}
-
-compiled! {
-    fn cut<'a, T>(
-        part: &'a Part, field: &'a ArrayRef2<T>, from: &'a Grid, to: &'a Grid
-    ) -> Array2<T> = Part::cut
-}
-
 impl<T: Real> OnPart<T> {
     /// Whether the solution leads to that of the whole: contact at the end of the part may go on beyond it, and a
     /// stalled solve may lead to another equilibrium, if there are several.
@@ -140,7 +129,8 @@ impl<T: Real> OnPart<T> {
         found && !report.reaches_edge
     }
 
-    fn whole(self, problem: Parts<'_, T>) -> Result<Array2<T>> {
+    /// The gap of the whole under the pressure of the part, not negative on the window. Takes an operator application.
+    pub(super) fn whole(self, problem: Parts<'_, T>) -> Result<Array2<T>> {
         let Self { part, solution: Solution { gap, pressure, grid, .. }, .. } = self;
         let (window, to) = (problem.grid().shape(), *problem.operator.grid());
         // displacement less heights: K (p − K⁻¹h), and a constant
@@ -182,7 +172,7 @@ pub(super) fn solve_part<T: Real>(
     let mut problem = Problem::of(&small, operators.on(*small.grid())?, law.clone())?;
     let share = problem.operator.grid().nodes() as f64 / half_space.grid().nodes() as f64;
     let tolerance = SHARE * solver.settings.tolerance_in::<T>();
-    let start = Begin::At(Start::Near(cut(&part, gap, &whole, small.grid())));
+    let start = Begin::At(Start::Near(part.cut(gap, &whole, small.grid())));
     let control = Part::control(control, surface, &small);
     let Solved { solution, .. } =
         solver.to(tolerance, |solver| solver.run(problem.parts(), control, start, observe))?;

@@ -11,7 +11,7 @@ use crate::field::{flat, flat_mut};
 use crate::grid::Grid;
 use crate::par;
 use crate::problem::Window;
-use crate::real::{Real, compiled};
+use crate::real::Real;
 use crate::slab::Rows;
 use crate::surface::Surface;
 use crate::vector::vectors;
@@ -170,22 +170,9 @@ pub(crate) struct Deformed<T> {
     gap: Array2<T>,
 }
 
-compiled! {
-    /// The half-space under a surface, from the gap, and that on the operator's grid if it is another.
-    pub(crate) fn deformed<'a, T>(
-        surface: &'a Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>
-    ) -> Deformed<T> = Deformed::of
-}
-
-compiled! {
-    /// The start on the grid of another surface and its operator: a gap on the latter.
-    pub(crate) fn prolonged<'a, T>(
-        from: Deformed<T>, surface: &'a Surface, grid: &'a Grid, touching: Touching
-    ) -> Array2<T> = Deformed::prolonged
-}
-
 impl<T: Real> Deformed<T> {
-    fn of(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
+    /// The half-space under a surface, from the gap, and that on the operator's grid if it is another.
+    pub(crate) fn of(surface: &Surface, gap: Array2<T>, whole: Option<(Grid, Array2<T>)>) -> Self {
         let (grid, mut gap) = whole.unwrap_or((*surface.grid(), gap));
         let mut displacement = gap.mapv(T::widen);
         match Window::new(surface, &grid) {
@@ -198,7 +185,8 @@ impl<T: Real> Deformed<T> {
         Self { window: surface.grid().shape(), grid, displacement, gap }
     }
 
-    fn prolonged(self, surface: &Surface, grid: &Grid, touching: Touching) -> Array2<T> {
+    /// The start on the grid of another surface and its operator: a gap on the latter.
+    pub(crate) fn prolonged(self, surface: &Surface, grid: &Grid, touching: Touching) -> Array2<T> {
         let Self { window, grid: coarse, displacement, gap } = self;
         let facing = Window::new(surface, grid);
         let extended = facing.as_ref().map(|facing| facing.extend(surface.heights().view()));

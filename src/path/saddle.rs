@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Begin, Solution, Solved, Start, Status};
-use crate::stability::{self, Saddle};
+use crate::stability::Saddle;
 
 /// The largest change of the gap that is made along the mode, in ranges of adhesion.
 const PERTURBATION: f64 = 0.1;
@@ -26,7 +26,7 @@ impl<T: Real> Path<T> {
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
         let followed = smoothed.as_deref().unwrap_or(law);
         let gap = (&solution.gap, flat.window.as_ref());
-        stability::saddle(&mut self.watch, operator, (followed, &bench.solver.constraint), gap, load)
+        self.watch.look(operator, (followed, &bench.solver.constraint), gap, load)
     }
 
     /// Descends from a saddle along its mode to a state that is none, if there is one; and whether the branch led

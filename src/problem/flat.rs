@@ -9,13 +9,13 @@ use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{all_finite_in, flat};
 use crate::grid::Grid;
-use crate::real::{Real, compiled};
+use crate::real::Real;
 use crate::surface::Surface;
 use crate::vector::range;
 
 /// The surface pressed flat: the pressure K⁻¹h and the figures of h that a solve needs.
 #[derive(Clone, Debug)]
-pub(crate) struct PressedFlat<T> {
+pub struct PressedFlat<T> {
     pub(crate) pressure: Array2<T>,
     /// the mean of h·K⁻¹h
     pub(crate) work: f64,
@@ -35,13 +35,6 @@ pub(crate) struct PressedFlat<T> {
     pub(crate) yielded: Option<Yielded<T>>,
 }
 
-compiled! {
-    /// Presses the surface flat against the body of the operator, if that and the law suit it.
-    pub(super) fn pressed_flat<'a, T>(
-        surface: &'a Surface, operator: &'a mut dyn ElasticOperator<T>, law: &'a dyn AdhesionLaw<T>
-    ) -> Result<PressedFlat<T>> = PressedFlat::of
-}
-
 /// Refuses a law that varies over another grid, or is not finite where the surfaces touch.
 pub(super) fn check_law<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid) -> Result<()> {
     let hints = law.hints();
@@ -57,7 +50,11 @@ pub(super) fn check_law<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid) -> Resul
 }
 
 impl<T: Real> PressedFlat<T> {
-    fn of(surface: &Surface, operator: &mut dyn ElasticOperator<T>, law: &dyn AdhesionLaw<T>) -> Result<Self> {
+    pub(crate) fn of(
+        surface: &Surface,
+        operator: &mut dyn ElasticOperator<T>,
+        law: &dyn AdhesionLaw<T>,
+    ) -> Result<Self> {
         let boundary = operator.boundary();
         let (grid, expected) = match boundary {
             Boundary::Periodic => (surface.grid(), *operator.grid()),

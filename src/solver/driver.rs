@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
 use crate::real::Real;
 
-pub(super) struct Job<'a, T: Real> {
+pub struct Job<'a, T: Real> {
     pub(super) law: &'a dyn AdhesionLaw<T>,
     /// the law of the problem, as it was given
     pub(super) given: &'a SharedLaw<T>,

@@ -1,7 +1,5 @@
 //! The precisions of a solve.
 
-use std::marker::PhantomData;
-
 use super::Method;
 use super::driver::{Job, run};
 use super::operators::{One, Two};
@@ -11,32 +9,25 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::par;
 use crate::problem::Load;
-use crate::real::{Compiled, Real};
+use crate::real::Real;
 
 /// A mean pressure below the rounding of corrections in `f32`, over the rms pressure that presses the surface flat.
 const LIGHT: f64 = 1e-8;
 
-/// Solves a problem, compiled once for each precision.
-pub(super) fn solve<'a, T: Real>(operator: &'a mut dyn ElasticOperator<T>, job: Job<'a, T>) -> Result<Solved<T>> {
-    par::within(|| T::call::<Solve<'a>>((operator, job)))
+/// Solves a problem in `f32`.
+pub(crate) fn in_single(operator: &mut dyn ElasticOperator<f32>, job: Job<'_, f32>) -> Result<Solved<f32>> {
+    par::within(|| run(&mut One(operator), job))
 }
 
-struct Solve<'a>(PhantomData<&'a ()>);
-
-impl<'a> Compiled for Solve<'a> {
-    type Input<T: Real> = (&'a mut dyn ElasticOperator<T>, Job<'a, T>);
-    type Output<T: Real> = Result<Solved<T>>;
-    fn single((operator, job): Self::Input<f32>) -> Result<Solved<f32>> {
-        run(&mut One(operator), job)
-    }
-    fn double((operator, job): Self::Input<f64>) -> Result<Solved<f64>> {
-        let corrections =
-            if takes_coarse_corrections(&job) { operator.spectral().and_then(|s| s.in_single()) } else { None };
-        match corrections {
+/// Solves a problem in `f64`, with corrections in `f32` where these will do.
+pub(crate) fn in_double(operator: &mut dyn ElasticOperator<f64>, job: Job<'_, f64>) -> Result<Solved<f64>> {
+    par::within(|| {
+        let spectral = operator.spectral().filter(|_| takes_coarse_corrections(&job));
+        match spectral.and_then(|spectral| spectral.in_single()) {
             Some(corrections) => run(&mut Two::new(operator, corrections), job),
             None => run(&mut One(operator), job),
         }
-    }
+    })
 }
 
 /// Whether corrections in `f32` will do: they miss the first contact under a light load, and the slopes of a law that

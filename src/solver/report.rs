@@ -288,7 +288,7 @@ impl<T: Real> PartialEq for Solution<T> {
 }
 
 /// A solution, and what only other solves need of it.
-pub(crate) struct Solved<T: Real> {
+pub struct Solved<T: Real> {
     pub(crate) solution: Solution<T>,
     /// the gap on the operator's grid, with that grid, if not all of its nodes face the surface, or some may yield
     pub(crate) whole: Option<(Grid, Array2<T>)>,

@@ -56,6 +56,15 @@ impl<T: Real> Stability<T> {
         problem: &mut Problem<T>,
         from: &Solution<T>,
     ) -> Result<Option<Departure<T>>> {
+        T::leave(self, solver, problem, from)
+    }
+
+    pub(crate) fn depart(
+        &self,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        problem: &mut Problem<T>,
+        from: &Solution<T>,
+    ) -> Result<Option<Departure<T>>> {
         refuse_springs(solver.constraint.wall())?;
         let yields = "the way from a saddle is one of an energy, and a surface that yields has none";
         refuse_hardness(solver.constraint.wall(), yields)?;

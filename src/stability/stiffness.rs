@@ -10,7 +10,7 @@ use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
 use crate::par;
 use crate::problem::{Load, Parts, Problem, smoothed_law};
-use crate::real::{Real, compiled};
+use crate::real::Real;
 use crate::solver::Solution;
 
 /// The most iterations; some ten are usual.
@@ -101,10 +101,10 @@ impl ContactStiffness {
         solution: &Solution<T>,
         tolerance: f64,
     ) -> Result<Self> {
-        stiffness(problem.parts(), constraint, solution, tolerance)
+        T::stiffness(problem.parts(), constraint, solution, tolerance)
     }
 
-    fn find<T: Real>(
+    pub(crate) fn find<T: Real>(
         problem: Parts<'_, T>,
         constraint: &dyn ContactConstraint<T>,
         solution: &Solution<T>,
@@ -147,12 +147,6 @@ impl ContactStiffness {
         let edge = tangent.map(|tangent| EdgeError::of(solution, &tangent, on_grid));
         Ok(Self { pressure_per_length, force_per_length, relative_error, smoothed, operator_applications, edge })
     }
-}
-
-compiled! {
-    fn stiffness<'a, T>(
-        problem: Parts<'a, T>, constraint: &'a dyn ContactConstraint<T>, solution: &'a Solution<T>, tolerance: f64
-    ) -> Result<ContactStiffness> = ContactStiffness::find
 }
 
 /// The least ⟨v, Hv⟩ of all v that vanish on the contact and have the mean 1.

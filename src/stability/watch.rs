@@ -11,7 +11,7 @@ use crate::elastic::ElasticOperator;
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::problem::{Load, Window};
-use crate::real::{Real, compiled};
+use crate::real::Real;
 use crate::solver::{Least, Potential, bounded};
 
 /// The share of a random field added to the last mode: an antisymmetric mode has no share in a symmetric start.
@@ -49,23 +49,15 @@ pub(crate) struct Saddle {
     pub(crate) eigenvalue: f64,
 }
 
-compiled! {
-    /// Whether an equilibrium is a saddle at its mean gap, or under the spring that loads it. Costs nothing if the
-    /// softest stiffness and the least φ'' rule it out, and five or seven operator applications as a rule.
-    pub(crate) fn saddle<'a, T>(
-        watch: &'a mut Watch<T>, operator: &'a mut dyn ElasticOperator<T>,
-        local: (&'a dyn AdhesionLaw<T>, &'a dyn ContactConstraint<T>), gap: (&'a Array2<T>, Option<&'a Window>),
-        load: Load
-    ) -> Result<Option<Saddle>> = Watch::look
-}
-
 impl<T: Real> Watch<T> {
     /// Refuses a mode of another grid.
     pub(crate) fn check(&self, grid: &Grid) -> Result<()> {
         self.mode.iter().try_for_each(|mode| grid.fits("mode of the path", mode.dim()))
     }
 
-    fn look(
+    /// Whether an equilibrium is a saddle at its mean gap, or under the spring that loads it. Costs nothing if the
+    /// softest stiffness and the least φ'' rule it out, and five or seven operator applications as a rule.
+    pub(crate) fn look(
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
         (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),

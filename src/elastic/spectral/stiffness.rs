@@ -11,12 +11,12 @@ use crate::error::{Error, Result};
 use crate::fft::{Layout, Sums};
 use crate::field::flat;
 use crate::grid::Grid;
-use crate::real::{Real, cast, compiled};
+use crate::real::{Real, cast};
 use crate::slab::Slab;
 use crate::vector::{BLOCK, LANES, vectorised};
 
 #[derive(Clone)]
-pub(super) enum Stiffness<T> {
+pub enum Stiffness<T> {
     Stored(Columns<T>),
     /// the half-space, `unit·√(x² + y²)`, faster computed than stored: x² and y² in and across columns
     HalfSpace {
@@ -34,7 +34,7 @@ pub(super) enum Stiffness<T> {
 }
 
 #[derive(Clone)]
-pub(super) struct Columns<T> {
+pub struct Columns<T> {
     slab: Slab,
     first: usize,
     modes: Array2<T>,
@@ -71,12 +71,8 @@ impl<T: Real> Columns<T> {
     }
 }
 
-compiled! {
-    /// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
-    pub(super) fn half_space<'a, T>(grid: &'a Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> = waves
-}
-
-fn waves<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
+/// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
+pub(crate) fn waves<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     let unit = PI * modulus / lx;
     let softest = match (nx, ny) {
