@@ -95,6 +95,27 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     }
 }
 
+impl<T: Real, C: ContactConstraint<T> + ?Sized> ContactConstraint<T> for Box<C> {
+    fn wall(&self) -> Wall<'_, T> {
+        (**self).wall()
+    }
+    fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
+        (**self).start(grid, stiffest, tolerance)
+    }
+    fn takes_slabs(&self) -> bool {
+        (**self).takes_slabs()
+    }
+    fn round_tolerance(&self) -> f64 {
+        (**self).round_tolerance()
+    }
+    fn ends_rigid(&self) -> bool {
+        (**self).ends_rigid()
+    }
+    fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
+        (**self).update(gap, work)
+    }
+}
+
 /// The wall that the half-space meets.
 #[non_exhaustive]
 #[derive(Clone, Copy)]

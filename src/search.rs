@@ -179,6 +179,12 @@ impl<T: Real> ContactSearch<T> {
         Self { start: Some(gap), ..Self::default() }
     }
 
+    /// The gap from which the next search starts, on the grid of the operator: processes that share a grid gather this of
+    /// a search that they keep.
+    pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
+        self.gap.iter_mut()
+    }
+
     /// The state in which a share of the nodes is in contact.
     ///
     /// # Errors

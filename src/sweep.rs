@@ -80,6 +80,12 @@ impl<T: Real> Sweep<T> {
         Self { start: Some(gap), ..Self::default() }
     }
 
+    /// The gaps and the plastic depth from which the next load starts, on the grid of the operator: processes that share
+    /// a grid gather these of a sweep that they keep.
+    pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
+        self.history.iter_mut().map(|(_, gap)| gap).chain(&mut self.depth)
+    }
+
     /// The solution under the next load.
     ///
     /// # Errors

@@ -28,20 +28,20 @@ impl Jump {
 }
 
 /// The table of a law with slopes no steeper than 1/`compliance` in the place of its jumps.
-pub struct Smoothed<'a> {
-    pub table: &'a Table,
+pub struct Smoothed {
+    pub table: Table,
     pub compliance: f64,
 }
 
-impl Smoothed<'_> {
+impl Smoothed {
     fn at(&self, gap: f64) -> [f64; 3] {
-        let (table, place) = (self.table, gap / self.table.range());
+        let (table, place) = (&self.table, gap / self.table.range());
         let of = |jump: &Jump| jump.smoothing(place, table.range(), self.compliance);
         table.jumps().iter().map(of).fold(table.at(gap), |sum, more| std::array::from_fn(|n| sum[n] + more[n]))
     }
 }
 
-impl<T: Real> AdhesionLaw<T> for Smoothed<'_> {
+impl<T: Real> AdhesionLaw<T> for Smoothed {
     fn energy(&self, gap: T) -> T {
         T::lit(self.at(gap.widen())[0])
     }

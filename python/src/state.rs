@@ -190,7 +190,7 @@ impl<T: Scalar> Solves for State<T> {
         let (loads, adhesive) = (way.loads(), at.inputs.adhesion.adheres());
         let control = loads.first().copied().unwrap_or_else(|| at.inputs.elastic.boundary.searched_by(adhesive));
         let start = self.start(start, loads)?;
-        let course = Course::new(way, after).with(&at.inputs.adhesion);
+        let course = Course::new(way, after).map_err(refusal)?.with(&at.inputs.adhesion);
         let course = match interface {
             true => course.of_interface(touch(self.posed.surface().map_err(refusal)?)),
             false => course,

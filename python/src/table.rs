@@ -1,5 +1,7 @@
 //! The table of a law of Python: read once, before a solve, which then needs the interpreter no more.
 
+use std::sync::Arc;
+
 use asperity::adhesion::{Discretisation, Hints, Values};
 use asperity::{AdhesionLaw, Error, Real};
 use pyo3::exceptions::PyValueError;
@@ -37,7 +39,7 @@ const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 ///
 /// Intervals are 1/128 of an octave of the gap over the range ρ, so that the bits of a gap number them, and are halved
 /// until the table agrees with the law in between. A jump is enclosed between two neighbouring numbers.
-#[derive(PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Table {
     range: f64,
     work_of_adhesion: f64,
@@ -275,7 +277,7 @@ impl<T: Real> AdhesionLaw<T> for Table {
     }
     fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let Discretisation::Smooth(compliance) = to else { return None };
-        let smoothed = Smoothed { table: self, compliance: compliance.widen() };
-        (!self.jumps.is_empty()).then(|| Box::new(smoothed) as Box<dyn AdhesionLaw<T>>)
+        let smoothed = Smoothed { table: self.clone(), compliance: compliance.widen() };
+        (!self.jumps.is_empty()).then(|| Arc::new(smoothed) as Arc<dyn AdhesionLaw<T>>)
     }
 }

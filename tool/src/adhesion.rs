@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Error, Grid, Real, Tabulated};
+use asperity::{AdhesionLaw, Error, Grid, Tabulated};
 use asperity_maps::io::read_field;
+use asperity_scene::Scalar;
 use asperity_scene::{Adhesion as Described, Formula, LAWS, Wall, tabulated};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
@@ -173,7 +174,7 @@ impl AdhesionOptions {
 
 impl Adhesion<'_> {
     /// The law.
-    pub fn law<T: Real>(&self) -> Arc<dyn AdhesionLaw<T>> {
+    pub fn law<T: Scalar>(&self) -> Arc<dyn AdhesionLaw<T>> {
         self.formula.clone().law()
     }
 

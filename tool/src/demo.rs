@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Amplitude, Grid, Jkr, NoAdhesion, SelfAffine, Status, Surface};
+use asperity::{Amplitude, Grid, Jkr, NoAdhesion, SelfAffine, Status, Surface};
 use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
 use asperity_scene::Inputs;
@@ -123,15 +123,13 @@ pub fn run(options: &Options) -> Outcome<bool> {
         draw_heights(grid, &heights, dpi)?.write(path("heights"))?;
         write_npy(folder.path("heights.npy"), &heights)?;
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
-        // a law of no work is no adhesion
-        let none = Jkr::new(0.0)?;
-        for (name, solution, law) in [("without adhesion", &bare, &none), ("with adhesion", &sticky, &law)] {
+        for (name, solution, adheres) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
             let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
-            let regions = solution.regions(law)?.mapv(f64::from);
+            let regions = solution.regions().mapv(f64::from);
             let contact = pictures::draw_regions(grid, &format!("Contact {name}"), &units, &regions, dpi)?;
             contact.write(path("contact"))?;
             let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
-            let pressure = pictures::pressure_to_draw(solution, AdhesionLaw::<f64>::hints(law).work_of_adhesion > 0.0);
+            let pressure = pictures::pressure_to_draw(solution, adheres);
             let pressure = pictures::draw_pressure(grid, (&title, &caption), &units, pressure, None, dpi)?;
             pressure.write(path("pressure"))?;
         }

@@ -269,7 +269,7 @@ pub fn draw_clusters(
 
 /// The pressure that a map should show. Without adhesion this is the contact pressure: the pressure outside of the
 /// contact is a remainder of the error, and would look like attraction on a scale of its own.
-pub fn pressure_to_draw<T>(solution: &Solution<T>, adhesive: bool) -> &Array2<T> {
+pub fn pressure_to_draw<T: Real>(solution: &Solution<T>, adhesive: bool) -> &Array2<T> {
     if adhesive { &solution.pressure } else { &solution.contact_pressure }
 }
 

@@ -158,7 +158,11 @@ fn table(checks: &[Check]) -> String {
 
 /// The equilibrium on a half-space of contact modulus 1; to 1e-8 in f64, so that the error is that of the grid, and to
 /// the default of 1e-4 in f32.
-fn solved<T: Real>(surface: &Surface, law: impl AdhesionLaw<T>, control: Control) -> asperity::Result<Solution<T>> {
+fn solved<T: Real>(
+    surface: &Surface,
+    law: impl AdhesionLaw<T> + 'static,
+    control: Control,
+) -> asperity::Result<Solution<T>> {
     let mut problem = Problem::new(surface, Westergaard::<T>::new(*surface.grid(), 1.0)?, law)?;
     let default = Settings::default();
     let tolerance = default.tolerance_in::<T>();

@@ -18,7 +18,7 @@ use serde_json::json;
 
 use self::beside::{BESIDE, Beside};
 use crate::accuracy::AccuracyOptions;
-use crate::adhesion::{Adhesion, AdhesionOptions};
+use crate::adhesion::AdhesionOptions;
 use crate::after::ConductorOptions;
 use crate::allowed::bins;
 use crate::boundary::{LOAD, LoadOptions};
@@ -314,9 +314,7 @@ impl Job<'_> {
         let mut beyond = None;
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
-            let law = whole_adhesion.as_ref().map(Adhesion::law);
-            let whole = whole.as_deref().zip(law.as_ref());
-            let written = self.write(&folder, whole, &beside, &account);
+            let written = self.write(&folder, whole.as_deref(), &beside, &account);
             beyond = written.map_err(|error| at_destination(error, out))?;
             Ok(commit(folder)?)
         })?;

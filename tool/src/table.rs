@@ -117,7 +117,7 @@ impl<'a> TableOptions<'a> {
             inputs.method,
             false,
         ))?;
-        let course = Course::new(by.way::<T>(controls.clone())?, self.after).with(&inputs.adhesion);
+        let course = Course::new(by.way::<T>(controls.clone())?, self.after)?.with(&inputs.adhesion);
         let mut course = if self.interface { course.of_interface(touch(&surface)) } else { course };
         let surface = Arc::new(surface);
         let mut posed =

@@ -257,7 +257,7 @@ impl<T: Scalar> Solves for State<T> {
     fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value> {
         let mut posed = self.anew()?;
         let loads: Vec<Control> = way.loads().to_vec();
-        let course = Course::new(way, After::default()).with(&self.scene.adhesion);
+        let course = Course::new(way, After::default())?.with(&self.scene.adhesion);
         let start = posed.start_afar(&loads).map(T::field);
         course.check(&mut posed)?;
         let columns = course.columns();
@@ -318,7 +318,7 @@ impl<T: Scalar> Solves for State<T> {
 
     fn regions(&self) -> Outcome<Vec<u8>> {
         let solution = &self.last()?.found.solution;
-        let regions = self.part(solution.regions(&self.formula.clone().law::<T>())?)?;
+        let regions = self.part(solution.regions())?;
         let depth = solution.plastic_depth.as_ref().map(|depth| self.part(depth.clone())).transpose()?;
         let mut yielded = depth.iter().flatten().map(|depth| *depth > T::zero());
         let code = |region: &Region| match (region, yielded.next()) {

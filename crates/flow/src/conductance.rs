@@ -115,7 +115,11 @@ impl Conductance {
 }
 
 /// The conductance of a flat punch.
-fn of_punch(punch: &Surface, body: impl ElasticOperator<f64>, resistivities: (f64, f64)) -> Result<Conductance> {
+fn of_punch(
+    punch: &Surface,
+    body: impl ElasticOperator<f64> + 'static,
+    resistivities: (f64, f64),
+) -> Result<Conductance> {
     let mut problem = Problem::new(punch, body, NoAdhesion)?;
     let solution = Solver::default().solve(&mut problem, Control::MeanPressure(PRESSED))?;
     let mut stiffness = ContactStiffness::of(&mut problem, &solution)?;

@@ -25,9 +25,9 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// The accuracy by a solver, with the contact stiffness if that is asked for.
-    pub fn by<T: Real>(&self, solver: Solver<Constraint<T>>, stiffness: bool) -> Accuracy<Constraint<T>> {
-        let mut wanted = Accuracy::with_solver(self.accuracy, self.of, solver);
+    /// The accuracy, with the contact stiffness if that is asked for.
+    pub fn wanted(&self, stiffness: bool) -> Accuracy {
+        let mut wanted = Accuracy::new(self.accuracy, self.of);
         wanted.memory = self.memory.map_or_else(available_memory, |memory| memory * GIB);
         wanted.nested.stiffness = stiffness.then_some(ContactStiffness::TOLERANCE);
         wanted
@@ -39,14 +39,15 @@ impl Goal {
 /// # Errors
 /// Those of the operator and of [`Accuracy::plan`].
 pub(crate) fn planned<T: Real>(
-    wanted: &Accuracy<Constraint<T>>,
+    wanted: &Accuracy,
+    solver: &Solver<Constraint<T>>,
     surface: &Surface,
     elastic: &Elastic,
     law: &dyn AdhesionLaw<T>,
     control: Control,
 ) -> Result<(Plan, f64)> {
     let mut operator = elastic.operator::<T>(*surface.grid())?;
-    let plan = wanted.plan(surface, &mut operator, &law, control)?;
+    let plan = wanted.plan(solver, surface, &mut operator, &law, control)?;
     Ok((plan, plan.applications * seconds_of(&mut operator)?))
 }
 

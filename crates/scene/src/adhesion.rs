@@ -190,13 +190,13 @@ impl Adhesion {
     /// The wall as a solve takes it, with a hardness at the nodes of the surface where it varies.
     ///
     /// # Errors
-    /// Those of [`Constraint::new`] and [`Hardness`].
+    /// Those of [`Wall::constraint`] and [`Hardness`].
     pub fn constraint<T: Real>(&self, hardness: Option<ArrayView2<'_, f64>>) -> Result<Constraint<T>> {
         let hardness = match hardness {
             Some(varying) => Some(Hardness::varying(varying.to_owned())?),
             None => self.hardness.map(Hardness::new).transpose()?,
         };
-        Constraint::new(self.wall, self.wall_stiffness, hardness)
+        self.wall.constraint(self.wall_stiffness, hardness)
     }
 
     /// The law, whose works of adhesion do not vary, with the law of its table, if it has one.

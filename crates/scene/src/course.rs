@@ -1,14 +1,14 @@
 //! The course of a sweep or a cycle, and the rows of its table.
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
-use std::mem;
 use std::ops::ControlFlow;
 use std::path::Path as File;
 
-use asperity::path::{Event, Path, PathCheckpoint, PathSettings};
-use asperity::{Branch, ContactSearch, Control, Iteration, Real, Result, Sweep};
-use ndarray::Array2;
-use serde::Serialize;
+use asperity::path::{Event, Path, PathSettings};
+use asperity::{Branch, ContactSearch, Control, Grid, Iteration, Real, Result, Sweep};
+use ndarray::{Array2, Axis, CowArray, Slice};
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::account::{Account, stiffness};
@@ -16,7 +16,6 @@ use crate::adhesion::Adhesion;
 use crate::after::After;
 use crate::boundary::Boundary;
 use crate::clock::Instant;
-use crate::compiled::compiled;
 use crate::entries::{Search, Step};
 use crate::found::Found;
 use crate::identity::Identity;
@@ -37,14 +36,28 @@ pub struct Course<T> {
     after: After,
     /// The mean gap at first touch, if its table is that of an interface
     touch: Option<f64>,
-    start: Option<Array2<T>>,
-    /// The number of states so far
-    states: usize,
-    place: PathCheckpoint<T>,
-    /// Whether the present leg of a cycle ends at the place
-    leg_ends: bool,
+    place: Place<T>,
     /// The pace of a cycle
     pace: Option<Pace>,
+}
+
+/// The place on a course from which the next state follows. As data it goes on bit for bit.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Place<T> {
+    strategy: Strategy<T>,
+    /// The number of states so far, and of events
+    states: usize,
+    events: usize,
+    /// The branch of the first state, in the table of an interface
+    branch: Option<Branch>,
+}
+
+/// The strategy that finds the states.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum Strategy<T> {
+    Sweep(Sweep<T>),
+    Search(ContactSearch<T>),
+    Cycle(Path<T>),
 }
 
 /// The row of a state in a table: its account, and the figures that tables alone have.
@@ -88,28 +101,54 @@ const LIMIT: &str = "adhesive_contact_fraction jkr_contact_fraction";
 
 const WITHDRAWAL: &str = "withdrawal";
 
-type See<'a> = &'a mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send);
+impl<T: Real> Place<T> {
+    /// The fields, on the grid of the operator.
+    fn fields(&mut self) -> Vec<&mut Array2<T>> {
+        match &mut self.strategy {
+            Strategy::Sweep(sweep) => sweep.fields().collect(),
+            Strategy::Search(search) => search.fields().collect(),
+            // one process alone follows a path
+            Strategy::Cycle(_) => Vec::new(),
+        }
+    }
 
-compiled!(Checked: (&'a Course<T>, &'a mut Posed<T>) => Result<()> = Course::checked);
-compiled!(Next: (&'a mut Course<T>, &'a mut Posed<T>, See<'a>) => Result<Option<Found<T>>> = Course::following);
+    /// The place with whole fields, on the first of the processes that share a grid; all of them have to ask.
+    pub(crate) fn gathered(&self, grid: &Grid) -> Cow<'_, Self> {
+        if !grid.is_shared() {
+            return Cow::Borrowed(self);
+        }
+        let mut place = self.clone();
+        for field in place.fields() {
+            *field = grid.gathered(&*field).map_or_else(|| Array2::zeros((0, 0)), CowArray::into_owned);
+        }
+        Cow::Owned(place)
+    }
+
+    /// The place with the rows of this process, of whole fields.
+    pub(crate) fn shared(mut self, grid: &Grid) -> Self {
+        if grid.is_shared() {
+            self.fields()
+                .into_iter()
+                .for_each(|field| *field = field.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned());
+        }
+        self
+    }
+}
 
 impl<T: Real> Course<T> {
     /// A course from its beginning, with the findings that are asked for after each state.
-    pub fn new(way: Way, after: After) -> Self {
-        let place = PathCheckpoint { values: Default::default(), fields: Vec::new() };
+    ///
+    /// # Errors
+    /// Those of [`Path::new`].
+    pub fn new(way: Way, after: After) -> Result<Self> {
+        let strategy = match &way {
+            Way::Sweep(_) => Strategy::Sweep(Sweep::default()),
+            Way::Search(_) => Strategy::Search(ContactSearch::default()),
+            Way::Cycle(loads, settings) => Strategy::Cycle(Path::new(loads.iter().copied(), *settings)?),
+        };
+        let place = Place { strategy, states: 0, events: 0, branch: None };
         let pace = way.pace();
-        Self {
-            way,
-            after,
-            touch: None,
-            yields: false,
-            of_grid: false,
-            start: None,
-            states: 0,
-            place,
-            leg_ends: false,
-            pace,
-        }
+        Ok(Self { way, after, touch: None, yields: false, of_grid: false, place, pace })
     }
 
     /// The course with the table of an interface whose surfaces first touch at a mean gap.
@@ -125,14 +164,19 @@ impl<T: Real> Course<T> {
 
     /// The course from a gap in the place of the default start.
     pub fn starting_from(self, start: Option<Array2<T>>) -> Self {
-        Self { start, ..self }
+        let Some(start) = start else { return self };
+        let strategy = match self.place.strategy {
+            Strategy::Sweep(_) => Strategy::Sweep(Sweep::starting_from(start)),
+            Strategy::Search(_) => Strategy::Search(ContactSearch::starting_from(start)),
+            Strategy::Cycle(path) => Strategy::Cycle(path.starting_from(start)),
+        };
+        Self { place: Place { strategy, ..self.place }, ..self }
     }
 
-    /// The course continued behind as many states from the [place](Self::place) of the last one, bit for bit; of a
-    /// cycle, behind as many events, and whether its surfaces are apart there.
-    pub fn continuing(self, states: usize, place: PathCheckpoint<T>, (events, apart): (usize, bool)) -> Self {
-        let pace = self.pace.map(|pace| pace.behind(states, events));
-        Self { states, place, leg_ends: apart, pace, ..self }
+    /// The course continued from the [place](Self::place) of another one, bit for bit.
+    pub fn continuing(self, place: Place<T>) -> Self {
+        let pace = self.pace.map(|pace| pace.behind(place.states, place.events));
+        Self { place, pace, ..self }
     }
 
     /// The pace of a cycle.
@@ -151,7 +195,7 @@ impl<T: Real> Course<T> {
     }
 
     /// The place from which the next state follows.
-    pub fn place(&self) -> &PathCheckpoint<T> {
+    pub fn place(&self) -> &Place<T> {
         &self.place
     }
 
@@ -215,13 +259,8 @@ impl<T: Real> Course<T> {
     /// # Errors
     /// Those of [`Posed::parts`] and [`Path::new`].
     pub fn check(&self, posed: &mut Posed<T>) -> Result<()> {
-        T::call::<Checked<'_>>((self, posed))
-    }
-
-    fn checked((this, posed): (&Self, &mut Posed<T>)) -> Result<()> {
         let (solver, problem) = posed.parts()?;
-        let Way::Cycle(loads, settings) = &this.way else { return Ok(()) };
-        Path::new(solver, problem, loads.iter().copied(), *settings).map(drop)
+        if let Strategy::Cycle(path) = &self.place.strategy { path.check(solver, problem) } else { Ok(()) }
     }
 
     /// The next state; none at the end, and where the solve on a cycle was stopped.
@@ -233,78 +272,37 @@ impl<T: Real> Course<T> {
         posed: &mut Posed<T>,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Result<Option<Found<T>>> {
-        T::call::<Next<'_>>((self, posed, observe))
-    }
-
-    fn following((this, posed, observe): (&mut Self, &mut Posed<T>, See<'_>)) -> Result<Option<Found<T>>> {
-        let (clock, boundary, done) = (Instant::now(), posed.boundary(), this.states);
+        let (clock, boundary) = (Instant::now(), posed.boundary());
         let (solver, problem) = posed.parts()?;
-        let start = this.start.take();
-        let fields = &mut this.place.fields;
-        if this.yields && done == 0 {
+        let Place { strategy, states, events, .. } = &mut self.place;
+        if self.yields && *states == 0 {
             // another course, or a state that was not kept, may have flattened it
             problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
         }
-        let (solution, search, step) = match &this.way {
-            Way::Sweep(loads) => {
-                let Some(&load) = loads.get(done) else { return Ok(None) };
-                // the surface as it has yielded, also under the loads of another run
-                let depth = if this.yields && done > 0 { fields.pop() } else { None };
-                let shape = problem.grid().field_shape();
-                let depth = depth.map(|depth| Array2::from_shape_fn(shape, |node| depth[node]));
-                depth.map_or(Ok(()), |depth| problem.flatten(depth.view()))?;
-                let before = &loads[done.saturating_sub(fields.len())..done];
-                let history = before.iter().copied().zip(mem::take(fields)).collect();
-                let mut sweep = Sweep::new(solver, problem, [load]).continuing(history);
-                if let Some(start) = start {
-                    sweep = sweep.starting_from(start);
-                }
-                let Some(solution) = sweep.next_observed(observe) else { return Ok(None) };
-                let solution = solution?;
-                *fields = sweep.into_history().into_iter().map(|(_, gap)| gap).collect();
-                if let Some((depth, gap)) = problem.plastic_depth().zip(fields.last()) {
-                    // fields that are kept have one shape
-                    let at = |node| depth.get(node).copied().unwrap_or_else(T::zero);
-                    fields.push(Array2::from_shape_fn(gap.dim(), at));
-                }
-                (solution, None, None)
+        let (solution, search, step) = match (strategy, &self.way) {
+            (Strategy::Sweep(sweep), way) => {
+                let Some(&load) = way.loads().get(*states) else { return Ok(None) };
+                (sweep.next_observed(solver, problem, load, observe)?, None, None)
             }
-            Way::Search(fractions) => {
-                let Some(&fraction) = fractions.get(done) else { return Ok(None) };
-                let points = this.place.values.get("points").map_or(&[][..], Vec::as_slice);
-                let mut search = ContactSearch::new(solver, problem)?.continuing(points, fields.pop());
-                if let Some(start) = start {
-                    search = search.starting_from(start);
-                }
-                let found = search.at_observed(fraction, observe)?;
-                let (points, gap) = search.checkpoint();
-                *fields = gap.cloned().into_iter().collect();
-                this.place.values.insert("points".to_owned(), points);
+            (Strategy::Search(search), Way::Search(fractions)) => {
+                let Some(&fraction) = fractions.get(*states) else { return Ok(None) };
+                let found = search.at_observed(solver, problem, fraction, observe)?;
                 let searched = Search::of(fraction, &found);
                 (found.solution, Some(searched), None)
             }
-            Way::Cycle(loads, settings) => {
-                let mut path = Path::new(solver, problem, loads.iter().copied(), *settings)?;
-                if done > 0 {
-                    let values = mem::take(&mut this.place.values);
-                    path = path.continuing(PathCheckpoint { values, fields: mem::take(fields) })?;
-                } else if let Some(start) = start {
-                    path = path.starting_from(start);
-                }
-                if this.leg_ends {
-                    path.end_leg();
-                }
-                if let Some(pace) = &mut this.pace {
+            (Strategy::Search(_), _) => return Ok(None),
+            (Strategy::Cycle(path), way) => {
+                if let Some(pace) = &mut self.pace {
                     pace.begin(path.share());
                 }
-                let Some(found) = path.next_observed(observe).transpose()? else { return Ok(None) };
-                if let Some(pace) = &mut this.pace {
+                let Some(found) = path.next_observed(solver, problem, observe)? else { return Ok(None) };
+                if let Some(pace) = &mut self.pace {
                     pace.add(path.share(), found.event.is_some(), clock.elapsed().as_secs_f64());
                 }
-                this.place = path.checkpoint();
+                *events += usize::from(found.event.is_some());
                 let step = Step {
                     leg: found.leg,
-                    direction: direction(loads, found.leg, boundary),
+                    direction: direction(way.loads(), found.leg, boundary),
                     work: found.work,
                     dissipated: found.dissipated,
                     imbalance: found.imbalance,
@@ -314,20 +312,9 @@ impl<T: Real> Course<T> {
                 (found.solution, None, Some(step))
             }
         };
-        this.states += 1;
+        *states += 1;
         let found = Found { search, step, ..posed.found(solution, clock)? };
-        posed.followed(found, &this.after).map(Some)
-    }
-
-    /// The branch of a state in the table of an interface: its own, or that of the first one, on which the others
-    /// follow.
-    fn branch(&mut self, own: Option<Branch>) -> Option<Branch> {
-        let values = &mut self.place.values;
-        if let Some(own) = own {
-            values.insert("branch".to_owned(), vec![f64::from(u8::from(own == Branch::Unloading))]);
-        }
-        let unloads = values.get("branch")?.first()? > &0.0;
-        Some(if unloads { Branch::Unloading } else { Branch::Loading })
+        posed.followed(found, &self.after).map(Some)
     }
 
     /// The row of the state that was found last, with its account, which a look completes. A withdrawal in which it is
@@ -339,10 +326,17 @@ impl<T: Real> Course<T> {
         let statistics = found.sight.look_at(&mut account, &found.solution)?;
         let (sizes, step) = (&statistics.cluster_sizes, found.step.clone());
         if self.touch.is_some() {
-            account.branch = self.branch(account.branch);
+            // its own, or that of the first state, on which the others follow
+            self.place.branch = account.branch.or(self.place.branch);
+            account.branch = self.place.branch;
         }
         let shares = [Some(account.contact_fraction), account.attractive_fraction];
-        self.leg_ends = is_apart(step.as_ref().map(|step| step.direction), shares);
+        let apart = step.as_ref().is_some_and(|step| step.direction == WITHDRAWAL) && shares == [Some(0.0); 2];
+        if let Strategy::Cycle(path) = &mut self.place.strategy
+            && apart
+        {
+            path.end_leg();
+        }
         let heights = account.inputs.heights.as_deref().and_then(|path| File::new(path).file_name());
         Ok(Row {
             closure: self.touch.map(|touch| touch - account.mean_gap),
@@ -365,12 +359,6 @@ impl Row {
         let all = serde_json::to_value(self).unwrap_or_default();
         names.iter().map(|&name| (name.to_owned(), all[name].clone())).collect()
     }
-}
-
-/// Whether the surfaces are apart in a withdrawal, by the shares of the nodes in contact and of those that attract: its
-/// leg of a cycle ends there.
-pub fn is_apart(direction: Option<&str>, shares: [Option<f64>; 2]) -> bool {
-    direction == Some(WITHDRAWAL) && shares == [Some(0.0); 2]
 }
 
 /// The kind of some loads, with all that they have in common.

@@ -22,7 +22,7 @@ impl<T: Real> Sight<T> {
     fn displacement(&self, elastic: &Elastic, pressure: ArrayView2<'_, T>) -> Result<Array2<f64>> {
         let mut operator = elastic.operator::<T>(self.grid)?;
         let (whole, (nx, ny)) = (*operator.grid(), pressure.dim());
-        let compliance = match operator.abilities().boundary {
+        let compliance = match operator.boundary() {
             Boundary::Free { mean_compliance, .. } => mean_compliance,
             _ => elastic.body()?.mean_compliance(),
         };

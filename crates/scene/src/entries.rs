@@ -4,7 +4,7 @@ use asperity::accuracy::{GridError, Quantity};
 use asperity::nested::Level;
 use asperity::search::FoundContact;
 use asperity::stability::{Stability, Verdict};
-use asperity::{Branch, Report, Status};
+use asperity::{Branch, Real, Report, Status};
 use serde::Serialize;
 
 use crate::record::record;
@@ -139,7 +139,7 @@ pub struct Search {
 
 impl Search {
     /// The search for a fraction.
-    pub fn of<T>(wanted: f64, found: &FoundContact<T>) -> Self {
+    pub fn of<T: Real>(wanted: f64, found: &FoundContact<T>) -> Self {
         let &FoundContact { reached, below, above, solves, operator_applications, .. } = found;
         Self { wanted, reached, below, above, solves, operator_applications }
     }

@@ -5,10 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::{AdhesionLaw, Error, Grid, Real, Result, Tabulated};
+use asperity::{AdhesionLaw, Error, Grid, Result, Tabulated};
 use ndarray::{ArrayRef2, ArrayView2};
 
-use crate::compiled::compiled;
+use crate::scalar::Scalar;
 
 /// An adhesion law in both precisions, whichever it is; a clone shares it.
 pub type Formula = Arc<dyn AnyLaw>;
@@ -32,12 +32,10 @@ impl PartialEq for dyn AnyLaw {
     }
 }
 
-compiled!(InPrecision: Formula => Arc<dyn AdhesionLaw<T>> = |law| law);
-
 impl dyn AnyLaw {
     /// The law in the precision of a solve.
-    pub fn law<T: Real>(self: Arc<Self>) -> Arc<dyn AdhesionLaw<T>> {
-        T::call::<InPrecision<'_>>(self)
+    pub fn law<T: Scalar>(self: Arc<Self>) -> Arc<dyn AdhesionLaw<T>> {
+        T::law(self)
     }
 
     /// The law, zero from a gap on.

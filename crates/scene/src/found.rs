@@ -13,12 +13,11 @@ use ndarray::{Array2, ArrayView2};
 
 use crate::after::Findings;
 use crate::clock::Instant;
-use crate::compiled::compiled;
 use crate::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
 use crate::told::Told;
 
 /// The solution of a contact problem, with all that was asked for beside it.
-pub struct Found<T> {
+pub struct Found<T: Real> {
     /// The solution, on all nodes that were solved.
     pub solution: Solution<T>,
     /// The law and the grids of the solution, for a look at its fields.
@@ -52,7 +51,7 @@ pub struct Found<T> {
 }
 
 /// The sight of a solution: all that a look at its fields needs beside them.
-pub struct Sight<T> {
+pub struct Sight<T: Real> {
     pub(crate) law: Arc<dyn AdhesionLaw<T>>,
     pub(crate) original: Option<Original>,
     pub(crate) grid: Grid,
@@ -142,33 +141,31 @@ impl<T: Real> Found<T> {
     }
 }
 
-compiled!(Sees: (&'a Sight<T>, [ArrayView2<'a, T>; 3]) => Result<Seen> = Sight::see);
-
 impl<T: Real> Sight<T> {
     /// The findings of the first look at the fields.
     pub(crate) fn seen(&mut self, fields: [ArrayView2<'_, T>; 3]) -> Result<Seen> {
         let seen = match self.seen.take() {
             Some(seen) => seen,
-            None => T::call::<Sees<'_>>((self, fields))?,
+            None => self.see(fields)?,
         };
         Ok(self.seen.insert(seen).clone())
     }
 
-    fn see((this, [gap, pressure, contact_pressure]): (&Self, [ArrayView2<'_, T>; 3])) -> Result<Seen> {
-        let (law, modulus) = (&this.law, this.report.modulus);
-        let mut found = match &this.original {
+    fn see(&self, [gap, pressure, contact_pressure]: [ArrayView2<'_, T>; 3]) -> Result<Seen> {
+        let (law, modulus) = (&self.law, self.report.modulus);
+        let mut found = match &self.original {
             Some(original) => original.statistics_of_fields(gap, contact_pressure, modulus, law)?,
             None => {
-                let body = (this.report.boundary, modulus);
-                ContactStatistics::of_fields(gap, contact_pressure, &this.grid, body, law)?
+                let body = (self.report.boundary, modulus);
+                ContactStatistics::of_fields(gap, contact_pressure, &self.grid, body, law)?
             }
         };
-        if has_yielded(&this.report) {
+        if has_yielded(&self.report) {
             found.corrected_contact_fraction = f64::NAN;
         }
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let extremes = pressure.iter().fold(none, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-        Ok((found, this.grid.extremes(extremes)))
+        Ok((found, self.grid.extremes(extremes)))
     }
 
     /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.

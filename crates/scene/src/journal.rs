@@ -1,7 +1,7 @@
 //! The journal of a table: rows are appended to its file as they come, and an interrupted run goes on from there.
 //!
-//! Beside the file stands its state: an archive with the fields from which the next row starts, the identity of the
-//! run, and the length and hash of the file. A row is written to the disk before the state is replaced, in one go. So
+//! Beside the file stands its state: the place from which the next row follows, the identity of the run, and the length
+//! and hash of the file. A row is written to the disk before the state is replaced, in one go. So
 //! the state is never ahead of the file, and the file is ahead of the state by at most one row, whole or not; this row
 //! is cut off and computed again. The file is locked as long as the journal is open.
 //!
@@ -17,13 +17,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use asperity::Error;
-use ndarray::{Array2, ArrayView2};
-use ndarray_npy::WritableElement;
 use serde_json::Value;
 
 use self::lock::open_locked;
-use self::state::{State, Written, save};
-pub use self::state::{Values, state_path};
+use self::state::{State, Written};
+pub use self::state::{damaged, state_path};
 use crate::hash::Hash;
 use crate::identity::Identity;
 use crate::outcome::Outcome;
@@ -43,27 +41,11 @@ pub struct Journal {
 /// The work, in time, that an interrupted case of a study may lose.
 const A_WHILE: Duration = Duration::from_secs(1);
 
-/// The fields and values that were saved with the last row, and from which the next one starts.
-#[derive(Debug, Default)]
-pub struct Saved {
-    /// The fields, the latest last.
-    pub fields: Vec<Array2<f64>>,
-    /// The values.
-    pub values: Values,
-}
-
-impl Saved {
-    /// Those of a state, or why it has none.
-    fn of(state: State) -> Result<Self, String> {
-        Ok(Self { fields: state.read_fields()?, values: state.values })
-    }
-}
-
 /// The saved state of a journal that another process has open.
 #[derive(Debug)]
 pub struct Seen {
-    /// The fields and values from which the next row starts.
-    pub saved: Saved,
+    /// The place from which the next row follows.
+    pub place: Vec<u8>,
     /// The number of rows.
     pub rows: usize,
     /// The number of rows that did not converge.
@@ -73,25 +55,22 @@ pub struct Seen {
 impl Seen {
     /// Reads the state of the journal of a table.
     pub fn read(path: &Path) -> Outcome<Self> {
-        let refused = |reason| refused(path, reason);
-        let state = State::read(path).map_err(refused)?;
-        let Written { rows, unconverged, .. } = state.written;
-        Ok(Self { saved: Saved::of(state).map_err(refused)?, rows, unconverged })
+        let State { place, written, .. } = State::read(path).map_err(|reason| refused(path, reason))?;
+        let Written { rows, unconverged, .. } = written;
+        Ok(Self { place, rows, unconverged })
     }
 }
 
-/// A row to append, with the fields (the latest last) and values from which the next one starts.
-pub struct Row<'a, T> {
+/// A row to append, with the place from which the next one follows.
+pub struct Row<'a> {
     /// The line.
     pub text: &'a str,
     /// The load, as it stands in the list of the loads.
     pub load: f64,
     /// Whether the row converged.
     pub converged: bool,
-    /// The fields, the latest last.
-    pub fields: &'a [ArrayView2<'a, T>],
-    /// The values.
-    pub values: &'a Values,
+    /// The place from which the next row follows.
+    pub place: Vec<u8>,
 }
 
 const REMEDY: &str = "choose another --out, or --force to start over";
@@ -106,7 +85,7 @@ impl Journal {
         identity: Identity,
         loads: Option<&[f64]>,
         (force, is_case): (bool, bool),
-    ) -> Outcome<(Self, Saved)> {
+    ) -> Outcome<(Self, Vec<u8>)> {
         match fs::metadata(path) {
             Ok(metadata) if !metadata.is_file() => {
                 return Err(Error::file(path, "is not a regular file: choose another --out").into());
@@ -123,24 +102,25 @@ impl Journal {
             file.read_to_end(&mut content).map_err(|e| Error::unreadable(path, e))?;
             // a run that is killed before it writes its first state leaves an empty file
             let new = content.is_empty() && (made || !state_path(path).exists());
-            let (written, saved) = if new || force {
+            let state = if new || force {
+                let state = State { identity: identity.clone(), written: Written::NOTHING, place: Vec::new() };
                 if !is_case {
-                    save(path, &identity, &Written::NOTHING, &[] as &[ArrayView2<'_, f64>], &Values::new())?;
+                    state.save(path)?;
                 }
-                (Written::NOTHING, Saved::default())
+                state
             } else {
                 resume(path, &content, header, &identity, loads, is_case)?
             };
-            file.set_len(written.bytes).map_err(|e| Error::unwritable(path, e))?;
-            Ok((written, saved))
+            file.set_len(state.written.bytes).map_err(|e| Error::unwritable(path, e))?;
+            Ok(state)
         };
-        let (written, saved) = begin().inspect_err(|_| {
+        let State { written, place, .. } = begin().inspect_err(|_| {
             if made {
                 let _ = fs::remove_file(path);
             }
         })?;
         let (path, header, now) = (path.to_owned(), header.to_owned(), Instant::now());
-        Ok((Self { path, header, identity, file, written, is_case, saved: now }, saved))
+        Ok((Self { path, header, identity, file, written, is_case, saved: now }, place))
     }
 
     /// All rows there are, with their header.
@@ -166,8 +146,8 @@ impl Journal {
     }
 
     /// Appends a row, and saves the state.
-    pub fn append<T: WritableElement + Clone>(&mut self, row: &Row<'_, T>) -> Outcome<()> {
-        let Row { text, load, converged, fields, values } = *row;
+    pub fn append(&mut self, row: Row<'_>) -> Outcome<()> {
+        let Row { text, load, converged, place } = row;
         let header = if self.written.rows == 0 { self.header.as_str() } else { "" };
         let text = format!("{header}{text}\n");
         let saves = !self.is_case || self.saved.elapsed() >= A_WHILE;
@@ -192,7 +172,7 @@ impl Journal {
             content: self.written.content.of(text.as_bytes()),
         };
         if saves {
-            save(&self.path, &self.identity, &self.written, fields, values)?;
+            State { identity: self.identity.clone(), written: self.written, place }.save(&self.path)?;
             self.saved = Instant::now();
         }
         Ok(())
@@ -204,10 +184,10 @@ impl Journal {
 pub fn is_whole(path: &Path) -> bool {
     let (Ok(state), Ok(content)) = (State::read(path), fs::read(path)) else { return false };
     let kept = content.get(..state.written.bytes as usize);
-    kept.is_some_and(|kept| Hash::NEW.of(kept) == state.written.content) && state.read_fields().is_ok()
+    kept.is_some_and(|kept| Hash::NEW.of(kept) == state.written.content)
 }
 
-/// The part of the file that is kept, and the fields and values from which the run goes on.
+/// The state from which the run goes on, with the part of the file that is kept.
 fn resume(
     path: &Path,
     content: &[u8],
@@ -215,7 +195,7 @@ fn resume(
     identity: &Identity,
     loads: Option<&[f64]>,
     is_case: bool,
-) -> Outcome<(Written, Saved)> {
+) -> Outcome<State> {
     let refused = |reason| refused(path, reason);
     let refuse = |reason| Err(refused(reason).into());
     let state = State::read(path).map_err(refused)?;
@@ -252,7 +232,7 @@ fn resume(
     if Hash::NEW.of(kept) != written.content || !(one_row || is_case) {
         return refuse("was changed since it was written".to_owned());
     }
-    Ok((written, Saved::of(state).map_err(refused)?))
+    Ok(state)
 }
 
 /// The error of a table that something else has written to.

@@ -8,8 +8,8 @@ use asperity::accuracy::{Accuracy, Plan, Quantity};
 use asperity::contact::Original;
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::{
-    AdhesionLaw, Branch, Control, ElasticOperator, Error, Grid, Iteration, Problem, PullOff, Real, Result, Solution,
-    Solver, Start, Status, Surface,
+    AdhesionLaw, Branch, Control, Error, Grid, Iteration, Problem, PullOff, Real, Result, Solution, Solver, Start,
+    Status, Surface,
 };
 use ndarray::Array2;
 
@@ -21,7 +21,6 @@ use crate::after::After;
 use crate::asked::Asked;
 use crate::boundary::Boundary;
 use crate::clock::Instant;
-use crate::compiled::compiled;
 use crate::elastic::Elastic;
 use crate::entries::Steadiness;
 use crate::found::{Found, check_finite};
@@ -31,9 +30,6 @@ use crate::pulled_off::PulledOff;
 use crate::slopes::Slopes;
 use crate::wall::Constraint;
 
-/// A contact problem on one grid, of an elastic body and a law of whatever kind they are.
-pub type AnyProblem<T> = Problem<T, Box<dyn ElasticOperator<T>>, Arc<dyn AdhesionLaw<T>>>;
-
 /// The observer of a solve: it sees each iteration with the grid and the tolerance of the solve on it, and may end the
 /// solve.
 pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> + Send);
@@ -41,7 +37,7 @@ pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow
 /// The surface, of which a problem is made on each of nested grids, or the problem on its grid alone: never both.
 enum Body<T: Real> {
     Surface(Arc<Surface>),
-    Problem(Box<AnyProblem<T>>),
+    Problem(Box<Problem<T>>),
     /// While a problem is made of a surface, and after that has failed.
     Spent,
 }
@@ -58,15 +54,6 @@ pub struct Posed<T: Real> {
     /// Whether no solve follows the next one.
     last: bool,
 }
-
-compiled!(Parts: &'a mut Posed<T> => Result<(&'a mut Solver<Constraint<T>>, &'a mut AnyProblem<T>)> = Posed::parts_of);
-compiled!(Planned: (&'a Posed<T>, Control, Goal) => Result<(Plan, f64)> = Posed::planned);
-compiled!(Timed: &'a Posed<T> => Result<f64> = Posed::timed);
-compiled!(Solved: (&'a mut Posed<T>, &'a Asked, Option<Array2<T>>, Observe<'a>) => Result<Found<T>> = Posed::solved);
-compiled!(Pulled: (&'a mut Posed<T>, PullOff, Option<Goal>, Option<Array2<T>>, Observe<'a>) => Result<(Found<T>, PulledOff)> =
-    Posed::pulled);
-compiled!(Stiff: (&'a mut Posed<T>, &'a Solution<T>) => Result<Option<ContactStiffness>> = Posed::stiff);
-compiled!(Stable: (&'a mut Posed<T>, Control, &'a Array2<T>, f64) => Result<(Steadiness, Array2<T>)> = Posed::stable);
 
 impl<T: Real> Posed<T> {
     /// The problem of a surface with an adhesion law on a half-space, whose results are of the `original` of a mirrored
@@ -87,11 +74,7 @@ impl<T: Real> Posed<T> {
     ///
     /// # Errors
     /// Those of [`Elastic::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
-    pub fn parts(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut AnyProblem<T>)> {
-        T::call::<Parts<'_>>(self)
-    }
-
-    fn parts_of(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut AnyProblem<T>)> {
+    pub fn parts(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut Problem<T>)> {
         if let Body::Surface(surface) = &self.body {
             let operator = self.elastic.operator(*surface.grid())?;
             if let Body::Surface(surface) = mem::replace(&mut self.body, Body::Spent) {
@@ -110,7 +93,7 @@ impl<T: Real> Posed<T> {
     /// Those of [`Accuracy::tolerance`](asperity::accuracy::Accuracy::tolerance).
     pub fn tolerance(&self, goal: Option<Goal>) -> Result<f64> {
         let settings = self.solver.settings;
-        goal.map_or(Ok(settings.tolerance_in::<T>()), |goal| goal.by(self.solver.clone(), false).tolerance())
+        goal.map_or(Ok(settings.tolerance_in::<T>()), |goal| goal.wanted(false).tolerance(&settings))
     }
 
     /// The surface, before the first solve.
@@ -145,11 +128,7 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`Elastic::operator`] and of the operator; [`Error::Control`] after the first solve.
     pub fn seconds_of_application(&self) -> Result<f64> {
-        T::call::<Timed<'_>>(self)
-    }
-
-    fn timed(this: &Self) -> Result<f64> {
-        seconds_of(&mut this.elastic.operator::<T>(*this.surface()?.grid())?)
+        seconds_of(&mut self.elastic.operator::<T>(*self.surface()?.grid())?)
     }
 
     /// The boundary of the half-space.
@@ -187,11 +166,7 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`Elastic::operator`] and [`Accuracy::plan`](asperity::accuracy::Accuracy::plan).
     pub fn plan(&self, control: Control, goal: Goal) -> Result<(Plan, f64)> {
-        T::call::<Planned<'_>>((self, control, goal))
-    }
-
-    fn planned((this, control, goal): (&Self, Control, Goal)) -> Result<(Plan, f64)> {
-        planned(&goal.by(this.solver.clone(), false), this.surface()?, &this.elastic, &this.law, control)
+        planned(&goal.wanted(false), &self.solver, self.surface()?, &self.elastic, &self.law, control)
     }
 
     /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
@@ -199,7 +174,19 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of the solvers of the library.
     pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
-        T::call::<Solved<'_>>((self, asked, start, observe))
+        let found = match asked.goal {
+            Some(goal) => self.to_accuracy(goal, asked, &mut *observe)?,
+            None => match self.on_nested_grids(asked, start.is_some(), &mut *observe)? {
+                Some(found) => found,
+                None => self.on_one_grid(asked, start, &mut *observe)?,
+            },
+        };
+        let other_branch = match asked.other_branch {
+            true => self.other_branch(&found.solution, observe)?,
+            false => None,
+        };
+        let after = found.after(&asked.after, &self.elastic)?;
+        Ok(Found { other_branch, after, ..found })
     }
 
     /// [`Posed::solve`] for the last time: heights that nothing else holds leave before the solve on the finest grid.
@@ -233,14 +220,10 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`ContactStiffness::of_constrained`].
     pub fn stiffness(&mut self, solution: &Solution<T>) -> Result<Option<ContactStiffness>> {
-        T::call::<Stiff<'_>>((self, solution))
-    }
-
-    fn stiff((this, solution): (&mut Self, &Solution<T>)) -> Result<Option<ContactStiffness>> {
         if solution.report.status == Status::Stopped {
             return Ok(None);
         }
-        let (solver, problem) = this.parts()?;
+        let (solver, problem) = self.parts()?;
         let (wall, tolerance) = (&solver.constraint, ContactStiffness::TOLERANCE);
         ContactStiffness::of_constrained(problem, wall, solution, tolerance).map(Some)
     }
@@ -250,11 +233,7 @@ impl<T: Real> Posed<T> {
     /// # Errors
     /// Those of [`StabilityTest::of_gap`].
     pub fn stability(&mut self, control: Control, gap: &Array2<T>, error: f64) -> Result<(Steadiness, Array2<T>)> {
-        T::call::<Stable<'_>>((self, control, gap, error))
-    }
-
-    fn stable((this, control, gap, error): (&mut Self, Control, &Array2<T>, f64)) -> Result<(Steadiness, Array2<T>)> {
-        let (solver, problem) = this.parts()?;
+        let (solver, problem) = self.parts()?;
         let found = StabilityTest::default().of_gap(problem, &solver.constraint, control, gap, error)?;
         Ok((Steadiness::of(&found), found.mode))
     }
@@ -271,31 +250,24 @@ impl<T: Real> Posed<T> {
         start: Option<Array2<T>>,
         observe: Observe<'_>,
     ) -> Result<(Found<T>, PulledOff)> {
-        T::call::<Pulled<'_>>((self, asked, goal, start, observe))
-    }
-
-    fn pulled(
-        (this, asked, goal, start, observe): (&mut Self, PullOff, Option<Goal>, Option<Array2<T>>, Observe<'_>),
-    ) -> Result<(Found<T>, PulledOff)> {
         let clock = Instant::now();
-        if goal.is_some() || start.is_none() && this.law.hints().of_grid {
-            let (solver, tolerance) = (this.solver.clone(), this.solver.settings.tolerance_in::<T>());
-            let mut wanted = match goal {
-                Some(goal) => goal.by(solver, false),
-                None => Accuracy::with_solver(f64::INFINITY, Quantity::Area, solver),
-            };
+        if goal.is_some() || start.is_none() && self.law.hints().of_grid {
+            let tolerance = self.solver.settings.tolerance_in::<T>();
+            let wanted = goal.map_or(Accuracy::new(f64::INFINITY, Quantity::Area), |goal| goal.wanted(false));
+            let surface = Arc::clone(self.surface()?);
             let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
-            let elastic = |grid| this.elastic.operator(grid);
-            let found = wanted.pull_off_observed(this.surface()?, elastic, &*this.law, &asked, observe)?;
-            let last = this.found(found.found.solution.clone(), clock)?;
+            let elastic = |grid| self.elastic.operator(grid);
+            let law = Arc::clone(&self.law);
+            let found = wanted.pull_off_observed(&mut self.solver, &surface, elastic, law, &asked, observe)?;
+            let last = self.found(found.found.solution.clone(), clock)?;
             let pulled_off = PulledOff::of(asked, &found.found, &last)?.to_accuracy(&found, goal, &last)?;
             return Ok((Found { refined: goal.map(|_| found.surface), ..last }, pulled_off));
         }
-        let (solver, problem) = this.parts()?;
+        let (solver, problem) = self.parts()?;
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
         let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
         let found = asked.find_from(solver, problem, start, |state| observe(&grid, state, tolerance))?;
-        let last = this.found(found.solution.clone(), clock)?;
+        let last = self.found(found.solution.clone(), clock)?;
         let pulled_off = PulledOff::of(asked, &found, &last)?;
         Ok((last, pulled_off))
     }

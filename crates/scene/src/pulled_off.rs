@@ -49,7 +49,11 @@ impl PulledOff {
     ///
     /// # Errors
     /// Those of [`Found::part`].
-    pub(crate) fn of<T: Real, S>(asked: PullOff, found: &FoundPullOff<S>, last: &Found<T>) -> asperity::Result<Self> {
+    pub(crate) fn of<T: Real, S: Real>(
+        asked: PullOff,
+        found: &FoundPullOff<S>,
+        last: &Found<T>,
+    ) -> asperity::Result<Self> {
         let report = &last.part()?.report;
         let is_borne = report.mean_pressure < 0.0;
         Ok(Self {

@@ -3,16 +3,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::path::PathCheckpoint;
 use asperity::{Error, Grid, Status};
-use ndarray::{Array2, Axis, Slice};
+use ndarray::Array2;
 use serde_json::{Map, Value};
 
-use crate::course::{Course, Row, is_apart};
+use crate::course::{Course, Place, Row};
 use crate::csv;
 use crate::found::Found;
 use crate::identity::Identity;
-use crate::journal::{Journal, Row as Line, Saved, Seen, state_path};
+use crate::journal::{Journal, Row as Line, Seen, damaged, state_path};
 use crate::kept::Kept;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
@@ -125,40 +124,40 @@ impl Table {
             Self { opening, names, identity, loads, journal, rows: 0, unconverged: 0, had_event: false, made };
         let begun = processes.agree(processes.is_first().then(|| table.begin()).transpose())?;
         // what the first process has open by now
-        let saved = processes.agree(begun.map_or_else(|| table.see(), Ok))?;
-        let course = table.resume(course, saved, start, processes)?;
+        let place = processes.agree(begun.map_or_else(|| table.see(), Ok))?;
+        let course = table.resume(course, &place, start, processes)?;
         Ok((table, course))
     }
 
     /// Begins the table, or goes on with it, in the first process.
-    fn begin(&mut self) -> Outcome<Saved> {
+    fn begin(&mut self) -> Outcome<Vec<u8>> {
         let &Opening { ref out, force, is_case, ref beside, .. } = &self.opening;
         self.kept().check(force, out)?;
         let files = [state_path(out)].into_iter().chain(beside.clone()).chain([out.clone()]);
         self.made = files.filter(|path| !path.exists()).collect();
-        let saved = self.lock(force, is_case)?;
+        let place = self.lock(force, is_case)?;
         if self.rows == 0 {
             self.kept().clear();
             remove(if force { &self.opening.beside } else { &[] });
         }
-        Ok(saved)
+        Ok(place)
     }
 
     /// The table as a process sees it that does not have its file.
-    fn see(&mut self) -> Outcome<Saved> {
-        let Seen { saved, rows, unconverged } = Seen::read(&self.opening.out)?;
+    fn see(&mut self) -> Outcome<Vec<u8>> {
+        let Seen { place, rows, unconverged } = Seen::read(&self.opening.out)?;
         (self.rows, self.unconverged) = (rows, unconverged);
-        Ok(saved)
+        Ok(place)
     }
 
-    fn lock(&mut self, force: bool, is_case: bool) -> Outcome<Saved> {
+    fn lock(&mut self, force: bool, is_case: bool) -> Outcome<Vec<u8>> {
         let Opening { out, format, header, .. } = &self.opening;
         let header = if *format == Format::Csv { csv::header(header) + "\n" } else { String::new() };
         let (identity, loads) = (self.identity.clone(), self.loads.as_deref());
-        let (journal, saved) = Journal::open(out, &header, identity, loads, (force, is_case))?;
+        let (journal, place) = Journal::open(out, &header, identity, loads, (force, is_case))?;
         (self.rows, self.unconverged) = (journal.rows(), journal.unconverged());
         self.journal = Some(journal);
-        Ok(saved)
+        Ok(place)
     }
 
     /// The folder of the fields.
@@ -166,15 +165,15 @@ impl Table {
         Kept(self.opening.fields.as_deref())
     }
 
-    /// The course of the rows: the cells of the last one tell whether a leg of a cycle ends there.
+    /// The course from the place that was saved with the last row.
     fn resume<T: Scalar>(
         &mut self,
         course: Course<T>,
-        Saved { fields, values }: Saved,
+        place: &[u8],
         start: Option<Array2<f64>>,
         processes: &Processes,
     ) -> Outcome<Course<T>> {
-        let (text, nodes) = (self.text(processes)?, self.opening.nodes);
+        let text = self.text(processes)?;
         if self.rows == 0 {
             return Ok(course.starting_from(start.map(T::field)));
         }
@@ -185,16 +184,9 @@ impl Table {
         if self.loads.is_none() && !self.had_event && before["event"].is_null() && self.journal.is_some() {
             self.kept().forget(self.rows - 1);
         }
-        let own = |field: Array2<f64>| match nodes.is_shared() {
-            true => field.slice_axis(Axis(0), Slice::from(nodes.rows())).to_owned(),
-            false => field,
-        };
-        let fields = fields.into_iter().map(own).map(T::field).collect();
-        let shares = ["contact_fraction", "attractive_fraction"].map(|name| last[name].as_f64());
-        let apart = is_apart(last["direction"].as_str(), shares);
-        let earlier = rows.filter(|row| !row["event"].is_null()).count();
-        let events = earlier + [&last, &before].iter().filter(|row| !row["event"].is_null()).count();
-        Ok(course.continuing(self.rows, PathCheckpoint { values, fields }, (events, apart)))
+        let out = &self.opening.out;
+        let place: Place<T> = postcard::from_bytes(place).map_err(|_| Error::file(out, damaged(out)))?;
+        Ok(course.continuing(place.shared(&self.opening.nodes)))
     }
 
     /// Appends the row of the state that its course found last, with the fields on the part of a mirrored map, if they
@@ -210,15 +202,13 @@ impl Table {
         processes: &Processes,
     ) -> Outcome<()> {
         self.kept().write(self.rows + 1, &*found.part()?, processes)?;
-        let PathCheckpoint { fields, values } = course.place();
-        let whole: Vec<_> = fields.iter().map(|field| self.opening.nodes.gathered(field)).collect();
+        let place = course.place().gathered(&self.opening.nodes);
         let load = row.wanted_contact_fraction.unwrap_or(row.account.control_value);
         let converged = row.account.status == Status::Converged && row.reached != Some(false);
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
-            let fields: Vec<_> = whole.iter().flatten().map(|field| field.view()).collect();
             let text = self.opening.format.line(&row.cells(&self.names));
-            journal.append(&Line { text: &text, load, converged, fields: &fields, values })
+            journal.append(Line { text: &text, load, converged, place: postcard::to_stdvec(&place)? })
         })?;
         if let Some(step) = &row.step {
             let has_event = step.event.is_some();

@@ -1,7 +1,7 @@
 //! The files that a solve leaves in its folder.
 
+use asperity::Solution;
 use asperity::contact::PressureDistribution;
-use asperity::{AdhesionLaw, Solution};
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use asperity_scene::{Account, gap_to_write};
 use serde_json::json;
@@ -15,18 +15,18 @@ use crate::scene;
 
 impl Job<'_> {
     /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
-    /// with its law, where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
+    /// where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
     pub(super) fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
-        whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
+        whole: Option<&Solution<T>>,
         beside: &[Named],
         account: &Account,
     ) -> asperity::Result<Option<String>> {
         let path = |name: &str| folder.path(name);
         write_text(&path(REPORT), &format!("{:#}\n", json!(account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
-        let Some((whole, law)) = whole else { return Ok(None) };
+        let Some(whole) = whole else { return Ok(None) };
         let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
         let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
@@ -47,7 +47,7 @@ impl Job<'_> {
         if !self.options.no_pictures {
             let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
             let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            let mut regions = self.part.of_field(whole.regions(law)?)?.mapv(f64::from);
+            let mut regions = self.part.of_field(whole.regions())?.mapv(f64::from);
             let depth = solution.plastic_depth.as_ref();
             depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
             let contact = match self.options.colours.colour_clusters {

@@ -1,9 +1,12 @@
 //! The ways of a solve: to an accuracy, on nested grids, or on one.
 
+use std::sync::Arc;
+
 use asperity::accuracy::{AccurateSolution, GridError};
+use asperity::constraint::Wall;
 use asperity::nested::NestedSolution;
 use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
-use asperity::{ContactSearch, Grid, Iteration, Nested, Real, Result, Solution, Solver, Start, Status};
+use asperity::{ContactConstraint, ContactSearch, Grid, Iteration, Nested, Real, Result, Solution, Start, Status};
 use ndarray::Array2;
 
 use super::{Body, Observe, Posed};
@@ -12,37 +15,24 @@ use crate::asked::Asked;
 use crate::clock::Instant;
 use crate::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::found::{Found, Waves};
-use crate::wall::Constraint;
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
 const MOST_DEPARTURES: usize = 10;
 
 impl<T: Real> Posed<T> {
-    pub(super) fn solved(
-        (this, asked, start, observe): (&mut Self, &Asked, Option<Array2<T>>, Observe<'_>),
-    ) -> Result<Found<T>> {
-        let found = match asked.goal {
-            Some(goal) => this.to_accuracy(goal, asked, &mut *observe)?,
-            None => match this.on_nested_grids(asked, start.is_some(), &mut *observe)? {
-                Some(found) => found,
-                None => this.on_one_grid(asked, start, &mut *observe)?,
-            },
-        };
-        let other_branch = match asked.other_branch {
-            true => this.other_branch(&found.solution, observe)?,
-            false => None,
-        };
-        let after = found.after(&asked.after, &this.elastic)?;
-        Ok(Found { other_branch, after, ..found })
-    }
-
-    fn to_accuracy(&self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
-        let (clock, surface) = (Instant::now(), self.surface()?);
-        let (mut wanted, tolerance) =
-            (goal.by(self.solver.clone(), asked.after.stiffness), self.tolerance(Some(goal))?);
+    pub(super) fn to_accuracy(&mut self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
+        let (clock, surface) = (Instant::now(), Arc::clone(self.surface()?));
+        let (wanted, tolerance) = (goal.wanted(asked.after.stiffness), self.tolerance(Some(goal))?);
         let elastic = |grid| self.elastic.operator(grid);
         let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
-        let found = wanted.solve_observed(surface, elastic, &self.law, asked.control, observe)?;
+        let found = wanted.solve_observed(
+            &mut self.solver,
+            &surface,
+            elastic,
+            Arc::clone(&self.law),
+            asked.control,
+            observe,
+        )?;
         let applications = found.equivalent_applications();
         let AccurateSolution { solution, surface, levels, reached, refinable, unaffordable, .. } = found;
         let reached = Reached { wanted: goal.accuracy, of: goal.of, reached, refinable, unaffordable };
@@ -52,12 +42,17 @@ impl<T: Real> Posed<T> {
         Ok(Found { refined: Some(surface), accuracy: Some(reached), ..found.by(levels, applications) })
     }
 
-    fn on_nested_grids(&mut self, asked: &Asked, started: bool, observe: Observe<'_>) -> Result<Option<Found<T>>> {
+    pub(super) fn on_nested_grids(
+        &mut self,
+        asked: &Asked,
+        started: bool,
+        observe: Observe<'_>,
+    ) -> Result<Option<Found<T>>> {
         let Body::Surface(surface) = &self.body else { return Ok(None) };
         let (control, settings, grid) = (asked.control, self.solver.settings, *surface.grid());
-        let may =
-            !started && !asked.stability && matches!(self.solver.constraint, Constraint::Hard | Constraint::Capped(_));
-        let pays = || may && Nested::new(settings).pays(surface, &self.law, control);
+        let rigid = matches!(self.solver.constraint.wall(), Wall::Rigid | Wall::Capped(_));
+        let may = !started && !asked.stability && rigid;
+        let pays = || may && Nested::default().pays(&settings, surface, &self.law, control);
         if asked.fraction.is_some() || !asked.nested.unwrap_or_else(pays) {
             return Ok(None);
         }
@@ -71,15 +66,16 @@ impl<T: Real> Posed<T> {
         if self.last {
             self.body = Body::Spent;
         }
-        let found = Nested::with_solver(self.solver.clone())
+        let found = Nested::default()
             .coarse_tolerance(GridError::COARSE_TOLERANCE)
             .stiffness(asked.after.stiffness.then_some(ContactStiffness::TOLERANCE))
             .solve_observed(
+                &mut self.solver,
                 surface,
                 |grid| self.elastic.operator(grid),
-                &self.law,
+                Arc::clone(&self.law),
                 control,
-                |grid, state| {
+                |grid: &Grid, state: &Iteration| {
                     let coarse = if grid.nodes() == finest { 0.0 } else { GridError::COARSE_TOLERANCE };
                     observe(grid, state, tolerance.max(coarse))
                 },
@@ -92,18 +88,20 @@ impl<T: Real> Posed<T> {
         Ok(Some(found.by(levels, applications)))
     }
 
-    fn on_one_grid(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
+    pub(super) fn on_one_grid(
+        &mut self,
+        asked: &Asked,
+        start: Option<Array2<T>>,
+        observe: Observe<'_>,
+    ) -> Result<Found<T>> {
         let clock = Instant::now();
         let (solver, problem) = self.parts()?;
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
         let observe = |state: &Iteration| observe(&grid, state, tolerance);
         let (mut solution, search) = match asked.fraction {
             Some(fraction) => {
-                let mut search = ContactSearch::new(solver, problem)?;
-                if let Some(start) = start {
-                    search = search.starting_from(start);
-                }
-                let found = search.at_observed(fraction, observe)?;
+                let mut search = start.map_or_else(ContactSearch::default, ContactSearch::starting_from);
+                let found = search.at_observed(solver, problem, fraction, observe)?;
                 let search = Search::of(fraction, &found);
                 (found.solution, Some(search))
             }
@@ -133,15 +131,17 @@ impl<T: Real> Posed<T> {
     }
 
     /// The solution on the other branch of equilibria, if the solution has a branch.
-    fn other_branch(&mut self, solution: &Solution<T>, observe: Observe<'_>) -> Result<Option<OtherBranch>> {
+    pub(super) fn other_branch(&mut self, solution: &Solution<T>, observe: Observe<'_>) -> Result<Option<OtherBranch>> {
         let Some(branch) = solution.report.branch else { return Ok(None) };
         let original = self.original;
         let (solver, problem) = self.parts()?;
-        let settings = solver.settings.branch(branch.other());
+        let settings = solver.settings;
         let (grid, tolerance) = (*problem.grid(), settings.tolerance_in::<T>());
-        let mut solver = Solver { settings, ..solver.clone() };
         let observe = |state: &Iteration| observe(&grid, state, tolerance);
-        let found = solver.solve_with(problem, solution.report.control, Start::Default, observe)?;
+        solver.settings = settings.branch(branch.other());
+        let found = solver.solve_with(problem, solution.report.control, Start::Default, observe);
+        solver.settings = settings;
+        let found = found?;
         let part = original.map(|original| original.of_solution(&found)).transpose()?;
         let report = part.as_ref().map_or(&found.report, |part| &part.report);
         Ok(Some(OtherBranch::of(report, found.distance(solution), found.agrees_with(solution))))
