@@ -142,8 +142,8 @@ where
     ///
     /// # Errors
     /// [`Error::Value`] for settings out of range, a load that is not finite, or a negative mean gap;
-    /// [`Error::Control`] for a load that the problem does not have, and a periodic surface with absent nodes;
-    /// [`Error::Wall`] for springs, and for a law that is not made for the wall.
+    /// [`Error::Unsuited`] for a load that the problem does not have, and a periodic surface with absent nodes;
+    /// [`Error::Unsuited`] for springs, and for a law that is not made for the wall.
     pub fn new(
         solver: &'a mut Solver<C>,
         problem: &'a mut Problem<T, O, L>,
@@ -158,7 +158,7 @@ where
             if problem.flat.window.is_some() && problem.flat.boundary == Boundary::Periodic {
                 let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                               solve at one load after the other, as Sweep does, or take a free half-space";
-                return Err(Error::Control { control: "path", reason });
+                return Err(Error::Unsuited { what: "path", reason });
             }
         }
         if settings.steps == 0 {

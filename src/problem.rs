@@ -89,7 +89,7 @@ impl<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>> Problem<T, O, L> {
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) or [`Error::Value`](crate::Error::Value) if the grids differ;
-    /// [`Error::Law`](crate::Error::Law) if the law is not finite at zero gap;
+    /// [`Error::Contract`](crate::Error::Contract) if the law is not finite at zero gap;
     /// [`Error::NotFinite`](crate::Error::NotFinite) if K⁻¹h leaves the range of T;
     /// [`Error::Shared`](crate::Error::Shared) if only one of surface and operator is shared between processes, or the
     /// operator does not take slabs; [`Error::Memory`](crate::Error::Memory) if there is too little for a solve.

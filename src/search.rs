@@ -122,8 +122,8 @@ impl Axis {
         match (adhesion, flat.boundary) {
             // the waves of free heights begin and end at the edge of the window, those of the padding do not count
             (false, _) => Ok(Self::Pressure { flat: stiffness * rms_height }),
-            (true, Boundary::Periodic) if flat.window.is_some() => Err(Error::Control {
-                control: "contact-fraction",
+            (true, Boundary::Periodic) if flat.window.is_some() => Err(Error::Unsuited {
+                what: "contact-fraction",
                 reason: "with adhesion it is searched for by the mean gap, which a periodic surface with absent nodes \
                          does not have: give a pressure",
             }),
@@ -178,12 +178,12 @@ where
     /// A search on a problem, from the default start.
     ///
     /// # Errors
-    /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
+    /// [`Error::Unsuited`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
     /// absent nodes; [`Error::Value`] for a flat surface.
     pub fn new(solver: &'a mut Solver<C>, problem: &'a mut Problem<T, O, L>) -> Result<Self> {
         if let Wall::None = solver.constraint.wall() {
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
-            return Err(Error::Control { control: "contact-fraction", reason });
+            return Err(Error::Unsuited { what: "contact-fraction", reason });
         }
         let axis = Axis::of(&problem.flat, !problem.law_on_grid().hints().zero)?;
         Ok(Self { solver, problem, axis, start: None, gap: None, points: Vec::new() })

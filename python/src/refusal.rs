@@ -63,7 +63,7 @@ fn refused(error: Error, also: &str) -> PyErr {
         return Python::attach(|py| raised.clone_ref(py));
     }
     let message = match &error {
-        Error::Control { control, reason } => format!("{}: {reason}", control.replace('-', "_")),
+        Error::Unsuited { what, reason } => format!("{}: {reason}", what.replace('-', "_")),
         error => error.to_string(),
     };
     let message = message

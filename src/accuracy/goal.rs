@@ -154,7 +154,7 @@ impl<C> Accuracy<C> {
     /// The plan for a surface, a law, a control, and the operator on the grid of the surface.
     ///
     /// # Errors
-    /// [`Error::Unaffordable`] if the grid is far beyond the memory; [`Error::Control`] if the control gives the
+    /// [`Error::Unaffordable`] if the grid is far beyond the memory; [`Error::Unsuited`] if the control gives the
     /// quantity; those of [`Accuracy::tolerance`].
     pub fn plan<T: Real>(
         &self,
@@ -211,7 +211,7 @@ impl<C> Accuracy<C> {
         let reason = "with a law that has the range of the grid it is that of edges which the nodes hold, and does not \
                       converge: take the difference of two loads";
         let holds = self.of == Quantity::Stiffness && law.hints().of_grid;
-        if holds { Err(Error::Control { control: "accuracy of the stiffness", reason }) } else { Ok(()) }
+        if holds { Err(Error::Unsuited { what: "accuracy of the stiffness", reason }) } else { Ok(()) }
     }
 
     fn asks_the_edge<T: Real>(&self, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool
@@ -245,7 +245,7 @@ impl<C> Accuracy<C> {
     /// Solves to the accuracy, if it can: see [`AccurateSolution::reached`]. `operator` makes that of each grid.
     ///
     /// # Errors
-    /// [`Error::Control`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
+    /// [`Error::Unsuited`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
     pub fn solve<T, O, L>(
         &mut self,
         surface: &Surface,

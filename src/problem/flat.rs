@@ -77,7 +77,7 @@ impl<T: Real> PressedFlat<T> {
         let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
         let bounded = law.hints().rest.is_none_or(|rest| rest <= T::zero());
         if let Some((function, value)) = at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
-            return Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None });
+            return Err(Error::not_finite(function, 0.0, value.widen()));
         }
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
         slab.afford("a solve", 3 * size_of::<T>() + 16)?;
@@ -139,7 +139,7 @@ impl<T: Real> PressedFlat<T> {
 
     /// A control on the operator's grid, if the problem has it. A mean gap may only be negative without a wall.
     pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
-        let refused = |reason| Err(Error::Control { control: control.name(), reason });
+        let refused = |reason| Err(Error::Unsuited { what: control.name(), reason });
         let name = match control {
             Control::MeanGap(_) => "mean gap",
             Control::MeanPressure(_) => "mean pressure",

@@ -313,7 +313,7 @@ fn what_cannot_be_had_is_refused_by_name() {
         assert!(matches!(error, Error::Value { name: "accuracy", .. }), "{error}");
     }
     let error = solve(&mut Accuracy::new(0.01, Quantity::Pressure)).unwrap_err();
-    assert!(matches!(error, Error::Control { control: "accuracy of the pressure", .. }), "{error}");
+    assert!(matches!(error, Error::Unsuited { what: "accuracy of the pressure", .. }), "{error}");
     assert!(
         Quantity::Gap.check(Control::MeanGap(0.1)).is_err() && Quantity::Gap.check(Control::Approach(0.1)).is_err()
     );

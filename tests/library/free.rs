@@ -827,7 +827,7 @@ fn what_a_boundary_does_not_have_is_refused_by_name() {
     let mut solver = Solver::default();
     let spring = |stiffness: f64, rest: f64| Control::Spring { stiffness, rest };
     let named = |result: Result<Solution<f64>>, control: &str| match result {
-        Err(Error::Control { control: found, .. }) => assert_eq!(found, control),
+        Err(Error::Unsuited { what: found, .. }) => assert_eq!(found, control),
         other => panic!("{other:?}"),
     };
     named(solver.solve(&mut free, Control::MeanGap(0.1)), "mean-gap");
@@ -849,12 +849,12 @@ fn what_a_boundary_does_not_have_is_refused_by_name() {
         }
     }
     let paper = &mut Solver::new(Settings::rey2017().criterion(Criterion::Complementarity));
-    assert!(matches!(paper.solve(&mut free, Control::Force(1.0)), Err(Error::Control { .. })));
-    assert!(matches!(paper.solve(&mut periodic, spring(1.0, 0.0)), Err(Error::Control { .. })));
+    assert!(matches!(paper.solve(&mut free, Control::Force(1.0)), Err(Error::Unsuited { .. })));
+    assert!(matches!(paper.solve(&mut periodic, spring(1.0, 0.0)), Err(Error::Unsuited { .. })));
     let legs = [Control::MeanPressure(0.0)];
     assert!(matches!(
         Path::new(&mut solver, &mut absent, legs, PathSettings::default()).err(),
-        Some(Error::Control { control: "path", .. })
+        Some(Error::Unsuited { what: "path", .. })
     ));
     // surfaces and half-spaces
     let nothing = Surface::with_absent(grid, Array2::from_elem((16, 16), f64::NAN));

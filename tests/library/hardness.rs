@@ -560,7 +560,7 @@ fn what_has_no_meaning_is_refused_by_name() {
     let other = Solver { settings: Settings::default(), constraint }.solve(&mut problem, control);
     assert!(matches!(other, Err(Error::Shape { name: "hardness", .. })));
     let paper = Solver { settings: Settings::rey2017(), constraint: Hardness::new(0.1).unwrap() };
-    assert!(matches!({ paper }.solve(&mut problem, control), Err(Error::Control { .. })));
+    assert!(matches!({ paper }.solve(&mut problem, control), Err(Error::Unsuited { .. })));
     // attraction that crushes each contact
     let law = Exponential::new(1e-3, 1e-3).unwrap();
     let crushed = capped(0.5, 1e-6).solve(&mut sphere::<f64, _>(64, law), control);
@@ -568,7 +568,7 @@ fn what_has_no_meaning_is_refused_by_name() {
     // an equilibrium that is not one of an energy
     let solution = capped(0.02, 1e-6).solve(&mut problem, Control::MeanPressure(3e-4)).unwrap();
     let stable = stability::StabilityTest::default().run_with(&mut problem, &Hardness::new(0.02).unwrap(), &solution);
-    assert!(matches!(stable, Err(Error::Wall { .. })));
+    assert!(matches!(stable, Err(Error::Unsuited { .. })));
     assert!(matches!(problem.flatten(Array2::from_elem((64, 64), -1.0).view()), Err(Error::Value { .. })));
     assert!(matches!(problem.flatten(Array2::zeros((64, 63)).view()), Err(Error::Shape { .. })));
 }

@@ -264,7 +264,7 @@ fn surfaces_need_a_wall() {
     let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
     let mut problem = Problem::new(&surface, half_space, Jkr::new(1e-4).unwrap()).unwrap();
     let mut solver = Solver { settings: Settings::default(), constraint: NoWall };
-    assert!(matches!(solver.solve(&mut problem, Control::MeanGap(0.02)), Err(Error::Wall { wall: "no wall", .. })));
+    assert!(matches!(solver.solve(&mut problem, Control::MeanGap(0.02)), Err(Error::Unsuited { what: "no wall", .. })));
 }
 
 #[test]

@@ -86,7 +86,7 @@ impl<T: Real> Posed<T> {
     /// surface.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
+    /// Those of [`Elastic::operator`] and [`Problem::new`]; [`Error::Unsuited`] for a problem that was refused before.
     pub fn parts(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut AnyProblem<T>)> {
         T::call::<Parts<'_>>(self)
     }
@@ -116,7 +116,7 @@ impl<T: Real> Posed<T> {
     /// The surface, before the first solve.
     ///
     /// # Errors
-    /// [`Error::Control`] after it.
+    /// [`Error::Unsuited`] after it.
     pub fn surface(&self) -> Result<&Arc<Surface>> {
         if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
     }
@@ -124,7 +124,7 @@ impl<T: Real> Posed<T> {
     /// The slopes of the surface, before the first solve; those of a shared one are the first process's, and all ask.
     ///
     /// # Errors
-    /// [`Error::Control`] after it.
+    /// [`Error::Unsuited`] after it.
     pub fn slopes(&mut self) -> Result<Slopes> {
         self.slopes = Slopes::of(self.surface()?, self.elastic.boundary);
         Ok(self.slopes)
@@ -143,7 +143,7 @@ impl<T: Real> Posed<T> {
     /// The seconds that an operator application takes here and now, before the first solve.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`] and of the operator; [`Error::Control`] after the first solve.
+    /// Those of [`Elastic::operator`] and of the operator; [`Error::Unsuited`] after the first solve.
     pub fn seconds_of_application(&self) -> Result<f64> {
         T::call::<Timed<'_>>(self)
     }
@@ -303,5 +303,5 @@ impl<T: Real> Posed<T> {
 
 /// A problem that could not be made the first time cannot be made the second time.
 fn spent() -> Error {
-    Error::Control { control: "problem", reason: "it was refused before: make it anew" }
+    Error::Unsuited { what: "problem", reason: "it was refused before: make it anew" }
 }
