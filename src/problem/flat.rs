@@ -94,8 +94,12 @@ impl<T: Real> PressedFlat<T> {
         let [datum, above] = whole.datum_and_mean();
         let mean = datum + above;
         let rms_height = whole.rms_about(mean);
-        // where nothing faces the body there is no height: those that stand there do not exceed the others
-        let (low, high) = surface.grid().extremes(range(flat(surface.heights())));
+        // where nothing faces the body there is no height
+        let faces = |(&height, absent): (&f64, &bool)| (!absent).then_some(height);
+        let facing: Option<Vec<_>> =
+            surface.absent().map(|absent| surface.heights().iter().zip(absent).filter_map(faces).collect());
+        let facing = facing.as_deref().unwrap_or_else(|| flat(surface.heights()));
+        let (low, high) = surface.grid().extremes(range(facing));
         let height_span = high - low;
         // a mean beyond the heights' own size is rounded more than the peak above it may be
         let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };

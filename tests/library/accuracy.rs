@@ -9,6 +9,8 @@ use asperity::nested::Level;
 use asperity::*;
 use ndarray::Array2;
 
+use crate::common::with_holes;
+
 fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
     Westergaard::new(grid, 1.0)
 }
@@ -392,7 +394,7 @@ fn a_free_sphere_an_adhesive_one_and_a_line_have_accuracies_too() {
 #[test]
 fn what_is_known_on_one_grid_alone_is_not_refined() {
     let grid = Grid::square(32, 1.0).unwrap();
-    let punch = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
+    let punch = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
     let found =
         Accuracy::new(0.01, Quantity::Stiffness).solve(&punch, free, NoAdhesion, Control::Approach(0.01)).unwrap();
     assert!(!found.reached && found.unaffordable.is_none());

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow::{Break, Continue};
 
 use crate::common::dense::Dense;
-use crate::common::{rough, sphere};
+use crate::common::{rough, sphere, with_holes};
 use approx::assert_relative_eq;
 use asperity::path::{Path, PathSettings};
 use asperity::*;
@@ -462,7 +462,7 @@ fn every_law_control_body_and_precision_works_with_it() {
     let sphere = Surface::paraboloid(grid, 2.0).unwrap();
     let mut heights = sphere.heights().clone();
     heights.iter_mut().step_by(7).for_each(|h| *h = f64::NAN);
-    let holes = Surface::with_absent(grid, heights).unwrap();
+    let holes = with_holes(grid, heights).unwrap();
     let mut problem = Problem::new(&holes, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let periodic = capped(0.05, 1e-6).solve(&mut problem, Control::MeanPressure(5e-4)).unwrap();
     let mut problem = Problem::new(&holes, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{rough, solve, solve_from, sphere};
+use crate::common::{rough, solve, solve_from, sphere, with_holes};
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::*;
 
@@ -10,7 +10,7 @@ const PUNCH: f64 = 0.3;
 
 fn punch(grid: Grid) -> Surface {
     let heights = grid.sample(|x, y| if x.hypot(y) < PUNCH { 0.0 } else { f64::NAN });
-    Surface::with_absent(grid, heights).unwrap()
+    with_holes(grid, heights).unwrap()
 }
 
 #[test]
