@@ -60,9 +60,9 @@ impl Quantity {
     /// Refuses a quantity that a control gives instead of finding it.
     ///
     /// # Errors
-    /// [`Error::Control`].
+    /// [`Error::Unsuited`].
     pub fn check(self, control: Control) -> Result<()> {
-        let (control, reason) = match (self, control) {
+        let (what, reason) = match (self, control) {
             (Self::Gap, Control::MeanGap(_)) => {
                 ("accuracy of the gap", "the mean gap is given: ask for that of the pressure, or of the area")
             }
@@ -79,7 +79,7 @@ impl Quantity {
             }
             _ => return Ok(()),
         };
-        Err(Error::Control { control, reason })
+        Err(Error::Unsuited { what, reason })
     }
 
     fn of(self, level: &Level) -> Option<f64> {

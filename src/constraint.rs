@@ -208,7 +208,7 @@ pub enum Update {
 /// [`check_law`](crate::adhesion::check_law) does.
 ///
 /// # Errors
-/// [`Error::Law`] with the function that is not finite, or not the derivative of the one before it, and the gap;
+/// [`Error::Contract`] with the function that is not finite, or not the derivative of the one before it, and the gap;
 /// [`Error::Value`] if a slope is negative, or `depth` not positive and finite.
 ///
 /// ```

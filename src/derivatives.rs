@@ -1,6 +1,6 @@
 //! A check that an energy, its traction and the traction's slope are each other's derivatives, for users' tests.
 
-use crate::error::{Error, Result};
+use crate::error::{Breach, Error, Place, Result};
 use crate::real::Real;
 
 pub(crate) const GAPS: usize = 200;
@@ -9,15 +9,15 @@ pub(crate) type Named<'a> = (&'static str, &'a dyn Fn(f64) -> f64);
 
 /// Compares the second function with central differences of the first, and the third with those of the second, at gaps
 /// from `low` to `high`, in the precision T, to a hundredth of the largest value; gaps beside a jump are passed over.
-/// `length` is the gap over which the functions vary. [`Error::Law`] has the function and the first gap at which it is
-/// not finite, or not the derivative, and what it should be there.
+/// `length` is the gap over which the functions vary. [`Error::Contract`] has the function and the first gap at which it
+/// is not finite, or not the derivative, and what it should be there.
 pub(crate) fn check<T: Real>(functions: [Named<'_>; 3], (low, high): (f64, f64), length: f64) -> Result<()> {
     // the step that balances truncation against rounding in a central difference
     let step = length * T::epsilon().widen().cbrt();
     let gaps = || (0..=GAPS).map(|i| low + 2.0 * step + (high - low - 2.0 * step) * i as f64 / GAPS as f64);
     for (function, f) in functions {
         if let Some(gap) = std::iter::once(low).chain(gaps()).find(|&g| !f(g).is_finite()) {
-            return Err(Error::Law { function, gap, value: f(gap), expected: None });
+            return Err(Error::not_finite(function, gap, f(gap)));
         }
     }
     for pair in functions.windows(2) {
@@ -36,7 +36,8 @@ pub(crate) fn check<T: Real>(functions: [Named<'_>; 3], (low, high): (f64, f64),
             let jump = differ(wide, narrow) || differ(chord(nearer, gap), chord(gap, farther));
             let value = derivative(gap);
             if !jump && (narrow - value).abs() > rounding + 1e-2 * size {
-                return Err(Error::Law { function, gap, value, expected: Some(narrow) });
+                let (place, breach) = (Place::Gap(gap), Breach::Derivative(narrow));
+                return Err(Error::Contract { function, value, place, breach });
             }
         }
     }

@@ -54,79 +54,23 @@ pub enum Error {
         /// The value at that node.
         value: f64,
     },
-    /// A function of an adhesion law or of springs that is not finite, or differs from the derivative of the function
-    /// before it.
-    Law {
-        /// The function.
+    /// A function of an adhesion law, of springs or of an elastic operator that breaks its contract.
+    Contract {
+        /// The function, or the property of an operator.
         function: &'static str,
-        /// The gap at which it is wrong.
-        gap: f64,
-        /// The value of the function at that gap.
+        /// Its value.
         value: f64,
-        /// The value that agrees with the function before; none if `value` is not finite.
-        expected: Option<f64>,
-    },
-    /// An adhesion law whose traction rises, although it is declared as [concave](crate::adhesion::Hints::concave).
-    Concave {
-        /// The gap before which the traction rises.
-        gap: f64,
-        /// The traction at that gap.
-        traction: f64,
-        /// The smaller traction at a smaller gap.
-        nearer: f64,
-    },
-    /// An adhesion law whose traction jumps, without a [smoothed](crate::adhesion::Discretisation::Smooth) law.
-    Jump {
-        /// The gap at which it jumps.
-        gap: f64,
-        /// The traction by which it falls there.
-        fall: f64,
-    },
-    /// A function of an adhesion law that differs between its functions of one gap and those of many.
-    AtNode {
-        /// The function.
-        function: &'static str,
-        /// The node, in row-major order.
-        node: usize,
-        /// The gap.
-        gap: f64,
-        /// The value at the node.
-        value: f64,
-        /// The value that agrees with the other functions of the law.
-        expected: f64,
-    },
-    /// An elastic operator that fails [`check_operator`](crate::elastic::check_operator).
-    Operator {
-        /// The property.
-        property: &'static str,
-        /// The value found.
-        found: f64,
-        /// The value that the property requires.
-        expected: f64,
-    },
-    /// A stiffness of a wave that no elastic body has.
-    Wave {
-        /// The wave numbers (qx, qy), in radians per length.
-        wave: (f64, f64),
-        /// Its stiffness, a pressure per length.
-        stiffness: f64,
-        /// The stiffness of the same wave, (−qx, −qy), if it is another one; none if `stiffness` is not positive and
-        /// finite in the precision of the fields.
-        opposite: Option<f64>,
+        /// The place of the value.
+        place: Place,
+        /// The part of the contract.
+        breach: Breach,
     },
     /// An error of a user's function, for example of a body; it is the [source](StdError::source).
     Raised(Cause),
-    /// A control, or a quantity that is solved for under it, that the problem does not have.
-    Control {
-        /// The [`Control::name`](crate::Control::name), or the name of the quantity.
-        control: &'static str,
-        /// The reason, and a remedy.
-        reason: &'static str,
-    },
-    /// A wall and an adhesion law that do not fit each other.
-    Wall {
-        /// The wall.
-        wall: &'static str,
+    /// A control, a wall, a method or a strategy that does not suit the problem.
+    Unsuited {
+        /// The control by its [name](crate::Control::name), or the other part.
+        what: &'static str,
         /// The reason, and a remedy.
         reason: &'static str,
     },
@@ -184,6 +128,44 @@ pub enum Error {
     },
 }
 
+/// The place at which a function [breaks its contract](Error::Contract).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// A gap.
+    Gap(f64),
+    /// A node, in row-major order, and the gap there.
+    Node(usize, f64),
+    /// A wave, by its wave numbers (qx, qy) in radians per length.
+    Wave(f64, f64),
+    /// The whole grid.
+    Grid,
+}
+
+/// The part of a contract that a value [breaks](Error::Contract), with the value that it contradicts.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Breach {
+    /// The functions of a law are finite.
+    Finite,
+    /// The traction is the derivative of the energy, and the slope that of the traction.
+    Derivative(f64),
+    /// A law that [says](crate::adhesion::Hints) that it is zero has no traction.
+    Zero,
+    /// The traction of a law that [says](crate::adhesion::Hints::concave) that it is concave does not rise with the gap:
+    /// at a smaller one it is this.
+    Concave(f64),
+    /// A traction that falls at once, from this, has a [smoothed](crate::adhesion::Discretisation::Smooth) law.
+    Jump(f64),
+    /// The functions of one gap and of many agree.
+    Alike(f64),
+    /// [`check_operator`](crate::elastic::check_operator) finds what it expects.
+    Operator(f64),
+    /// The stiffness of a wave is positive and finite in the precision of the fields.
+    Stiff,
+    /// The stiffness of a wave is that of the opposite one, (−qx, −qy).
+    Even(f64),
+}
+
 /// A wrapped error; two are equal where their messages are.
 #[derive(Clone, Debug)]
 pub struct Cause(Arc<dyn StdError + Send + Sync>);
@@ -208,10 +190,8 @@ pub enum ErrorKind {
     Law,
     /// An elastic operator that lacks a property of its contract, or an error of a function of its body.
     Operator,
-    /// A control that the problem does not have.
-    Control,
-    /// A wall that does not fit the law.
-    Wall,
+    /// A control, a wall, a method or a strategy that does not suit the problem.
+    Unsuited,
     /// Memory that is not available.
     Memory,
     /// A grid that is too coarse for a surface.
@@ -229,10 +209,9 @@ impl Error {
             Self::Value { .. } => ErrorKind::Value,
             Self::Shape { .. } => ErrorKind::Shape,
             Self::NotFinite { .. } => ErrorKind::NotFinite,
-            Self::Law { .. } | Self::Concave { .. } | Self::Jump { .. } | Self::AtNode { .. } => ErrorKind::Law,
-            Self::Operator { .. } | Self::Wave { .. } | Self::Raised(_) => ErrorKind::Operator,
-            Self::Control { .. } => ErrorKind::Control,
-            Self::Wall { .. } => ErrorKind::Wall,
+            Self::Contract { place: Place::Gap(_) | Place::Node(..), .. } => ErrorKind::Law,
+            Self::Contract { .. } | Self::Raised(_) => ErrorKind::Operator,
+            Self::Unsuited { .. } => ErrorKind::Unsuited,
             Self::Unaffordable { .. } | Self::Memory { .. } => ErrorKind::Memory,
             Self::Unresolved { .. } => ErrorKind::Resolution,
             Self::Shared { .. } | Self::Elsewhere { .. } => ErrorKind::Shared,
@@ -263,6 +242,11 @@ impl Error {
     /// An error of a user's function, as the [source](StdError::source).
     pub fn raised(cause: impl StdError + Send + Sync + 'static) -> Self {
         Self::Raised(Cause(Arc::new(cause)))
+    }
+
+    /// A function of a law or of springs that is not finite at a gap.
+    pub fn not_finite(function: &'static str, gap: f64, value: f64) -> Self {
+        Self::Contract { function, value, place: Place::Gap(gap), breach: Breach::Finite }
     }
 
     /// The value, if it is positive and finite.

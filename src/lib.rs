@@ -123,7 +123,7 @@ pub use adhesion::{
 pub use constraint::{ContactConstraint, Hardness, NoWall, Penalty, Projection, Uzawa};
 #[doc(inline)]
 pub use elastic::{Boundary, Boussinesq, ElasticOperator, Spectral, Westergaard};
-pub use error::{Error, ErrorKind, Result};
+pub use error::{Breach, Error, ErrorKind, Place, Result};
 pub use grid::Grid;
 #[doc(inline)]
 pub use nested::Nested;

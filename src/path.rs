@@ -180,8 +180,8 @@ impl<T: Real> Path<T> {
     /// Refuses loads that the problem does not have, as the first step does.
     ///
     /// # Errors
-    /// [`Error::Value`] for a load that is not finite, or a negative mean gap; [`Error::Control`] for a load that the
-    /// problem does not have, and a periodic surface with absent nodes; [`Error::Wall`] for springs, and for a law that
+    /// [`Error::Value`] for a load that is not finite, or a negative mean gap; [`Error::Unsuited`] for a load that the
+    /// problem does not have, and a periodic surface with absent nodes; [`Error::Unsuited`] for springs, and for a law that
     /// is not made for the wall.
     pub fn check(&self, solver: &Solver<dyn ContactConstraint<T>>, problem: &Problem<T>) -> Result<()> {
         let (law, flat, wall) = (problem.law_on_grid(), &problem.flat, solver.constraint.wall());
@@ -193,7 +193,7 @@ impl<T: Real> Path<T> {
         if flat.window.is_some() && flat.boundary == Boundary::Periodic {
             let reason = "a periodic surface with absent nodes has no mean gap along which a path could be followed: \
                           solve at one load after the other, as Sweep does, or take a free half-space";
-            return Err(Error::Control { control: "path", reason });
+            return Err(Error::Unsuited { what: "path", reason });
         }
         Ok(())
     }

@@ -86,7 +86,7 @@ impl<T: Real> Problem<T> {
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) or [`Error::Value`](crate::Error::Value) if the grids differ;
-    /// [`Error::Law`](crate::Error::Law) if the law is not finite at zero gap;
+    /// [`Error::Contract`](crate::Error::Contract) if the law is not finite at zero gap;
     /// [`Error::NotFinite`](crate::Error::NotFinite) if K⁻¹h leaves the range of T;
     /// [`Error::Shared`](crate::Error::Shared) if only one of surface and operator is shared between processes, or the
     /// operator does not take slabs; [`Error::Memory`](crate::Error::Memory) if there is too little for a solve.
@@ -107,7 +107,7 @@ impl<T: Real> Problem<T> {
     /// Puts another law in the place of the adhesion law, without an operator application.
     ///
     /// # Errors
-    /// [`Error::Law`](crate::Error::Law) if the law is not finite at zero gap; [`Error::Shape`](crate::Error::Shape) if
+    /// [`Error::Contract`](crate::Error::Contract) if the law is not finite at zero gap; [`Error::Shape`](crate::Error::Shape) if
     /// it varies over another grid.
     pub fn set_law(&mut self, law: impl AdhesionLaw<T> + 'static) -> Result<()> {
         let law = SharedLaw::new(law);

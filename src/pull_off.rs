@@ -103,8 +103,8 @@ impl PullOff {
     /// The pull-off of a problem.
     ///
     /// # Errors
-    /// [`Error::Control`] without adhesion, and where surfaces under no load do not attract each other; [`Error::Value`]
-    /// for a tolerance or a preload out of their ranges; [`Error::Wall`] for springs; those of [`Solver::solve_with`].
+    /// [`Error::Unsuited`] without adhesion, and where surfaces under no load do not attract each other; [`Error::Value`]
+    /// for a tolerance or a preload out of their ranges; [`Error::Unsuited`] for springs; those of [`Solver::solve_with`].
     pub fn find<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -160,7 +160,7 @@ impl PullOff {
         if attraction <= 0.0 {
             let reason =
                 "the surfaces do not attract each other under no load: give a law of a longer range, or a preload";
-            return Err(Error::Control { control: "pull-off", reason });
+            return Err(Error::Unsuited { what: "pull-off", reason });
         }
         let mut bracket = Bracket { borne: vec![Place::of(&held.solution.report)], lost: None, from: 0.0 };
         while !bracket.is_narrow(tolerance) && search.solves < MOST {
@@ -190,12 +190,12 @@ impl PullOff {
         }
         if problem.law_on_grid().hints().zero {
             let reason = "without adhesion surfaces bear no tension: give a law";
-            return Err(Error::Control { control: "pull-off", reason });
+            return Err(Error::Unsuited { what: "pull-off", reason });
         }
         if let Wall::Springs(_) = solver.constraint.wall() {
             let reason = "surfaces that sink into springs come apart while these become hard: take a rigid wall, or none \
                           with a law that repels";
-            return Err(Error::Wall { wall: "springs", reason });
+            return Err(Error::Unsuited { what: "springs", reason });
         }
         let yields = "a surface that yields bears another tension after each load: follow a path, as Path does";
         refuse_hardness(solver.constraint.wall(), yields)?;

@@ -121,8 +121,8 @@ impl Axis {
         match (adhesion, flat.boundary) {
             // the waves of free heights begin and end at the edge of the window, those of the padding do not count
             (false, _) => Ok(Self::Pressure { flat: stiffness * rms_height }),
-            (true, Boundary::Periodic) if flat.window.is_some() => Err(Error::Control {
-                control: "contact-fraction",
+            (true, Boundary::Periodic) if flat.window.is_some() => Err(Error::Unsuited {
+                what: "contact-fraction",
                 reason: "with adhesion it is searched for by the mean gap, which a periodic surface with absent nodes \
                          does not have: give a pressure",
             }),
@@ -189,7 +189,7 @@ impl<T: Real> ContactSearch<T> {
     ///
     /// # Errors
     /// [`Error::Value`] for a fraction that is not between 0 and 1, or less than a node, and for a flat surface;
-    /// [`Error::Control`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
+    /// [`Error::Unsuited`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
     /// absent nodes; those of [`Solver::solve_with`].
     pub fn at(
         &mut self,
@@ -223,7 +223,7 @@ impl<T: Real> ContactSearch<T> {
     ) -> Result<FoundContact<T>> {
         if let Wall::None = solver.constraint.wall() {
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
-            return Err(Error::Control { control: "contact-fraction", reason });
+            return Err(Error::Unsuited { what: "contact-fraction", reason });
         }
         let adhesion = !problem.law_on_grid().hints().zero;
         let axis = Axis::of(&problem.flat, adhesion)?;

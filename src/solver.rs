@@ -214,11 +214,11 @@ impl<C> Solver<C> {
     /// Solves from a start, and calls `observe` in every iteration; it may stop the solve. [`Start`] has an example.
     ///
     /// # Errors
-    /// [`Error::Control`](crate::Error::Control) for a control that the boundary does not have;
+    /// [`Error::Unsuited`](crate::Error::Unsuited) for a control that the boundary does not have;
     /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, a spring
     /// without stiffness, or a tolerance that is not positive; [`Error::Shape`](crate::Error::Shape),
     /// [`Error::NotFinite`](crate::Error::NotFinite) or [`Error::Value`](crate::Error::Value) for a start that does not
-    /// fit, is not finite, or is negative somewhere; [`Error::Law`](crate::Error::Law) if the law is not finite at the
+    /// fit, is not finite, or is negative somewhere; [`Error::Contract`](crate::Error::Contract) if the law is not finite at the
     /// start; those of the constraint. Without convergence see [`Report::status`].
     pub fn solve_with<T: Real>(
         &mut self,

@@ -169,8 +169,8 @@ impl StabilityTest {
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] for a solution of another problem, or a tolerance that is not positive;
-    /// [`Error::Wall`] if its wall is not rigid, or the law has no bound at a wall; [`Error::Law`] if φ'' is not
-    /// finite somewhere; [`Error::Control`] for a control that the problem does not have.
+    /// [`Error::Unsuited`] if its wall is not rigid, or the law has no bound at a wall; [`Error::Contract`] if φ'' is not
+    /// finite somewhere; [`Error::Unsuited`] for a control that the problem does not have.
     pub fn run<T: Real>(&self, problem: &mut Problem<T>, solution: &Solution<T>) -> Result<Stability<T>> {
         self.run_with(problem, &Projection, solution)
     }
@@ -181,8 +181,8 @@ impl StabilityTest {
     /// solve, the nodes that they press do not move.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run`]; [`Error::Wall`] for another wall than that of the solution or the law;
-    /// [`Error::Law`] if the stiffness of the springs is not finite somewhere.
+    /// Those of [`StabilityTest::run`]; [`Error::Unsuited`] for another wall than that of the solution or the law;
+    /// [`Error::Contract`] if the stiffness of the springs is not finite somewhere.
     pub fn run_with<T: Real>(
         &self,
         problem: &mut Problem<T>,
@@ -325,9 +325,8 @@ fn slopes<T: Real>(
     if wrong.min.is_finite() {
         let own = (wrong.min as usize).checked_sub(grid.first_node());
         let own = own.and_then(|node| Some((gaps.get(node)?.widen(), flat(&slopes).get(node)?.widen())));
-        let refused = own.map_or(Ok(()), |(gap, value)| {
-            Err(Error::Law { function: "slope of the local traction", gap, value, expected: None })
-        });
+        let refused =
+            own.map_or(Ok(()), |(gap, value)| Err(Error::not_finite("slope of the local traction", gap, value)));
         grid.agreed(refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space

@@ -3,14 +3,12 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use ndarray::{Array2, Axis, Slice};
+use ndarray::Array2;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 
-mod fill;
 mod fourier;
-mod knee;
 mod low_pass;
 mod pair;
 mod philox;
@@ -20,7 +18,6 @@ mod slope;
 mod spectrum;
 mod statistics;
 
-pub use fill::fill;
 pub use fourier::FourierSeries;
 pub use low_pass::low_pass;
 pub(crate) use philox::uniform;
@@ -60,31 +57,21 @@ impl Surface {
         Ok(Self { grid, heights, absent: None })
     }
 
-    /// A surface with absent nodes, where heights of shape (Nx, Ny) are NaN: they neither touch nor attract.
-    /// [`heights`](Self::heights) has there what [`fill()`] makes of them.
+    /// The surface with absent nodes, of shape (Nx, Ny): they neither touch nor attract. The heights there count in
+    /// statistics and in the scale of errors alone, and best continue those around them: `surface_with_absent` of
+    /// `asperity-maps` makes such heights where they are missing.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the heights do not fit the grid, [`Error::NotFinite`] with the number and place of infinite
-    /// ones, [`Error::Value`] if all nodes are absent.
-    pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
-        grid.fits("heights", heights.dim())?;
-        let missing = heights.iter().filter(|h| h.is_nan()).count();
-        let all_missing = grid.total(missing);
-        if all_missing == 0 {
-            return Self::new(grid, heights);
-        }
-        if grid.has(heights.iter().any(|h| h.is_infinite())) {
-            grid.finite("heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
-        }
-        let absent = Array2::from_shape_vec(grid.field_shape(), heights.iter().map(|h| h.is_nan()).collect()).ok();
-        if all_missing == grid.nodes() {
+    /// [`Error::Shape`] if they do not fit the grid, [`Error::Value`] if all nodes are absent.
+    pub fn with_absent(self, absent: Array2<bool>) -> Result<Self> {
+        self.grid.fits("absent nodes", absent.dim())?;
+        let count = self.grid.total(absent.iter().filter(|&&absent| absent).count());
+        if count == self.grid.nodes() {
             let requirement = "at least 1: all nodes are absent";
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
         }
-        // holes are filled as on the whole map, by every process
-        let filled = fill(grid.whole(heights).into_owned(), grid.spacing())?;
-        let held = filled.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
-        Ok(Self { absent, ..Self::new(grid, held)? })
+        let absent = if absent.is_standard_layout() { absent } else { absent.as_standard_layout().into_owned() };
+        Ok(Self { absent: (count > 0).then_some(absent), ..self })
     }
 
     /// A surface from a function of the coordinates, `(x, y) → h`.

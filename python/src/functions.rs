@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::adhesion::Hints;
-use asperity::{AdhesionLaw, Error};
+use asperity::{AdhesionLaw, Breach, Error};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -157,7 +157,7 @@ pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()
     match called.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(error),
         // of which the table of the law has a smoothed one
-        None if matches!(checked, Err(Error::Jump { .. })) => Ok(()),
+        None if matches!(checked, Err(Error::Contract { breach: Breach::Jump(_), .. })) => Ok(()),
         None => checked.map_err(refusal),
     }
 }

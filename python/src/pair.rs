@@ -2,7 +2,7 @@
 
 use asperity::elastic::{Body, HalfSpace, Material, Series};
 use asperity::{Grid, Surface};
-use asperity_maps::Topography;
+use asperity_maps::{Topography, surface_with_absent};
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 
@@ -23,7 +23,7 @@ pub fn between<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let boundary = named("boundary", boundary, "periodic or free")?;
     let (first, second) = (topography(first)?, topography(second)?);
-    let make = if absent_missing { Surface::with_absent } else { Surface::new };
+    let make = if absent_missing { surface_with_absent } else { Surface::new };
     let Topography { heights, lengths, unit, original, .. } = first;
     let grid = Grid::new(heights.dim(), lengths.unwrap_or((1.0, 1.0))).map_err(refusal)?;
     let pool = Pool::of(None)?;

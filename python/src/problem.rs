@@ -4,6 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
 use asperity::{Control, Grid, PullOff, Surface};
+use asperity_maps::surface_with_absent;
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
 use pyo3::exceptions::PyValueError;
@@ -94,7 +95,7 @@ impl Problem {
         let boundary = named("boundary", boundary, "periodic or free")?;
         let wall = named("wall", wall, "hard or none, or of springs, as asperity.Penalty(stiffness)")?;
         let original = original.map(|original| original.0);
-        let make = if absent_missing { Surface::with_absent } else { Surface::new };
+        let make = if absent_missing { surface_with_absent } else { Surface::new };
         let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
         let Law { formula, adhesion, .. } = Law::of(law)?;

@@ -63,7 +63,7 @@ fn refused(error: Error, also: &str) -> PyErr {
         return Python::attach(|py| raised.clone_ref(py));
     }
     let message = match &error {
-        Error::Control { control, reason } => format!("{}: {reason}", control.replace('-', "_")),
+        Error::Unsuited { what, reason } => format!("{}: {reason}", what.replace('-', "_")),
         error => error.to_string(),
     };
     let message = message
@@ -72,7 +72,7 @@ fn refused(error: Error, also: &str) -> PyErr {
             "give wall='none', or LennardJones(..., cut=True)",
         )
         .replace("or take a free half-space", "or boundary='free'")
-        .replace("as by surface::fill", "as by asperity.prepare(heights, lengths, fill=True)")
+        .replace("as asperity_maps::fill does", "as by asperity.prepare(heights, lengths, fill=True)")
         .replace(
             "choose one, by asperity prepare --channel NUMBER",
             "choose one, by asperity.read(path, channel=NUMBER)",

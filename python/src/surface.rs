@@ -137,7 +137,7 @@ pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)
 #[pyfunction]
 pub fn knee_wavelength(py: Python<'_>, heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Option<f64>> {
     let surface = surface(heights, lengths)?;
-    apart(py, || Ok(surface.spectrum().knee_wavelength()))
+    apart(py, || Ok(asperity_maps::knee_wavelength(&surface)))
 }
 
 /// Wave numbers, densities, numbers of waves, and the area of one wave.

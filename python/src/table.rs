@@ -116,7 +116,7 @@ impl Table {
             for (function, values) in Function::ALL.into_iter().zip(&mut values) {
                 *values = law.at(function, &gaps)?;
                 if let Some((&gap, &value)) = gaps.iter().zip(&*values).find(|(_, value)| !value.is_finite()) {
-                    return Err(refusal(Error::Law { function: function.name(), gap, value, expected: None }));
+                    return Err(refusal(Error::not_finite(function.name(), gap, value)));
                 }
             }
             if found.is_empty() {

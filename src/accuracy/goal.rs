@@ -147,7 +147,7 @@ impl Accuracy {
     /// The plan of a solver for a surface, the operator on its grid, a law, and a control.
     ///
     /// # Errors
-    /// [`Error::Unaffordable`] if the grid is far beyond the memory; [`Error::Control`] if the control gives the
+    /// [`Error::Unaffordable`] if the grid is far beyond the memory; [`Error::Unsuited`] if the control gives the
     /// quantity; those of [`Accuracy::tolerance`].
     pub fn plan<T: Real>(
         &self,
@@ -202,7 +202,7 @@ impl Accuracy {
         let reason = "with a law that has the range of the grid it is that of edges which the nodes hold, and does not \
                       converge: take the difference of two loads";
         let holds = self.of == Quantity::Stiffness && law.hints().of_grid;
-        if holds { Err(Error::Control { control: "accuracy of the stiffness", reason }) } else { Ok(()) }
+        if holds { Err(Error::Unsuited { what: "accuracy of the stiffness", reason }) } else { Ok(()) }
     }
 
     fn asks_the_edge<T: Real>(&self, wall: Wall<'_, T>, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
@@ -233,7 +233,7 @@ impl Accuracy {
     /// Solves to the accuracy, if it can: see [`AccurateSolution::reached`]. The body has `operators` on each grid.
     ///
     /// # Errors
-    /// [`Error::Control`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
+    /// [`Error::Unsuited`] if the control gives the quantity; those of [`Accuracy::tolerance`] and [`Nested::solve`].
     pub fn solve<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,

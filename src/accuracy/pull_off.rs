@@ -70,7 +70,7 @@ impl Accuracy {
     /// [`Accuracy::solve`]. With a law that has a range of its own the given grid alone is searched, without an estimate.
     ///
     /// # Errors
-    /// [`Error::Control`] for an accuracy with a law that has a range; [`Error::Value`] for one that is not positive;
+    /// [`Error::Unsuited`] for an accuracy with a law that has a range; [`Error::Value`] for one that is not positive;
     /// those of `operators` and [`PullOff::find`].
     ///
     /// ```
@@ -129,7 +129,7 @@ impl Accuracy {
         }
         if refines && !hints.of_grid {
             let reason = "it is known of a law that has the range of the grid alone: take that of JKR, or leave out the accuracy";
-            return Err(Error::Control { control: "accuracy of the pull-off", reason });
+            return Err(Error::Unsuited { what: "accuracy of the pull-off", reason });
         }
         let search = search.tolerance(search.tolerance.min(BRACKET * self.target));
         let mut find = |surface: &Surface, law: SharedLaw<T>| {

@@ -2,7 +2,7 @@
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::derivatives::{self, GAPS, Named};
-use crate::error::{Error, Result};
+use crate::error::{Breach, Error, Place, Result};
 use crate::real::Real;
 
 /// The functions, in the order in which each is the derivative of the one before.
@@ -53,9 +53,8 @@ const ASKED: [[bool; 3]; 6] = [
 ///   nowhere stronger than the functions of one gap.
 ///
 /// # Errors
-/// [`Error::Law`] with the first gap at which a function is not finite or not the derivative of the one before;
-/// [`Error::Jump`]; [`Error::Concave`]; [`Error::AtNode`]; [`Error::Shape`] of an adapted law; [`Error::Value`] if
-/// `largest_gap` is not positive and finite, or the work of adhesion of the smoothed law is another.
+/// [`Error::Contract`] with the first function and gap that break it; [`Error::Shape`] of an adapted law;
+/// [`Error::Value`] if `largest_gap` is not positive and finite, or the work of adhesion of the smoothed law is another.
 ///
 /// ```
 /// use asperity::adhesion::check_law;
@@ -107,8 +106,8 @@ impl<T: Real> Checked<'_, T> {
         (0..=GAPS).map(|i| self.law.traction(self.gap(i)).abs().widen()).fold(0.0, f64::max)
     }
 
-    /// The first gap at which the traction jumps, and by how much it falls there.
-    fn jump(&self) -> Option<(f64, f64)> {
+    /// The error of the first gap at which the traction jumps.
+    fn jump(&self) -> Option<Error> {
         let (least, traction) = (SHARE * self.largest(), |gap: T| self.law.traction(gap).widen());
         (0..GAPS).find_map(|i| {
             let (mut near, mut far) = (self.gap(i), self.gap(i + 1));
@@ -119,7 +118,7 @@ impl<T: Real> Checked<'_, T> {
                     return None;
                 }
                 if middle <= near || middle >= far {
-                    return Some((far.widen(), a - c));
+                    return Some(broken(1, c, Place::Gap(far.widen()), Breach::Jump(a)));
                 }
                 // toward the half that changes more
                 if (a - b).abs() > (b - c).abs() { far = middle } else { near = middle }
@@ -134,10 +133,9 @@ impl<T: Real> Checked<'_, T> {
 
     /// Holds a law whose traction jumps to what its smoothed law has to be.
     fn smoothness(&self) -> Result<()> {
-        let Some((gap, fall)) = self.jump() else { return Ok(()) };
-        let jumps = Err(Error::Jump { gap, fall });
+        let Some(jump) = self.jump() else { return Ok(()) };
         let compliance = T::lit(SMOOTHING * self.length / self.largest());
-        let Some(smoothed) = self.law.adapted(Discretisation::Smooth(compliance)) else { return jumps };
+        let Some(smoothed) = self.law.adapted(Discretisation::Smooth(compliance)) else { return Err(jump) };
         let smooth = Checked { law: &*smoothed, hints: smoothed.hints(), ..*self };
         self.check_shape("smoothed adhesion law", smooth.hints, self.hints.shape)?;
         smooth.functions()?;
@@ -147,7 +145,7 @@ impl<T: Real> Checked<'_, T> {
             let requirement = "that of the law, which a smoothed one keeps";
             return Err(Error::Value { name: "work of adhesion of the smoothed law", value: left, requirement });
         }
-        if smooth.jump().is_some() { jumps } else { smooth.nodes() }
+        if smooth.jump().is_some() { Err(jump) } else { smooth.nodes() }
     }
 
     /// Holds a law to being zero or concave, if it says so.
@@ -156,12 +154,12 @@ impl<T: Real> Checked<'_, T> {
         let tractions: Vec<_> = gaps.map(|gap| (gap, self.law.traction(T::lit(gap)).widen())).collect();
         let attracts = tractions.iter().find(|(_, traction)| self.hints.zero && *traction != 0.0);
         if let Some(&(gap, value)) = attracts {
-            return Err(Error::Law { function: NAMES[1], gap, value, expected: Some(0.0) });
+            return Err(broken(1, value, Place::Gap(gap), Breach::Zero));
         }
         let rounding = ROUNDINGS * T::epsilon().widen() * self.law.traction(T::zero()).abs().widen();
         let rises = |pair: &&[(f64, f64)]| self.hints.concave && pair[1].1 > pair[0].1 + rounding;
         match tractions.windows(2).find(rises) {
-            Some(&[(_, nearer), (gap, traction)]) => Err(Error::Concave { gap, traction, nearer }),
+            Some(&[(_, nearer), (gap, traction)]) => Err(broken(1, traction, Place::Gap(gap), Breach::Concave(nearer))),
             _ => Ok(()),
         }
     }
@@ -202,8 +200,8 @@ impl<T: Real> Checked<'_, T> {
                     let unknown = shape.is_some() && one.is_nan();
                     let [near, same] = [(value - one).abs() <= SHARE * size, value == part];
                     if !(unknown || near && same) {
-                        let (gap, expected) = (gaps[node].widen(), if near { part } else { one });
-                        return Err(Error::AtNode { function: NAMES[order], node, gap, value, expected });
+                        let (place, expected) = (Place::Node(node, gaps[node].widen()), if near { part } else { one });
+                        return Err(broken(order, value, place, Breach::Alike(expected)));
                     }
                 }
             }
@@ -224,7 +222,7 @@ impl<T: Real> Checked<'_, T> {
         derivatives::check::<T>(functions, self.gaps, self.length)?;
         let (value, expected) = (energy.widen(), self.law.energy(rest).widen());
         if value < expected - SHARE * expected.abs() {
-            return Err(Error::AtNode { function: NAMES[0], node, gap: rest.widen(), value, expected });
+            return Err(broken(0, value, Place::Node(node, rest.widen()), Breach::Alike(expected)));
         }
         Ok(())
     }
@@ -242,12 +240,16 @@ impl<T: Real> Checked<'_, T> {
             let (found, expected) = (coarse.at(node, gap), self.at(fine, gap));
             let differs = (0..3).find(|&order| found[order] != expected[order] && !expected[order].is_nan());
             if let Some(order) = differs {
-                let (gap, value, expected) = (gap.widen(), found[order].widen(), expected[order].widen());
-                return Err(Error::AtNode { function: NAMES[order], node, gap, value, expected });
+                let breach = Breach::Alike(expected[order].widen());
+                return Err(broken(order, found[order].widen(), Place::Node(node, gap.widen()), breach));
             }
         }
         Ok(())
     }
+}
+
+fn broken(order: usize, value: f64, place: Place, breach: Breach) -> Error {
+    Error::Contract { function: NAMES[order], value, place, breach }
 }
 
 fn of<T>(values: &mut [Vec<T>; 3], asked: [bool; 3]) -> Values<'_, T> {

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::{Boundary, ElasticOperator, Foundation, mean_product};
-use crate::error::{Error, Result};
+use crate::error::{Breach, Error, Place, Result};
 use crate::field;
 use crate::real::Real;
 
@@ -24,7 +24,7 @@ const DIMENSION: usize = 20;
 /// - K⁻¹a with that in `f32`, with that of heights in `f64`, and with that after memory was given back.
 ///
 /// # Errors
-/// [`Error::Operator`] with the first property that does not hold; those of the operator itself.
+/// [`Error::Contract`] with the first property that does not hold; those of the operator itself.
 ///
 /// ```
 /// use asperity::elastic::check_operator;
@@ -47,7 +47,7 @@ pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<
     let mean = |field: &Array2<T>| field::mean(field.view(), T::widen);
     let holds = |property, found: f64, expected: f64, allowed: f64| match (found - expected).abs() <= allowed {
         true => Ok(()),
-        false => Err(Error::Operator { property, found, expected }),
+        false => Err(broken(property, found, expected)),
     };
 
     operator.pressure(a.view(), of_a.view_mut())?;
@@ -82,7 +82,7 @@ pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<
     operator.precondition(b.view(), Foundation::uniform(foundation, mean_stiffness), of_b.view_mut())?;
     holds("symmetry of precondition, ⟨a, M b⟩", product(&a, &of_b), product(&of_a, &b), soft)?;
     if found.descent <= 0.0 {
-        return Err(Error::Operator { property: "descent of precondition", found: found.descent, expected: 0.0 });
+        return Err(broken("descent of precondition", found.descent, 0.0));
     }
 
     operator.pressure(a.view(), of_a.view_mut())?;
@@ -140,10 +140,14 @@ pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<
         }
         let beyond = if inverse { quotient < bound * (1.0 - rounding) } else { quotient > bound * (1.0 + 1e-3) };
         if beyond {
-            return Err(Error::Operator { property, found: bound, expected: quotient });
+            return Err(broken(property, bound, quotient));
         }
     }
     Ok(())
+}
+
+fn broken(function: &'static str, value: f64, expected: f64) -> Error {
+    Error::Contract { function, value, place: Place::Grid, breach: Breach::Operator(expected) }
 }
 
 fn largest<T: Real>(field: &Array2<T>) -> f64 {

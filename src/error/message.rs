@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Error;
+use super::{Breach, Error, Place};
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -15,7 +15,7 @@ impl fmt::Display for Error {
             }
             Self::NotFinite { name, count, nodes, first, value } => {
                 let remedy = if value.is_nan() {
-                    "fill missing points first, as by surface::fill"
+                    "fill missing points first, as asperity_maps::fill does"
                 } else {
                     "an infinite value is not a missing point; correct it where it comes from"
                 };
@@ -25,66 +25,14 @@ impl fmt::Display for Error {
                     first.0, first.1
                 )
             }
-            Self::Law { function, gap, value, expected: None } => {
-                write!(f, "the {function} is {value} at a gap of {}: it must be finite at every gap", Short(*gap))
+            Self::Contract { function, value, place, breach } => {
+                write!(f, "the {function} is {}{place}", Short(*value))?;
+                let (other, rule) = breach.words(function);
+                other.map_or(Ok(()), |other| write!(f, ", and {}", Short(other)))?;
+                f.write_str(rule)
             }
-            Self::Law { function, gap, value, expected: Some(expected) } => write!(
-                f,
-                "the {function} is {} at a gap of {}, where the {} has the derivative {}: correct one of the two",
-                Short(*value),
-                Short(*gap),
-                if function.starts_with("slope") { "traction" } else { "energy" },
-                Short(*expected)
-            ),
-            Self::Concave { gap, traction, nearer } => write!(
-                f,
-                "the adhesive traction rises with the gap, from {} to {} at a gap of {}: the energy is not concave, \
-                 as its `hints` say",
-                Short(*nearer),
-                Short(*traction),
-                Short(*gap)
-            ),
-            Self::Jump { gap, fall } => write!(
-                f,
-                "the adhesive traction falls by {} at a gap of {}, and the edge of the adhesive zone would stay where an \
-                 iteration left it: give the law without its jump in `adapted`",
-                Short(*fall),
-                Short(*gap)
-            ),
-            Self::AtNode { function, node, gap, value, expected } => write!(
-                f,
-                "the {function} is {} at node {node} and a gap of {}, and {} by another function of the law: those of \
-                 many gaps give what those of one gap do, or the law has a `shape` in its `hints` and those of one gap are \
-                 of its strongest node",
-                Short(*value),
-                Short(*gap),
-                Short(*expected)
-            ),
-            Self::Operator { property, found, expected } => {
-                write!(f, "{property} is {}: it should be {}", Short(*found), Short(*expected))
-            }
-            Self::Wave { wave: (qx, qy), stiffness, opposite: None } => write!(
-                f,
-                "the stiffness of the wave (qx, qy) = ({}, {}) is {}: it must be positive and finite in the precision of \
-                 the fields",
-                Short(*qx),
-                Short(*qy),
-                Short(*stiffness)
-            ),
-            Self::Wave { wave: (qx, qy), stiffness, opposite: Some(opposite) } => write!(
-                f,
-                "the stiffness of the wave (qx, qy) = ({}, {}) is {}, and that of ({}, {}) is {}: the two are the same \
-                 wave, and have one stiffness",
-                Short(*qx),
-                Short(*qy),
-                Short(*stiffness),
-                Short(-qx),
-                Short(-qy),
-                Short(*opposite)
-            ),
             Self::Raised(cause) => write!(f, "{}", cause.0),
-            Self::Control { control, reason } => write!(f, "{control}: {reason}"),
-            Self::Wall { wall, reason } => write!(f, "{wall}: {reason}"),
+            Self::Unsuited { what, reason } => write!(f, "{what}: {reason}"),
             Self::Unaffordable { quantity, accuracy, shape, bytes, available, affordable } => {
                 write!(
                     f,
@@ -118,6 +66,47 @@ impl fmt::Display for Error {
             Self::Shared { what, reason } => write!(f, "{what} with several processes: {reason}"),
             Self::Elsewhere { rank } => write!(f, "process {rank} has refused its part: its own error says why"),
             Self::File { path, reason, .. } => write!(f, "{}: {reason}", path.display()),
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Gap(gap) => write!(f, " at a gap of {}", Short(gap)),
+            Self::Node(node, gap) => write!(f, " at node {node} and a gap of {}", Short(gap)),
+            Self::Wave(qx, qy) => write!(f, " for the wave (qx, qy) = ({}, {})", Short(qx), Short(qy)),
+            Self::Grid => Ok(()),
+        }
+    }
+}
+
+impl Breach {
+    /// The value that a function contradicts, and what follows it.
+    fn words(self, function: &str) -> (Option<f64>, &'static str) {
+        match self {
+            Self::Finite => (None, ": it must be finite at every gap"),
+            Self::Derivative(other) if function.starts_with("slope") => {
+                (Some(other), " as the derivative of the traction: correct one of the two")
+            }
+            Self::Derivative(other) => (Some(other), " as the derivative of the energy: correct one of the two"),
+            Self::Zero => (None, ": it must be 0, as the law is zero by its `hints`"),
+            Self::Concave(other) => (Some(other), " at a smaller one: the energy is not concave, as its `hints` say"),
+            Self::Jump(other) => (
+                Some(other),
+                " just below, and the edge of the adhesive zone would stay where an iteration left it: give the law \
+                 without its jump in `adapted`",
+            ),
+            Self::Alike(other) => (
+                Some(other),
+                " by another function of the law: those of many gaps give what those of one gap do, or the law has a \
+                 `shape` in its `hints` and those of one gap are of its strongest node",
+            ),
+            Self::Operator(other) => (Some(other), " in an operator that keeps its contract"),
+            Self::Stiff => (None, ": it must be positive and finite in the precision of the fields"),
+            Self::Even(other) => {
+                (Some(other), " for the opposite one: the two are the same wave, and have one stiffness")
+            }
         }
     }
 }

@@ -28,18 +28,22 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
     let needed = |row: usize| along_x[row].nodes;
     let heights = surface.grid().rows_for(surface.heights(), &grid, needed);
     let absent = surface.absent().map(|absent| surface.grid().rows_for(absent, &grid, needed));
-    let faces = |i, j| absent.as_ref().is_none_or(|absent| !absent.row(i)[j]);
     let mut coarse = Array2::zeros(grid.field_shape());
     par::for_each(par::chunks_mut(flat_mut(&mut coarse), shape.1), |i, row| {
         let x = along_x[grid.rows().start + i];
         let lines = x.nodes.map(|node| line(&heights, node));
         for (height, y) in row.iter_mut().zip(&along_y) {
-            let cubic = || x.cubic(|k| y.cubic(|l| lines[k][y.nodes[l]]));
-            *height = if faces(x.nodes[1], y.nodes[1]) { cubic() } else { f64::NAN };
+            *height = x.cubic(|k| y.cubic(|l| lines[k][y.nodes[l]]));
         }
     });
-    let some = grid.has(coarse.iter().any(|h| !h.is_nan()));
-    if some { Surface::with_absent(grid, coarse).map(Some) } else { Ok(None) }
+    let coarse = Surface::new(grid, coarse)?;
+    let Some(absent) = absent else { return Ok(Some(coarse)) };
+    let first = grid.rows().start;
+    let absent = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
+        absent.row(along_x[first + i].nodes[1])[along_y[j].nodes[1]]
+    });
+    let some = grid.has(absent.iter().any(|absent| !absent));
+    if some { coarse.with_absent(absent).map(Some) } else { Ok(None) }
 }
 
 /// A row of a field that this crate made.

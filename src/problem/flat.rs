@@ -44,7 +44,7 @@ pub(super) fn check_law<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid) -> Resul
     let at_zero = [("adhesive energy", law.energy(T::zero())), ("adhesive traction", law.traction(T::zero()))];
     let bounded = hints.rest.is_none_or(|rest| rest <= T::zero());
     match at_zero.into_iter().find(|(_, value)| bounded && !value.is_finite()) {
-        Some((function, value)) => Err(Error::Law { function, gap: 0.0, value: value.widen(), expected: None }),
+        Some((function, value)) => Err(Error::not_finite(function, 0.0, value.widen())),
         None => Ok(()),
     }
 }
@@ -97,8 +97,12 @@ impl<T: Real> PressedFlat<T> {
         let [datum, above] = whole.datum_and_mean();
         let mean = datum + above;
         let rms_height = whole.rms_about(mean);
-        // where nothing faces the body there is no height: those that stand there do not exceed the others
-        let (low, high) = surface.grid().extremes(range(flat(surface.heights())));
+        // where nothing faces the body there is no height
+        let faces = |(&height, absent): (&f64, &bool)| (!absent).then_some(height);
+        let facing: Option<Vec<_>> =
+            surface.absent().map(|absent| surface.heights().iter().zip(absent).filter_map(faces).collect());
+        let facing = facing.as_deref().unwrap_or_else(|| flat(surface.heights()));
+        let (low, high) = surface.grid().extremes(range(facing));
         let height_span = high - low;
         // a mean beyond the heights' own size is rounded more than the peak above it may be
         let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };
@@ -142,7 +146,7 @@ impl<T: Real> PressedFlat<T> {
 
     /// A control on the operator's grid, if the problem has it. A mean gap may only be negative without a wall.
     pub(crate) fn load(&self, control: Control, wall: Wall<'_, T>) -> Result<Load> {
-        let refused = |reason| Err(Error::Control { control: control.name(), reason });
+        let refused = |reason| Err(Error::Unsuited { what: control.name(), reason });
         let name = match control {
             Control::MeanGap(_) => "mean gap",
             Control::MeanPressure(_) => "mean pressure",

@@ -205,9 +205,10 @@ mod tests {
     /// A window of 3 × 4 nodes on 6 × 8, of which two are absent.
     fn window() -> Window {
         let grid = Grid::new((3, 4), (3.0, 4.0)).unwrap();
-        let mut heights = Array2::zeros((3, 4));
-        (heights[[0, 1]], heights[[2, 0]]) = (f64::NAN, f64::NAN);
-        Window::new(&Surface::with_absent(grid, heights).unwrap(), &Grid::new((6, 8), (1.0, 1.0)).unwrap()).unwrap()
+        let absent = Array2::from_shape_fn((3, 4), |node| node == (0, 1) || node == (2, 0));
+        let surface =
+            Surface::new(grid, Array2::zeros((3, 4))).and_then(|surface| surface.with_absent(absent)).unwrap();
+        Window::new(&surface, &Grid::new((6, 8), (1.0, 1.0)).unwrap()).unwrap()
     }
 
     #[test]

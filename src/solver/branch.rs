@@ -79,8 +79,8 @@ impl Branch {
         };
         let paper = settings.method == Method::Rey2017;
         if paper && wanted == Some(Self::Loading) {
-            return Err(Error::Control {
-                control: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
+            return Err(Error::Unsuited {
+                what: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
                 reason: "it starts from full contact: take the default method for the branch of loading",
             });
         }

@@ -45,7 +45,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             for (order, function) in ["adhesive energy", "adhesive traction"].into_iter().enumerate() {
                 law.evaluate(node, &[gap], Values::one(order, &mut value));
                 if !value[0].is_finite() {
-                    return Err(Error::Law { function, gap: gap.widen(), value: value[0].widen(), expected: None });
+                    return Err(Error::not_finite(function, gap.widen(), value[0].widen()));
                 }
             }
         }

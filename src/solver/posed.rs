@@ -46,8 +46,8 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         let unknown =
             flat.window.is_some() || self.load.stiffness() > 0.0 || self.constraint.wall().hardness().is_some();
         if self.settings.method == Method::Rey2017 && unknown {
-            return Err(Error::Control {
-                control: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
+            return Err(Error::Unsuited {
+                what: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
                 reason: "it knows neither springs nor absent nodes nor a free boundary nor a hardness: take the \
                          default method",
             });

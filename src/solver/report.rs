@@ -362,7 +362,7 @@ impl<T: Real> Solution<T> {
         }
         if self.report.wall != wall {
             let reason = "the solution was found with another wall: give the constraint of its solver";
-            return Err(Error::Wall { wall, reason });
+            return Err(Error::Unsuited { what: wall, reason });
         }
         self.check_law(problem.law)
     }

@@ -171,12 +171,12 @@ pub(crate) fn extrapolated<T: Real>(
 pub(crate) fn refuse_springs<T: Real>(wall: Wall<'_, T>) -> Result<()> {
     let reason = "the energy of springs is not in the report of a solution, so that jumps could not be told from work: \
                   take a rigid wall, or none with a law that repels";
-    if let Wall::Springs(_) = wall { Err(Error::Wall { wall: "springs", reason }) } else { Ok(()) }
+    if let Wall::Springs(_) = wall { Err(Error::Unsuited { what: "springs", reason }) } else { Ok(()) }
 }
 
 /// Refuses a wall that yields, where a state has to bear what it has borne before.
 pub(crate) fn refuse_hardness<T: Real>(wall: Wall<'_, T>, reason: &'static str) -> Result<()> {
-    wall.hardness().map_or(Ok(()), |_| Err(Error::Wall { wall: "a hardness", reason }))
+    wall.hardness().map_or(Ok(()), |_| Err(Error::Unsuited { what: "a hardness", reason }))
 }
 
 /// Refuses a mean pressure that a wall which yields everywhere cannot bear, beside what the law pulls there.
@@ -209,7 +209,7 @@ pub(crate) fn check_hardness<T: Real>(
 
 /// Refuses a law that is not made for a wall.
 pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -> Result<()> {
-    let (wall, reason) = match wall {
+    let (what, reason) = match wall {
         Wall::None if law.hints().rest.is_none() => (
             "no wall",
             "the adhesion law does not repel at every node, so that nothing would keep the surfaces apart: choose a wall",
@@ -221,5 +221,5 @@ pub(crate) fn check_wall<T: Real>(law: &dyn AdhesionLaw<T>, wall: Wall<'_, T>) -
         ),
         _ => return Ok(()),
     };
-    Err(Error::Wall { wall, reason })
+    Err(Error::Unsuited { what, reason })
 }

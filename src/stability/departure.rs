@@ -34,7 +34,7 @@ impl<T: Real> Stability<T> {
     /// distance. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
     ///
     /// # Errors
-    /// [`Error::Shape`], [`Error::Value`] or [`Error::Wall`] if the solution is of another problem, [`Error::Wall`]
+    /// [`Error::Shape`], [`Error::Value`] or [`Error::Unsuited`] if the solution is of another problem, [`Error::Unsuited`]
     /// for springs, and those of [`Solver::solve_with`].
     ///
     /// ```
@@ -78,7 +78,7 @@ impl<T: Real> Stability<T> {
         }
         if problem.flat.window.is_some() && from.report.approach.is_none() {
             let reason = "the energy of a load on a periodic surface with absent nodes is not in its report";
-            return Err(Error::Control { control: "departure", reason });
+            return Err(Error::Unsuited { what: "departure", reason });
         }
         let area = problem.flat.area;
         let energy = |solution: &Solution<T>| {

@@ -66,13 +66,12 @@ impl Surface {
         }
         let first = grid.rows().start;
         let mut heights = self.heights.clone();
-        for ((i, j), h) in heights.indexed_iter_mut() {
-            let across = (first + i, j);
-            let has = |absent: Option<&Array2<bool>>, node| absent.is_some_and(|absent| absent[node]);
-            let neither = !has(self.absent(), (i, j)) && !has(absent.as_ref(), across);
-            *h = if neither { *h + facing[across] } else { f64::NAN };
-        }
-        Self::with_absent(grid, heights)
+        heights.indexed_iter_mut().for_each(|((i, j), h)| *h += facing[(first + i, j)]);
+        let has = |absent: Option<&Array2<bool>>, node| absent.is_some_and(|absent| absent[node]);
+        let absent = Array2::from_shape_fn(heights.dim(), |(i, j)| {
+            has(self.absent(), (i, j)) || has(absent.as_ref(), (first + i, j))
+        });
+        Self::new(grid, heights)?.with_absent(absent)
     }
 }
 

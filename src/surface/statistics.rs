@@ -36,9 +36,6 @@ pub struct SurfaceStatistics {
     pub rms_curvature_differences: f64,
     /// Nayak's parameter α = m₀m₄/m₂², from the spectrum; see [`Spectrum::nayak`](crate::surface::Spectrum::nayak).
     pub nayak: f64,
-    /// The wavelength at which the spectrum flattens to a floor of noise, if it does; see
-    /// [`Spectrum::knee_wavelength`](crate::surface::Spectrum::knee_wavelength).
-    pub knee_wavelength: Option<f64>,
 }
 
 impl Surface {
@@ -75,7 +72,6 @@ impl Surface {
             rms_curvature: spectrum.rms_curvature(),
             rms_curvature_differences: if is_line(&self.grid) { laplacian } else { 0.5 * laplacian },
             nayak: spectrum.nayak(),
-            knee_wavelength: spectrum.knee_wavelength(),
         }
     }
 

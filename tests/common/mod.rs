@@ -13,6 +13,13 @@ use std::ops::ControlFlow;
 use asperity::*;
 use ndarray::Array2;
 
+/// A surface with absent nodes where heights are NaN, level there with the mean of the others.
+pub fn with_holes(grid: Grid, heights: Array2<f64>) -> Result<Surface> {
+    let (absent, mean) = (heights.mapv(f64::is_nan), asperity::surface::mean_of_finite(&heights));
+    let level = if mean.is_nan() { 0.0 } else { mean };
+    Surface::new(grid, heights.mapv(|height| if height.is_nan() { level } else { height }))?.with_absent(absent)
+}
+
 /// Solves from the default start, watching that the energy falls, and checks the solution's invariants.
 pub fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
     problem: &mut Problem<T, O, L>,

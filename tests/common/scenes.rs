@@ -16,6 +16,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
 use super::dense::{Dense, Held};
+use super::with_holes;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
@@ -496,7 +497,7 @@ impl Scene {
     }
 
     pub fn surface(&self) -> Surface {
-        Surface::with_absent(self.grid, self.heights.clone()).unwrap()
+        with_holes(self.grid, self.heights.clone()).unwrap()
     }
 
     pub fn operator<T: Real>(&self) -> Box<dyn ElasticOperator<T>> {

@@ -9,6 +9,8 @@ use asperity::nested::Level;
 use asperity::*;
 use ndarray::Array2;
 
+use crate::common::with_holes;
+
 fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
     Westergaard::new(grid, 1.0)
 }
@@ -313,7 +315,7 @@ fn what_cannot_be_had_is_refused_by_name() {
         assert!(matches!(error, Error::Value { name: "accuracy", .. }), "{error}");
     }
     let error = solve(&mut Accuracy::new(0.01, Quantity::Pressure)).unwrap_err();
-    assert!(matches!(error, Error::Control { control: "accuracy of the pressure", .. }), "{error}");
+    assert!(matches!(error, Error::Unsuited { what: "accuracy of the pressure", .. }), "{error}");
     assert!(
         Quantity::Gap.check(Control::MeanGap(0.1)).is_err() && Quantity::Gap.check(Control::Approach(0.1)).is_err()
     );
@@ -392,7 +394,7 @@ fn a_free_sphere_an_adhesive_one_and_a_line_have_accuracies_too() {
 #[test]
 fn what_is_known_on_one_grid_alone_is_not_refined() {
     let grid = Grid::square(32, 1.0).unwrap();
-    let punch = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
+    let punch = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
     let found =
         Accuracy::new(0.01, Quantity::Stiffness).solve(&punch, free, NoAdhesion, Control::Approach(0.01)).unwrap();
     assert!(!found.reached && found.unaffordable.is_none());

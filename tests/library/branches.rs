@@ -173,7 +173,7 @@ fn the_branch_follows_the_load_unless_it_is_given() {
     let mut paper = Solver::new(Settings::rey2017().criterion(Criterion::Complementarity).tolerance(1e-6));
     assert_eq!(paper.solve(&mut problem, pressure(0.01)).unwrap().report.branch, None);
     paper.settings.branch = loading;
-    assert!(matches!(paper.solve(&mut problem, pressure(0.01)), Err(Error::Control { .. })));
+    assert!(matches!(paper.solve(&mut problem, pressure(0.01)), Err(Error::Unsuited { .. })));
     let found = ContactSearch::new(&mut Solver::default(), &mut problem).unwrap().at(0.2).unwrap();
     assert_eq!(found.solution.report.branch, loading);
     let nested = Nested::default().coarsest(16);

@@ -432,8 +432,8 @@ fn the_checker_of_constraints_names_the_function_that_is_wrong() {
         check_constraint::<f64>(&Uzawa::new(50.0).unwrap(), 9, depth).unwrap();
         check_constraint(&Spoiled(1.0, 1.0), 1, depth).unwrap();
         match check_constraint(&Spoiled(1.0, 1.1), 1, depth) {
-            Err(error @ Error::Law { function: "traction of the springs", .. }) => {
-                assert!(error.to_string().contains("where the energy has the derivative"), "{error}");
+            Err(error @ Error::Contract { function: "traction of the springs", .. }) => {
+                assert!(error.to_string().contains("as the derivative of the energy"), "{error}");
             }
             other => panic!("{other:?}"),
         }

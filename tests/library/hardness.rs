@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow::{Break, Continue};
 
 use crate::common::dense::Dense;
-use crate::common::{rough, sphere};
+use crate::common::{rough, sphere, with_holes};
 use approx::assert_relative_eq;
 use asperity::path::{Path, PathSettings};
 use asperity::*;
@@ -462,7 +462,7 @@ fn every_law_control_body_and_precision_works_with_it() {
     let sphere = Surface::paraboloid(grid, 2.0).unwrap();
     let mut heights = sphere.heights().clone();
     heights.iter_mut().step_by(7).for_each(|h| *h = f64::NAN);
-    let holes = Surface::with_absent(grid, heights).unwrap();
+    let holes = with_holes(grid, heights).unwrap();
     let mut problem = Problem::new(&holes, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let periodic = capped(0.05, 1e-6).solve(&mut problem, Control::MeanPressure(5e-4)).unwrap();
     let mut problem = Problem::new(&holes, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
@@ -560,7 +560,7 @@ fn what_has_no_meaning_is_refused_by_name() {
     let other = Solver { settings: Settings::default(), constraint }.solve(&mut problem, control);
     assert!(matches!(other, Err(Error::Shape { name: "hardness", .. })));
     let paper = Solver { settings: Settings::rey2017(), constraint: Hardness::new(0.1).unwrap() };
-    assert!(matches!({ paper }.solve(&mut problem, control), Err(Error::Control { .. })));
+    assert!(matches!({ paper }.solve(&mut problem, control), Err(Error::Unsuited { .. })));
     // attraction that crushes each contact
     let law = Exponential::new(1e-3, 1e-3).unwrap();
     let crushed = capped(0.5, 1e-6).solve(&mut sphere::<f64, _>(64, law), control);
@@ -568,7 +568,7 @@ fn what_has_no_meaning_is_refused_by_name() {
     // an equilibrium that is not one of an energy
     let solution = capped(0.02, 1e-6).solve(&mut problem, Control::MeanPressure(3e-4)).unwrap();
     let stable = stability::StabilityTest::default().run_with(&mut problem, &Hardness::new(0.02).unwrap(), &solution);
-    assert!(matches!(stable, Err(Error::Wall { .. })));
+    assert!(matches!(stable, Err(Error::Unsuited { .. })));
     assert!(matches!(problem.flatten(Array2::from_elem((64, 64), -1.0).view()), Err(Error::Value { .. })));
     assert!(matches!(problem.flatten(Array2::zeros((64, 63)).view()), Err(Error::Shape { .. })));
 }

@@ -8,6 +8,8 @@ use asperity::exact::{self, AdhesiveWavyLine, Sphere};
 use asperity::*;
 use ndarray::Array2;
 
+use crate::common::with_holes;
+
 /// The wave of Johnson: its amplitude, and the work of adhesion at α = 0.3.
 const AMPLITUDE: f64 = 0.01;
 const ALPHA: f64 = 0.3;
@@ -194,7 +196,7 @@ fn a_flat_punch_and_a_cone_come_off_as_they_do_in_the_limit() {
         let heights = grid.sample(|x, y| if x.hypot(y) <= 0.25 { 0.0 } else { f64::NAN });
         let nodes = heights.iter().filter(|height| height.is_finite()).count() as f64;
         let radius = (nodes / PI).sqrt() * side / n as f64;
-        on(n, &Surface::with_absent(grid, heights).unwrap()) / (8.0 * PI * work * radius.powi(3)).sqrt()
+        on(n, &with_holes(grid, heights).unwrap()) / (8.0 * PI * work * radius.powi(3)).sqrt()
     });
     // F = ½πE*m a² − √(8πwE*a³), least where a = 18w/(πE*m²)
     let slope = 0.2;
@@ -264,7 +266,7 @@ fn surfaces_need_a_wall() {
     let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
     let mut problem = Problem::new(&surface, half_space, Jkr::new(1e-4).unwrap()).unwrap();
     let mut solver = Solver { settings: Settings::default(), constraint: NoWall };
-    assert!(matches!(solver.solve(&mut problem, Control::MeanGap(0.02)), Err(Error::Wall { wall: "no wall", .. })));
+    assert!(matches!(solver.solve(&mut problem, Control::MeanGap(0.02)), Err(Error::Unsuited { what: "no wall", .. })));
 }
 
 #[test]

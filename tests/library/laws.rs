@@ -295,7 +295,7 @@ fn flats_that_a_law_keeps_apart_are_stable_by_its_slope() {
         let exact = std::f64::consts::PI + AdhesionLaw::<f64>::slope(&law, gap);
         assert_eq!(found.verdict, if exact > 0.0 { Verdict::Stable } else { Verdict::Unstable });
         assert!((found.eigenvalue - exact).abs() < 1e-3, "{} {exact}", found.eigenvalue);
-        assert!(matches!(test.run(&mut problem, &solution), Err(Error::Wall { wall: "rigid", .. })));
+        assert!(matches!(test.run(&mut problem, &solution), Err(Error::Unsuited { what: "rigid", .. })));
     }
 }
 
@@ -305,7 +305,7 @@ fn laws_walls_and_grids_that_do_not_fit_are_refused_by_name() {
     let surface = Surface::paraboloid(grid, 2.0).unwrap();
     let control = Control::MeanPressure(1e-3);
     let wall = |found: Result<Solution<f64>>| match found {
-        Err(Error::Wall { wall, .. }) => wall,
+        Err(Error::Unsuited { what: wall, .. }) => wall,
         other => panic!("{other:?}"),
     };
     let mut plain = Problem::new(&surface, half_space.clone(), Exponential::new(1e-4, 1e-2).unwrap()).unwrap();

@@ -192,10 +192,10 @@ fn springs_and_laws_that_do_not_repel_are_refused_on_a_path() {
     let loads = || [0.05, 0.02].map(Control::MeanGap);
     let mut springs = Solver { settings: Settings::default(), constraint: Penalty::new(10.0).unwrap() };
     let refused = Path::new(&mut springs, &mut problem, loads(), PathSettings::default());
-    assert!(matches!(refused, Err(Error::Wall { wall: "springs", .. })), "{refused:?}");
+    assert!(matches!(refused, Err(Error::Unsuited { what: "springs", .. })), "{refused:?}");
     let mut nothing = without_wall(1e-6);
     let refused = Path::new(&mut nothing, &mut problem, loads(), PathSettings::default());
-    assert!(matches!(refused, Err(Error::Wall { wall: "no wall", .. })), "{refused:?}");
+    assert!(matches!(refused, Err(Error::Unsuited { what: "no wall", .. })), "{refused:?}");
 }
 
 /// The pull-off force of a sphere with Lennard-Jones on a free half-space, over πwR.

@@ -363,7 +363,9 @@ fn the_checker_names_what_is_broken() {
         (5, "stiffest stiffness"),
     ] {
         match broken(kind) {
-            Err(Error::Operator { property, .. }) => assert!(property.starts_with(named), "{kind}: {property}"),
+            Err(Error::Contract { function: property, .. }) => {
+                assert!(property.starts_with(named), "{kind}: {property}")
+            }
             other => panic!("{kind}: {other:?}"),
         }
     }

@@ -99,9 +99,9 @@ fn what_bears_no_tension_is_refused_and_a_search_that_is_stopped_says_so() {
     let law = Exponential::new(1e-4, 4e-3).unwrap();
     let default = PullOff::default();
     let refused = default.find(&mut Solver::default(), &mut rough(NoAdhesion)).unwrap_err();
-    assert!(matches!(refused, Error::Control { control: "pull-off", .. }), "{refused}");
+    assert!(matches!(refused, Error::Unsuited { what: "pull-off", .. }), "{refused}");
     let springs = &mut Solver { settings: Settings::default(), constraint: Penalty::new(100.0).unwrap() };
-    assert!(matches!(default.find(springs, &mut rough(law)), Err(Error::Wall { wall: "springs", .. })));
+    assert!(matches!(default.find(springs, &mut rough(law)), Err(Error::Unsuited { what: "springs", .. })));
     for tolerance in [0.0, 1.0, f64::NAN] {
         let refused = default.tolerance(tolerance).find(&mut Solver::default(), &mut rough(law));
         assert!(matches!(refused, Err(Error::Value { name: "tolerance of the pull-off", .. })));

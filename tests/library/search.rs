@@ -174,7 +174,7 @@ fn what_cannot_be_searched_for_is_refused() {
     let law = Morse::new(1e-4, 4e-3).unwrap();
     let mut repelled = rough::<f64, _>(16, 6, law);
     let refused = ContactSearch::new(&mut without, &mut repelled);
-    assert!(matches!(refused, Err(Error::Control { control: "contact-fraction", .. })));
+    assert!(matches!(refused, Err(Error::Unsuited { what: "contact-fraction", .. })));
     let flat = Surface::new(Grid::square(16, 1.0).unwrap(), ndarray::Array2::zeros((16, 16))).unwrap();
     let half_space = Westergaard::<f64>::new(*flat.grid(), 1.0).unwrap();
     let mut flat = Problem::new(&flat, half_space, NoAdhesion).unwrap();

@@ -380,8 +380,14 @@ fn impossible_inputs_are_refused_by_name() {
     let surface = Surface::paraboloid(grid, 2.0).unwrap();
     for (work, range) in [(1e60, 1e-3), (1e-4, 1e-60)] {
         let laws = (Exponential::new(work, range).unwrap(), MaugisDugdale::new(work, range).unwrap());
-        assert!(matches!(Problem::new(&surface, single.clone(), laws.0), Err(Error::Law { .. })), "{work} {range}");
-        assert!(matches!(Problem::new(&surface, single.clone(), laws.1), Err(Error::Law { .. })), "{work} {range}");
+        assert!(
+            matches!(Problem::new(&surface, single.clone(), laws.0), Err(Error::Contract { .. })),
+            "{work} {range}"
+        );
+        assert!(
+            matches!(Problem::new(&surface, single.clone(), laws.1), Err(Error::Contract { .. })),
+            "{work} {range}"
+        );
         assert!(
             Problem::new(&surface, operator(), laws.0).is_ok() && Problem::new(&surface, operator(), laws.1).is_ok()
         );

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{rough, sphere};
+use crate::common::{rough, sphere, with_holes};
 use asperity::adhesion::{CutOff, Varying};
 use asperity::contact::{ContactArea, ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
@@ -293,7 +293,7 @@ fn the_area_is_the_same_bits_however_the_fields_lie() {
     let of_map = ContactArea::of(map.view(), &grid).unwrap().corrected_contact_fraction;
     assert_eq!(found.corrected_contact_fraction, of_map);
     // where the surface ends, or the window, there is no edge
-    let holed = Surface::with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
+    let holed = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
     let mut punch = Problem::new(&holed, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let solution = Solver::default().solve(&mut punch, Control::Approach(0.01)).unwrap();
     let found = ContactStatistics::of(&solution, &NoAdhesion).unwrap();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{rough, solve, solve_from, sphere};
+use crate::common::{rough, solve, solve_from, sphere, with_holes};
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::*;
 
@@ -10,7 +10,7 @@ const PUNCH: f64 = 0.3;
 
 fn punch(grid: Grid) -> Surface {
     let heights = grid.sample(|x, y| if x.hypot(y) < PUNCH { 0.0 } else { f64::NAN });
-    Surface::with_absent(grid, heights).unwrap()
+    with_holes(grid, heights).unwrap()
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn springs_and_laws_without_a_wall_resist_with_their_slopes() {
     assert!((found.pressure_per_length / expected - 1.0).abs() < 1e-3, "{found:?} {expected}");
     // a solution of springs is none of a rigid wall
     let error = ContactStiffness::of(&mut pressed, &solution).unwrap_err();
-    assert!(matches!(error, Error::Wall { wall: "rigid", .. }), "{error}");
+    assert!(matches!(error, Error::Unsuited { what: "rigid", .. }), "{error}");
 
     let mut soft = Problem::new(&surface, half_space(), LennardJones::new(1e-3, 5e-3).unwrap()).unwrap();
     let mut no_wall = Solver { settings: tight, constraint: NoWall };

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use asperity::{Error, Grid, Surface};
-use asperity_maps::Topography;
 use asperity_maps::io::{read_rows, read_topography};
+use asperity_maps::{Topography, surface_with_absent};
 use asperity_scene::{Skin, in_unit, worded};
 use ndarray::Array2;
 
@@ -119,7 +119,7 @@ pub fn shared(
     let (grid, map, unit) = processes.agree(read())?;
     let (grid, origin) = (processes.share(grid)?, Origin::of(&map, unit));
     let heights = map.heights;
-    let surface = if absent { Surface::with_absent(grid, heights) } else { Surface::new(grid, heights) };
+    let surface = if absent { surface_with_absent(grid, heights) } else { Surface::new(grid, heights) };
     match surface {
         Ok(surface) => Ok((surface, origin)),
         Err(error @ Error::Elsewhere { .. }) => Err(error.into()),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
-use asperity_maps::Topography;
+use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::{Skin, statistics};
 use clap::Args;
 use serde_json::Map;
@@ -73,7 +73,10 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         file.write(|path| write_text(path, &text))?;
         file.commit()?;
     }
-    let found = surface.map_or_else(|| map.statistics(), |surface| Ok(surface.statistics()))?;
+    let found = match &surface {
+        Some(surface) => (surface.statistics(), knee_wavelength(surface)),
+        None => (map.statistics()?, None),
+    };
     options.printing.say(&table(&map, &found));
     options.printing.report(|| {
         let version = Map::from_iter([("version".to_owned(), env!("CARGO_PKG_VERSION").into())]);
@@ -83,7 +86,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
 }
 
 /// The statistics of a map, one to a line.
-pub fn table(map: &Topography, found: &SurfaceStatistics) -> String {
+pub fn table(map: &Topography, found: &(SurfaceStatistics, Option<f64>)) -> String {
     let rows = statistics::rows(map, found, Skin::Options);
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     let lines = rows.iter().map(|(name, value)| format!("{name:width$}  {value}"));

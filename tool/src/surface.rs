@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 
 use asperity::{Grid, SelfAffine};
-use asperity_maps::Topography;
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
+use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::{Body, BodyForm, Roughness, statistics};
 use clap::{ArgGroup, Args};
 use serde_json::json;
@@ -170,7 +170,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     }
     scene.written_beside(&options.out)?.commit_after(files)?;
     // what is absent has no statistics
-    let ((nx, ny), found) = (shape, (absent == 0).then(|| surface.statistics()));
+    let ((nx, ny), found) = (shape, (absent == 0).then(|| (surface.statistics(), knee_wavelength(&surface))));
     options.printing.say(&match &found {
         Some(found) => table(&map, found),
         None => format!("{nx} x {ny} nodes, {absent} of them absent"),

@@ -1,9 +1,9 @@
 //! The engine: a map, the surface that is made of it, and the solves on that.
 
 use asperity::Grid;
-use asperity_maps::Topography;
 use asperity_maps::io::{channels, check_memory, map_as_npz, read_bytes};
 use asperity_maps::warning::Warning;
+use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{Body, Log, Preparation, Roughness, Skin, statistics};
@@ -204,8 +204,8 @@ impl Engine {
         let histogram = Histogram::of(map.heights.iter().copied(), 60);
         let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
         let found = match &surface {
-            Some(surface) => Some(surface.statistics()),
-            None if map.missing() == 0 => Some(map.statistics()?),
+            Some(surface) => Some((surface.statistics(), knee_wavelength(surface))),
+            None if map.missing() == 0 => Some((map.statistics()?, None)),
             None => None,
         };
         let spectrum = surface.map(|surface| {

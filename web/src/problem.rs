@@ -3,7 +3,7 @@
 use asperity::contact::Original;
 use asperity::path::PathSettings;
 use asperity::{Control, Grid, Surface};
-use asperity_maps::Topography;
+use asperity_maps::{Topography, surface_with_absent};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::quantity::{LENGTH, PRESSURE};
 use asperity_scene::units::Units;
@@ -306,6 +306,6 @@ fn surface(
         .into());
     }
     let grid = Grid::new(map.heights.dim(), sides)?;
-    let make = if absent { Surface::with_absent } else { Surface::new };
+    let make = if absent { surface_with_absent } else { Surface::new };
     Ok((make(grid, map.heights)?, from))
 }

@@ -5,10 +5,11 @@ use std::ops::Range;
 
 use ndarray::{Array2, Axis};
 
-use asperity::surface::{SurfaceStatistics, fill, low_pass, mean_of_finite, mirror, resample, rms_slope};
+use asperity::surface::{SurfaceStatistics, low_pass, mean_of_finite, mirror, resample, rms_slope};
 use asperity::{Error, Grid, Result, Surface};
 
 mod despike;
+mod fill;
 mod form;
 mod missing;
 mod rows;
@@ -18,6 +19,7 @@ mod tests;
 mod trend;
 
 pub use despike::Spikes;
+pub use fill::{fill, surface_with_absent};
 pub use form::{Form, FormFit};
 pub(crate) use rows::LineSteps;
 pub use rows::{RowAlignment, ScanAxis};
@@ -260,7 +262,7 @@ impl Topography {
     }
 
     /// The statistics of the map as a surface, periodic as it stands; slopes, curvatures and Nayak's parameter are NaN
-    /// where the side lengths are unknown, and no knee of the spectrum is.
+    /// where the side lengths are unknown.
     ///
     /// # Errors
     /// [`Error::NotFinite`] if heights are missing, [`Error::Value`] if the side lengths are no lengths.
@@ -281,7 +283,6 @@ impl Topography {
         ] {
             *unknown = f64::NAN;
         }
-        found.knee_wavelength = None;
         Ok(found)
     }
 
@@ -293,14 +294,14 @@ impl Topography {
         Surface::new(self.grid()?, self.heights)
     }
 
-    /// The surface, periodic as it stands, with the missing points as absent nodes: [`Surface::with_absent`]. Infinite
+    /// The surface, periodic as it stands, with the missing points as absent nodes: [`surface_with_absent`]. Infinite
     /// heights are missing, too.
     ///
     /// # Errors
     /// [`Error::Value`] if the side lengths are unknown or no lengths, or if all heights are missing.
     pub fn surface_with_absent(mut self) -> Result<Surface> {
         self.heights.mapv_inplace(|h| if h.is_finite() { h } else { f64::NAN });
-        Surface::with_absent(self.grid()?, self.heights)
+        surface_with_absent(self.grid()?, self.heights)
     }
 
     /// Refuses missing heights.

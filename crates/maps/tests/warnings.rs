@@ -2,7 +2,7 @@
 
 use asperity::*;
 use asperity_maps::warning::{Warning, WarningCode};
-use asperity_maps::{ScanAxis, Topography, Trend};
+use asperity_maps::{ScanAxis, Topography, Trend, surface_with_absent};
 use ndarray::Array2;
 
 const SIDES: (f64, f64) = (1.0, 0.8);
@@ -142,7 +142,7 @@ fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
         let cone = grid.sample(|x, y| -0.1 * x.hypot(y));
         let punch = grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN });
         for (k, body) in [paraboloid, sphere_beside_the_middle, cone, punch].into_iter().enumerate() {
-            let found = codes(&Surface::with_absent(grid, body).unwrap());
+            let found = codes(&surface_with_absent(grid, body).unwrap());
             assert!(found.contains(&"ends"), "{k} {n}: {found:?}");
         }
         let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(0.4 * n as f64).amplitude(Amplitude::RmsHeight(0.002));
@@ -151,7 +151,7 @@ fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
         // in the hole of a surface that goes on
         let hole =
             grid.sample(|x, y| if x.hypot(y) > 0.6 { f64::NAN } else { 0.01 * (std::f64::consts::TAU * x).sin() });
-        assert!(!codes(&Surface::with_absent(grid, hole).unwrap()).contains(&"ends"), "hole {n}");
+        assert!(!codes(&surface_with_absent(grid, hole).unwrap()).contains(&"ends"), "hole {n}");
     }
     let message = Warning::of_surface(&Surface::paraboloid(Grid::square(64, 1.0).unwrap(), 2.0).unwrap())[0].message();
     // −(31/64)²/4 against −1/24 on average, and slopes of 63/256 and 61/256 on the two sides

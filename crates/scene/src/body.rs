@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use asperity::{Amplitude, Error, Grid, Result, SelfAffine, Surface};
+use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 use serde::Deserialize;
 
@@ -88,7 +89,7 @@ impl Body {
         if let Some(roughness) = roughness {
             heights += roughness.heights();
         }
-        Surface::with_absent(grid, heights)
+        surface_with_absent(grid, heights)
     }
 
     /// The heights of the body, NaN beyond it.

@@ -94,7 +94,7 @@ static BODIES: [Kind; 3] = [
         takes: &[],
         make: |elastic| match &elastic.symbol {
             Some(symbol) => Ok(Arc::new(symbol.clone())),
-            None => Err(Error::Control { control: "symbol", reason: "give the stiffness of waves" }),
+            None => Err(Error::Unsuited { what: "symbol", reason: "give the stiffness of waves" }),
         },
     },
 ];

@@ -73,7 +73,7 @@ impl<T: Real> Posed<T> {
     /// surface.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`] and [`Problem::new`]; [`Error::Control`] for a problem that was refused before.
+    /// Those of [`Elastic::operator`] and [`Problem::new`]; [`Error::Unsuited`] for a problem that was refused before.
     pub fn parts(&mut self) -> Result<(&mut Solver<Constraint<T>>, &mut Problem<T>)> {
         if let Body::Surface(surface) = &self.body {
             let operator = self.elastic.operator(*surface.grid())?;
@@ -99,7 +99,7 @@ impl<T: Real> Posed<T> {
     /// The surface, before the first solve.
     ///
     /// # Errors
-    /// [`Error::Control`] after it.
+    /// [`Error::Unsuited`] after it.
     pub fn surface(&self) -> Result<&Arc<Surface>> {
         if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
     }
@@ -107,7 +107,7 @@ impl<T: Real> Posed<T> {
     /// The slopes of the surface, before the first solve; those of a shared one are the first process's, and all ask.
     ///
     /// # Errors
-    /// [`Error::Control`] after it.
+    /// [`Error::Unsuited`] after it.
     pub fn slopes(&mut self) -> Result<Slopes> {
         self.slopes = Slopes::of(self.surface()?, self.elastic.boundary);
         Ok(self.slopes)
@@ -126,7 +126,7 @@ impl<T: Real> Posed<T> {
     /// The seconds that an operator application takes here and now, before the first solve.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`] and of the operator; [`Error::Control`] after the first solve.
+    /// Those of [`Elastic::operator`] and of the operator; [`Error::Unsuited`] after the first solve.
     pub fn seconds_of_application(&self) -> Result<f64> {
         seconds_of(&mut self.elastic.operator::<T>(*self.surface()?.grid())?)
     }
@@ -275,5 +275,5 @@ impl<T: Real> Posed<T> {
 
 /// A problem that could not be made the first time cannot be made the second time.
 fn spent() -> Error {
-    Error::Control { control: "problem", reason: "it was refused before: make it anew" }
+    Error::Unsuited { what: "problem", reason: "it was refused before: make it anew" }
 }

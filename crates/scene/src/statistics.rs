@@ -11,8 +11,8 @@ use crate::quantity::{Dimension, LENGTH, PER_LENGTH};
 use crate::units::Units;
 use crate::words::{Skin, worded};
 
-/// The statistics of the map in a file, by name.
-pub fn figures(map: &Topography, found: &SurfaceStatistics, heights: &Path) -> Value {
+/// The statistics of the map in a file, and the wavelength of the knee of its spectrum, by name.
+pub fn figures(map: &Topography, (found, knee): &(SurfaceStatistics, Option<f64>), heights: &Path) -> Value {
     json!({
         "heights": heights.to_string_lossy(),
         "shape": map.heights.dim(),
@@ -30,13 +30,17 @@ pub fn figures(map: &Topography, found: &SurfaceStatistics, heights: &Path) -> V
         "rms_curvature": found.rms_curvature,
         "rms_curvature_differences": found.rms_curvature_differences,
         "nayak": found.nayak,
-        "knee_wavelength": found.knee_wavelength,
+        "knee_wavelength": knee,
     })
 }
 
 /// The statistics of a map for people: their names and texts, in the words of a skin, with the unit of length if it is
 /// known. Of a mirrored map they are those of all nodes.
-pub fn rows(map: &Topography, found: &SurfaceStatistics, skin: Skin) -> Vec<(&'static str, String)> {
+pub fn rows(
+    map: &Topography,
+    (found, knee): &(SurfaceStatistics, Option<f64>),
+    skin: Skin,
+) -> Vec<(&'static str, String)> {
     let ((nx, ny), unit) = (map.heights.dim(), map.unit.as_deref());
     // Shape and Nayak's parameter have no meaning on a flat surface.
     let units = Units::of_map(unit);
@@ -69,9 +73,9 @@ pub fn rows(map: &Topography, found: &SurfaceStatistics, skin: Skin) -> Vec<(&'s
     ] {
         rows.push((name, number(value, dimension)));
     }
-    if let Some(knee) = found.knee_wavelength {
+    if let Some(knee) = knee {
         let remedy = worded("shorter waves are noise, which {prepare:cut_off_wavelength} leaves out", skin);
-        rows.push(("knee of the spectrum", format!("{}: {remedy}", units.number(knee, LENGTH))));
+        rows.push(("knee of the spectrum", format!("{}: {remedy}", units.number(*knee, LENGTH))));
     }
     rows
 }

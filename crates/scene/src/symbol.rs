@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use asperity::elastic::Body;
-use asperity::{Error, Grid, Result};
+use asperity::{Breach, Error, Grid, Place, Result};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -86,7 +86,7 @@ impl Symbol {
     /// The body for the waves of a grid, of which the function is asked at once.
     ///
     /// # Errors
-    /// [`Error::Wave`] for a stiffness that is not positive and finite, or not even; those of the function.
+    /// [`Error::Contract`] for a stiffness that is not positive and finite, or not even; those of the function.
     pub(crate) fn on(&self, grid: &Grid) -> Result<impl Body + use<>> {
         let waves = Waves::of(grid);
         let mut known = Vec::with_capacity(waves.count());
@@ -94,16 +94,19 @@ impl Symbol {
             let last = waves.count().min(first + MOST - 1);
             let (qx, qy): (Vec<f64>, Vec<f64>) = (first..=last).map(|number| waves.wave(number)).unzip();
             let stiffness = self.0.at(&qx, &qy)?;
-            let wrong = |k: usize, opposite| Error::Wave { wave: (qx[k], qy[k]), stiffness: stiffness[k], opposite };
+            let wrong = |k: usize, breach| {
+                let place = Place::Wave(qx[k], qy[k]);
+                Error::Contract { function: "stiffness", value: stiffness[k], place, breach }
+            };
             if let Some(k) = stiffness.iter().position(|&k| !(k > 0.0 && k.is_finite())) {
-                return Err(wrong(k, None));
+                return Err(wrong(k, Breach::Stiff));
             }
             if !self.0.is_isotropic() {
                 let [qx, qy] = [&qx, &qy].map(|q| q.iter().map(|q| -q).collect::<Vec<_>>());
                 let opposite = self.0.at(&qx, &qy)?;
                 let is_even = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING * a;
                 if let Some(k) = stiffness.iter().zip(&opposite).position(|pair| !is_even(pair)) {
-                    return Err(wrong(k, Some(opposite[k])));
+                    return Err(wrong(k, Breach::Even(opposite[k])));
                 }
             }
             known.extend(stiffness);

@@ -41,7 +41,7 @@ fn the_checker_names_the_function_that_is_wrong() {
         (Spoiled(f64::INFINITY, 1.0, 1.0), "adhesive energy"),
     ] {
         match check_law(&law, 5.0) {
-            Err(Error::Law { function, .. }) => assert_eq!(function, wrong),
+            Err(Error::Contract { function, .. }) => assert_eq!(function, wrong),
             other => panic!("{other:?}"),
         }
     }
@@ -77,8 +77,7 @@ fn a_law_that_is_not_concave_may_not_say_so() {
         }
     }
     let error = check_law(&Humped, 5.0).unwrap_err();
-    let Error::Concave { gap, traction, nearer } = error else { panic!("{error}") };
-    assert_eq!((gap, traction, nearer), (0.025, Humped.traction(0.025), 0.0));
+    assert_eq!(error, broken(1, Humped.traction(0.025), Place::Gap(0.025), Breach::Concave(0.0)));
 }
 
 /// A law that varies, with a part of what it should say.
@@ -122,16 +121,18 @@ fn the_checker_names_what_a_law_by_node_does_not_say() {
     check_law(&dugdale(), 3.0).unwrap();
     // the edge of the adhesive zone would stay where an iteration left it
     let error = check_law(&Part { adapts: false, ..dugdale() }, 3.0).unwrap_err();
-    assert!(matches!(error, Error::Jump { gap: 1.0, fall: 1.0 }), "{error}");
+    assert_eq!(error, broken(1, 0.0, Place::Gap(1.0), Breach::Jump(1.0)));
     // it could not be solved on nested grids
     let error = check_law(&Part { adapts: false, ..exponential() }, 3.0).unwrap_err();
     assert!(matches!(error, Error::Shape { expected: (4, 3), .. }), "{error}");
     // it would be taken for the same everywhere
     let error = check_law(&Part { shape: None, ..exponential() }, 3.0).unwrap_err();
-    let Error::AtNode { node, value, expected, .. } = error else { panic!("{error}") };
-    assert!(node == 1 && (value / expected - 0.25).abs() < 1e-12, "{node} {value} {expected}");
+    let Error::Contract { value, place: Place::Node(1, _), breach: Breach::Alike(expected), .. } = error else {
+        panic!("{error}")
+    };
+    assert!((value / expected - 0.25).abs() < 1e-12, "{value} {expected}");
     let weaker = check_law(&Part { share: 0.5, ..exponential() }, 3.0).unwrap_err();
-    assert!(matches!(weaker, Error::AtNode { node: 0, value: -1.0, expected: -0.5, .. }), "{weaker}");
+    assert_eq!(weaker, broken(0, -1.0, Place::Node(0, 0.0), Breach::Alike(-0.5)));
 }
 
 #[test]
@@ -153,5 +154,5 @@ fn the_checker_names_values_that_depend_on_where_the_slices_end() {
         }
     }
     let error = check_law(&Counted(Exponential::new(1.0, 1.0).unwrap()), 3.0).unwrap_err();
-    assert!(matches!(error, Error::AtNode { node: 0, .. }), "{error}");
+    assert!(matches!(error, Error::Contract { place: Place::Node(0, _), .. }), "{error}");
 }

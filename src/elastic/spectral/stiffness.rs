@@ -7,7 +7,7 @@ use asperity_fft::num_complex::Complex;
 use ndarray::Array2;
 
 use super::Symbol;
-use crate::error::{Error, Result};
+use crate::error::{Breach, Error, Place, Result};
 use crate::fft::{Layout, Sums};
 use crate::field::flat;
 use crate::grid::Grid;
@@ -132,7 +132,8 @@ pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns
         let value = if nyquist { 0.5 * (symbol(qx, qy) + symbol(-qx, qy)) } else { symbol(qx, qy) };
         let rounded = T::lit(value);
         if !(rounded > T::zero() && rounded.is_finite()) {
-            wrong.get_or_insert(Error::Wave { wave: (qx, qy), stiffness: value, opposite: None });
+            let (function, place, breach) = ("stiffness", Place::Wave(qx, qy), Breach::Stiff);
+            wrong.get_or_insert(Error::Contract { function, value, place, breach });
         }
         rounded
     });

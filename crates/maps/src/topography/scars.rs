@@ -3,11 +3,10 @@
 use ndarray::{Array2, ArrayView2};
 
 use asperity::contact::Clusters;
-use asperity::surface::fill;
 use asperity::{Error, Result};
 
 use super::despike::PER_MEDIAN;
-use super::{ScanAxis, Topography, median};
+use super::{ScanAxis, Topography, fill, median};
 
 /// The least number of nodes of a scar along its line, and the most lines that it has, as by default in Gwyddion.
 const LENGTH: usize = 16;

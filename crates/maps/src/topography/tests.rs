@@ -305,7 +305,7 @@ fn what_cannot_be_is_refused() {
         [map.clone().window(0.1).map(drop), map.clone().resample((9, 9)).map(drop), map.clone().surface().map(drop)]
     {
         let Err(Error::NotFinite { count: 1, nodes: 30, first: (4, 2), .. }) = result else { panic!("{result:?}") };
-        assert!(result.unwrap_err().to_string().contains("surface::fill"));
+        assert!(result.unwrap_err().to_string().contains("asperity_maps::fill"));
     }
     let full = map.clone().fill().unwrap();
     assert!(matches!(full.clone().resample((0, 3)), Err(Error::Value { .. })));

@@ -1,9 +1,11 @@
 //! Missing heights, filled by a membrane: the discrete Laplace equation, solved by multigrid.
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis, Slice};
 
-use super::mean_of_finite;
-use crate::error::{Error, Result};
+use asperity::surface::mean_of_finite;
+use asperity::{Error, Grid, Result, Surface};
+
+use super::Topography;
 
 /// The number of a neighbour beyond the edge of the map.
 const NONE: usize = usize::MAX;
@@ -32,7 +34,7 @@ const OVERCORRECTION: f64 = 1.8;
 /// cells are longer than wide: the slopes along their longer side have so small a part in it.
 ///
 /// ```
-/// use asperity::surface::fill;
+/// use asperity_maps::fill;
 /// let heights = ndarray::array![[1.0, 2.0, 3.0], [2.0, f64::NAN, 4.0], [3.0, 4.0, 5.0]];
 /// assert_eq!(fill(heights, (1.0, 1.0))?[[1, 1]], 3.0);
 /// # Ok::<(), asperity::Error>(())
@@ -53,6 +55,22 @@ pub fn fill(mut heights: Array2<f64>, spacing: (f64, f64)) -> Result<Array2<f64>
         heights[*node] = mean + value;
     }
     Ok(heights)
+}
+
+/// A surface from heights of which those that are NaN are [absent nodes](Surface::with_absent), with the heights of
+/// [`fill()`] there.
+///
+/// # Errors
+/// Those of [`Surface::new`] and [`Surface::with_absent`].
+pub fn surface_with_absent(grid: Grid, mut heights: Array2<f64>) -> Result<Surface> {
+    let absent = heights.mapv(f64::is_nan);
+    heights.mapv_inplace(|height| if height.is_nan() { 0.0 } else { height });
+    let level = Surface::new(grid, heights)?.with_absent(absent)?;
+    let Some(absent) = level.absent().cloned() else { return Ok(level) };
+    // holes are filled as on the whole map, by every process
+    let filled = Topography::from(level.whole().into_owned()).fill()?.heights;
+    let held = filled.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
+    Surface::new(grid, held)?.with_absent(absent)
 }
 
 /// The weights of neighbours along x and y, the greater one 1.

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::spectrum::{Psd, Spectrum, is_line};
+use asperity::Surface;
+use asperity::surface::Psd;
 
 /// The classes of wave numbers to an octave.
 const CLASSES: f64 = 8.0;
@@ -29,65 +30,65 @@ struct Class {
     density: f64,
 }
 
-impl Spectrum {
-    /// The wavelength of the knee of the spectrum, at which it flattens to a floor of noise; none where there is no
-    /// floor.
-    ///
-    /// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
-    /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid falls
-    /// with less than the wave number, or its square root of a profile, half of what it does for a self-affine surface
-    /// of a Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. The knee is where the
-    /// surface has the density of the floor, and the spectrum that of twice the floor. Waves that are shorter tell of
-    /// the noise: [`low_pass`](fn@super::low_pass) leaves them out.
-    ///
-    /// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as
-    /// on 90 × 90 nodes or a profile of 10 000, are too few to tell.
-    ///
-    /// ```
-    /// use asperity::{Grid, SelfAffine, Surface};
-    /// let grid = Grid::square(128, 1.0)?;
-    /// let rough = SelfAffine::default().k_s(60.0).surface(grid)?;
-    /// assert_eq!(rough.spectrum().knee_wavelength(), None);
-    /// let mut state = 1_u64;
-    /// let noisy = rough.heights().mapv(|height| {
-    ///     state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-    ///     height + 2.0 * rough.rms_height() * ((state >> 40) as f64 / 2_f64.powi(24) - 0.5)
-    /// });
-    /// let knee = Surface::new(grid, noisy)?.spectrum().knee_wavelength().unwrap();
-    /// assert!(knee > 2.0 / 128.0 && knee < 0.2);
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
-    pub fn knee_wavelength(&self) -> Option<f64> {
-        let (dx, dy) = self.grid().spacing();
-        let spacing = match self.grid().shape() {
-            (_, 1) => dx,
-            (1, _) => dy,
-            _ => dx.max(dy),
-        };
-        let psd = self.radial_psd();
-        let classes = classes(&psd, PI / spacing);
-        let last = classes.get(..LAST)?;
-        let waves: f64 = last.iter().map(|class| class.waves).sum();
-        let floor = last.iter().map(|class| class.waves * class.density).sum::<f64>() / waves;
-        let all: usize = psd.waves.iter().sum();
-        let noise = (floor * psd.cell * all as f64).sqrt();
-        if waves < LEAST_WAVES
-            || slope(last).abs() > FLAT[usize::from(!is_line(self.grid()))]
-            || noise <= LEAST * self.rms_height()
-        {
-            return None;
-        }
-        let rest = &classes[last.len()..];
-        let stands_out = |class: &Class| class.density > floor * ABOVE.max(1.0 + SURE / class.waves.sqrt());
-        let first = rest.iter().position(|class| class.waves > 0.0 && stands_out(class))?;
-        // between that and the last one of shorter waves
-        let shorter = classes[..last.len() + first].iter().rev().find(|class| class.waves > 0.0)?;
-        let [above, below] =
-            [&rest[first], shorter].map(|class| ((ABOVE * floor / class.density).ln(), class.wave_number));
-        let share = above.0 / (above.0 - below.0);
-        let wave_number = above.1 * (below.1 / above.1).powf(share.clamp(0.0, 1.0));
-        Some(2.0 * PI / wave_number)
+/// The wavelength of the knee of the spectrum of a surface, at which it flattens to a floor of noise; none where there is no
+/// floor.
+///
+/// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
+/// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid falls
+/// with less than the wave number, or its square root of a profile, half of what it does for a self-affine surface
+/// of a Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. The knee is where the
+/// surface has the density of the floor, and the spectrum that of twice the floor. Waves that are shorter tell of
+/// the noise: [`Topography::low_pass`](crate::Topography::low_pass) leaves them out.
+///
+/// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as
+/// on 90 × 90 nodes or a profile of 10 000, are too few to tell.
+///
+/// ```
+/// use asperity::{Grid, SelfAffine, Surface};
+/// use asperity_maps::knee_wavelength;
+/// let grid = Grid::square(128, 1.0)?;
+/// let rough = SelfAffine::default().k_s(60.0).surface(grid)?;
+/// assert_eq!(knee_wavelength(&rough), None);
+/// let mut state = 1_u64;
+/// let noisy = rough.heights().mapv(|height| {
+///     state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+///     height + 2.0 * rough.rms_height() * ((state >> 40) as f64 / 2_f64.powi(24) - 0.5)
+/// });
+/// let knee = knee_wavelength(&Surface::new(grid, noisy)?).unwrap();
+/// assert!(knee > 2.0 / 128.0 && knee < 0.2);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub fn knee_wavelength(surface: &Surface) -> Option<f64> {
+    let spectrum = surface.spectrum();
+    let (nx, ny) = spectrum.grid().shape();
+    let (dx, dy) = spectrum.grid().spacing();
+    let spacing = match (nx, ny) {
+        (_, 1) => dx,
+        (1, _) => dy,
+        _ => dx.max(dy),
+    };
+    let psd = spectrum.radial_psd();
+    let classes = classes(&psd, PI / spacing);
+    let last = classes.get(..LAST)?;
+    let waves: f64 = last.iter().map(|class| class.waves).sum();
+    let floor = last.iter().map(|class| class.waves * class.density).sum::<f64>() / waves;
+    let all: usize = psd.waves.iter().sum();
+    let noise = (floor * psd.cell * all as f64).sqrt();
+    if waves < LEAST_WAVES
+        || slope(last).abs() > FLAT[usize::from(nx > 1 && ny > 1)]
+        || noise <= LEAST * spectrum.rms_height()
+    {
+        return None;
     }
+    let rest = &classes[last.len()..];
+    let stands_out = |class: &Class| class.density > floor * ABOVE.max(1.0 + SURE / class.waves.sqrt());
+    let first = rest.iter().position(|class| class.waves > 0.0 && stands_out(class))?;
+    // between that and the last one of shorter waves
+    let shorter = classes[..last.len() + first].iter().rev().find(|class| class.waves > 0.0)?;
+    let [above, below] = [&rest[first], shorter].map(|class| ((ABOVE * floor / class.density).ln(), class.wave_number));
+    let share = above.0 / (above.0 - below.0);
+    let wave_number = above.1 * (below.1 / above.1).powf(share.clamp(0.0, 1.0));
+    Some(2.0 * PI / wave_number)
 }
 
 /// The means of a density over eighths of an octave, from the shortest waves along the sides on.
@@ -132,13 +133,19 @@ mod tests {
 
     use ndarray::Array2;
 
-    use crate::grid::Grid;
-    use crate::surface::{Amplitude, SelfAffine, Surface, uniform};
+    use asperity::{Amplitude, Grid, SelfAffine};
+
+    use super::*;
 
     /// White noise of unit variance.
     fn white(shape: (usize, usize)) -> Array2<f64> {
-        Array2::from_shape_fn(shape, |(i, j)| {
-            let [a, b] = uniform([i as u32, j as u32, 0, 0], [7, 0]);
+        let mut state = 7_u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / 2_f64.powi(53)
+        };
+        Array2::from_shape_simple_fn(shape, || {
+            let [a, b] = [uniform(), uniform()];
             (-2.0 * (1.0 - a).ln()).sqrt() * (TAU * b).cos()
         })
     }
@@ -153,9 +160,9 @@ mod tests {
         for (n, hurst, noise) in [(256, 0.8, 0.4), (256, 0.5, 0.8), (512, 0.5, 0.5), (512, 0.8, 0.25)] {
             let grid = Grid::square(n, 2.0).unwrap();
             let clean = rough(grid, hurst, 2.0);
-            assert_eq!(clean.spectrum().knee_wavelength(), None, "{n} {hurst}");
+            assert_eq!(knee_wavelength(&clean), None, "{n} {hurst}");
             let noisy = clean.heights() + noise * white(grid.shape());
-            let found = Surface::new(grid, noisy).unwrap().spectrum().knee_wavelength().unwrap();
+            let found = knee_wavelength(&Surface::new(grid, noisy).unwrap()).unwrap();
             // the density of the surface falls through that of the noise, σ² Δx Δy/4π²
             let floor = (noise * grid.spacing().0 / TAU).powi(2);
             let psd = clean.spectrum().radial_psd();
@@ -171,7 +178,7 @@ mod tests {
         // a surface that ends at some wave, whose rounding is flat; in f32 too; and noise alone, or on few nodes
         let ends = SelfAffine::default().k_s(40.0).surface(grid).unwrap();
         let single = ends.heights().mapv(|height| f64::from(height as f32));
-        let knee = |grid: Grid, heights: Array2<f64>| Surface::new(grid, heights).unwrap().spectrum().knee_wavelength();
+        let knee = |grid: Grid, heights: Array2<f64>| knee_wavelength(&Surface::new(grid, heights).unwrap());
         assert_eq!(knee(grid, ends.heights().clone()), None);
         assert_eq!(knee(grid, single), None);
         assert_eq!(knee(grid, white(grid.shape())), None);
@@ -184,13 +191,13 @@ mod tests {
     fn profiles_have_a_knee_of_many_nodes() {
         let grid = Grid::line(16384, 1.0).unwrap();
         let clean = rough(grid, 0.8, 4.0);
-        assert_eq!(clean.spectrum().knee_wavelength(), None);
+        assert_eq!(knee_wavelength(&clean), None);
         let noise = 0.03;
         let noisy = Surface::new(grid, clean.heights() + noise * white(grid.shape())).unwrap();
         let psd = clean.spectrum().radial_psd();
         let floor = noise * noise * grid.spacing().0 / TAU;
         let last = psd.densities.iter().rposition(|density| *density > floor).unwrap();
-        let (found, expected) = (noisy.spectrum().knee_wavelength().unwrap(), TAU / psd.wave_numbers[last]);
+        let (found, expected) = (knee_wavelength(&noisy).unwrap(), TAU / psd.wave_numbers[last]);
         // single waves of noise scatter by their mean: a class of 40 by a sixth
         assert!((found / expected).log2().abs() < 0.25, "{found} for {expected}");
     }
