@@ -5,9 +5,12 @@ use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
 use crate::account::Inputs;
+use crate::adhesion::Adhesion;
 use crate::hash::Hash;
+use crate::slopes::Slopes;
 
-/// The inputs by name. A run goes on only with equal ones; numbers come as text, which can be compared exactly.
+/// The inputs by name: all those of a report but for what does not change rows. A run goes on only with equal ones;
+/// numbers come as text, which can be compared exactly.
 pub type Identity = Map<String, Value>;
 
 /// The fields of a problem, each on the whole of its grid.
@@ -36,49 +39,43 @@ pub(crate) fn identity<T: Real>(
     given: Fields<'_>,
     law: &dyn AdhesionLaw<T>,
 ) -> Identity {
-    let (grid, adhesion) = (given.surface.grid(), &inputs.adhesion);
-    let number = |value: Option<f64>| value.map_or("none".to_owned(), |value| value.to_string());
-    let field = |field: &ArrayRef2<f64>| Hash::NEW.of_numbers(field).to_string();
-    let given_field = |given: Option<&ArrayRef2<f64>>| given.map_or("none".to_owned(), field);
+    let (surface, field) = (given.surface, |field: &ArrayRef2<f64>| Hash::NEW.of_numbers(field).to_string());
+    // the fields stand for their files; slopes follow from them, and the typed quantities are those of the other keys
+    let adhesion =
+        Adhesion { law_table: None, work_of_adhesion_map: None, hardness_map: None, ..inputs.adhesion.clone() };
+    let inputs = Inputs {
+        heights: None,
+        against: None,
+        initial_gap: None,
+        slopes: Slopes::default(),
+        length_unit: None,
+        pressure_unit: None,
+        given: None,
+        threads: 0,
+        adhesion,
+        ..inputs.clone()
+    };
+    let text = |value: Value| match value {
+        Value::Number(number) => number.as_f64().map_or(Value::Null, |number| number.to_string().into()),
+        value => value,
+    };
+    let all = json!(inputs).as_object().cloned().unwrap_or_default();
+    let mut identity: Identity =
+        all.into_iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| (key, text(value))).collect();
     let heights = if inputs.shift.is_some() { "surfaces" } else { "heights" };
-    let identity = json!({
-        "shape": format!("{} {}", grid.shape().0, grid.shape().1),
-        (heights): field(given.surface.heights()),
-        "lengths": format!("{} {}", grid.lengths().0, grid.lengths().1),
-        "absent_nodes": given.surface.absent().map_or("none".to_owned(), |absent| field(&absent.mapv(f64::from))),
-        "boundary": inputs.elastic.boundary,
-        "modulus": inputs.elastic.modulus.to_string(),
-        "law": adhesion.law,
-        "work_of_adhesion": number(adhesion.work_of_adhesion),
-        "range": number(adhesion.range),
-        "exponent": number(adhesion.exponent),
-        "hamaker": number(adhesion.hamaker),
-        "law_table": given_field(given.law_table),
-        "cut_off": number(adhesion.cut_off),
-        "work_of_adhesion_map": given_field(given.works),
-        "wall": adhesion.wall,
-        "precision": inputs.precision,
-        "method": inputs.method.name(),
-        "tolerance": inputs.tolerance.to_string(),
-        "max_iterations": inputs.max_iterations.to_string(),
-        "branch": branch.map_or("by the load", Branch::name),
-        "initial_gap": given_field(given.start),
-        "version": inputs.version,
-        "units": units,
-        "part": inputs.part.as_deref().unwrap_or("all"),
-    });
-    let mut identity = identity.as_object().cloned().unwrap_or_default();
-    if let Some(stiffness) = adhesion.wall_stiffness {
-        // a table of a wall without springs has none
-        identity.insert("wall_stiffness".to_owned(), stiffness.to_string().into());
-    }
-    // nor has one of a surface that does not yield a hardness
-    identity.extend(adhesion.hardness.map(|hardness| ("hardness".to_owned(), hardness.to_string().into())));
-    identity.extend(given.hardness.map(|hardness| ("hardness_map".to_owned(), field(hardness).into())));
-    // nor one of a half-space a body
-    identity.extend(inputs.elastic.given().map(|(key, value)| (key.to_owned(), value.into())));
+    let fields = [
+        (heights, Some(field(surface.heights()))),
+        ("absent_nodes", surface.absent().map(|absent| field(&absent.mapv(f64::from)))),
+        ("law_table", given.law_table.map(field)),
+        ("work_of_adhesion_map", given.works.map(field)),
+        ("hardness_map", given.hardness.map(field)),
+        ("initial_gap", given.start.map(field)),
+        ("branch", Some(branch.map_or("by the load", Branch::name).to_owned())),
+        ("units", Some(units.to_owned())),
+    ];
+    identity.extend(fields.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?.into()))));
     if let Some(symbol) = &inputs.elastic.symbol {
-        identity.insert("symbol_values".to_owned(), symbol.fingerprint(grid).to_string().into());
+        identity.insert("symbol_values".to_owned(), symbol.fingerprint(surface.grid()).to_string().into());
     }
     if given.law_differs {
         identity.insert("law_values".to_owned(), fingerprint(law).to_string().into());

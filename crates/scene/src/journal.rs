@@ -247,5 +247,9 @@ fn refused(path: &Path, reason: String) -> Error {
 
 /// A value without quotation marks.
 fn bare(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    match value {
+        Value::Null => "none".to_owned(),
+        Value::String(text) => text.clone(),
+        value => value.to_string(),
+    }
 }
