@@ -1,15 +1,64 @@
-//! How far a surface has yielded in a solve.
+//! How a surface yields in a solve, and how far it has yielded.
 
 use ndarray::Array2;
 
 use super::passes::count;
-use super::potential::Of;
+use super::potential::{Of, Potential};
 use super::report::Plastic;
 use super::state::State;
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::Parts;
 use crate::problem::Yielded;
-use crate::real::Real;
+use crate::real::{Real, cast};
+use crate::vector::sums;
+
+impl<T: Real> Potential<'_, T> {
+    pub(crate) fn is_capped(&self) -> bool {
+        self.hardness().is_some()
+    }
+
+    /// Takes from tractions the hardness, and the slopes, where the surfaces touch and a change makes them yield.
+    /// Returns the energy of nodes that pass zero beyond their tangents.
+    pub(crate) fn yielding<Lo: Real>(
+        &self,
+        first: usize,
+        gaps: &[T],
+        change: &[Lo],
+        tractions: &mut [T],
+        slopes: &mut [T],
+    ) -> f64 {
+        if !self.is_capped() {
+            return 0.0;
+        }
+        let mut caps = [T::zero(); CHUNK];
+        let caps = self.caps(first, gaps.len(), &mut caps);
+        // a node that stops there is beyond it by no more than its rounding
+        let rounding = T::lit(4.0) * cast(Lo::epsilon());
+        sums!(1, [gaps, change, caps], [tractions, slopes], |i| {
+            let (gap, change, cap): (_, T, _) = (gaps[i], cast(change[i]), caps[i]);
+            let falls = (gap == T::zero()) & (change < T::zero());
+            tractions[i] = if falls { tractions[i] - cap } else { tractions[i] };
+            slopes[i] = if falls { T::zero() } else { slopes[i] };
+            let next = gap + change;
+            let passes = (gap != T::zero()) & ((next < T::zero()) != (gap < T::zero()));
+            let beyond = passes & (next.abs() > rounding * gap.abs());
+            [if beyond { (cap * next.abs()).widen() } else { 0.0 }]
+        })
+        .sum[0]
+    }
+
+    /// Σ H d over nodes that touch after a step d from where they yield.
+    pub(crate) fn landed<Lo: Real>(&self, first: usize, gaps: &[T], step: &[Lo]) -> f64 {
+        if !self.is_capped() {
+            return 0.0;
+        }
+        let mut caps = [T::zero(); CHUNK];
+        let caps = self.caps(first, gaps.len(), &mut caps);
+        let nodes = gaps.iter().zip(step).zip(caps);
+        let landed = nodes.filter(|((gap, step), _)| **gap == T::zero() && **step > Lo::zero());
+        landed.map(|((_, step), cap)| step.widen() * cap.widen()).sum()
+    }
+}
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether some nodes yield in the present state.
@@ -34,9 +83,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if !local.is_surface() {
                 return part;
             }
-            local.hardness().into_iter().for_each(|hardness| hardness.fill(first, &mut caps[..gaps.len()], |cap| cap));
+            let caps = local.caps(first, gaps.len(), &mut caps);
             local.law(Of::Traction, first, &[T::zero(); CHUNK][..gaps.len()], &mut pulls[..gaps.len()]);
-            for (((&gap, depth), &cap), &pull) in gaps.iter().zip(depths).zip(&caps).zip(&pulls) {
+            for (((&gap, depth), &cap), &pull) in gaps.iter().zip(depths).zip(caps).zip(&pulls) {
                 let deeper = (-gap).max(T::zero());
                 *depth += deeper;
                 let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);

@@ -8,7 +8,6 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::cap::{Cap, Capped, Uncapped, with_caps};
 use crate::solver::potential::{Least, Of, Potential};
 use crate::vector::{sums, vectors};
 
@@ -100,11 +99,11 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a node, and whether it was clipped to the least gap after a step; with a cap to zero, from the side
-/// on which the node is, or to which the gradient drives it.
+/// The change c of a node, and whether it was clipped to the least gap after a step, from the side on which the node is,
+/// or to which the gradient drives it.
 #[inline(always)]
-fn clipped_change<T: Real, C: Cap<T>>(
-    (least, cap): (Least<T>, C),
+fn clipped_change<T: Real>(
+    (touching, least, cap): (T, Least<T>, T),
     attempt: Attempt<T>,
     gap: T,
     [r, z, change]: [T; 3],
@@ -112,24 +111,19 @@ fn clipped_change<T: Real, C: Cap<T>>(
     let Attempt { length, centre, keep, mean, yields } = attempt;
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
-    if C::CAPPED {
-        let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
-        // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
-        let most = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
-        let stops = (gap == T::zero()) | (most <= cap.at());
-        let clipped = stops & if below { next > T::zero() } else { next < T::zero() };
-        return ((if clipped { T::zero() } else { next }) - gap, clipped);
-    }
-    let least = least.after(gap);
-    let clipped = next < least;
+    let (least, below) = (least.after(gap), (gap < touching) | ((gap == touching) & (r > T::zero()) & yields));
+    // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
+    let most = if gap > touching { T::lit(PASSES) * r } else { -r };
+    let stops = (gap == touching) | (most <= cap);
+    let clipped = stops & if below { next > least } else { next < least };
     ((if clipped { least } else { next }) - gap, clipped)
 }
 
 /// Whether a clipped node is driven to zero by the gradient itself.
 #[inline(always)]
-fn is_blocked<T: Real, C: Cap<T>>(_: C, clipped: bool, gap: T, r: T) -> bool {
-    let from_above = (r > T::zero()) & (gap > T::zero());
-    clipped & (from_above | (C::CAPPED & (r < T::zero()) & (gap < T::zero())))
+fn is_blocked<T: Real>(clipped: bool, gap: T, r: T) -> bool {
+    let (from_above, from_below) = ((r > T::zero()) & (gap > T::zero()), (r < T::zero()) & (gap < T::zero()));
+    clipped & (from_above | from_below)
 }
 
 /// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
@@ -166,16 +160,16 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     };
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
-            let least = local.least();
-            let mut part = with_caps!(local, first, gap.len(), |caps| {
-                sums!(5, [gap, residual, z, caps], [change], |i| {
-                    let (g, r): (_, T) = (gap[i], cast(residual[i]));
-                    let (c, clipped) = clipped_change((least, caps[i]), attempt, g, [r, cast(z[i]), cast(change[i])]);
-                    change[i] = cast(c);
-                    let blocked = is_blocked(caps[i], clipped, g, r);
-                    let (r, c) = (r.widen(), change[i].widen());
-                    [c, count(clipped), count(blocked), r * c, c * c]
-                })
+            let (touching, least, mut caps) = (local.touching(), local.least(), [T::zero(); CHUNK]);
+            let caps = local.caps(first, gap.len(), &mut caps);
+            let mut part = sums!(5, [gap, residual, z, caps], [change], |i| {
+                let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                let trial = [r, cast(z[i]), cast(change[i])];
+                let (c, clipped) = clipped_change((touching, least, caps[i]), attempt, g, trial);
+                change[i] = cast(c);
+                let blocked = is_blocked(clipped, g, r);
+                let (r, c) = (r.widen(), change[i].widen());
+                [c, count(clipped), count(blocked), r * c, c * c]
             });
             finish(local, &mut part, first, gap, change);
             part
@@ -183,17 +177,16 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
         Some(surface) => {
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-                let least = local.least();
-                let mut part = with_caps!(local, first, gap.len(), |caps| {
-                    sums!(8, [gap, residual, z, surface, caps], [change], |i| {
-                        let (g, r): (_, T) = (gap[i], cast(residual[i]));
-                        let trial = [r, cast(z[i]), cast(change[i])];
-                        let (c, clipped) = clipped_change((least, caps[i]), attempt, g, trial);
-                        change[i] = cast(c);
-                        let blocked = is_blocked(caps[i], clipped, g, r);
-                        let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
-                        [c, count(clipped), count(blocked), r * c, c * c, r * g, c * h, g * h]
-                    })
+                let (touching, least, mut caps) = (local.touching(), local.least(), [T::zero(); CHUNK]);
+                let caps = local.caps(first, gap.len(), &mut caps);
+                let mut part = sums!(8, [gap, residual, z, surface, caps], [change], |i| {
+                    let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                    let trial = [r, cast(z[i]), cast(change[i])];
+                    let (c, clipped) = clipped_change((touching, least, caps[i]), attempt, g, trial);
+                    change[i] = cast(c);
+                    let blocked = is_blocked(clipped, g, r);
+                    let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
+                    [c, count(clipped), count(blocked), r * c, c * c, r * g, c * h, g * h]
                 });
                 finish(local, &mut part, first, gap, change);
                 part
