@@ -147,13 +147,33 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// The caps on the contact pressure at some nodes from `first` on: the hardness, or ∞ where nothing yields.
-    pub(crate) fn caps<'b>(&self, first: usize, count: usize, buffer: &'b mut [T; CHUNK]) -> &'b [T] {
-        let caps = &mut buffer[..count];
-        match self.hardness() {
-            Some(hardness) => hardness.fill(first, caps),
-            None => caps.fill(T::infinity()),
-        }
+    pub(crate) fn caps<'b>(&self, first: usize, count: usize, buffer: &'b mut Option<[T; CHUNK]>) -> &'b [T] {
+        let Some(hardness) = self.hardness() else { return &T::CONSTANT[2][..count] };
+        let caps = &mut buffer.insert([T::zero(); CHUNK])[..count];
+        hardness.fill(first, caps);
         caps
+    }
+
+    /// The least and the greatest gap after a step: nodes stop at a corner of the local energy, or keep a part of their
+    /// gap.
+    pub(crate) fn bounds<'b, Lo: Real>(
+        &self,
+        first: usize,
+        (gaps, residual): (&[T], &[Lo]),
+        yields: bool,
+        buffers: &'b mut Option<[[T; CHUNK]; 2]>,
+    ) -> [&'b [T]; 2] {
+        let [zeros, no_least, no_most] = T::CONSTANT.map(|chunk| &chunk[..gaps.len()]);
+        match self.wall {
+            Some(Wall::Rigid) => [zeros, no_most],
+            Some(Wall::Capped(_)) => self.bounds_of_yielding(first, (gaps, residual), yields, buffers),
+            Some(Wall::None) => {
+                let (least, [lowest, _]) = (self.least(), buffers.insert([[T::zero(); CHUNK]; 2]));
+                lowest.iter_mut().zip(gaps).for_each(|(lowest, &gap)| *lowest = least.after(gap));
+                [&lowest[..gaps.len()], no_most]
+            }
+            Some(Wall::Springs(_)) | None => [no_least, no_most],
+        }
     }
 
     pub(crate) fn is_surface(&self) -> bool {
@@ -320,7 +340,7 @@ impl<'a, T: Real> Potential<'a, T> {
         if self.is_soft() {
             return contact.iter_mut().for_each(|contact| *contact = (-*contact).max(T::zero()));
         }
-        let mut buffer = [T::zero(); CHUNK];
+        let mut buffer = None;
         let caps = self.caps(first, gaps.len(), &mut buffer);
         for (((contact, &gap), &p), &cap) in contact.iter_mut().zip(gaps).zip(pressures).zip(caps) {
             *contact = if gap > T::zero() {

@@ -79,7 +79,7 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
         read(gap).zip(read(pressure)),
         |local, first, (gap, pressure)| {
             let touching = local.touching();
-            let [mut tractions, mut caps] = [[T::zero(); CHUNK]; 2];
+            let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
             let tractions = local.tractions(first, gap, &mut tractions);
             let caps = local.caps(first, gap.len(), &mut caps);
             sums!(2, [gap, pressure, tractions, caps], [], least low, |i| {
@@ -104,7 +104,7 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     let chunks = read(gap).zip(read(pressure)).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, first, ((((gap, pressure), residual), z), change)| {
         let touching = local.touching();
-        let [mut tractions, mut caps] = [[T::zero(); CHUNK]; 2];
+        let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
         let tractions = local.tractions(first, gap, &mut tractions);
         let caps = local.caps(first, gap.len(), &mut caps);
         sums!(6, [gap, pressure, tractions, z, change, caps], [residual], |i| {
@@ -132,7 +132,7 @@ pub(super) fn release_chunk<T: Real, Lo: Real>(
     (z, change): (&[Lo], &[Lo]),
     residual: &mut [Lo],
 ) -> Partial {
-    let (touching, mut caps) = (local.touching(), [T::zero(); CHUNK]);
+    let (touching, mut caps) = (local.touching(), None);
     let caps = local.caps(first, gap.len(), &mut caps);
     sums!(5, [gap, z, change, caps], [residual], |i| {
         let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], cast(residual[i]));

@@ -8,7 +8,7 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::potential::{Least, Of, Potential};
+use crate::solver::potential::{Of, Potential};
 use crate::vector::{sums, vectors};
 
 #[derive(Clone, Copy, Debug)]
@@ -99,24 +99,15 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a node, and whether it was clipped to the least gap after a step, from the side on which the node is,
-/// or to which the gradient drives it.
+/// The change c of a node, and whether it was clipped to the `least` or the `most` gap after a step.
 #[inline(always)]
-fn clipped_change<T: Real>(
-    (touching, least, cap): (T, Least<T>, T),
-    attempt: Attempt<T>,
-    gap: T,
-    [r, z, change]: [T; 3],
-) -> (T, bool) {
-    let Attempt { length, centre, keep, mean, yields } = attempt;
+fn clipped_change<T: Real>([least, most]: [T; 2], attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
+    let Attempt { length, centre, keep, mean, .. } = attempt;
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
-    let (least, below) = (least.after(gap), (gap < touching) | ((gap == touching) & (r > T::zero()) & yields));
-    // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
-    let most = if gap > touching { T::lit(PASSES) * r } else { -r };
-    let stops = (gap == touching) | (most <= cap);
-    let clipped = stops & if below { next > least } else { next < least };
-    ((if clipped { least } else { next }) - gap, clipped)
+    let (low, high) = (next < least, next > most);
+    let bound = if low { least } else { most };
+    ((if low | high { bound } else { next }) - gap, low | high)
 }
 
 /// Whether a clipped node is driven to zero by the gradient itself.
@@ -125,9 +116,6 @@ fn is_blocked<T: Real>(clipped: bool, gap: T, r: T) -> bool {
     let (from_above, from_below) = ((r > T::zero()) & (gap > T::zero()), (r < T::zero()) & (gap < T::zero()));
     clipped & (from_above | from_below)
 }
-
-/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
-const PASSES: f64 = 0.3;
 
 const BLOCKED: usize = 2;
 const KINK: usize = 8;
@@ -160,12 +148,12 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     };
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
-            let (touching, least, mut caps) = (local.touching(), local.least(), [T::zero(); CHUNK]);
-            let caps = local.caps(first, gap.len(), &mut caps);
-            let mut part = sums!(5, [gap, residual, z, caps], [change], |i| {
+            let mut bounds = None;
+            let [least, most] = local.bounds(first, (gap, residual), attempt.yields, &mut bounds);
+            let mut part = sums!(5, [gap, residual, z, least, most], [change], |i| {
                 let (g, r): (_, T) = (gap[i], cast(residual[i]));
                 let trial = [r, cast(z[i]), cast(change[i])];
-                let (c, clipped) = clipped_change((touching, least, caps[i]), attempt, g, trial);
+                let (c, clipped) = clipped_change([least[i], most[i]], attempt, g, trial);
                 change[i] = cast(c);
                 let blocked = is_blocked(clipped, g, r);
                 let (r, c) = (r.widen(), change[i].widen());
@@ -177,12 +165,12 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
         Some(surface) => {
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-                let (touching, least, mut caps) = (local.touching(), local.least(), [T::zero(); CHUNK]);
-                let caps = local.caps(first, gap.len(), &mut caps);
-                let mut part = sums!(8, [gap, residual, z, surface, caps], [change], |i| {
+                let mut bounds = None;
+                let [least, most] = local.bounds(first, (gap, residual), attempt.yields, &mut bounds);
+                let mut part = sums!(8, [gap, residual, z, surface, least, most], [change], |i| {
                     let (g, r): (_, T) = (gap[i], cast(residual[i]));
                     let trial = [r, cast(z[i]), cast(change[i])];
-                    let (c, clipped) = clipped_change((touching, least, caps[i]), attempt, g, trial);
+                    let (c, clipped) = clipped_change([least[i], most[i]], attempt, g, trial);
                     change[i] = cast(c);
                     let blocked = is_blocked(clipped, g, r);
                     let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
