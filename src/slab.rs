@@ -7,10 +7,7 @@ use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayView2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Sent, Shares};
-
-/// The nodes of a chunk, which are summed one by one. The rounding of a sum of such sums grows with the length of a
-/// chunk, and not with that of the field.
-pub(crate) const CHUNK: usize = 256;
+pub(crate) use crate::real::CHUNK;
 
 /// Rows that are transformed together.
 pub(crate) const TILE: usize = 32;

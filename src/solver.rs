@@ -9,7 +9,6 @@ use crate::real::Real;
 use crate::setters::setters;
 
 mod branch;
-mod cap;
 mod certificate;
 mod coarse;
 mod driver;

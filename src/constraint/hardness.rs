@@ -4,9 +4,10 @@ use ndarray::Array2;
 
 use super::{ContactConstraint, Wall};
 use crate::error::{Error, Result};
-use crate::field::flat;
+use crate::field::{CHUNK, flat};
 use crate::grid::Grid;
 use crate::real::Real;
+use crate::vector::vectors;
 
 /// A rigid wall that yields where the contact pressure reaches a hardness H: perfectly plastic asperities, 0 ≤ λ ≤ H.
 ///
@@ -110,12 +111,28 @@ impl Hardness {
     }
 
     /// Writes the hardness at nodes of the solve's grid, from the node `first` on.
-    pub(crate) fn fill<T: Real, C: Copy>(&self, first: usize, caps: &mut [C], cap: impl Fn(T) -> C) {
+    pub(crate) fn fill<T: Real>(&self, first: usize, caps: &mut [T]) {
         let own = first.checked_sub(self.first).and_then(|own| flat(&self.held).get(own..own + caps.len()));
         match own {
-            Some(held) => caps.iter_mut().zip(held).for_each(|(to, &held)| *to = cap(T::lit(held))),
-            None => caps.fill(cap(T::lit(self.mean))),
+            Some(held) => caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held)),
+            None => caps.fill(T::lit(self.mean)),
         }
+    }
+
+    /// Adds the energy ψ = −H g of nodes with a negative gap, or its derivative of an order.
+    pub(crate) fn add<T: Real>(&self, order: usize, first: usize, gaps: &[T], out: &mut [T]) {
+        let (linear, constant) = match order {
+            0 => (T::one(), T::zero()),
+            1 => (T::zero(), T::one()),
+            _ => return,
+        };
+        let mut caps = [T::zero(); CHUNK];
+        let caps = &mut caps[..gaps.len()];
+        self.fill(first, caps);
+        vectors!([gaps, caps], [out], |i| {
+            let (gap, cap) = (gaps[i], caps[i]);
+            out[i] = if gap < T::zero() { out[i] - cap * (linear * gap + constant) } else { out[i] };
+        });
     }
 }
 

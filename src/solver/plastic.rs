@@ -1,15 +1,91 @@
-//! How far a surface has yielded in a solve.
+//! How a surface yields in a solve, and how far it has yielded.
 
 use ndarray::Array2;
 
 use super::passes::count;
-use super::potential::Of;
+use super::potential::{Of, Potential};
 use super::report::Plastic;
 use super::state::State;
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::Parts;
 use crate::problem::Yielded;
-use crate::real::Real;
+use crate::real::{Real, cast};
+use crate::vector::{sums, vectors};
+
+/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
+const PASSES: f64 = 0.3;
+
+impl<T: Real> Potential<'_, T> {
+    pub(crate) fn is_capped(&self) -> bool {
+        self.hardness().is_some()
+    }
+
+    /// The bounds of gaps after a step at the corner where the surface yields, from the side on which a node is, or to which
+    /// the gradient drives it.
+    pub(super) fn bounds_of_yielding<'b, Lo: Real>(
+        &self,
+        first: usize,
+        (gaps, residual): (&[T], &[Lo]),
+        yields: bool,
+        buffers: &'b mut Option<[[T; CHUNK]; 2]>,
+    ) -> [&'b [T]; 2] {
+        let (mut caps, [least, most]) = (None, buffers.insert([[T::zero(); CHUNK]; 2]).each_mut());
+        let caps = self.caps(first, gaps.len(), &mut caps);
+        let (least, most) = (&mut least[..gaps.len()], &mut most[..gaps.len()]);
+        vectors!([gaps, residual, caps], [least, most], |i| {
+            let (gap, r): (_, T) = (gaps[i], cast(residual[i]));
+            let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
+            // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
+            let against = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
+            let stops = (gap == T::zero()) | (against <= caps[i]);
+            least[i] = if stops & !below { T::zero() } else { T::neg_infinity() };
+            most[i] = if stops & below { T::zero() } else { T::infinity() };
+        });
+        [least, most]
+    }
+
+    /// Takes from tractions the hardness, and the slopes, where the surfaces touch and a change makes them yield.
+    /// Returns the energy of nodes that pass zero beyond their tangents.
+    pub(crate) fn yielding<Lo: Real>(
+        &self,
+        first: usize,
+        gaps: &[T],
+        change: &[Lo],
+        tractions: &mut [T],
+        slopes: &mut [T],
+    ) -> f64 {
+        if !self.is_capped() {
+            return 0.0;
+        }
+        let mut caps = None;
+        let caps = self.caps(first, gaps.len(), &mut caps);
+        // a node that stops there is beyond it by no more than its rounding
+        let rounding = T::lit(4.0) * cast(Lo::epsilon());
+        sums!(1, [gaps, change, caps], [tractions, slopes], |i| {
+            let (gap, change, cap): (_, T, _) = (gaps[i], cast(change[i]), caps[i]);
+            let falls = (gap == T::zero()) & (change < T::zero());
+            tractions[i] = if falls { tractions[i] - cap } else { tractions[i] };
+            slopes[i] = if falls { T::zero() } else { slopes[i] };
+            let next = gap + change;
+            let passes = (gap != T::zero()) & ((next < T::zero()) != (gap < T::zero()));
+            let beyond = passes & (next.abs() > rounding * gap.abs());
+            [if beyond { (cap * next.abs()).widen() } else { 0.0 }]
+        })
+        .sum[0]
+    }
+
+    /// Σ H d over nodes that touch after a step d from where they yield.
+    pub(crate) fn landed<Lo: Real>(&self, first: usize, gaps: &[T], step: &[Lo]) -> f64 {
+        if !self.is_capped() {
+            return 0.0;
+        }
+        let mut caps = None;
+        let caps = self.caps(first, gaps.len(), &mut caps);
+        let nodes = gaps.iter().zip(step).zip(caps);
+        let landed = nodes.filter(|((gap, step), _)| **gap == T::zero() && **step > Lo::zero());
+        landed.map(|((_, step), cap)| step.widen() * cap.widen()).sum()
+    }
+}
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether some nodes yield in the present state.
@@ -30,13 +106,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let local = posed.potential();
         let chunks = read(&fields.gap).zip(write(&mut depth));
         let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
-            let ([mut caps, mut pulls], mut part) = ([[T::zero(); CHUNK]; 2], Partial::NONE);
+            let (mut caps, mut pulls, mut part) = (None, [T::zero(); CHUNK], Partial::NONE);
             if !local.is_surface() {
                 return part;
             }
-            local.hardness().into_iter().for_each(|hardness| hardness.fill(first, &mut caps[..gaps.len()], |cap| cap));
+            let caps = local.caps(first, gaps.len(), &mut caps);
             local.law(Of::Traction, first, &[T::zero(); CHUNK][..gaps.len()], &mut pulls[..gaps.len()]);
-            for (((&gap, depth), &cap), &pull) in gaps.iter().zip(depths).zip(&caps).zip(&pulls) {
+            for (((&gap, depth), &cap), &pull) in gaps.iter().zip(depths).zip(caps).zip(&pulls) {
                 let deeper = (-gap).max(T::zero());
                 *depth += deeper;
                 let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);

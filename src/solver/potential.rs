@@ -8,8 +8,6 @@ use crate::problem::Window;
 use crate::real::Real;
 use crate::vector::sums;
 
-use super::cap::below;
-
 /// The least share of its gap that a node keeps in a step, where the law has no bound at zero gap.
 pub(super) const CLOSER: f64 = 0.5;
 
@@ -148,6 +146,36 @@ impl<'a, T: Real> Potential<'a, T> {
         self.wall.and_then(|wall| wall.hardness())
     }
 
+    /// The caps on the contact pressure at some nodes from `first` on: the hardness, or ∞ where nothing yields.
+    pub(crate) fn caps<'b>(&self, first: usize, count: usize, buffer: &'b mut Option<[T; CHUNK]>) -> &'b [T] {
+        let Some(hardness) = self.hardness() else { return &T::CONSTANT[2][..count] };
+        let caps = &mut buffer.insert([T::zero(); CHUNK])[..count];
+        hardness.fill(first, caps);
+        caps
+    }
+
+    /// The least and the greatest gap after a step: nodes stop at a corner of the local energy, or keep a part of their
+    /// gap.
+    pub(crate) fn bounds<'b, Lo: Real>(
+        &self,
+        first: usize,
+        (gaps, residual): (&[T], &[Lo]),
+        yields: bool,
+        buffers: &'b mut Option<[[T; CHUNK]; 2]>,
+    ) -> [&'b [T]; 2] {
+        let [zeros, no_least, no_most] = T::CONSTANT.map(|chunk| &chunk[..gaps.len()]);
+        match self.wall {
+            Some(Wall::Rigid) => [zeros, no_most],
+            Some(Wall::Capped(_)) => self.bounds_of_yielding(first, (gaps, residual), yields, buffers),
+            Some(Wall::None) => {
+                let (least, [lowest, _]) = (self.least(), buffers.insert([[T::zero(); CHUNK]; 2]));
+                lowest.iter_mut().zip(gaps).for_each(|(lowest, &gap)| *lowest = least.after(gap));
+                [&lowest[..gaps.len()], no_most]
+            }
+            Some(Wall::Springs(_)) | None => [no_least, no_most],
+        }
+    }
+
     pub(crate) fn is_surface(&self) -> bool {
         self.wall.is_some()
     }
@@ -195,13 +223,22 @@ impl<'a, T: Real> Potential<'a, T> {
     pub(crate) fn evaluate(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         self.law(of, first, gaps, out);
         if let Some(hardness) = self.hardness() {
-            return below(hardness, of, first, gaps, out);
+            return hardness.add(of as usize, first, gaps, out);
         }
         let Some(Wall::Springs(springs)) = self.wall else { return };
         let mut of_springs = [T::zero(); CHUNK];
         let of_springs = &mut of_springs[..gaps.len()];
         springs.evaluate(first, gaps, Values::one(of as usize, of_springs));
         out.iter_mut().zip(of_springs).for_each(|(out, of_springs)| *out += *of_springs);
+    }
+
+    /// The local tractions in a buffer of zeros.
+    pub(crate) fn tractions<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut [T; CHUNK]) -> &'b [T] {
+        let tractions = &mut buffer[..gaps.len()];
+        if !self.is_zero() {
+            self.evaluate(Of::Traction, first, gaps, tractions);
+        }
+        tractions
     }
 
     /// Whether the tangent of the local energy is nowhere below it, along any step.
@@ -266,7 +303,7 @@ impl<'a, T: Real> Potential<'a, T> {
             Some(Wall::Capped(hardness)) => {
                 let mut energies = [T::zero(); CHUNK];
                 let energies = &mut energies[..gaps.len()];
-                below(hardness, Of::Energy, first, gaps, energies);
+                hardness.add(Of::Energy as usize, first, gaps, energies);
                 let found = sums!(2, [gaps, energies], [], |i| {
                     let touches = if gaps[i] <= T::zero() { 1.0 } else { 0.0 };
                     [touches, energies[i].widen()]
@@ -303,16 +340,16 @@ impl<'a, T: Real> Potential<'a, T> {
         if self.is_soft() {
             return contact.iter_mut().for_each(|contact| *contact = (-*contact).max(T::zero()));
         }
-        for ((contact, &gap), &p) in contact.iter_mut().zip(gaps).zip(pressures) {
-            *contact = if gap <= T::zero() { (p + *contact).max(T::zero()) } else { T::zero() };
-        }
-        if let Some(hardness) = self.hardness() {
-            let mut caps = [T::zero(); CHUNK];
-            let caps = &mut caps[..gaps.len()];
-            hardness.fill(first, caps, |cap| cap);
-            for ((contact, &gap), &cap) in contact.iter_mut().zip(gaps).zip(&*caps) {
-                *contact = if gap < T::zero() { cap } else { contact.min(cap) };
-            }
+        let mut buffer = None;
+        let caps = self.caps(first, gaps.len(), &mut buffer);
+        for (((contact, &gap), &p), &cap) in contact.iter_mut().zip(gaps).zip(pressures).zip(caps) {
+            *contact = if gap > T::zero() {
+                T::zero()
+            } else if gap < T::zero() {
+                cap
+            } else {
+                (p + *contact).max(T::zero()).min(cap)
+            };
         }
     }
 }

@@ -1,11 +1,9 @@
 //! The residual r' on the working set, and the passes that use it before a step is made.
 
-use super::tally::tractions;
 use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::cap::{Cap, Capped, Uncapped, with_caps};
 use crate::solver::potential::Potential;
 use crate::vector::sums;
 
@@ -54,17 +52,13 @@ fn works<T: Real>(residual: T) -> T {
 /// The gradient r of a node in the direction in which it may move, r less the cap where it is about to yield, and
 /// whether it may.
 #[inline(always)]
-fn gradient<T: Real, C: Cap<T>>(touching: T, release: T, cap: C, gap: T, r: T) -> (T, bool) {
-    let may = (gap > touching) | (r < release);
-    if !C::CAPPED {
-        return (r, may);
-    }
-    let yields = (gap == touching) & (r - cap.at() > release);
-    (if yields { r - cap.at() } else { r }, may | yields | (gap < touching))
+fn gradient<T: Real>(touching: T, release: T, cap: T, gap: T, r: T) -> (T, bool) {
+    let yields = (gap == touching) & (r - cap > release);
+    (if yields { r - cap } else { r }, (gap != touching) | (r < release) | yields)
 }
 
 #[inline(always)]
-fn residual_of<T: Real, Lo: Real, C: Cap<T>>(touching: T, w: Working<T>, cap: C, gap: T, r: T) -> (Lo, bool) {
+fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, cap: T, gap: T, r: T) -> (Lo, bool) {
     let (r, may) = gradient(touching, w.release, cap, gap, r);
     (if may { works(cast(r - w.level)) } else { Lo::neg_zero() }, may)
 }
@@ -85,17 +79,15 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
         read(gap).zip(read(pressure)),
         |local, first, (gap, pressure)| {
             let touching = local.touching();
-            let mut buffer = [T::zero(); CHUNK];
-            let tractions = tractions(local, first, gap, &mut buffer);
-            with_caps!(local, first, gap.len(), |caps| {
-                sums!(2, [gap, pressure, tractions, caps], [], least low, |i| {
-                    let (r, touches) = (pressure[i] + tractions[i] + offset, gap[i] == touching);
-                    let cap: T = caps[i].at();
-                    low[i] = if touches { (cap - r).widen() } else { f64::INFINITY };
-                    let (r, may) = gradient(touching, release, caps[i], gap[i], r);
-                    let released = touches & may;
-                    [count(released), if released { r.widen() } else { 0.0 }]
-                })
+            let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
+            let tractions = local.tractions(first, gap, &mut tractions);
+            let caps = local.caps(first, gap.len(), &mut caps);
+            sums!(2, [gap, pressure, tractions, caps], [], least low, |i| {
+                let (r, touches) = (pressure[i] + tractions[i] + offset, gap[i] == touching);
+                low[i] = if touches { (caps[i] - r).widen() } else { f64::INFINITY };
+                let (r, may) = gradient(touching, release, caps[i], gap[i], r);
+                let released = touches & may;
+                [count(released), if released { r.widen() } else { 0.0 }]
             })
         },
     );
@@ -112,18 +104,17 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     let chunks = read(gap).zip(read(pressure)).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, first, ((((gap, pressure), residual), z), change)| {
         let touching = local.touching();
-        let mut buffer = [T::zero(); CHUNK];
-        let tractions = tractions(local, first, gap, &mut buffer);
-        with_caps!(local, first, gap.len(), |caps| {
-            sums!(6, [gap, pressure, tractions, z, change, caps], [residual], |i| {
-                let r = pressure[i] + tractions[i] + working.offset;
-                let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], r);
-                let difference = (r - residual[i]).widen();
-                residual[i] = r;
-                let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
-                let moved = if may { d } else { 0.0 };
-                [count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference]
-            })
+        let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
+        let tractions = local.tractions(first, gap, &mut tractions);
+        let caps = local.caps(first, gap.len(), &mut caps);
+        sums!(6, [gap, pressure, tractions, z, change, caps], [residual], |i| {
+            let r = pressure[i] + tractions[i] + working.offset;
+            let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], r);
+            let difference = (r - residual[i]).widen();
+            residual[i] = r;
+            let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
+            let moved = if may { d } else { 0.0 };
+            [count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference]
         })
     });
     reducer.keep(|part| part.sum[0], moving);
@@ -141,14 +132,13 @@ pub(super) fn release_chunk<T: Real, Lo: Real>(
     (z, change): (&[Lo], &[Lo]),
     residual: &mut [Lo],
 ) -> Partial {
-    let touching = local.touching();
-    with_caps!(local, first, gap.len(), |caps| {
-        sums!(5, [gap, z, change, caps], [residual], |i| {
-            let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], cast(residual[i]));
-            residual[i] = r;
-            let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
-            [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
-        })
+    let (touching, mut caps) = (local.touching(), None);
+    let caps = local.caps(first, gap.len(), &mut caps);
+    sums!(5, [gap, z, change, caps], [residual], |i| {
+        let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], cast(residual[i]));
+        residual[i] = r;
+        let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
+        [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
     })
 }
 

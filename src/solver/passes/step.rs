@@ -8,8 +8,7 @@ use super::{Fields, count, idles};
 use crate::field::{CHUNK, Partial, SUMS, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
-use crate::solver::cap::{Cap, Capped, Uncapped, with_caps};
-use crate::solver::potential::{Least, Of, Potential};
+use crate::solver::potential::{Of, Potential};
 use crate::vector::{sums, vectors};
 
 #[derive(Clone, Copy, Debug)]
@@ -100,40 +99,23 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
     if scale == T::one() { change } else { scale * (gap + change) - gap }
 }
 
-/// The change c of a node, and whether it was clipped to the least gap after a step; with a cap to zero, from the side
-/// on which the node is, or to which the gradient drives it.
+/// The change c of a node, and whether it was clipped to the `least` or the `most` gap after a step.
 #[inline(always)]
-fn clipped_change<T: Real, C: Cap<T>>(
-    (least, cap): (Least<T>, C),
-    attempt: Attempt<T>,
-    gap: T,
-    [r, z, change]: [T; 3],
-) -> (T, bool) {
-    let Attempt { length, centre, keep, mean, yields } = attempt;
+fn clipped_change<T: Real>([least, most]: [T; 2], attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
+    let Attempt { length, centre, keep, mean, .. } = attempt;
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
-    if C::CAPPED {
-        let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
-        // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
-        let most = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
-        let stops = (gap == T::zero()) | (most <= cap.at());
-        let clipped = stops & if below { next > T::zero() } else { next < T::zero() };
-        return ((if clipped { T::zero() } else { next }) - gap, clipped);
-    }
-    let least = least.after(gap);
-    let clipped = next < least;
-    ((if clipped { least } else { next }) - gap, clipped)
+    let (low, high) = (next < least, next > most);
+    let bound = if low { least } else { most };
+    ((if low | high { bound } else { next }) - gap, low | high)
 }
 
 /// Whether a clipped node is driven to zero by the gradient itself.
 #[inline(always)]
-fn is_blocked<T: Real, C: Cap<T>>(_: C, clipped: bool, gap: T, r: T) -> bool {
-    let from_above = (r > T::zero()) & (gap > T::zero());
-    clipped & (from_above | (C::CAPPED & (r < T::zero()) & (gap < T::zero())))
+fn is_blocked<T: Real>(clipped: bool, gap: T, r: T) -> bool {
+    let (from_above, from_below) = ((r > T::zero()) & (gap > T::zero()), (r < T::zero()) & (gap < T::zero()));
+    clipped & (from_above | from_below)
 }
-
-/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
-const PASSES: f64 = 0.3;
 
 const BLOCKED: usize = 2;
 const KINK: usize = 8;
@@ -166,16 +148,16 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     };
     let total = match surface {
         None => local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
-            let least = local.least();
-            let mut part = with_caps!(local, first, gap.len(), |caps| {
-                sums!(5, [gap, residual, z, caps], [change], |i| {
-                    let (g, r): (_, T) = (gap[i], cast(residual[i]));
-                    let (c, clipped) = clipped_change((least, caps[i]), attempt, g, [r, cast(z[i]), cast(change[i])]);
-                    change[i] = cast(c);
-                    let blocked = is_blocked(caps[i], clipped, g, r);
-                    let (r, c) = (r.widen(), change[i].widen());
-                    [c, count(clipped), count(blocked), r * c, c * c]
-                })
+            let mut bounds = None;
+            let [least, most] = local.bounds(first, (gap, residual), attempt.yields, &mut bounds);
+            let mut part = sums!(5, [gap, residual, z, least, most], [change], |i| {
+                let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                let trial = [r, cast(z[i]), cast(change[i])];
+                let (c, clipped) = clipped_change([least[i], most[i]], attempt, g, trial);
+                change[i] = cast(c);
+                let blocked = is_blocked(clipped, g, r);
+                let (r, c) = (r.widen(), change[i].widen());
+                [c, count(clipped), count(blocked), r * c, c * c]
             });
             finish(local, &mut part, first, gap, change);
             part
@@ -183,17 +165,16 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
         Some(surface) => {
             let chunks = chunks.zip(read(surface));
             local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-                let least = local.least();
-                let mut part = with_caps!(local, first, gap.len(), |caps| {
-                    sums!(8, [gap, residual, z, surface, caps], [change], |i| {
-                        let (g, r): (_, T) = (gap[i], cast(residual[i]));
-                        let trial = [r, cast(z[i]), cast(change[i])];
-                        let (c, clipped) = clipped_change((least, caps[i]), attempt, g, trial);
-                        change[i] = cast(c);
-                        let blocked = is_blocked(caps[i], clipped, g, r);
-                        let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
-                        [c, count(clipped), count(blocked), r * c, c * c, r * g, c * h, g * h]
-                    })
+                let mut bounds = None;
+                let [least, most] = local.bounds(first, (gap, residual), attempt.yields, &mut bounds);
+                let mut part = sums!(8, [gap, residual, z, surface, least, most], [change], |i| {
+                    let (g, r): (_, T) = (gap[i], cast(residual[i]));
+                    let trial = [r, cast(z[i]), cast(change[i])];
+                    let (c, clipped) = clipped_change([least[i], most[i]], attempt, g, trial);
+                    change[i] = cast(c);
+                    let blocked = is_blocked(clipped, g, r);
+                    let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
+                    [c, count(clipped), count(blocked), r * c, c * c, r * g, c * h, g * h]
                 });
                 finish(local, &mut part, first, gap, change);
                 part

@@ -6,7 +6,7 @@ use super::{Fields, count};
 use crate::field::{CHUNK, Partial, read};
 use crate::par::Parts;
 use crate::real::Real;
-use crate::solver::potential::{Of, Potential};
+use crate::solver::potential::Potential;
 use crate::vector::sums;
 
 /// The sums over the nodes of a state, on which the driver decides.
@@ -59,19 +59,6 @@ pub(in crate::solver) struct Taken {
     pub(in crate::solver) gap_surface: f64,
     /// Σ p
     pub(in crate::solver) sum_p: f64,
-}
-
-pub(super) fn tractions<'a, T: Real>(
-    local: &Potential<'_, T>,
-    first: usize,
-    gaps: &[T],
-    buffer: &'a mut [T; CHUNK],
-) -> &'a [T] {
-    let tractions = &mut buffer[..gaps.len()];
-    if !local.is_zero() {
-        local.evaluate(Of::Traction, first, gaps, tractions);
-    }
-    tractions
 }
 
 /// The tally of a chunk by its gap, pressure and traction.
