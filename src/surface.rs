@@ -69,11 +69,11 @@ impl Surface {
     pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
         grid.fits("heights", heights.dim())?;
         let missing = heights.iter().filter(|h| h.is_nan()).count();
-        let all_missing = grid.total(missing);
+        let all_missing: usize = grid.each(missing).iter().sum();
         if all_missing == 0 {
             return Self::new(grid, heights);
         }
-        if grid.has(heights.iter().any(|h| h.is_infinite())) {
+        if grid.each(heights.iter().any(|h| h.is_infinite())).contains(&true) {
             grid.finite("heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
         }
         let absent = Array2::from_shape_vec(grid.field_shape(), heights.iter().map(|h| h.is_nan()).collect()).ok();
@@ -139,23 +139,13 @@ impl Surface {
         &self.heights
     }
 
-    /// The whole surface, on a grid of this process alone. Where several processes share the grid, all have to ask.
+    /// The whole surface, on every one of the processes that share its grid. All of them have to ask.
     pub fn whole(&self) -> Cow<'_, Self> {
-        self.collected(true).unwrap_or(Cow::Borrowed(self))
-    }
-
-    /// [`Surface::whole`] on the first of the processes, and nothing on the others; all have to ask.
-    pub fn gathered(&self) -> Option<Cow<'_, Self>> {
-        self.collected(false)
-    }
-
-    fn collected(&self, everywhere: bool) -> Option<Cow<'_, Self>> {
         if !self.grid.is_shared() {
-            return Some(Cow::Borrowed(self));
+            return Cow::Borrowed(self);
         }
-        let heights = self.grid.slab().whole_of(&self.heights, everywhere);
-        let absent = self.absent.as_ref().and_then(|absent| self.grid.slab().whole_of(absent, everywhere));
-        Some(Cow::Owned(Self { grid: self.grid.alone(), heights: heights?, absent }))
+        let absent = self.absent.as_ref().map(|absent| self.grid.whole(absent).into_owned());
+        Cow::Owned(Self { grid: self.grid.alone(), heights: self.grid.whole(&self.heights).into_owned(), absent })
     }
 
     /// The absent nodes, of the shape of the [heights](Self::heights); nothing if there are none.
@@ -166,7 +156,7 @@ impl Surface {
     /// The number of absent nodes, of the whole surface. Where several processes share its grid, all have to ask.
     pub fn absent_nodes(&self) -> usize {
         let absent = |absent: &Array2<bool>| absent.iter().filter(|&&absent| absent).count();
-        self.absent.as_ref().map_or(0, |own| self.grid.total(absent(own)))
+        self.absent.as_ref().map_or(0, |own| self.grid.each(absent(own)).iter().sum())
     }
 
     /// The mean height.
@@ -177,7 +167,7 @@ impl Surface {
 
     /// A height, the first one, and how far the mean is above it: that is not rounded to the digits of a large datum.
     pub(crate) fn datum_and_mean(&self) -> [f64; 2] {
-        let datum = self.grid.first(self.heights.first().copied().unwrap_or_default());
+        let datum = self.grid.each(self.heights.first().copied().unwrap_or_default())[0];
         [datum, self.grid.mean(self.heights.view(), |h| h - datum)]
     }
 

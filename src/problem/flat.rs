@@ -95,7 +95,9 @@ impl<T: Real> PressedFlat<T> {
         let mean = datum + above;
         let rms_height = whole.rms_about(mean);
         // where nothing faces the body there is no height: those that stand there do not exceed the others
-        let (low, high) = surface.grid().extremes(range(flat(surface.heights())));
+        let (low, high) = range(flat(surface.heights()));
+        let low = grid.each(low).into_iter().fold(f64::INFINITY, f64::min);
+        let high = grid.each(high).into_iter().fold(f64::NEG_INFINITY, f64::max);
         let height_span = high - low;
         // a mean beyond the heights' own size is rounded more than the peak above it may be
         let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };

@@ -211,12 +211,12 @@ impl Table {
     ) -> Outcome<()> {
         self.kept().write(self.rows + 1, &*found.part()?, processes)?;
         let PathCheckpoint { fields, values } = course.place();
-        let whole: Vec<_> = fields.iter().map(|field| self.opening.nodes.gathered(field)).collect();
+        let whole: Vec<_> = fields.iter().map(|field| self.opening.nodes.whole(field)).collect();
         let load = row.wanted_contact_fraction.unwrap_or(row.account.control_value);
         let converged = row.account.status == Status::Converged && row.reached != Some(false);
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
-            let fields: Vec<_> = whole.iter().flatten().map(|field| field.view()).collect();
+            let fields: Vec<_> = whole.iter().map(|field| field.view()).collect();
             let text = self.opening.format.line(&row.cells(&self.names));
             journal.append(&Line { text: &text, load, converged, fields: &fields, values })
         })?;

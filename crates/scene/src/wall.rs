@@ -86,9 +86,6 @@ impl<T: Real> ContactConstraint<T> for Constraint<T> {
             Self::Uzawa(wall) => wall.start(grid, stiffest, tolerance),
         }
     }
-    fn takes_slabs(&self) -> bool {
-        true
-    }
     fn round_tolerance(&self) -> f64 {
         if let Self::Uzawa(wall) = self { wall.round_tolerance() } else { 0.0 }
     }

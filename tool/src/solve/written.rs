@@ -15,18 +15,18 @@ use crate::scene;
 
 impl Job<'_> {
     /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
-    /// with its law, where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
+    /// where there is one. Returns the load beyond the colours of the picture of the pressure, in words.
     pub(super) fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
-        whole: Option<(&Solution<T>, &impl AdhesionLaw<T>)>,
+        (whole, law): (Option<&Solution<T>>, &impl AdhesionLaw<T>),
         beside: &[Named],
         account: &Account,
     ) -> asperity::Result<Option<String>> {
         let path = |name: &str| folder.path(name);
         write_text(&path(REPORT), &format!("{:#}\n", json!(account)))?;
         write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
-        let Some((whole, law)) = whole else { return Ok(None) };
+        let Some(whole) = whole else { return Ok(None) };
         let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
         let gap = gap_to_write(solution);
         let fields = [&*gap, &solution.pressure, &solution.contact_pressure];
