@@ -194,8 +194,7 @@ impl Surface {
             // side lengths and heights are those of a surface
             Boundary::Free { .. } => mirrored(whole).map_or(0.0, |surface| surface.spectrum().nodes_per_wave()),
         };
-        // the first of several processes looks at the whole for all of them
-        self.grid().first(self.gathered().map_or(0.0, |whole| of(&whole)))
+        of(&self.whole())
     }
 }
 

@@ -114,7 +114,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         None
     }
 
-    /// The law adapted to a discretisation; none if it is the same there, which is the default. All processes ask.
+    /// The law adapted to a discretisation; none if it is the same there, which is the default.
     fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let _ = to;
         None
@@ -125,8 +125,6 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug)]
 pub enum Discretisation<T> {
-    /// The rows of this grid, [`Grid::rows`]: for a law that varies and, on a shared grid, knows some rows alone.
-    Rows(Grid),
     /// The coarser grid of every nx-th and every ny-th node: for a law that varies over the surface.
     Coarse(usize, usize),
     /// Nodes of this compliance, length per pressure: for a law whose traction jumps. Its slopes become no steeper than

@@ -60,18 +60,12 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
 
     /// Prepares for a solve on a surface's grid, to a tolerance of its criterion. `stiffest` is the stiffness of the
     /// shortest wave ([`ElasticOperator::stiffness_range`](crate::ElasticOperator::stiffness_range)), pressure per
-    /// length. Where processes share the grid, this one has the rows [`Grid::rows`].
+    /// length. Each of several processes has all nodes of the constraint.
     ///
     /// # Errors
     /// The reason, if the constraint cannot be used on that grid.
     fn start(&mut self, _grid: &Grid, _stiffest: f64, _tolerance: f64) -> Result<()> {
         Ok(())
-    }
-
-    /// Whether the constraint works where processes share the grid, with the springs of their own nodes, and
-    /// [`update`](Self::update) on their rows; if not, as by default, such a solve is refused.
-    fn takes_slabs(&self) -> bool {
-        false
     }
 
     /// The relative error, in the energy norm, to which the present round has to be solved, where that is above the
@@ -87,7 +81,7 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         false
     }
 
-    /// Updates the multipliers when a solve has converged, and tells whether to solve again. The gap is infinite at
+    /// Updates the springs when a solve with them has converged, and tells whether to solve again. The gap is infinite at
     /// [absent](crate::Surface::with_absent) nodes. `work` is the scale of the square of relative errors, Σ u·p over
     /// the nodes.
     fn update(&mut self, _gap: ArrayView2<'_, T>, _work: f64) -> Update {
@@ -101,9 +95,6 @@ impl<T: Real, C: ContactConstraint<T> + ?Sized> ContactConstraint<T> for Box<C> 
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         (**self).start(grid, stiffest, tolerance)
-    }
-    fn takes_slabs(&self) -> bool {
-        (**self).takes_slabs()
     }
     fn round_tolerance(&self) -> f64 {
         (**self).round_tolerance()

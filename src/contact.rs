@@ -3,7 +3,7 @@
 //! [`ContactStatistics`] has areas and the perimeter, [`Clusters`] the pieces that hang together,
 //! [`PressureDistribution`] the histogram of the pressure, and [`Original`] the measured part of a mirrored map.
 
-use ndarray::{Array2, ArrayView2, Zip};
+use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 
 use crate::adhesion::{AdhesionLaw, Values, noticeable, on_grid};
 use crate::elastic::Boundary;
@@ -78,6 +78,8 @@ impl<T: Real> Solution<T> {
     }
 }
 
+type Field<'a, T> = CowArray<'a, T, Ix2>;
+
 /// Whether each node attracts without contact: whether its adhesive traction is noticeable.
 fn attracting<T: Real>(
     contact: &Array2<bool>,
@@ -91,7 +93,7 @@ fn attracting<T: Real>(
     let least = T::lit(noticeable(law));
     let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
     let mut tractions = vec![T::zero(); gaps.len()];
-    law.evaluate(grid.first_node(), &gaps, Values::one(1, &mut tractions));
+    law.evaluate(grid.slab().first_node(), &gaps, Values::one(1, &mut tractions));
     contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
 }
 
@@ -99,9 +101,15 @@ fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_,
     Zip::from(gap).and(contact_pressure).map_collect(|&gap, &pressure| (gap <= T::zero()) | (pressure > T::zero()))
 }
 
-fn check<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>, grid: &Grid) -> Result<()> {
+/// Gap and contact pressure on the whole of their grid, and that grid.
+fn whole<'a, T: Real>(
+    gap: ArrayView2<'a, T>,
+    contact_pressure: ArrayView2<'a, T>,
+    grid: &Grid,
+) -> Result<(Field<'a, T>, Field<'a, T>, Grid)> {
     grid.fits("gap", gap.dim())?;
-    grid.fits("contact pressure", contact_pressure.dim())
+    grid.fits("contact pressure", contact_pressure.dim())?;
+    Ok((grid.whole(gap), grid.whole(contact_pressure), grid.alone()))
 }
 
 /// The contact statistics of a solution: the area and the clusters of contact, and the area that attracts without it.
@@ -184,7 +192,8 @@ pub struct ContactStatistics {
 }
 
 impl ContactStatistics {
-    /// The statistics of a solution. Memory per node: ten bytes, and with adhesion two scalars.
+    /// The statistics of a solution. Memory per node: ten bytes, and with adhesion two scalars. Where several processes
+    /// share the grid, each takes the whole of gap and contact pressure, two scalars more.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
@@ -215,18 +224,19 @@ impl ContactStatistics {
         (boundary, modulus): (Boundary, f64),
         law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
-        check(gap, contact_pressure, grid)?;
+        let (gap, contact_pressure, grid) = &whole(gap, contact_pressure, grid)?;
+        let (gap, contact_pressure) = (gap.view(), contact_pressure.view());
         let on_grid = on_grid(law, grid, modulus);
         let law = on_grid.as_deref().unwrap_or(law);
         let contact = contact_map(gap, contact_pressure);
-        let facing = grid.total(gap.iter().filter(|gap| gap.is_finite()).count());
+        let facing = gap.iter().filter(|gap| gap.is_finite()).count();
         let periodic = boundary == Boundary::Periodic;
         let outline = Outline { gap, contact_pressure, map: contact.view(), grid, periodic, modulus };
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter, .. } =
             ContactArea::within_edge(&outline, facing);
         let share = |count: usize| count as f64 / facing as f64;
         let attracts = attracting(&contact, gap, grid, law);
-        let attracting = grid.total(attracts.iter().filter(|&&attracts| attracts).count());
+        let attracting = attracts.iter().filter(|&&attracts| attracts).count();
         let nodes = gap.iter().zip(&contact).zip(&attracts);
         let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));
         Ok(Self {
@@ -234,11 +244,11 @@ impl ContactStatistics {
             contact_fraction,
             corrected_contact_fraction,
             perimeter,
-            cluster_sizes: Clusters::within(grid.whole(&contact).view(), boundary).sizes,
-            repulsive_fraction: share(grid.total(contact_pressure.iter().filter(|&&p| p > T::zero()).count())),
+            cluster_sizes: Clusters::within(contact.view(), boundary).sizes,
+            repulsive_fraction: share(contact_pressure.iter().filter(|&&p| p > T::zero()).count()),
             attractive_fraction: share(attracting),
             apart_fraction: share(facing - contact_nodes - attracting),
-            patches: patch::patches(law, grid, nodes),
+            patches: patch::patches(law, nodes),
         })
     }
 }

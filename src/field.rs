@@ -25,13 +25,10 @@ pub(crate) fn all_finite<T: Real>(name: &'static str, field: ArrayView2<'_, T>) 
 /// Refuses a field that is not finite in some slab: the process that has the first such node has the error.
 pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: ArrayView2<'_, T>) -> Result<()> {
     let mut found = all_finite(name, field);
-    let mut all = [0];
-    if let Err(Error::NotFinite { count, .. }) = &found {
-        all = [*count as u64];
-    }
-    slab.add_up(&mut all);
+    let own = if let Err(Error::NotFinite { count, .. }) = &found { *count } else { 0 };
+    let all = slab.each(own).iter().sum();
     if let Err(Error::NotFinite { count, nodes, first, .. }) = &mut found {
-        (*count, *nodes, first.0) = (all[0] as usize, slab.nodes(), first.0 + slab.rows().start);
+        (*count, *nodes, first.0) = (all, slab.nodes(), first.0 + slab.rows().start);
     }
     slab.agreed(found)
 }

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayRef2, ArrayView2, CowArray, Ix2};
+use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
 use crate::field::{self, Reducer, all_finite_in};
 use crate::ranks::{COUNTED, Sent};
 use crate::real::Real;
-use crate::slab::{Rows, Slab};
+use crate::slab::Slab;
 
 /// A periodic rectangle of Nx × Ny nodes on sides Lx × Ly; `Ny = 1` is a line, on which Ly has no influence.
 ///
@@ -114,69 +114,24 @@ impl Grid {
         self.slab.is_shared()
     }
 
-    /// A number of nodes, added up over the processes that share the grid. All of them have to ask.
-    pub fn total(&self, own: usize) -> usize {
-        let mut all = [own as u64];
-        self.slab.add_up(&mut all);
-        all[0] as usize
+    /// The value of each of the processes that share the grid, in their order. All of them have to ask.
+    pub fn each<E: Sent>(&self, own: E) -> Vec<E> {
+        self.slab.each(own)
     }
 
-    /// The least and the largest of two numbers of each of the processes that share the grid. All of them have to ask.
-    pub fn extremes(&self, (low, high): (f64, f64)) -> (f64, f64) {
-        (self.slab.least(low), self.slab.most(high))
+    /// The whole of a field, on every one of the processes that share the grid. All of them have to ask.
+    pub fn whole<'a, E: Sent>(&self, field: impl Into<CowArray<'a, E, Ix2>>) -> CowArray<'a, E, Ix2> {
+        self.slab.whole_of(field)
     }
 
-    /// The whole of a field on the first of the processes that share the grid, nothing on the others; all have to ask.
-    pub fn gathered<'a, T: Real>(&self, field: &'a ArrayRef2<T>) -> Option<CowArray<'a, T, Ix2>> {
-        if self.is_shared() { self.slab.whole_of(field, false).map(CowArray::from) } else { Some(field.view().into()) }
-    }
-
-    /// The whole of a field on every process. All of them have to ask.
-    pub(crate) fn whole<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>) -> CowArray<'a, A, Ix2> {
-        let field = field.into();
-        match self.is_shared().then(|| self.slab.whole_of(&field, true)).flatten() {
-            Some(whole) => whole.into(),
-            None => field,
-        }
-    }
-
-    /// The grid for this process alone, as for fields that were [gathered](Self::gathered).
+    /// The grid for this process alone, as for [whole](Self::whole) fields.
     pub fn alone(self) -> Self {
         Self { slab: Slab::whole(self.shape()), ..self }
     }
 
-    pub(crate) fn first_node(&self) -> usize {
-        self.slab.first_node()
-    }
-
-    /// Whether something is so for one of the processes that share the grid. All of them have to ask.
-    pub(crate) fn has(&self, own: bool) -> bool {
-        self.slab.has(own)
-    }
-
-    /// The number of the first of the processes that share the grid. All of them have to ask.
-    pub(crate) fn first(&self, own: f64) -> f64 {
-        self.slab.first(own)
-    }
-
-    /// The largest of the numbers of the processes that share the grid. All of them have to ask.
-    pub(crate) fn most(&self, own: f64) -> f64 {
-        self.slab.most(own)
-    }
-
-    /// Adds up numbers of the processes that share the grid. All of them have to ask.
-    pub(crate) fn add_up(&self, own: &mut [u64]) {
-        self.slab.add_up(own);
-    }
-
-    /// The result of this process, or the error of another one. All of them have to ask.
-    pub(crate) fn agreed<T>(&self, result: Result<T>) -> Result<T> {
-        self.slab.agreed(result)
-    }
-
     /// Refuses a field that does not have the shape of the grid's. All processes have to ask.
     pub(crate) fn fits(&self, name: &'static str, shape: (usize, usize)) -> Result<()> {
-        self.agreed(Error::shape(name, shape, self.field_shape()))
+        self.slab.agreed(Error::shape(name, shape, self.field_shape()))
     }
 
     /// Refuses a field that is not finite somewhere. All processes have to ask.
@@ -201,26 +156,6 @@ impl Grid {
         field::mean_of_both(self.slab, a, b, of)
     }
 
-    /// The lists of the processes that share the grid, one after the other. All of them have to ask.
-    pub(crate) fn lists<E: Sent>(&self, own: Vec<E>) -> Vec<E> {
-        self.slab.ranks().lists(own)
-    }
-
-    /// The rows of a field that the rows of another grid need: `needs` tells them for a row. All processes have to ask.
-    pub(crate) fn rows_for<'a, A: Sent, I: IntoIterator<Item = usize>>(
-        &self,
-        field: impl Into<CowArray<'a, A, Ix2>>,
-        to: &Self,
-        needs: impl Fn(usize) -> I,
-    ) -> Rows<'a, A> {
-        self.slab.rows_for(field, &to.slab, needs)
-    }
-
-    /// A field in the rows of another division of the grid. All processes have to ask.
-    pub(crate) fn moved<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>, to: &Self) -> CowArray<'a, A, Ix2> {
-        self.slab.moved(field.into(), &to.slab)
-    }
-
     pub(crate) fn slab(&self) -> Slab {
         self.slab
     }
@@ -234,20 +169,6 @@ impl Grid {
             return Err(Error::Value { name: "number of nodes of a process", value: nodes as f64, requirement });
         }
         Ok(Self { slab, ..self })
-    }
-
-    /// The grid in the rows of another one, on which it is a window.
-    pub(crate) fn in_rows_of(self, other: &Self) -> Self {
-        Self { slab: other.slab.window(self.shape()), ..self }
-    }
-
-    /// The grid, shared by the processes that share the one that is to be a window on it.
-    pub(crate) fn shared_around(self, window: &Self) -> Result<Self> {
-        self.within(window.slab.around(self.shape()))
-    }
-
-    pub(crate) fn shared_as(self, other: &Self) -> Result<Self> {
-        self.within(other.slab.of(self.shape()))
     }
 
     /// The side lengths `(Lx, Ly)`.

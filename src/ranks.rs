@@ -26,6 +26,7 @@ impl Sent for f64 {}
 impl Sent for bool {}
 impl Sent for u8 {}
 impl Sent for u64 {}
+impl Sent for usize {}
 impl Sent for Complex32 {}
 impl Sent for Complex64 {}
 
@@ -93,19 +94,16 @@ impl Ranks {
         if self.count == 1 {
             return own;
         }
-        let lengths = self.each(own.len() as u64);
-        let mut all = vec![E::default(); lengths.iter().sum::<u64>() as usize];
-        self.gather(&own, &Shares::new(lengths.into_iter().map(|length| length as usize)), &mut all);
+        let lengths = self.each(own.len());
+        let mut all = vec![E::default(); lengths.iter().sum()];
+        self.gather(&own, &Shares::new(lengths.into_iter()), &mut all);
         all
     }
 
     /// The bytes of the first rank.
     #[cfg(feature = "mpi")]
     pub(crate) fn first(self, own: &[u8]) -> Vec<u8> {
-        let count = self.each(own.len() as u64)[0] as usize;
-        let (mut bytes, own) = (vec![0; count], if self.rank == 0 { own } else { &[] });
-        self.gather(own, &Shares::new((0..self.count).map(|rank| if rank == 0 { count } else { 0 })), &mut bytes);
-        bytes
+        self.lists(if self.rank == 0 { own.to_vec() } else { Vec::new() })
     }
 
     /// Adds the numbers of all ranks to those of this one.

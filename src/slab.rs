@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayRef2, ArrayView1, ArrayView2, CowArray, Ix2};
+use ndarray::{Array2, ArrayView1, ArrayView2, Axis, CowArray, Ix2, Slice};
 
 use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Sent, Shares};
@@ -113,11 +113,7 @@ impl Slab {
     /// The result of this process, or an error that names another process. The latter is returned if a process of a
     /// smaller number has an error, or if this process has none and another one has. All processes have to call it.
     pub(crate) fn agreed<T>(&self, result: Result<T>) -> Result<T> {
-        if !self.is_shared() {
-            return result;
-        }
-        let refused = self.ranks.each(u8::from(result.is_err())).iter().position(|&refused| refused > 0);
-        match refused {
+        match self.each(result.is_err()).iter().position(|&refused| refused) {
             Some(rank) if rank != self.ranks.rank() => Err(Error::Elsewhere { rank }),
             _ => result,
         }
@@ -227,61 +223,36 @@ impl Slab {
         Array2::from_shape_vec((to.rows().len(), width), moved).unwrap_or_default().into()
     }
 
-    /// The field of all slabs, on every process or on the first one alone; `held` is the field of this slab.
-    pub(crate) fn whole_of<A: Sent>(&self, held: &ArrayRef2<A>, everywhere: bool) -> Option<Array2<A>> {
-        let (own, ny) = (self.ranks.rank(), self.shape.1);
-        let gets = everywhere || own == 0;
-        let mut whole = gets.then(|| Array2::default(self.shape));
+    /// The field of the whole grid, on every process, of which `held` is that of this slab. All processes have to call
+    /// it.
+    pub(crate) fn whole_of<'a, A: Sent>(&self, held: impl Into<CowArray<'a, A, Ix2>>) -> CowArray<'a, A, Ix2> {
+        let held = held.into();
+        if !self.is_shared() {
+            return held;
+        }
+        let ranks = 0..self.ranks.count();
+        let mut whole = Array2::default(self.shape);
         // a band of each process at a time, as MPI counts no more than 2³¹ numbers
-        let most = (0..self.ranks.count()).map(|rank| self.bands_of(rank).len()).max().unwrap_or_default();
-        for turn in 0..most {
+        for turn in 0..ranks.clone().map(|rank| self.bands_of(rank).len()).max().unwrap_or_default() {
             let rows = |rank: usize| {
                 let Range { start, end } = self.bands_of(rank);
                 let [first, last] = [turn, turn + 1].map(|band| self.shape.0.min((start + band).min(end) * self.band));
                 first..last
             };
-            let (first, count) = (rows(own).start - self.rows().start, rows(own).len());
-            let sent = held.rows().into_iter().skip(first).take(count);
-            let sent: Vec<A> = sent.flat_map(|row| row.to_vec()).collect();
-            let from = self.shares(|rank| if gets { rows(rank).len() * ny } else { 0 });
-            let total = (0..self.ranks.count()).map(|rank| rows(rank).len()).sum::<usize>();
-            let mut received = vec![A::default(); if gets { total * ny } else { 0 }];
-            if everywhere {
-                self.ranks.gather(&sent, &from, &mut received);
-            } else {
-                let to = self.shares(|rank| if rank == 0 { sent.len() } else { 0 });
-                self.ranks.exchange(&sent, &to, &mut received, &from);
-            }
-            let mut received = received.chunks(ny.max(1));
-            for row in whole.iter().flat_map(|_| (0..self.ranks.count()).flat_map(rows)).collect::<Vec<_>>() {
-                let (Some(whole), Some(values)) = (&mut whole, received.next()) else { break };
-                whole.row_mut(row).iter_mut().zip(values).for_each(|(to, &from)| *to = from);
+            let (own, start) = (rows(self.ranks.rank()), self.rows().start);
+            let sent = held.slice_axis(Axis(0), Slice::from(own.start - start..own.end - start));
+            let mut received = self.ranks.lists(sent.iter().copied().collect()).into_iter();
+            for rank in ranks.clone() {
+                let mut of_rank = whole.slice_axis_mut(Axis(0), Slice::from(rows(rank)));
+                of_rank.iter_mut().zip(received.by_ref()).for_each(|(to, from)| *to = from);
             }
         }
-        whole
+        whole.into()
     }
 
-    pub(crate) fn least(&self, own: f64) -> f64 {
-        if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::INFINITY, f64::min) } else { own }
-    }
-
-    pub(crate) fn most(&self, own: f64) -> f64 {
-        if self.is_shared() { self.ranks.each(own).into_iter().fold(f64::NEG_INFINITY, f64::max) } else { own }
-    }
-
-    pub(crate) fn first(&self, own: f64) -> f64 {
-        if self.is_shared() { self.ranks.each(own)[0] } else { own }
-    }
-
-    pub(crate) fn add_up(&self, own: &mut [u64]) {
-        if self.is_shared() {
-            self.ranks.add_up(own);
-        }
-    }
-
-    /// Whether a condition holds in at least one of the slabs.
-    pub(crate) fn has(&self, own: bool) -> bool {
-        if self.is_shared() { self.ranks.each(u8::from(own)).contains(&1) } else { own }
+    /// The value of each process, in their order. All processes have to call it.
+    pub(crate) fn each<E: Sent>(&self, own: E) -> Vec<E> {
+        self.ranks.each(own)
     }
 
     pub(crate) fn bands_of(&self, rank: usize) -> Range<usize> {

@@ -7,10 +7,10 @@ use std::fmt;
 
 use ndarray::Array2;
 
-use crate::adhesion::{AdhesionLaw, Discretisation};
+use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Partial, flat, write};
+use crate::field::{CHUNK, Partial, Reducer, flat, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Parts, Problem, Window, smoothed_law};
@@ -290,7 +290,7 @@ fn check_gap<T: Real>(problem: &Parts<'_, T>, constraint: &dyn ContactConstraint
             "zero or positive; a solution with springs or without a wall is looked at with its constraint";
         Err(Error::Value { name: "gap", value: gap.widen(), requirement })
     });
-    problem.grid().agreed(refused)
+    problem.grid().slab().agreed(refused)
 }
 
 /// φ'' at every node of the operator's grid, infinite where a rigid wall is touched, or springs press that end as one.
@@ -299,9 +299,8 @@ fn slopes<T: Real>(
     (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
     (grid, window): (&Grid, Option<&Window>),
 ) -> Result<Array2<T>> {
-    let grid = window.map_or(grid, Window::held);
-    let law_held = window.and_then(|window| law.adapted(Discretisation::Rows(*window.held())));
-    let local = Potential::new(law_held.as_deref().unwrap_or(law), constraint, None);
+    let slab = window.map_or(grid.slab(), Window::held);
+    let local = Potential::new(law, constraint, None);
     let gap = window.map_or_else(|| gap.view().into(), |window| window.hold(gap.view()));
     let gap = gap.as_standard_layout();
     let gaps = gap.as_slice().unwrap_or_default();
@@ -310,7 +309,7 @@ fn slopes<T: Real>(
         Wall::Springs(springs) => constraint.ends_rigid() && springs.traction(node, gap) < T::zero(),
         _ => local.projects() && gap <= T::zero(),
     };
-    let wrong = grid.reducer().run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
+    let wrong = Reducer::new(slab).run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut part = Partial::NONE;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
@@ -323,11 +322,11 @@ fn slopes<T: Real>(
         part
     });
     if wrong.min.is_finite() {
-        let own = (wrong.min as usize).checked_sub(grid.first_node());
+        let own = (wrong.min as usize).checked_sub(slab.first_node());
         let own = own.and_then(|node| Some((gaps.get(node)?.widen(), flat(&slopes).get(node)?.widen())));
         let refused =
             own.map_or(Ok(()), |(gap, value)| Err(Error::not_finite("slope of the local traction", gap, value)));
-        grid.agreed(refused)?;
+        slab.agreed(refused)?;
     }
     // nothing attracts, and nothing confines, where no surface faces the half-space
     Ok(match window {

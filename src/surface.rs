@@ -65,7 +65,7 @@ impl Surface {
     /// [`Error::Shape`] if they do not fit the grid, [`Error::Value`] if all nodes are absent.
     pub fn with_absent(self, absent: Array2<bool>) -> Result<Self> {
         self.grid.fits("absent nodes", absent.dim())?;
-        let count = self.grid.total(absent.iter().filter(|&&absent| absent).count());
+        let count: usize = self.grid.each(absent.iter().filter(|&&absent| absent).count()).iter().sum();
         if count == self.grid.nodes() {
             let requirement = "at least 1: all nodes are absent";
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
@@ -126,23 +126,13 @@ impl Surface {
         &self.heights
     }
 
-    /// The whole surface, on a grid of this process alone. Where several processes share the grid, all have to ask.
+    /// The whole surface, on every one of the processes that share its grid. All of them have to ask.
     pub fn whole(&self) -> Cow<'_, Self> {
-        self.collected(true).unwrap_or(Cow::Borrowed(self))
-    }
-
-    /// [`Surface::whole`] on the first of the processes, and nothing on the others; all have to ask.
-    pub fn gathered(&self) -> Option<Cow<'_, Self>> {
-        self.collected(false)
-    }
-
-    fn collected(&self, everywhere: bool) -> Option<Cow<'_, Self>> {
         if !self.grid.is_shared() {
-            return Some(Cow::Borrowed(self));
+            return Cow::Borrowed(self);
         }
-        let heights = self.grid.slab().whole_of(&self.heights, everywhere);
-        let absent = self.absent.as_ref().and_then(|absent| self.grid.slab().whole_of(absent, everywhere));
-        Some(Cow::Owned(Self { grid: self.grid.alone(), heights: heights?, absent }))
+        let absent = self.absent.as_ref().map(|absent| self.grid.whole(absent).into_owned());
+        Cow::Owned(Self { grid: self.grid.alone(), heights: self.grid.whole(&self.heights).into_owned(), absent })
     }
 
     /// The absent nodes, of the shape of the [heights](Self::heights); nothing if there are none.
@@ -153,7 +143,7 @@ impl Surface {
     /// The number of absent nodes, of the whole surface. Where several processes share its grid, all have to ask.
     pub fn absent_nodes(&self) -> usize {
         let absent = |absent: &Array2<bool>| absent.iter().filter(|&&absent| absent).count();
-        self.absent.as_ref().map_or(0, |own| self.grid.total(absent(own)))
+        self.absent.as_ref().map_or(0, |own| self.grid.each(absent(own)).iter().sum())
     }
 
     /// The mean height.
@@ -164,7 +154,7 @@ impl Surface {
 
     /// A height, the first one, and how far the mean is above it: that is not rounded to the digits of a large datum.
     pub(crate) fn datum_and_mean(&self) -> [f64; 2] {
-        let datum = self.grid.first(self.heights.first().copied().unwrap_or_default());
+        let datum = self.grid.each(self.heights.first().copied().unwrap_or_default())[0];
         [datum, self.grid.mean(self.heights.view(), |h| h - datum)]
     }
 

@@ -284,7 +284,7 @@ impl Varying {
         let (works, is_line): (Field<'_>, bool) =
             maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
         let works = works.to_array()?;
-        let formula = formula.varied(works.view(), None).map_err(refusal_of_works)?;
+        let formula = formula.varied(works.view()).map_err(refusal_of_works)?;
         let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };
         let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
         let work_of_adhesion_map = Some("array".to_owned());

@@ -49,9 +49,8 @@ pub struct Hardness {
     least: f64,
     /// H at every node of the surface; empty if it is the same everywhere
     field: Array2<f64>,
-    /// H at the nodes of the solve's grid, from the first one that this process has
+    /// H at the nodes of the solve's grid
     held: Array2<f64>,
-    first: usize,
 }
 
 impl Hardness {
@@ -62,7 +61,7 @@ impl Hardness {
     pub fn new(hardness: f64) -> Result<Self> {
         let mean = Error::positive("hardness", hardness)?;
         let none = || Array2::zeros((0, 0));
-        Ok(Self { mean, least: mean, field: none(), held: none(), first: 0 })
+        Ok(Self { mean, least: mean, field: none(), held: none() })
     }
 
     /// A hardness H at each node of the surface, of shape (Nx, Ny). On coarser grids each node takes that of the
@@ -80,7 +79,7 @@ impl Hardness {
             least = least.min(Error::positive("hardness", value)?);
         }
         let field = hardness.as_standard_layout().into_owned();
-        Ok(Self { mean: field.sum() / field.len() as f64, least, field, held: Array2::zeros((0, 0)), first: 0 })
+        Ok(Self { mean: field.sum() / field.len() as f64, least, field, held: Array2::zeros((0, 0)) })
     }
 
     /// The hardness H, in the mean over the nodes.
@@ -112,8 +111,7 @@ impl Hardness {
 
     /// Writes the hardness at nodes of the solve's grid, from the node `first` on.
     pub(crate) fn fill<T: Real>(&self, first: usize, caps: &mut [T]) {
-        let own = first.checked_sub(self.first).and_then(|own| flat(&self.held).get(own..own + caps.len()));
-        match own {
+        match flat(&self.held).get(first..first + caps.len()) {
             Some(held) => caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held)),
             None => caps.fill(T::lit(self.mean)),
         }
@@ -140,9 +138,6 @@ impl<T: Real> ContactConstraint<T> for Hardness {
     fn wall(&self) -> Wall<'_, T> {
         Wall::Capped(self)
     }
-    fn takes_slabs(&self) -> bool {
-        true
-    }
     fn start(&mut self, grid: &Grid, _: f64, _: f64) -> Result<()> {
         for value in [self.least, self.mean] {
             let rounded = T::lit(value);
@@ -159,12 +154,8 @@ impl<T: Real> ContactConstraint<T> for Hardness {
         if !(coarser(fx, nx) && coarser(fy, ny)) {
             return Err(Error::Shape { name: "hardness", found: (fx, fy), expected: (nx, ny) });
         }
-        let (rows, field) = (grid.rows(), &self.field);
         let nearest = |i: usize, fine: usize, coarse: usize| ((2 * i * fine + coarse) / (2 * coarse)).min(fine - 1);
-        self.held = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
-            field[[nearest(rows.start + i, fx, nx), nearest(j, fy, ny)]]
-        });
-        self.first = rows.start * ny;
+        self.held = Array2::from_shape_fn((nx, ny), |(i, j)| self.field[[nearest(i, fx, nx), nearest(j, fy, ny)]]);
         Ok(())
     }
 }

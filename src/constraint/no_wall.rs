@@ -25,7 +25,4 @@ impl<T: Real> ContactConstraint<T> for NoWall {
     fn wall(&self) -> Wall<'_, T> {
         Wall::None
     }
-    fn takes_slabs(&self) -> bool {
-        true
-    }
 }

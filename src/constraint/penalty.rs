@@ -40,9 +40,6 @@ impl<T: Real> ContactConstraint<T> for Penalty {
     fn wall(&self) -> Wall<'_, T> {
         Wall::Springs(self)
     }
-    fn takes_slabs(&self) -> bool {
-        true
-    }
     fn start(&mut self, _: &Grid, _: f64, _: f64) -> Result<()> {
         check_stiffness::<T>(self.stiffness)
     }

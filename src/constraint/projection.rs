@@ -12,7 +12,4 @@ impl<T: Real> ContactConstraint<T> for Projection {
     fn wall(&self) -> Wall<'_, T> {
         Wall::Rigid
     }
-    fn takes_slabs(&self) -> bool {
-        true
-    }
 }

@@ -70,8 +70,6 @@ pub struct Uzawa<T> {
     present: f64,
     multipliers: Array2<T>,
     grid: Option<Grid>,
-    /// the first node of the multipliers
-    first: usize,
     rounds: usize,
 }
 
@@ -96,7 +94,6 @@ impl<T: Real> Uzawa<T> {
             present: 0.0,
             multipliers,
             grid: None,
-            first: 0,
             rounds: 0,
         })
     }
@@ -108,8 +105,7 @@ impl<T: Real> Uzawa<T> {
 
     /// The multipliers of so many nodes; none before a solve.
     fn multipliers(&self, node: usize, count: usize) -> &[T] {
-        let own = node.checked_sub(self.first).and_then(|own| flat(&self.multipliers).get(own..own + count));
-        own.unwrap_or_default()
+        flat(&self.multipliers).get(node..node + count).unwrap_or_default()
     }
 
     /// Energy, traction and slope at one node.
@@ -131,17 +127,13 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         (self.solved_to, self.present) = (tolerance, FIRST);
-        self.multipliers = Array2::zeros(grid.field_shape());
-        (self.grid, self.first) = (Some(*grid), grid.first_node());
+        (self.grid, self.multipliers) = (Some(*grid), Array2::zeros(grid.shape()));
         self.rounds = 1;
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
             self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
         }
         Ok(())
-    }
-    fn takes_slabs(&self) -> bool {
-        true
     }
     fn round_tolerance(&self) -> f64 {
         self.present

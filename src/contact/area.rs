@@ -5,7 +5,7 @@ use ndarray::{ArrayView1, ArrayView2};
 #[cfg(doc)]
 use super::ContactStatistics;
 use super::outline::{Edge, Outline};
-use super::{check, contact_map};
+use super::{contact_map, whole};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::grid::Grid;
@@ -63,7 +63,8 @@ impl ContactArea {
     /// [`Error::Shape`](crate::Error::Shape) if the map does not have the shape of the grid.
     pub fn of(map: ArrayView2<'_, bool>, grid: &Grid) -> Result<Self> {
         grid.fits("contact map", map.dim())?;
-        Ok(Self::within(map, grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
+        let (map, grid) = (grid.whole(map), &grid.alone());
+        Ok(Self::within(map.view(), grid, true, grid.nodes(), |along| edge_of_map(along, grid)))
     }
 
     /// The area of a solution, within the edge that its gap and contact pressure tell. Shares are of the nodes that
@@ -73,8 +74,8 @@ impl ContactArea {
     /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
     pub fn of_solution<T: Real>(solution: &Solution<T>) -> Result<Self> {
         let Solution { gap, contact_pressure, grid, report, .. } = solution;
+        let (gap, contact_pressure, grid) = &whole(gap.view(), contact_pressure.view(), grid)?;
         let (gap, contact_pressure) = (gap.view(), contact_pressure.view());
-        check(gap, contact_pressure, grid)?;
         let map = contact_map(gap, contact_pressure);
         let periodic = report.boundary == Boundary::Periodic;
         let outline = Outline { gap, contact_pressure, map: map.view(), grid, periodic, modulus: report.modulus };
@@ -99,7 +100,6 @@ impl ContactArea {
         edge: impl FnOnce((usize, usize)) -> Edge,
     ) -> Self {
         let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
-        let contact_nodes = grid.total(contact_nodes);
         let (along_x, along_y) = edges(map, grid, periodic);
         let (dx, dy) = grid.spacing();
         let perimeter = if grid.is_line() { along_x as f64 } else { along_x as f64 * dy + along_y as f64 * dx };
@@ -130,23 +130,20 @@ fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usiz
     let (mut along_x, mut along_y) = (0, 0);
     let map = map.as_standard_layout();
     let nx = grid.shape().0;
-    let rows = grid.rows_for(map.view(), grid, |row| [(row + 1) % nx]);
-    for i in grid.rows() {
-        let [row, after] = [i, (i + 1) % nx].map(|row| rows.row(row));
-        let [row, after] = [row, after].map(|row| row.to_slice().unwrap_or_default());
+    for i in 0..nx {
+        let [row, after] = [map.row(i), map.row((i + 1) % nx)];
+        let [row, after] = [&row, &after].map(|row| row.to_slice().unwrap_or_default());
         along_x += differences(row, after);
         along_y += differences(&row[1..], row) + usize::from(row[0] != row[row.len() - 1]);
     }
     if !periodic {
         // across the sides each meets nothing in place of the other
-        let ends = grid.rows().contains(&(nx - 1)).then(|| (rows.row(0), rows.row(nx - 1)));
-        let [left, right] = [map.column(0), map.column(map.ncols() - 1)];
         let both =
             |a: ArrayView1<'_, bool>, b: ArrayView1<'_, bool>| a.iter().zip(b).filter(|&(&a, &b)| a && b).count();
-        along_x += ends.map_or(0, |(first, last)| both(first, last) * 2);
-        along_y += both(left, right) * 2;
+        along_x += both(map.row(0), map.row(nx - 1)) * 2;
+        along_y += both(map.column(0), map.column(map.ncols() - 1)) * 2;
     }
-    (grid.total(along_x), grid.total(along_y))
+    (along_x, along_y)
 }
 
 fn differences(a: &[bool], b: &[bool]) -> usize {

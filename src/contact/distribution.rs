@@ -9,7 +9,7 @@ use crate::real::Real;
 use crate::solver::Solution;
 
 /// The distribution of the pressure over the surface: a histogram, as a probability density, of fields of the whole
-/// surface ([`Grid::gathered`](crate::Grid::gathered) puts shared ones together).
+/// surface ([`Grid::whole`](crate::Grid::whole) puts shared ones together).
 ///
 /// The bins are equally wide; a bin has its lower edge, the last one its upper edge too. The density of a bin is its
 /// share of the nodes, without absent ones, divided by its width, so Σ density · pressure · width is about the mean

@@ -77,18 +77,16 @@ struct Cut {
 impl<T: Real> Outline<'_, T> {
     pub(crate) fn edge(&self) -> Edge {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
-        let ((nx, columns), next) = (grid.shape(), |row| [(row + 1) % grid.shape().0]);
+        let (nx, columns) = grid.shape();
         let (dx, dy) = grid.spacing();
         let step = Step {
             compliances: [dx, dy].map(|spacing| SOFTNESS * spacing / modulus),
             shift: if *periodic { SHIFT_PERIODIC } else { SHIFT_FREE },
         };
-        let (gap, contact_pressure) = (grid.rows_for(gap, grid, next), grid.rows_for(contact_pressure, grid, next));
-        let map = grid.rows_for(map, grid, next);
         // whether the four nodes of a cell are not all of one kind
         let mut mixed = Vec::with_capacity(columns);
         let (mut excess, mut places) = (0_i64, Places::new());
-        for i in grid.rows().filter(|i| *periodic || i + 1 < nx) {
+        for i in (0..nx).filter(|i| *periodic || i + 1 < nx) {
             let below = (i + 1) % nx;
             let rows = [i, below].map(|row| (map.row(row), gap.row(row), contact_pressure.row(row)));
             let node = |row: usize, j: usize| Node::of(rows[row].0[j], rows[row].1[j], rows[row].2[j]);
@@ -110,10 +108,7 @@ impl<T: Real> Outline<'_, T> {
                 excess += fixed(step.of_cell(corners, &mut places));
             }
         }
-        let places = places.total(grid);
-        // sums of negative numbers wrap around as well
-        let excess = grid.total(excess as usize) as i64 as f64 / CELL;
-        Edge { excess, edges: places.edges(), places: places.independent() }
+        Edge { excess: excess as f64 / CELL, edges: places.edges(), places: places.independent() }
     }
 }
 

@@ -1,7 +1,6 @@
 //! The patches of a law that varies over the surface: the nodes of each work of adhesion.
 
 use crate::adhesion::{AdhesionLaw, Values};
-use crate::grid::Grid;
 use crate::real::Real;
 
 const MOST: usize = 16;
@@ -28,7 +27,6 @@ type Counts = (f64, [u64; 3]);
 /// `None` if the law is the same everywhere, or of more than [`MOST`] works of adhesion.
 pub(super) fn patches<T: Real>(
     law: &dyn AdhesionLaw<T>,
-    grid: &Grid,
     nodes: impl ExactSizeIterator<Item = Option<[bool; 2]>>,
 ) -> Vec<Patch> {
     if law.hints().shape.is_none() {
@@ -37,16 +35,11 @@ pub(super) fn patches<T: Real>(
     // where nothing presses them, the surfaces have given all of it up
     let gaps = vec![law.hints().rest.unwrap_or_else(T::zero); nodes.len()];
     let mut energies = vec![T::zero(); gaps.len()];
-    law.evaluate(grid.first_node(), &gaps, Values::one(0, &mut energies));
+    law.evaluate(0, &gaps, Values::one(0, &mut energies));
     let mut counts = Vec::new();
     for (energy, node) in energies.iter().zip(nodes) {
         let (Some([touches, attracts]), work) = (node, 0.0 - energy.widen()) else { continue };
         count(&mut counts, work, [1, u64::from(touches), u64::from(attracts)]);
-    }
-    let own = counts.iter().flat_map(|(work, [a, b, c])| [work.to_bits(), *a, *b, *c]).collect();
-    counts.clear();
-    for &[work, all, touching, attracting] in grid.lists(own).as_chunks().0 {
-        count(&mut counts, f64::from_bits(work), [all, touching, attracting]);
     }
     if counts.len() > MOST {
         return Vec::new();

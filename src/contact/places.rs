@@ -1,7 +1,5 @@
 //! The places of a contact edge between the nodes.
 
-use crate::grid::Grid;
-
 /// The bins of a spacing, and how many of them are one bin of a coarser count.
 const BINS: usize = 64;
 const COARSER: usize = 4;
@@ -20,11 +18,6 @@ impl Places {
     /// Counts one between two neighbours, in spacings from the one in contact.
     pub fn add(&mut self, place: f64) {
         self.counts[((place * BINS as f64) as usize).min(BINS - 1)] += 1;
-    }
-
-    pub fn total(mut self, grid: &Grid) -> Self {
-        grid.add_up(&mut self.counts);
-        self
     }
 
     pub fn edges(&self) -> usize {

@@ -59,10 +59,11 @@ impl<T: Real> Boussinesq<T> {
             }
         }
         let padded = (padded(shape.0), padded(shape.1));
-        let grid = Grid::new(padded, (padded.0 as f64 * dx, padded.1 as f64 * dy))?.shared_around(&window)?;
+        let grid =
+            Grid::new(padded, (padded.0 as f64 * dx, padded.1 as f64 * dy))?.within(window.slab().around(padded))?;
         grid.slab().afford("a free half-space", 16)?;
         let modes = even_modes(grid.slab(), kernel(&grid, (0.5 * dx, 0.5 * dy), modulus).view());
-        let mean_compliance = grid.slab().first(modes.first().copied().unwrap_or_default());
+        let mean_compliance = grid.each(modes.first().copied().unwrap_or_default())[0];
         let spectral = Spectral::of_compliance(grid, modulus, modes)?;
         Ok(Self { spectral, boundary: Boundary::Free { window, mean_compliance } })
     }

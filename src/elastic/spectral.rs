@@ -118,7 +118,8 @@ impl<T: Real> Spectral<T> {
             move |qx: f64, qy: f64| {
                 let [i, j] = [(qx * lx).abs() / TAU, (qy * ly).abs() / TAU].map(|number| number.round() as usize);
                 // one process has it, and all ask
-                slab.most(modes.get(if exchanged { [i, j] } else { [j, i] }).unwrap_or(f64::NEG_INFINITY))
+                let own = modes.get(if exchanged { [i, j] } else { [j, i] }).unwrap_or(f64::NEG_INFINITY);
+                slab.each(own).into_iter().fold(f64::NEG_INFINITY, f64::max)
             }
         };
         Ok(Self { grid, modulus, symbol: Arc::new(symbol), stiffness: Stiffness::Even(modes), range, convolver })

@@ -49,8 +49,8 @@ impl Part {
             }
         }
         let of_all = |side: Range<usize>| {
-            let (start, end) = grid.extremes((side.start as f64, side.end as f64));
-            start as usize..end as usize
+            let (starts, ends) = (grid.each(side.start), grid.each(side.end));
+            starts.into_iter().min().unwrap_or_default()..ends.into_iter().max().unwrap_or_default()
         };
         let (x, y) = (of_all(x), of_all(y));
         let widened = |side: Range<usize>, nodes: usize| {
@@ -66,7 +66,7 @@ impl Part {
     }
 
     fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: &Grid, to: &Grid) -> Array2<T> {
-        let rows = from.rows_for(field.view(), to, |row| [self.x.start + row]);
+        let rows = from.slab().rows_for(field.view(), &to.slab(), |row| [self.x.start + row]);
         let cut = to.rows().flat_map(|row| {
             rows.row(self.x.start + row).slice_axis_move(Axis(0), Slice::from(self.y.clone())).to_vec()
         });
@@ -81,7 +81,7 @@ impl Part {
         f: impl Fn(ArrayViewMut1<'_, T>, ArrayView1<'_, T>),
     ) {
         let of = |row: usize| self.x.contains(&row).then(|| row - self.x.start);
-        let rows = from.rows_for(field, to, of);
+        let rows = from.slab().rows_for(field, &to.slab(), of);
         for (row, mut whole) in to.rows().zip(whole.rows_mut()) {
             if let Some(own) = of(row) {
                 f(whole.slice_axis_mut(Axis(0), Slice::from(self.y.clone())), rows.row(own));
@@ -92,7 +92,8 @@ impl Part {
     fn surface(&self, surface: &Surface) -> Result<Surface> {
         let (dx, dy) = surface.grid().spacing();
         let lengths = (self.x.len() as f64 * dx, self.y.len() as f64 * dy);
-        let grid = Grid::new((self.x.len(), self.y.len()), lengths)?.shared_as(surface.grid())?;
+        let shape = (self.x.len(), self.y.len());
+        let grid = Grid::new(shape, lengths)?.within(surface.grid().slab().of(shape))?;
         Surface::new(grid, self.cut(surface.heights(), surface.grid(), &grid))
     }
 
@@ -100,7 +101,7 @@ impl Part {
     fn control(control: Control, whole: &Surface, part: &Surface) -> Control {
         let highest = |surface: &Surface| {
             let own = surface.heights().iter().fold(f64::NEG_INFINITY, |high, &h| high.max(h));
-            surface.grid().extremes((own, own)).1
+            surface.grid().each(own).into_iter().fold(f64::NEG_INFINITY, f64::max)
         };
         let lower = highest(whole) - highest(part);
         let (lx, ly) = whole.grid().lengths();

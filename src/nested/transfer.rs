@@ -21,13 +21,14 @@ const WIDER: f64 = 0.77;
 
 /// The surface on a coarser grid; nothing if all of its nodes are absent.
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
-    let grid = Grid::new(shape, surface.grid().lengths())?.shared_as(surface.grid())?;
+    let slab = surface.grid().slab();
+    let grid = Grid::new(shape, surface.grid().lengths())?.within(slab.of(shape))?;
     let (nx, ny) = surface.grid().shape();
     let sides = [(nx, shape.0), (ny, shape.1)].map(|(from, to)| [from, to].map(Side::periodic));
     let [along_x, along_y] = sides.map(|[from, to]| places(from, to));
     let needed = |row: usize| along_x[row].nodes;
-    let heights = surface.grid().rows_for(surface.heights(), &grid, needed);
-    let absent = surface.absent().map(|absent| surface.grid().rows_for(absent, &grid, needed));
+    let heights = slab.rows_for(surface.heights(), &grid.slab(), needed);
+    let absent = surface.absent().map(|absent| slab.rows_for(absent, &grid.slab(), needed));
     let mut coarse = Array2::zeros(grid.field_shape());
     par::for_each(par::chunks_mut(flat_mut(&mut coarse), shape.1), |i, row| {
         let x = along_x[grid.rows().start + i];
@@ -42,7 +43,7 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
     let absent = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
         absent.row(along_x[first + i].nodes[1])[along_y[j].nodes[1]]
     });
-    let some = grid.has(absent.iter().any(|absent| !absent));
+    let some = grid.each(absent.iter().any(|absent| !absent)).contains(&true);
     if some { coarse.with_absent(absent).map(Some) } else { Ok(None) }
 }
 
@@ -198,9 +199,9 @@ impl<T: Real> Deformed<T> {
         let [from, to] = [Side::of(window, coarse.shape()), Side::of(surface.grid().shape(), grid.shape())];
         let (along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let needed = |row: usize| along_x[row].nodes;
-        let displacement = coarse.rows_for(displacement, grid, needed);
-        let gap = coarse.rows_for(gap, grid, needed);
-        let (width, first) = (grid.shape().1, grid.first_node());
+        let displacement = coarse.slab().rows_for(displacement, &grid.slab(), needed);
+        let gap = coarse.slab().rows_for(gap, &grid.slab(), needed);
+        let (width, first) = (grid.shape().1, grid.slab().first_node());
         let facing_in = |nodes: Range<usize>| match &facing {
             None => vec![true; nodes.len()],
             Some(facing) => facing.pieces(nodes).flat_map(|(len, own)| repeat_n(own.is_some(), len)).collect(),

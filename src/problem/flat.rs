@@ -101,8 +101,9 @@ impl<T: Real> PressedFlat<T> {
         let faces = |(&height, absent): (&f64, &bool)| (!absent).then_some(height);
         let facing: Option<Vec<_>> =
             surface.absent().map(|absent| surface.heights().iter().zip(absent).filter_map(faces).collect());
-        let facing = facing.as_deref().unwrap_or_else(|| flat(surface.heights()));
-        let (low, high) = surface.grid().extremes(range(facing));
+        let (low, high) = range(facing.as_deref().unwrap_or_else(|| flat(surface.heights())));
+        let low = grid.each(low).into_iter().fold(f64::INFINITY, f64::min);
+        let high = grid.each(high).into_iter().fold(f64::NEG_INFINITY, f64::max);
         let height_span = high - low;
         // a mean beyond the heights' own size is rounded more than the peak above it may be
         let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };

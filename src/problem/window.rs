@@ -5,9 +5,10 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 
 use crate::error::Result;
-use crate::field::{flat, flat_mut};
+use crate::field::{all_finite_in, flat, flat_mut};
 use crate::grid::Grid;
 use crate::real::Real;
+use crate::slab::Slab;
 use crate::surface::Surface;
 
 /// The nodes of the operator's grid that face a surface; the others have neither wall nor law. The surface is on the
@@ -16,8 +17,8 @@ use crate::surface::Surface;
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     grid: Grid,
-    /// the grid of the surface in the rows of the operator's slab
-    held: Grid,
+    /// the nodes of the surface in the rows of the operator's slab
+    held: Slab,
     /// the grid of the operator
     whole: Grid,
     /// the runs of nodes that face the surface, each within a row
@@ -42,8 +43,8 @@ impl Window {
         if grid.shape() == operator.shape() && surface.absent().is_none() {
             return None;
         }
-        let held = grid.in_rows_of(operator);
-        let absent = surface.absent().map(|absent| grid.moved(absent, &held));
+        let held = operator.slab().window(grid.shape());
+        let absent = surface.absent().map(|absent| grid.slab().moved(absent.into(), &held));
         let first = held.rows().start;
         let faces = |i: usize, j: usize| absent.as_ref().is_none_or(|absent| !absent[[i - first, j]]);
         let mut runs: Vec<Run> = Vec::new();
@@ -59,7 +60,7 @@ impl Window {
                 open = faces(i, j);
             }
         }
-        let facing = grid.total(runs.iter().map(|run| run.nodes.len()).sum());
+        let facing = grid.each(runs.iter().map(|run| run.nodes.len()).sum::<usize>()).iter().sum();
         Some(Self { grid, held, whole: *operator, runs, facing })
     }
 
@@ -67,8 +68,8 @@ impl Window {
         &self.grid
     }
 
-    pub(crate) fn held(&self) -> &Grid {
-        &self.held
+    pub(crate) fn held(&self) -> Slab {
+        self.held
     }
 
     pub(crate) fn facing(&self) -> usize {
@@ -106,7 +107,7 @@ impl Window {
 
     /// A field of the surface's grid in the rows of the operator's slab.
     pub(crate) fn hold<'a, T: Real>(&self, field: impl Into<CowArray<'a, T, Ix2>>) -> CowArray<'a, T, Ix2> {
-        self.grid.moved(field, &self.held)
+        self.grid.slab().moved(field.into(), &self.held)
     }
 
     /// A field of the surface's grid on that of the operator: values not finite or beyond the window are interpolated,
@@ -125,11 +126,11 @@ impl Window {
             *is_known = !known.is_empty();
             between(&known, width, |j, a, b, share| row[j] = row[a] + T::lit(share) * (row[b] - row[a]));
         }
-        let known = self.held.lists(known);
+        let known = self.held.ranks().lists(known);
         let known: Vec<usize> = (0..known.len()).filter(|&i| known[i]).collect();
         let mut sources: Vec<_> = (0..nx).map(|i| (i, i, 0.0)).collect();
         between(&known, nx, |i, a, b, share| sources[i] = (a, b, share));
-        let rows = self.held.rows_for(held, &self.whole, |i| [sources[i].0, sources[i].1]);
+        let rows = self.held.rows_for(held, &self.whole.slab(), |i| [sources[i].0, sources[i].1]);
         let mut extended = Array2::zeros(self.whole.field_shape());
         for (row, &(a, b, share)) in extended.rows_mut().into_iter().zip(&sources[self.whole.rows()]) {
             Zip::from(row).and(rows.row(a)).and(rows.row(b)).for_each(|to, &at_a, &at_b| {
@@ -141,11 +142,11 @@ impl Window {
 
     /// A field of the operator's grid on that of the surface.
     pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
-        self.held.moved(self.cut(field, absent), &self.grid).into_owned()
+        self.held.moved(self.cut(field, absent).into(), &self.grid.slab()).into_owned()
     }
 
     pub(crate) fn cut<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
-        let mut cut = Array2::from_elem(self.held.field_shape(), absent);
+        let mut cut = Array2::from_elem(self.held.held(), absent);
         for (nodes, own) in self.places() {
             flat_mut(&mut cut)[own].copy_from_slice(&flat(field)[nodes]);
         }
@@ -163,7 +164,7 @@ impl Window {
 
     /// The places of this process's runs on the operator's grid and on the surface's.
     fn places(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
-        let [start, first] = [&self.whole, &self.held].map(Grid::first_node);
+        let [start, first] = [self.whole.slab(), self.held].map(|slab| slab.first_node());
         self.runs.iter().map(move |run| {
             let own = run.first - first;
             (run.nodes.start - start..run.nodes.end - start, own..own + run.nodes.len())
@@ -177,11 +178,11 @@ impl Window {
         let gap = gap.as_slice().unwrap_or_default();
         // with one value at absent nodes, then another
         let facing = |elsewhere: T| {
-            let mut facing = Array2::from_elem(self.held.field_shape(), elsewhere);
+            let mut facing = Array2::from_elem(self.held.held(), elsewhere);
             self.places().for_each(|(_, own)| flat_mut(&mut facing)[own.clone()].copy_from_slice(&gap[own]));
             facing
         };
-        self.held.finite("starting gap", facing(T::zero()).view())?;
+        all_finite_in(self.held, "starting gap", facing(T::zero()).view())?;
         Ok(self.extended(facing(T::nan()).view()))
     }
 }

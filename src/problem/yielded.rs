@@ -39,7 +39,7 @@ impl<T: Real> PressedFlat<T> {
         surface.finite("plastic depth", depth)?;
         let negative = depth.iter().find(|&&depth| depth < T::zero());
         let refused = |&depth: &T| Error::non_negative("plastic depth", depth.widen()).map(|_| ());
-        surface.agreed(negative.map_or(Ok(()), refused))?;
+        surface.slab().agreed(negative.map_or(Ok(()), refused))?;
         Ok(match &self.window {
             Some(window) => window.place(&window.hold(depth).into_owned(), T::zero()),
             None => depth.as_standard_layout().into_owned(),

@@ -109,7 +109,7 @@ impl Coarse {
             }
         };
         self.counts.fill(Count::default());
-        let (rows, first) = (self.grid.rows(), self.grid.first_node());
+        let (rows, first) = (self.grid.rows(), self.grid.slab().first_node());
         // the rest of a row of blocks that begins in another slab
         let begun = rows.start % block.0;
         let (head, others) = field.view().split_at(Axis(0), ((block.0 - begun) % block.0).min(rows.len()));
@@ -120,7 +120,7 @@ impl Coarse {
         par::for_each(par::tiles(others, 0, block.0).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
             count(nodes, 0, first + (head.nrows() + i * block.0) * ny, counts);
         });
-        self.grid.add_up(self.counts.as_flattened_mut());
+        self.grid.slab().ranks().add_up(self.counts.as_flattened_mut());
 
         let share = (nx as f64 * ny as f64).recip();
         self.contact.fill(0.0);

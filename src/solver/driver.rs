@@ -10,7 +10,7 @@ use super::start::{Begin, check_hardness, check_wall};
 use super::state::State;
 use super::tension::Hold;
 use super::{Branch, Method, Settings};
-use crate::adhesion::{AdhesionLaw, Discretisation, NoAdhesion, SharedLaw};
+use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw};
 use crate::constraint::{ContactConstraint, Projection, Update, Wall};
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
@@ -88,8 +88,6 @@ pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe:
 /// Solves a problem: from afar with the wall alone, then with the law smoothed, then with the law itself.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
     let Job { law, given, flat, constraint, control, settings, begin, observe } = job;
-    let held = flat.window.as_ref().and_then(|window| law.adapted(Discretisation::Rows(*window.held())));
-    let law = held.as_deref().unwrap_or(law);
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
     let load = flat.load(control, constraint.wall())?;

@@ -140,14 +140,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let pressure = window.crop(&pressure, T::zero());
         let contact_pressure = window.crop(&contact_pressure, T::zero());
         if flat.boundary != Boundary::Periodic {
-            let [at_edge, largest] =
-                [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())].map(|own| grid.most(own));
+            let [at_edge, largest] = [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())]
+                .map(|own| grid.each(own).into_iter().fold(0.0, f64::max));
             let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
             report.edge_traction = Some(share);
             // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
             let attract = !law.hints().zero && largest > noticeable(law);
             let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
-            let touches = grid.has(edge(&gap, &grid).any(|gap| gap <= T::zero()));
+            let touches = grid.each(edge(&gap, &grid).any(|gap| gap <= T::zero())).contains(&true);
             report.reaches_edge = !apart && (share > EDGE || touches);
         }
         Ok(Solved {

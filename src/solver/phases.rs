@@ -5,7 +5,7 @@ use super::minimisation::{Goal, Left, Nearness, Progress};
 use super::start::uniform_start;
 use super::state::State;
 use crate::adhesion::{AdhesionLaw, Values};
-use crate::constraint::{ContactConstraint, Update};
+use crate::constraint::{ContactConstraint, Update, Wall};
 use crate::error::{Error, Result};
 use crate::field::flat;
 use crate::problem::{Control, Load};
@@ -26,13 +26,13 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         if self.energy().is_finite() && self.sums.tally.sum_r.is_finite() {
             return Ok(());
         }
-        self.posed.operators.state().grid().agreed(self.check_gaps())
+        self.posed.operators.state().grid().slab().agreed(self.check_gaps())
     }
 
     fn check_gaps(&self) -> Result<()> {
         let law = self.posed.law;
         let mut value = [T::zero()];
-        let first = self.posed.operators.state().grid().first_node();
+        let first = self.posed.operators.state().grid().slab().first_node();
         for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
             let node = match &self.posed.flat.window {
                 None => node,
@@ -97,9 +97,13 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
 
     pub(super) fn update_constraint(&mut self) -> Update {
         // no gap where no surface faces the half-space
-        let gap = self.posed.flat.window.as_ref().map(|window| window.cut(&self.fields.gap, T::infinity()));
+        let whole = || match &self.posed.flat.window {
+            Some(window) => window.held().whole_of(window.cut(&self.fields.gap, T::infinity())),
+            None => self.posed.operators.state().grid().whole(&self.fields.gap),
+        };
+        let gap = matches!(self.posed.constraint.wall(), Wall::Springs(_)).then(whole);
         let work = self.error_scale().0 * self.posed.nodes();
-        let outer = self.posed.constraint.update(gap.as_ref().unwrap_or(&self.fields.gap).view(), work);
+        let outer = gap.map_or(Update::Done, |gap| self.posed.constraint.update(gap.view(), work));
         // a constraint that is met where a round ended early has to be met by the solution
         self.posed.leads_on = outer != Update::Done || self.start_tolerance().is_none();
         if outer == Update::Again {

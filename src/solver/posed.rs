@@ -38,11 +38,8 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
     /// Prepares the constraint, and refuses what does not suit the grid, the load or the method.
     pub(super) fn prepare(&mut self) -> Result<()> {
         let (flat, operator) = (self.flat, self.operators.state());
-        if !self.constraint.takes_slabs() {
-            operator.grid().slab().alone("contact constraint")?;
-        }
-        let surface = flat.window.as_ref().map_or(operator.grid(), Window::held);
-        self.constraint.start(surface, operator.stiffness_range().1, self.settings.tolerance_in::<T>())?;
+        let surface = flat.window.as_ref().map_or(operator.grid(), Window::grid).alone();
+        self.constraint.start(&surface, operator.stiffness_range().1, self.settings.tolerance_in::<T>())?;
         let unknown =
             flat.window.is_some() || self.load.stiffness() > 0.0 || self.constraint.wall().hardness().is_some();
         if self.settings.method == Method::Rey2017 && unknown {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use ndarray::{Array2, CowArray};
+use ndarray::Array2;
 
 use super::{Branch, Criterion, Method};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
@@ -319,18 +319,16 @@ impl<T: Real> Solved<T> {
 }
 
 impl<T: Real> Solution<T> {
-    /// The solution with whole fields on the first of the processes that share its grid, and nothing on the others, all
-    /// of which have to ask. The solution itself, if the grid is not shared.
-    pub fn gathered(&self) -> Option<Cow<'_, Self>> {
+    /// The solution with whole fields, on every one of the processes that share its grid. All of them have to ask.
+    pub fn whole(&self) -> Cow<'_, Self> {
         if !self.grid.is_shared() {
-            return Some(Cow::Borrowed(self));
+            return Cow::Borrowed(self);
         }
-        let gathered = |field: &Array2<T>| self.grid.gathered(field).map(CowArray::into_owned);
-        let fields = [&self.gap, &self.pressure, &self.contact_pressure].map(gathered);
-        let plastic_depth = self.plastic_depth.as_ref().and_then(gathered);
-        let [Some(gap), Some(pressure), Some(contact_pressure)] = fields else { return None };
-        let (grid, report) = (self.grid.alone(), self.report.clone());
-        Some(Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, grid, report, law: self.law.clone() }))
+        let whole = |field: &Array2<T>| self.grid.whole(field).into_owned();
+        let [gap, pressure, contact_pressure] = [&self.gap, &self.pressure, &self.contact_pressure].map(whole);
+        let (plastic_depth, grid) = (self.plastic_depth.as_ref().map(whole), self.grid.alone());
+        let (report, law) = (self.report.clone(), self.law.clone());
+        Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, grid, report, law })
     }
 
     /// Refuses an adhesion law of another name or work of adhesion than that under which the solution was found.

@@ -117,17 +117,17 @@ pub(super) fn given_start<T: Real>(
     let confined = |node: usize| window.is_none_or(|window| window.faces(node));
     // without places, and without an end, the pass is several times as fast
     let some = wall.is_rigid() && start.fold(false, |some, &gap| some | (gap < T::zero()));
-    let mut nodes = start.iter().zip(grid.first_node()..);
+    let mut nodes = start.iter().zip(grid.slab().first_node()..);
     let find = || nodes.find(|&(&gap, node)| gap < T::zero() && confined(node));
     let negative = some.then(find).flatten().map_or(Ok(()), |(gap, _)| {
         let requirement = "zero or positive at every node";
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
     });
-    grid.agreed(negative)?;
+    grid.slab().agreed(negative)?;
     let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
     if let Load::Gap(mean) = load {
         let present = grid.mean(gap.view(), T::widen);
-        if !wall.projects() && grid.has(gap.iter().any(|&g| g < T::zero())) {
+        if !wall.projects() && grid.each(gap.iter().any(|&g| g < T::zero())).contains(&true) {
             // gaps of both signs may have hardly any mean
             gap.mapv_inplace(|g| g + T::lit(mean - present));
         } else if present > 0.0 {

@@ -1,9 +1,10 @@
 //! The error that the grid leaves at the edge of the contact.
 
+use ndarray::{CowArray, Ix2};
+
 use super::tangent::Tangent;
 use crate::grid::Grid;
 use crate::real::Real;
-use crate::slab::Rows;
 use crate::solver::Solution;
 
 /// The local stiffness of the grid, over E*/Δ, at an edge parallel to an axis.
@@ -51,11 +52,10 @@ impl EdgeError {
     /// The error of a solution in a periodic cell, by its tangent at a mean gap of 1 and its stiffness.
     pub(super) fn of<T: Real>(solution: &Solution<T>, tangent: &Tangent<T>, stiffness: f64) -> Self {
         let (grid, modulus) = (&solution.grid, solution.report.modulus);
-        let ((nx, ny), fields) = (grid.shape(), [&solution.gap, &solution.contact_pressure]);
-        let around = |row: usize| [(row + nx - 1) % nx, (row + 1) % nx];
-        let rows = |field| grid.rows_for(field, grid, around);
-        let ([gap, pressure], [opening, lost]) = (fields.map(rows), [&tangent.opening, &tangent.pressure].map(rows));
-        let at = |rows: &Rows<'_, T>, (i, j): (usize, usize)| rows.row(i)[j].widen();
+        let (nx, ny) = grid.shape();
+        let fields = [&solution.gap, &solution.contact_pressure, &tangent.opening, &tangent.pressure];
+        let [gap, pressure, opening, lost] = fields.map(|field| grid.whole(field));
+        let at = |field: &CowArray<'_, T, Ix2>, node: (usize, usize)| field[node].widen();
         // the approach since a node came into contact, or until it will
         let distance = |node| {
             let apart = at(&gap, node);
@@ -64,8 +64,8 @@ impl EdgeError {
             (apart > 0.0, value / rate, rate)
         };
         // of each node at the edge its jump, what it releases in contact, and its wave
-        let mut at_edge = Vec::new();
-        for node in grid.rows().flat_map(|i| (0..ny).map(move |j| (i, j))) {
+        let mut sums = [0.0; 5];
+        for node in (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j))) {
             let (apart, own, rate) = distance(node);
             let (mut release, mut passed, mut wave, mut sides) = (0.0, 0.0, 0.0, 0.0);
             for (other, spacing) in neighbours(node, grid) {
@@ -84,14 +84,12 @@ impl EdgeError {
             if sides > 0.0 {
                 let (release, late) = (release / sides, passed / sides - 0.5);
                 let jump = if apart { -late.max(0.0) } else { (-late).max(0.0) };
-                at_edge.push([release * jump, if apart { 0.0 } else { release }, 0.5 * release * wave / sides]);
+                let (jump, wave) = (release * jump, 0.5 * release * wave / sides);
+                let own = [jump, jump * jump, if apart { 0.0 } else { release }, wave, wave * wave];
+                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
             }
         }
-        let at_edge = grid.lists(at_edge.into_flattened());
-        let add = |[jump, jumps, excess, wave, waves]: [f64; 5], [j, e, w]: &[f64; 3]| {
-            [jump + j, jumps + j * j, excess + e, wave + w, waves + w * w]
-        };
-        let [jump, jumps, excess, wave, waves] = at_edge.as_chunks().0.iter().fold([0.0; 5], add);
+        let [jump, jumps, excess, wave, waves] = sums;
         let line = grid.shape().0 == 1 || grid.is_line();
         let [of_stiffness, of_gap] = if line { [&ON_LINES; 2] } else { [&STIFFNESS, &GAP] };
         let nodes = grid.nodes() as f64;

@@ -129,9 +129,9 @@ impl<T: Real> Watch<T> {
     ) {
         let Some(mode) = &self.mode else { return };
         let top = mode.iter().fold(T::zero(), |top, value| top.max(value.abs()));
-        let top = T::lit(grid.most(top.widen()));
+        let top = T::lit(grid.each(top.widen()).into_iter().fold(0.0, f64::max));
         let own = mode.iter().find(|value| value.abs() >= T::lit(NEARLY) * top).map_or(f64::NAN, |value| value.widen());
-        let first = grid.lists(vec![own]).into_iter().find(|value| !value.is_nan());
+        let first = grid.each(own).into_iter().find(|value| !value.is_nan());
         let sign = share.unwrap_or_else(|| -first.unwrap_or_default()).signum();
         let factor = T::lit(sign * largest) / top;
         if factor.is_finite() {

@@ -72,19 +72,14 @@ pub struct AdhesionOptions {
 type Table = (Tabulated, Array2<f64>);
 
 /// The law that the options choose, with what their files hold.
-#[derive(Clone)]
-pub struct Adhesion<'a> {
-    options: &'a AdhesionOptions,
+pub struct Adhesion {
     formula: Formula,
-    grid: Grid,
-    tabulated: Option<Tabulated>,
     /// The numbers of the table of the law
     pub table: Option<Array2<f64>>,
-    /// The works of adhesion of the map, of the rows that this process holds
+    /// The works of adhesion of the map, at all nodes
     pub works: Option<Array2<f64>>,
     /// The hardness of the map, at all nodes
     pub hardness: Option<Array2<f64>>,
-    strongest: Option<(usize, usize)>,
 }
 
 /// The names of the laws, with their help.
@@ -145,34 +140,31 @@ impl AdhesionOptions {
         Ok((self.described().formula(table.as_ref().map(|(law, _)| law))?, table))
     }
 
-    /// Reads the files, of the map of works of adhesion the rows of the grid that this process holds.
-    pub fn read(&self, grid: &Grid, processes: &Processes) -> Outcome<Adhesion<'_>> {
+    /// Reads the files, with maps of all nodes of the grid in each process.
+    pub fn read(&self, grid: &Grid, processes: &Processes) -> Outcome<Adhesion> {
         let read = || {
-            let rows = self.work_of_adhesion_map.as_deref();
-            let rows = rows.map(|path| heights::rows_on("--work-of-adhesion-map", path, grid)).transpose()?;
-            // a wall has all nodes in each process
-            let hardness = self.hardness_map.as_deref();
-            let hardness = hardness.map(|path| heights::rows_on("--hardness-map", path, &grid.alone())).transpose()?;
+            let map = |option, path: Option<&Path>| {
+                path.map(|path| heights::rows_on(option, path, &grid.alone())).transpose()
+            };
+            let works = map("--work-of-adhesion-map", self.work_of_adhesion_map.as_deref())?;
+            let hardness = map("--hardness-map", self.hardness_map.as_deref())?;
             // whatever the law refuses with any work of adhesion
-            Ok((self.uniform()?, rows, hardness))
+            Ok((self.uniform()?, works, hardness))
         };
         let ((formula, table), works, hardness) = processes.agree(read())?;
         let (tabulated, table) = table.unzip();
         let formula = match (&works, &self.work_of_adhesion_map) {
             (Some(works), Some(path)) => {
-                self.described().formula_on(grid, works.view(), tabulated.as_ref()).map_err(|error| match error {
-                    Error::Elsewhere { .. } => error,
-                    error => Error::file(path, format!("does not fit the law: {error}")),
-                })?
+                let law = self.described().formula_on(works.view(), tabulated.as_ref());
+                law.map_err(|error| Error::file(path, format!("does not fit the law: {error}")))?
             }
             _ => formula,
         };
-        let strongest = formula.strongest();
-        Ok(Adhesion { options: self, formula, grid: *grid, tabulated, table, works, hardness, strongest })
+        Ok(Adhesion { formula, table, works, hardness })
     }
 }
 
-impl Adhesion<'_> {
+impl Adhesion {
     /// The law.
     pub fn law<T: Scalar>(&self) -> Arc<dyn AdhesionLaw<T>> {
         self.formula.clone().law()
@@ -185,21 +177,6 @@ impl Adhesion<'_> {
 
     /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.
     pub fn strongest(&self) -> Option<(usize, usize)> {
-        self.strongest
-    }
-
-    /// The same on the first of the processes that share the grid, with the whole of the map, and nothing on the
-    /// others.
-    pub fn gathered(&self, processes: &Processes) -> Outcome<Option<Self>> {
-        let Some(works) = self.works.as_ref().filter(|_| self.grid.is_shared()) else {
-            return Ok(Some(self.clone()));
-        };
-        let (grid, described) = (self.grid.alone(), self.options.described());
-        let whole = self.grid.gathered(works).map(|works| {
-            let works = works.into_owned();
-            let formula = described.formula_on(&grid, works.view(), self.tabulated.as_ref())?;
-            Ok(Self { formula, grid, works: Some(works), ..self.clone() })
-        });
-        processes.agree(whole.transpose())
+        self.formula.strongest()
     }
 }

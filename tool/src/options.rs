@@ -100,9 +100,9 @@ pub struct ProblemOptions<'a> {
 }
 
 /// The fields that the options name, read from their files.
-pub struct Given<'a> {
+pub struct Given {
     pub surface: Surface,
-    pub adhesion: Adhesion<'a>,
+    pub adhesion: Adhesion,
     /// The entries of the file of the surface beside its heights
     pub origin: Origin,
     /// The part of the surface that results are of
@@ -114,7 +114,7 @@ pub struct Given<'a> {
 impl<'a> ProblemOptions<'a> {
     /// Checks the options, reads their files, with all in metres if numbers are in the SI, of fields the rows that this
     /// process holds, and starts the threads.
-    pub fn read(self, si: bool, processes: &Processes) -> Outcome<Given<'a>> {
+    pub fn read(self, si: bool, processes: &Processes) -> Outcome<Given> {
         self.adhesion.check()?;
         in_options(self.surface.elastic().check())?;
         let &SurfaceOptions { heights: ref path, ref lengths, ref beyond, whole, .. } = self.surface;

@@ -97,7 +97,7 @@ impl Options {
         ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
     }
 
-    fn find<T: Scalar>(&self, given: Given<'_>, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
+    fn find<T: Scalar>(&self, given: Given, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
         let Given { surface, adhesion, origin, part, start } = given;
         let (problem, printing, nodes) = (self.problem(), self.printing, surface.grid().nodes());
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;

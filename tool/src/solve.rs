@@ -13,7 +13,6 @@ use std::sync::Arc;
 use asperity::Status;
 use asperity_scene::{Asked, Inputs, Load, Precision, Slopes, gap_to_write, write_fields};
 use clap::{ArgGroup, Args, ValueEnum};
-use ndarray::CowArray;
 use serde_json::json;
 
 use self::beside::{BESIDE, Beside};
@@ -239,7 +238,7 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn run<T: Scalar>(mut self, Given { surface, adhesion, origin, start, .. }: Given<'_>) -> Outcome<bool> {
+    fn run<T: Scalar>(mut self, Given { surface, adhesion, origin, start, .. }: Given) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
         let (mut grid, processes) = (*surface.grid(), self.processes);
         let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
@@ -248,17 +247,13 @@ impl Job<'_> {
         }
         let start = start.map(T::field);
         let strictness = self.options.strictness;
-        let whole_adhesion = if fits { adhesion.gathered(processes)? } else { None };
-        let whole = if fits { surface.gathered() } else { None }.zip(whole_adhesion.as_ref());
-        let mut warnings = processes.agree(match &whole {
-            Some((surface, adhesion)) => {
-                let given = (&**surface, &origin);
-                Warnings::of_input::<T>(strictness, given, adhesion, self.options.problem(), &self.units)
-            }
-            None => Warnings::none(strictness, &self.units, fits),
+        let mut warnings = processes.agree(if fits {
+            let given = (&*surface.whole(), &origin);
+            Warnings::of_input::<T>(strictness, given, &adhesion, self.options.problem(), &self.units)
+        } else {
+            Warnings::none(strictness, &self.units)
         })?;
         warnings.say()?;
-        drop(whole);
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
         let mut posed = self.options.problem().scene().posed::<T>(
@@ -285,7 +280,7 @@ impl Job<'_> {
             grid = found.solution.grid;
             self.part = self.part.on(grid)?;
         }
-        let whole = if fits { found.solution.gathered() } else { None };
+        let whole = fits.then(|| found.solution.whole());
         let look = |whole: &Cow<'_, _>| warnings.look_at(whole, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
         let inputs = Inputs { slopes, ..self.options.inputs(&self.part, &self.units, self.scene) };
@@ -308,8 +303,8 @@ impl Job<'_> {
                 write_fields(processes, folder.as_ref(), out, part, &[((*name).to_owned(), &field)])?;
             }
         }
-        for (_, field) in beside.iter_mut().filter(|_| fits && grid.is_shared()) {
-            *field = grid.gathered(field).map(CowArray::into_owned).unwrap_or_default();
+        for (_, field) in beside.iter_mut().filter(|_| fits) {
+            *field = grid.whole(std::mem::take(field)).into_owned();
         }
         let mut beyond = None;
         processes.first(|| {

@@ -102,7 +102,7 @@ impl<'a> TableOptions<'a> {
     }
 
     /// Opens the table, writes the scene of the run beside it, and says the warnings so far.
-    fn open<T: Scalar>(self, given: Given<'_>, by: &impl Fill) -> Outcome<Table<'a, T>> {
+    fn open<T: Scalar>(self, given: Given, by: &impl Fill) -> Outcome<Table<'a, T>> {
         let Given { surface, adhesion, origin, part, start } = given;
         let Self { problem, loads, out, scene, processes, manner, .. } = self;
         let &Manner { force, strictness, printing } = manner;
@@ -146,17 +146,16 @@ impl<'a> TableOptions<'a> {
             beside: vec![scene::beside(out), warnings::beside(out)],
             nodes,
         };
-        let first = start.as_ref().and_then(|start| grid.gathered(start));
-        let whole = surface.gathered().zip(adhesion.gathered(processes)?);
+        let (first, whole) = (start.as_ref().map(|start| grid.whole(start)), surface.whole());
+        let warnings = Warnings::of_input::<T>(strictness, (&whole, &origin), &adhesion, problem, &units);
+        let mut warnings = processes.agree(warnings)?;
         let mut opened = None;
         processes.first(|| {
-            let Some((surface, adhesion)) = whole else { return Ok(()) };
-            let warnings = Warnings::of_input::<T>(strictness, (&surface, &origin), &adhesion, problem, &units)?;
             check_apart(out, problem.files().chain(problem.solver.initial_gap.as_deref()))?;
             scene.check_beside(out, force || out.exists())?;
             warnings::check_beside(out, force || out.exists())?;
             let fields = Fields {
-                surface: &surface,
+                surface: &whole,
                 law_table: adhesion.table.as_deref(),
                 works: adhesion.works.as_deref(),
                 hardness: adhesion.hardness.as_deref(),
@@ -165,17 +164,14 @@ impl<'a> TableOptions<'a> {
             };
             let identity = posed.identity(&inputs, &units.of_table(), fields);
             let scene_file = (!study::is_worker()).then(|| scene.written_beside(out)).transpose()?;
-            opened = Some((identity, scene_file, warnings));
+            opened = Some((identity, scene_file));
             Ok(())
         })?;
-        let (identity, scene_file, mut warnings) = match opened {
-            Some((identity, scene_file, warnings)) => (Some(identity), scene_file, warnings),
-            None => (None, None, Warnings::none(strictness, &units, true)?),
-        };
+        let (identity, scene_file) = opened.unzip();
         let (rows, course) = asperity_scene::Table::open(opening, identity, course, start.or(afar), processes)?;
         let count = rows.rows();
         processes.first(|| {
-            scene_file.map_or(Ok(()), OutputFile::commit)?;
+            scene_file.flatten().map_or(Ok(()), OutputFile::commit)?;
             warnings.keep_beside(out, count > 0)
         })?;
         if count > 0 {
@@ -243,8 +239,7 @@ impl<T: Scalar> Table<'_, T> {
         drop(progress);
         let Some(mut found) = found? else { return Ok(None) };
         check_finite(&found.solution)?;
-        let whole = found.solution.gathered();
-        processes.agree(whole.map_or(Ok(()), |whole| self.warnings.look_at(&whole, &self.part)))?;
+        processes.agree(self.warnings.look_at(&found.solution.whole(), &self.part))?;
         let account = found.account(self.course.command(), &self.inputs, None, Vec::new())?;
         let row = self.course.row(&mut found, account, self.seed)?;
         self.rows.append(&self.course, &found, &row, processes)?;

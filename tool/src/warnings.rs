@@ -80,7 +80,7 @@ impl Warnings {
     pub fn of_input<T: Scalar>(
         strictness: Strictness,
         (surface, origin): (&Surface, &Origin),
-        adhesion: &Adhesion<'_>,
+        adhesion: &Adhesion,
         options: ProblemOptions<'_>,
         units: &Units,
     ) -> Outcome<Self> {
@@ -90,9 +90,9 @@ impl Warnings {
         Ok(warnings)
     }
 
-    /// No warnings: as another process looks, or, with `--strict` an error, none does.
-    pub fn none(strictness: Strictness, units: &Units, elsewhere: bool) -> Outcome<Self> {
-        if strictness.strict && !elsewhere {
+    /// No warnings, as of maps that no process has as a whole; with `--strict` an error.
+    pub fn none(strictness: Strictness, units: &Units) -> Outcome<Self> {
+        if strictness.strict {
             return Err(
                 "--strict has no form for several processes and more than 4096 x 4096 nodes: leave it out".into()
             );

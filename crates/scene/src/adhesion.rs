@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use asperity::{Grid, Hardness, MaugisDugdale, Real, Result, Tabulated};
+use asperity::{Hardness, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 
@@ -215,14 +215,14 @@ impl Adhesion {
         }
     }
 
-    /// The law with works of adhesion at the nodes of a grid, of which this process gives its rows.
+    /// The law with works of adhesion at the nodes, shape (Nx, Ny).
     ///
     /// # Errors
-    /// Those of [`Adhesion::formula`] and [`Varying::on`](asperity::adhesion::Varying::on).
-    pub fn formula_on(&self, grid: &Grid, works: ArrayView2<'_, f64>, table: Option<&Tabulated>) -> Result<Formula> {
+    /// Those of [`Adhesion::formula`] and [`Varying::new`](asperity::adhesion::Varying::new).
+    pub fn formula_on(&self, works: ArrayView2<'_, f64>, table: Option<&Tabulated>) -> Result<Formula> {
         // of a law of one unit they are multiples of one
         let unit: Formula = Arc::new(MaugisDugdale::new(1.0, 1.0)?);
-        let most = unit.varied(works, Some(grid))?.law::<f64>().hints().work_of_adhesion;
-        Self { work_of_adhesion: Some(most), ..self.clone() }.formula(table)?.varied(works, Some(grid))
+        let most = unit.varied(works)?.law::<f64>().hints().work_of_adhesion;
+        Self { work_of_adhesion: Some(most), ..self.clone() }.formula(table)?.varied(works)
     }
 }

@@ -5,6 +5,8 @@ use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use crate::interface::peak;
+
 /// The boundary of the elastic body, by the surroundings of the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -68,8 +70,7 @@ impl Boundary {
             }
         };
         let gap = self.undeformed(surface, at);
-        let (least, _) = surface.grid().extremes((gap.iter().copied().fold(f64::INFINITY, f64::min), 0.0));
-        match least < 0.0 {
+        match surface.grid().each(gap.iter().any(|&gap| gap < 0.0)).contains(&true) {
             true => Err(format!(
                 "undeformed bodies overlap where the {} is {at}: give one at which they are apart",
                 load.name().replace('-', " ")
@@ -84,7 +85,7 @@ impl Boundary {
             let mean = surface.mean();
             return heights.mapv(|height| at + mean - height);
         }
-        let (_, peak) = surface.grid().extremes((0.0, heights.fold(f64::NEG_INFINITY, |a, &b| a.max(b))));
+        let peak = peak(surface);
         heights.mapv(|height| peak - height - at)
     }
 }

@@ -7,7 +7,7 @@ use std::path::Path as File;
 
 use asperity::path::{Event, Path, PathSettings};
 use asperity::{Branch, ContactSearch, Control, Grid, Iteration, Real, Result, Sweep};
-use ndarray::{Array2, Axis, CowArray, Slice};
+use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
@@ -112,14 +112,14 @@ impl<T: Real> Place<T> {
         }
     }
 
-    /// The place with whole fields, on the first of the processes that share a grid; all of them have to ask.
-    pub(crate) fn gathered(&self, grid: &Grid) -> Cow<'_, Self> {
+    /// The place with whole fields, where processes share a grid; all of them have to ask.
+    pub(crate) fn whole(&self, grid: &Grid) -> Cow<'_, Self> {
         if !grid.is_shared() {
             return Cow::Borrowed(self);
         }
         let mut place = self.clone();
         for field in place.fields() {
-            *field = grid.gathered(&*field).map_or_else(|| Array2::zeros((0, 0)), CowArray::into_owned);
+            *field = grid.whole(&*field).into_owned();
         }
         Cow::Owned(place)
     }

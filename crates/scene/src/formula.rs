@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::{AdhesionLaw, Error, Grid, Result, Tabulated};
+use asperity::{AdhesionLaw, Error, Result, Tabulated};
 use ndarray::{ArrayRef2, ArrayView2};
 
 use crate::scalar::Scalar;
@@ -51,19 +51,15 @@ impl dyn AnyLaw {
         (self as &dyn Any).is::<CutOff<Formula>>()
     }
 
-    /// The law with works of adhesion at all nodes, shape (Nx, Ny), or at those of a grid, of which this process gives
-    /// its rows.
+    /// The law with works of adhesion at the nodes, shape (Nx, Ny).
     ///
     /// # Errors
-    /// Those of [`Varying::on`] and [`Varying::new`].
-    pub fn varied(self: Arc<Self>, works: ArrayView2<'_, f64>, grid: Option<&Grid>) -> Result<Formula> {
-        Ok(Arc::new(match grid {
-            Some(grid) => Varying::on(grid, self, works)?,
-            None => Varying::new(self, works)?,
-        }))
+    /// Those of [`Varying::new`].
+    pub fn varied(self: Arc<Self>, works: ArrayView2<'_, f64>) -> Result<Formula> {
+        Ok(Arc::new(Varying::new(self, works)?))
     }
 
-    /// The node at which the work of adhesion is largest, if it varies. All processes that share the grid have to ask.
+    /// The node at which the work of adhesion is largest, if it varies.
     pub fn strongest(&self) -> Option<(usize, usize)> {
         let law: &dyn Any = self;
         match law.downcast_ref::<Varying<Formula>>() {

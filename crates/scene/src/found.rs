@@ -163,9 +163,11 @@ impl<T: Real> Sight<T> {
         if has_yielded(&self.report) {
             found.corrected_contact_fraction = f64::NAN;
         }
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let extremes = pressure.iter().fold(none, |(low, high), p| (low.min(p.widen()), high.max(p.widen())));
-        Ok((found, self.grid.extremes(extremes)))
+        let fold = |start, of: fn(f64, f64) -> f64| {
+            let own = pressure.iter().fold(start, |extreme, p| of(extreme, p.widen()));
+            self.grid.each(own).into_iter().fold(start, of)
+        };
+        Ok((found, (fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max))))
     }
 
     /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.
@@ -209,7 +211,7 @@ pub fn check_finite<T: Real>(solution: &Solution<T>) -> std::result::Result<(), 
     let fields =
         [("gap", gap, report.absent_nodes), ("pressure", pressure, 0), ("contact pressure", contact_pressure, 0)];
     for (name, field, absent) in fields {
-        let count = grid.total(field.iter().filter(|value| !value.is_finite()).count());
+        let count: usize = grid.each(field.iter().filter(|value| !value.is_finite()).count()).iter().sum();
         if count != absent {
             let other = if T::NAME == "f32" { "{precision=f64}" } else { "another {initial_gap}" };
             return Err(format!(

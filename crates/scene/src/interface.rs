@@ -28,8 +28,13 @@ pub enum Code {
 
 /// The mean gap at which the undeformed surfaces first touch, from which the closure counts.
 pub fn touch(surface: &Surface) -> f64 {
-    let peak = surface.heights().fold(f64::NEG_INFINITY, |highest, height| highest.max(*height));
-    surface.grid().extremes((0.0, peak)).1 - surface.mean()
+    peak(surface) - surface.mean()
+}
+
+/// The greatest height.
+pub(crate) fn peak(surface: &Surface) -> f64 {
+    let own = surface.heights().fold(f64::NEG_INFINITY, |highest, height| highest.max(*height));
+    surface.grid().each(own).into_iter().fold(own, f64::max)
 }
 
 /// A function of one argument, by points with growing arguments.

@@ -104,7 +104,7 @@ impl<T: Real> Posed<T> {
         if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
     }
 
-    /// The slopes of the surface, before the first solve; those of a shared one are the first process's, and all ask.
+    /// The slopes of the surface, before the first solve; of the whole of a shared one, and all processes ask.
     ///
     /// # Errors
     /// [`Error::Unsuited`] after it.

@@ -6,8 +6,8 @@ use asperity::{Error, Grid};
 
 use crate::outcome::Outcome;
 
-/// The most nodes of which one process takes the whole fields, where several have solved: for pictures, for warnings,
-/// for the state of a table, and for files that are not written in rows.
+/// The most nodes of which each of several processes takes whole fields: for pictures, for warnings, for the state of a
+/// table, and for files that are not written in rows.
 pub const WHOLE: usize = 4096 * 4096;
 
 /// The processes that solve one problem, and which of them this one is.

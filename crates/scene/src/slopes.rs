@@ -20,12 +20,12 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// The slopes of a surface; those of a shared one are the first process's.
+    /// The slopes of a surface, of the whole of a shared one.
     pub(crate) fn of(surface: &Surface, boundary: Boundary) -> Self {
         if surface.absent_nodes() > 0 {
             return Self::default();
         }
-        let Some(surface) = surface.gathered() else { return Self::default() };
+        let surface = surface.whole();
         let (grid, periodic) = (surface.grid(), boundary == Boundary::Periodic);
         // where there is no room for the spectrum, there is none for a solve, which is refused later
         let room = || Vec::<f64>::new().try_reserve_exact(3 * grid.nodes()).is_ok();

@@ -202,7 +202,7 @@ impl Table {
         processes: &Processes,
     ) -> Outcome<()> {
         self.kept().write(self.rows + 1, &*found.part()?, processes)?;
-        let place = course.place().gathered(&self.opening.nodes);
+        let place = course.place().whole(&self.opening.nodes);
         let load = row.wanted_contact_fraction.unwrap_or(row.account.control_value);
         let converged = row.account.status == Status::Converged && row.reached != Some(false);
         processes.first(|| {

@@ -63,7 +63,8 @@ impl<T: Real> Columns<T> {
     pub(super) fn range(&self) -> (f64, f64) {
         let waves = || self.modes.iter().skip(usize::from(self.first == 0)).map(|k: &T| k.widen());
         let (least, most) = (waves().fold(f64::INFINITY, f64::min), waves().fold(0.0, f64::max));
-        if self.slab.nodes() > 1 { (self.slab.least(least), self.slab.most(most)) } else { (0.0, 0.0) }
+        let (least, most) = (self.slab.each(least).into_iter(), self.slab.each(most).into_iter());
+        if self.slab.nodes() > 1 { (least.fold(f64::INFINITY, f64::min), most.fold(0.0, f64::max)) } else { (0.0, 0.0) }
     }
 
     pub(super) fn cast<U: Real>(&self) -> Columns<U> {

@@ -59,7 +59,7 @@ impl<T: Real> Posed<T> {
         let clock = Instant::now();
         let (finest, tolerance) = (grid.nodes(), settings.tolerance_in::<T>());
         let waves = match self.slopes.nodes_per_wave {
-            Some(nodes_per_wave) if !grid.is_shared() => Waves::Known(nodes_per_wave),
+            Some(nodes_per_wave) => Waves::Known(nodes_per_wave),
             _ => Waves::Of(surface.clone()),
         };
         let surface = surface.clone();
