@@ -12,8 +12,8 @@ use std::cell::OnceCell;
 use std::time::Duration;
 
 use asperity::{
-    ContactConstraint, Control, ElasticOperator, Exponential, Grid, Penalty, Projection, Settings, Solution, Solver,
-    Status, Surface, Uzawa,
+    ContactConstraint, Control, Exponential, Grid, Penalty, Projection, Settings, Solution, Solver, Status, Surface,
+    Uzawa,
 };
 use common::{Make, authors, group, none, problem, rough};
 use cpu_time::ProcessTime;
@@ -56,7 +56,7 @@ impl Scene {
         Self { name, surface, law, gap, exact: OnceCell::new() }
     }
 
-    fn with<C: ContactConstraint<f64>>(&self, constraint: C, tolerance: f64) -> (Solution<f64>, C) {
+    fn with<C: ContactConstraint<f64> + 'static>(&self, constraint: C, tolerance: f64) -> (Solution<f64>, C) {
         let mut solver = Solver { settings: Settings::default().tolerance(tolerance), constraint };
         let mut problem = problem(&self.surface, (self.law)());
         let solution = solver.solve(&mut problem, Control::MeanGap(self.gap)).expect("a good problem");

@@ -15,7 +15,8 @@ fn single<T: Real>(surface: &Surface, law: Law<T>, control: Control, settings: S
 }
 
 fn nested<T: Real>(surface: &Surface, law: Law<T>, control: Control) {
-    Nested::new(Settings::default()).solve(surface, half_space::<T>, law, control).expect("a good problem");
+    let mut solver = Solver::default();
+    Nested::default().solve(&mut solver, surface, half_space::<T>, law, control).expect("a good problem");
 }
 
 fn all() -> bool {

@@ -68,8 +68,9 @@ fn withdraw(tabor: f64, size: usize) -> Outcome<Option<Withdrawal>> {
     // approaches count from touch, and the law keeps the surfaces apart by z₀
     let loads = [0.5 * depth - rest, -3.0 * depth - 2.0 * rest].map(Control::Approach);
     let mut found = Withdrawal { mu_rho, points: Vec::new(), applications: 0 };
-    for step in Path::new(&mut solver, &mut problem, loads, settings)? {
-        let report = step?.solution.report;
+    let mut path = Path::new(loads, settings)?;
+    while let Some(step) = path.next(&mut solver, &mut problem)? {
+        let report = step.solution.report;
         if report.status != Status::Converged {
             return Err(format!("Tabor parameter {tabor}: {}", report.status).into());
         }

@@ -43,7 +43,7 @@ fn main() -> Result<()> {
         for hardness in [0.3, 1.0, 3.0] {
             let name = format!("rough, hardness {hardness}");
             for control in [Control::MeanPressure(0.0125), Control::MeanPressure(0.1), Control::MeanGap(rms)] {
-                sum += count(&name, &rough, NoAdhesion, Hardness::new(hardness)?, control)?;
+                sum += of::<f64>(&name, &rough, NoAdhesion, Hardness::new(hardness)?, control)?;
             }
         }
         println!("{:<44} {sum:>6}", "sum");
@@ -51,38 +51,38 @@ fn main() -> Result<()> {
     }
     for pressure in [0.002, 0.0125, 0.2] {
         let load = Control::MeanPressure(pressure);
-        sum += count("rough", &rough, NoAdhesion, Projection, load)?;
-        sum += count("rough, bowed", &bowed, NoAdhesion, Projection, load)?;
-        sum += nested(&rough, NoAdhesion, load)?;
+        sum += of::<f64>("rough", &rough, NoAdhesion, Projection, load)?;
+        sum += of::<f64>("rough, bowed", &bowed, NoAdhesion, Projection, load)?;
+        sum += nested(&rough, load)?;
     }
     for gaps in [2.0, 1.0, 0.3] {
         let gap = Control::MeanGap(gaps * rms);
-        sum += count("rough", &rough, NoAdhesion, Projection, gap)?;
-        sum += count("rough, bowed", &bowed, NoAdhesion, Projection, gap)?;
-        sum += nested(&rough, NoAdhesion, gap)?;
+        sum += of::<f64>("rough", &rough, NoAdhesion, Projection, gap)?;
+        sum += of::<f64>("rough, bowed", &bowed, NoAdhesion, Projection, gap)?;
+        sum += nested(&rough, gap)?;
     }
     for control in [Control::MeanPressure(0.002), Control::MeanPressure(0.02), Control::MeanGap(rms)] {
-        sum += count("rough, weak adhesion", &rough, weak, Projection, control)?;
+        sum += of::<f64>("rough, weak adhesion", &rough, weak, Projection, control)?;
     }
     for control in [Control::MeanPressure(0.01), Control::MeanGap(0.01), Control::MeanGap(0.03)] {
-        sum += count("rough, strong adhesion", &rough, strong, Projection, control)?;
+        sum += of::<f64>("rough, strong adhesion", &rough, strong, Projection, control)?;
     }
     for (law, control) in [(jump, Control::MeanGap(0.0429)), (jump, Control::MeanPressure(-1e-4))] {
-        sum += count("sphere, Maugis-Dugdale", &sphere, law, Projection, control)?;
+        sum += of::<f64>("sphere, Maugis-Dugdale", &sphere, law, Projection, control)?;
     }
     for control in [Control::MeanPressure(2e-3), Control::MeanGap(0.0398)] {
-        sum += count("sphere", &sphere, NoAdhesion, Projection, control)?;
+        sum += of::<f64>("sphere", &sphere, NoAdhesion, Projection, control)?;
     }
     for control in [Control::MeanPressure(0.01), Control::MeanPressure(0.05)] {
-        sum += count("wave", &wave, NoAdhesion, Projection, control)?;
+        sum += of::<f64>("wave", &wave, NoAdhesion, Projection, control)?;
     }
     for control in [Control::MeanPressure(0.02), Control::MeanGap(profile.rms_height())] {
-        sum += count("line", &profile, NoAdhesion, Projection, control)?;
+        sum += of::<f64>("line", &profile, NoAdhesion, Projection, control)?;
     }
-    sum += count("rough, penalty", &rough, NoAdhesion, Penalty::new(500.0)?, Control::MeanPressure(0.0125))?;
-    sum += count("rough, Uzawa", &rough, NoAdhesion, Uzawa::<f64>::new(500.0)?, Control::MeanPressure(0.0125))?;
-    sum += of::<f32, _, _>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanPressure(0.0125))?;
-    sum += of::<f32, _, _>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanGap(rms))?;
+    sum += of::<f64>("rough, penalty", &rough, NoAdhesion, Penalty::new(500.0)?, Control::MeanPressure(0.0125))?;
+    sum += of::<f64>("rough, Uzawa", &rough, NoAdhesion, Uzawa::<f64>::new(500.0)?, Control::MeanPressure(0.0125))?;
+    sum += of::<f32>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanPressure(0.0125))?;
+    sum += of::<f32>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanGap(rms))?;
     sum += sweep(&rough, weak)?;
     println!("{:<44} {sum:>6}", "sum");
     Ok(())
@@ -99,11 +99,11 @@ fn show(name: &str, control: Control, applications: usize, status: Status) -> us
     applications
 }
 
-fn of<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
+fn of<T: Real>(
     name: &str,
     surface: &Surface,
-    law: L,
-    constraint: C,
+    law: impl AdhesionLaw<T> + 'static,
+    constraint: impl ContactConstraint<T> + 'static,
     control: Control,
 ) -> Result<usize> {
     let mut problem = Problem::new(surface, Westergaard::<T>::new(*surface.grid(), 1.0)?, law)?;
@@ -111,30 +111,20 @@ fn of<T: Real, L: AdhesionLaw<T>, C: ContactConstraint<T>>(
     Ok(show(name, control, report.operator_applications, report.status))
 }
 
-fn count<L: AdhesionLaw<f64>, C: ContactConstraint<f64>>(
-    name: &str,
-    surface: &Surface,
-    law: L,
-    constraint: C,
-    control: Control,
-) -> Result<usize> {
-    of::<f64, L, C>(name, surface, law, constraint, control)
-}
-
 /// The applications on the finest of nested grids.
-fn nested<L: AdhesionLaw<f64>>(surface: &Surface, law: L, control: Control) -> Result<usize> {
-    let solution = Nested::default().solve(surface, |grid| Westergaard::<f64>::new(grid, 1.0), law, control)?.solution;
-    Ok(show("rough, nested", control, solution.report.operator_applications, solution.report.status))
+fn nested(surface: &Surface, control: Control) -> Result<usize> {
+    let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+    let found = Nested::default().solve(&mut Solver::default(), surface, half_space, NoAdhesion, control)?;
+    let report = &found.solution.report;
+    Ok(show("rough, nested", control, report.operator_applications, report.status))
 }
 
 /// The applications of the steps of a sweep together.
-fn sweep<L: AdhesionLaw<f64>>(surface: &Surface, law: L) -> Result<usize> {
+fn sweep(surface: &Surface, law: Exponential) -> Result<usize> {
     let mut problem = Problem::new(surface, Westergaard::<f64>::new(*surface.grid(), 1.0)?, law)?;
-    let mut solver = Solver::default();
-    let loads = (1..=8).map(|k| Control::MeanPressure(0.01 * f64::from(k)));
-    let mut sum = 0;
-    for step in Sweep::new(&mut solver, &mut problem, loads) {
-        sum += step?.report.operator_applications;
+    let (mut solver, mut sweep, mut sum) = (Solver::default(), Sweep::default(), 0);
+    for load in (1..=8).map(|k| Control::MeanPressure(0.01 * f64::from(k))) {
+        sum += sweep.next(&mut solver, &mut problem, load)?.report.operator_applications;
     }
     Ok(show("rough, eight loads", Control::MeanPressure(0.08), sum, Status::Converged))
 }

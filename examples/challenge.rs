@@ -19,7 +19,7 @@ use asperity::elastic::Boundary;
 use asperity::stability::ContactStiffness;
 use asperity::{
     AdhesionLaw, Amplitude, Branch, Control, Exponential, Grid, Nested, NoAdhesion, Report, SelfAffine, Settings,
-    Surface, Westergaard,
+    Solver, Surface, Westergaard,
 };
 use asperity_maps::io::read_fourier;
 use clap::Parser;
@@ -128,13 +128,18 @@ struct Row {
 
 impl Row {
     /// Solves, and prints what was found.
-    fn of(surface: &Surface, law: impl AdhesionLaw<f64>, pressure: f64, branch: Option<Branch>) -> Outcome<Self> {
+    fn of(
+        surface: &Surface,
+        law: impl AdhesionLaw<f64> + 'static,
+        pressure: f64,
+        branch: Option<Branch>,
+    ) -> Outcome<Self> {
         let clock = Instant::now();
         let control = Control::MeanPressure(pressure * MODULUS);
         let half_space = |grid| Westergaard::<f64>::new(grid, MODULUS);
-        let settings = Settings::default().branch(branch);
-        let mut nested = Nested::new(settings).stiffness(ContactStiffness::TOLERANCE);
-        let found = nested.solve(surface, half_space, law, control)?;
+        let mut solver = Solver::new(Settings::default().branch(branch));
+        let nested = Nested::default().stiffness(ContactStiffness::TOLERANCE);
+        let found = nested.solve(&mut solver, surface, half_space, law, control)?;
         let (report, applications) = (&found.solution.report, found.equivalent_applications());
         let errors = GridError::of_all(&found.levels, report, surface.nodes_per_wave(Boundary::Periodic));
         let error = |of: Quantity| {

@@ -30,7 +30,7 @@ fn main() -> Result<()> {
     let mut counts: BTreeMap<_, String> = BTreeMap::new();
     for &n in &sizes {
         println!("\n| {n}² | default | Algorithm 3 | ratio | contact nodes |\n|---|---|---|---|---|");
-        let mut compare = |name: &'static str, surface: &Surface, law: &dyn AdhesionLaw<f64>, control| {
+        let mut compare = |name: &'static str, surface: &Surface, law: Box<dyn AdhesionLaw<f64>>, control| {
             let mut problem = Problem::new(surface, Westergaard::new(*surface.grid(), 1.0)?, law)?;
             let ours = Solver::default().solve(&mut problem, control)?.report;
             let (mut theirs, mut ratio, mut nodes) = Default::default();
@@ -46,16 +46,16 @@ fn main() -> Result<()> {
         };
         let grid = Grid::square(n, 1.0)?;
         let sphere = Surface::paraboloid(grid, 2.0)?;
-        compare("Hertz, mean gap", &sphere, &NoAdhesion, Control::MeanGap(0.0398))?;
+        compare("Hertz, mean gap", &sphere, Box::new(NoAdhesion), Control::MeanGap(0.0398))?;
         let law = MaugisDugdale::new(1e-4, 2e-3)?;
-        compare("Maugis–Dugdale, mean gap", &sphere, &law, Control::MeanGap(0.0429))?;
+        compare("Maugis–Dugdale, mean gap", &sphere, Box::new(law), Control::MeanGap(0.0429))?;
         let surface = rough(grid, if n < 256 { 63 } else { 64 }, 1);
         for (by_pressure, by_gap, pressure) in [
             ("rough, 3 % contact, mean pressure", "rough, 3 % contact, mean gap", 0.0125),
             ("rough, 40 % contact, mean pressure", "rough, 40 % contact, mean gap", 0.205),
         ] {
-            let gap = compare(by_pressure, &surface, &NoAdhesion, Control::MeanPressure(pressure))?;
-            compare(by_gap, &surface, &NoAdhesion, Control::MeanGap(gap))?;
+            let gap = compare(by_pressure, &surface, Box::new(NoAdhesion), Control::MeanPressure(pressure))?;
+            compare(by_gap, &surface, Box::new(NoAdhesion), Control::MeanGap(gap))?;
         }
     }
     println!("\n| default |{}", sizes.iter().map(|n| format!(" {n}² |")).collect::<String>());

@@ -73,7 +73,12 @@ impl Cycle {
     }
 }
 
-fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], settings: PathSettings) -> Outcome<Cycle> {
+fn cycle(
+    surface: &Surface,
+    law: impl AdhesionLaw<f64> + 'static,
+    gaps: [f64; 2],
+    settings: PathSettings,
+) -> Outcome<Cycle> {
     let mut problem = Problem::new(surface, Westergaard::<f64>::new(*surface.grid(), 1.0)?, law)?;
     let mu_rho = problem.mu_rho();
     let [far, near] = gaps.map(Control::MeanGap);
@@ -88,8 +93,8 @@ fn cycle<L: AdhesionLaw<f64>>(surface: &Surface, law: L, gaps: [f64; 2], setting
         mu_rho,
         unconverged: 0,
     };
-    for step in Path::new(&mut solver, &mut problem, [far, near, far], settings)? {
-        let step = step?;
+    let mut path = Path::new([far, near, far], settings)?;
+    while let Some(step) = path.next(&mut solver, &mut problem)? {
         let report = &step.solution.report;
         let point = (report.mean_gap, report.mean_pressure);
         if step.leg < 2 { &mut cycle.approach } else { &mut cycle.withdrawal }.push(point);

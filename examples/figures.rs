@@ -120,7 +120,7 @@ fn main() -> Outcome<()> {
 }
 
 /// Solves one case on all grids, from each of the starts.
-fn sweep<S: Sphere + Copy, L: AdhesionLaw<f64> + Copy>(
+fn sweep<S: Sphere + Copy, L: AdhesionLaw<f64> + Copy + 'static>(
     name: &str,
     sphere: S,
     law: L,
@@ -135,14 +135,15 @@ fn sweep<S: Sphere + Copy, L: AdhesionLaw<f64> + Copy>(
         let surface = Surface::paraboloid(grid, RADIUS)?;
         let exact = Periodic::new(sphere, 1.0)?.at_mean_gap(gap, surface.mean())?;
         let reference = exact.displacement_field(&grid)?;
-        let sharp = Sharp(law);
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, MODULUS)?, law)?;
         for &start in starts {
-            let law: &dyn AdhesionLaw<f64> = if start == Start::Default { &law } else { &sharp };
-            let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, MODULUS)?, law)?;
             let given = match start {
                 Start::Default => None,
                 Start::Exact => Some((&reference - surface.heights()).mapv(|g| g.max(0.0))),
             };
+            if given.is_some() {
+                problem.set_law(Sharp(law))?;
+            }
             let given = given.as_ref().map_or(asperity::Start::Default, |gap| asperity::Start::From(gap));
             let mut solver = Solver::new(Settings::default().tolerance(1e-7));
             let solution =

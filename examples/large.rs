@@ -50,7 +50,7 @@ fn exponential(rms_height: f64) -> asperity::Result<Exponential> {
     Exponential::new(0.1 * range, range)
 }
 
-fn run<T: Real, L: AdhesionLaw<T>>(size: usize, law: impl Fn(f64) -> asperity::Result<L>) -> Outcome<()> {
+fn run<T: Real, L: AdhesionLaw<T> + 'static>(size: usize, law: impl Fn(f64) -> asperity::Result<L>) -> Outcome<()> {
     let clock = Instant::now();
     let grid = Grid::square(size, 1.0)?;
     let surface = SelfAffine::default().k_s(64.0).amplitude(Amplitude::RmsSlope(1.0)).surface(grid)?;

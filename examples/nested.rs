@@ -69,10 +69,10 @@ impl Table {
             let surface = rough::rough(grid, (size / nodes).max(5) as i32, 1);
             let rms = surface.rms_height();
             for control in [0.002, 0.0125, 0.2].map(Control::MeanPressure) {
-                table.row::<T, _>(&format!("rough, {nodes} nodes a wave"), &surface, NoAdhesion, control)?;
+                table.row::<T>(&format!("rough, {nodes} nodes a wave"), &surface, NoAdhesion, control)?;
             }
             for control in [2.0, 1.0, 0.3].map(|gap| Control::MeanGap(gap * rms)) {
-                table.row::<T, _>(&format!("rough, {nodes} nodes a wave"), &surface, NoAdhesion, control)?;
+                table.row::<T>(&format!("rough, {nodes} nodes a wave"), &surface, NoAdhesion, control)?;
             }
         }
         let surface = rough::rough(grid, (size / 16).max(5) as i32, 1);
@@ -85,21 +85,21 @@ impl Table {
         let bowed = Surface::new(grid, bowed)?;
         let loads = [Control::MeanPressure(0.002), Control::MeanPressure(0.02), Control::MeanGap(rms)];
         for control in loads {
-            table.row::<T, _>("rough, bowed", &bowed, NoAdhesion, control)?;
+            table.row::<T>("rough, bowed", &bowed, NoAdhesion, control)?;
             let law = |work, range| Exponential::new(work, range);
-            table.row::<T, _>("rough, exponential, weak", &surface, law(0.01 * rms * rms, 0.1 * rms)?, control)?;
-            table.row::<T, _>("rough, exponential, strong", &surface, law(1.42e-4, 2.9e-3)?, control)?;
+            table.row::<T>("rough, exponential, weak", &surface, law(0.01 * rms * rms, 0.1 * rms)?, control)?;
+            table.row::<T>("rough, exponential, strong", &surface, law(1.42e-4, 2.9e-3)?, control)?;
             let law = MaugisDugdale::new(1.42e-4, 2.9e-3)?;
-            table.row::<T, _>("rough, Maugis-Dugdale", &surface, law, control)?;
+            table.row::<T>("rough, Maugis-Dugdale", &surface, law, control)?;
         }
         let sphere = Surface::paraboloid(grid, 2.0)?;
         for control in [Control::MeanPressure(2e-3), Control::MeanGap(0.0398)] {
-            table.row::<T, _>("sphere", &sphere, NoAdhesion, control)?;
-            table.row::<T, _>("sphere, Maugis-Dugdale", &sphere, MaugisDugdale::new(1e-4, 2e-3)?, control)?;
+            table.row::<T>("sphere", &sphere, NoAdhesion, control)?;
+            table.row::<T>("sphere, Maugis-Dugdale", &sphere, MaugisDugdale::new(1e-4, 2e-3)?, control)?;
         }
-        table.row::<T, _>("wave", &Surface::wave_2d(grid, 0.02, 1)?, NoAdhesion, Control::MeanPressure(0.01))?;
-        table.free::<T, _>("sphere, free boundary", &sphere, NoAdhesion, Control::Force(2e-3))?;
-        table.free::<T, _>("rough, free boundary", &surface, NoAdhesion, Control::Force(0.0125))
+        table.row::<T>("wave", &Surface::wave_2d(grid, 0.02, 1)?, NoAdhesion, Control::MeanPressure(0.01))?;
+        table.free::<T>("sphere, free boundary", &sphere, NoAdhesion, Control::Force(2e-3))?;
+        table.free::<T>("rough, free boundary", &surface, NoAdhesion, Control::Force(0.0125))
     }
 
     fn free_scenes<T: Real>(&mut self, grid: Grid) -> Result<()> {
@@ -117,49 +117,49 @@ impl Table {
     fn tip<T: Real>(&mut self, name: &str, tip: &Surface) -> Result<()> {
         let (approach, spring) = (Control::Approach(0.02), Control::Spring { stiffness: 0.1, rest: 0.03 });
         for control in [Control::Force(2e-4), Control::Force(5e-3), approach, spring] {
-            self.free::<T, _>(name, tip, NoAdhesion, control)?;
+            self.free::<T>(name, tip, NoAdhesion, control)?;
         }
         let law = Exponential::new(2e-4, 4e-3)?;
         for control in [Control::Force(5e-3), approach, spring] {
-            self.free::<T, _>(&format!("{name}, exponential"), tip, law, control)?;
+            self.free::<T>(&format!("{name}, exponential"), tip, law, control)?;
         }
         let law = MaugisDugdale::new(2e-4, 4e-3)?;
-        self.free::<T, _>(&format!("{name}, Maugis-Dugdale"), tip, law, Control::Force(2e-3))
+        self.free::<T>(&format!("{name}, Maugis-Dugdale"), tip, law, Control::Force(2e-3))
     }
 
-    fn row<T: Real, L: AdhesionLaw<T>>(
+    fn row<T: Real>(
         &mut self,
         name: &str,
         surface: &Surface,
-        law: L,
+        law: impl AdhesionLaw<T> + Copy + 'static,
         control: Control,
     ) -> Result<()> {
         self.compare(name, surface, |grid| Westergaard::<T>::new(grid, 1.0), law, control)
     }
 
-    fn free<T: Real, L: AdhesionLaw<T>>(
+    fn free<T: Real>(
         &mut self,
         name: &str,
         surface: &Surface,
-        law: L,
+        law: impl AdhesionLaw<T> + Copy + 'static,
         control: Control,
     ) -> Result<()> {
         self.compare(name, surface, |grid| Boussinesq::<T>::new(grid, 1.0), law, control)
     }
 
-    fn compare<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
+    fn compare<T: Real, O: ElasticOperator<T> + 'static>(
         &mut self,
         name: &str,
         surface: &Surface,
         half_space: impl Fn(Grid) -> Result<O>,
-        law: L,
+        law: impl AdhesionLaw<T> + Copy + 'static,
         control: Control,
     ) -> Result<()> {
-        let mut problem = Problem::new(surface, half_space(*surface.grid())?, &law)?;
-        let single = Solver::new(self.settings).solve(&mut problem, control)?.report;
-        let mut nested = Nested::new(self.settings);
-        let pays = nested.pays(surface, &law, control);
-        let found = nested.solve(surface, half_space, &law, control)?;
+        let mut problem = Problem::new(surface, half_space(*surface.grid())?, law)?;
+        let (mut solver, nested) = (Solver::new(self.settings), Nested::default());
+        let single = solver.solve(&mut problem, control)?.report;
+        let pays = nested.pays::<T>(&self.settings, surface, &law, control);
+        let found = nested.solve(&mut solver, surface, half_space, law, control)?;
         let (alone, taken) = ((single.operator_applications + 1) as f64, found.equivalent_applications());
         let (ratio, report) = (taken / alone, &found.solution.report);
         for sums in [Some(&mut self.all), pays.then_some(&mut self.default)].into_iter().flatten() {

@@ -94,15 +94,14 @@ fn main() -> Outcome<()> {
         grids.push(sweep(&rough(n, SLOPE)?, 0.0, &mut failures)?);
     }
 
-    let grid = *surface.grid();
     let law = Exponential::new(WORK, RANGE)?;
     let (bare, sticky) = (&curves[0], &curves[2]);
     let (bare, sticky) = bare.shown.as_ref().zip(sticky.shown.as_ref()).ok_or("no solution to be shown")?;
     let same_contact = at_contact_pressure(&surface, law, &curves[2], &mut failures)?;
     let none = Exponential::new(0.0, RANGE)?;
-    maps(&out, "without", "No adhesion", grid, bare, &none)?;
-    maps(&out, "with", "Adhesion, same external pressure", grid, sticky, &law)?;
-    maps(&out, "with-same-contact-pressure", "Adhesion, same contact pressure", grid, &same_contact, &law)?;
+    maps(&out, "without", "No adhesion", bare, &none)?;
+    maps(&out, "with", "Adhesion, same external pressure", sticky, &law)?;
+    maps(&out, "with-same-contact-pressure", "Adhesion, same contact pressure", &same_contact, &law)?;
 
     papers_own(&out, &surface, &mut failures)?;
 
@@ -161,9 +160,10 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
     let loads = LOADS.iter().filter(|load| work > 0.0 || **load > 0.0).map(|load| load * SLOPE);
     let (mut solver, mut points, mut shown) = (Solver::default(), Vec::new(), None);
     let name = named(work);
-    for step in Sweep::new(&mut solver, &mut problem, loads.map(Control::MeanPressure)) {
-        let solution = step?;
-        points.push(tell(&name, &grid, &solution, &law, failures)?);
+    let mut sweep = Sweep::default();
+    for load in loads.map(Control::MeanPressure) {
+        let solution = sweep.next(&mut solver, &mut problem, load)?;
+        points.push(tell(&name, &solution, failures)?);
         if (solution.report.mean_pressure / LOAD - 1.0).abs() < 1e-9 {
             shown = Some(solution);
         }
@@ -172,12 +172,12 @@ fn sweep(surface: &Surface, work: f64, failures: &mut usize) -> Outcome<Curve> {
 }
 
 /// Prints the row of a solve, and counts it if it has not converged.
-fn tell(name: &str, grid: &Grid, solution: &Solution<f64>, law: &Exponential, failures: &mut usize) -> Outcome<Point> {
-    let (report, found) = (&solution.report, ContactStatistics::of(solution, law)?);
+fn tell(name: &str, solution: &Solution<f64>, failures: &mut usize) -> Outcome<Point> {
+    let (report, found) = (&solution.report, ContactStatistics::of(solution)?);
     *failures += usize::from(report.status != Status::Converged);
     println!(
         "{name:>20} {:>5} {:>5.2} {:>9.6} {:>9.6} {:>8.4} {:>9.4} {:>8.4} {:>8} {:>5}  {}{}",
-        grid.shape().0,
+        solution.grid.shape().0,
         report.mu_rho,
         report.mean_pressure,
         report.mean_contact_pressure,
@@ -216,7 +216,7 @@ fn at_contact_pressure(
             Solver::default().solve_with(&mut problem, control, Start::From(&gap), |_| ControlFlow::Continue(()))?;
         (before, last) = (last, (load, solution.report.mean_contact_pressure / SLOPE));
         if (last.1 / goal - 1.0).abs() < 1e-5 {
-            tell("same ⟨λ⟩", surface.grid(), &solution, &law, failures)?;
+            tell("same ⟨λ⟩", &solution, failures)?;
             return Ok(solution);
         }
         gap = solution.gap;
@@ -232,7 +232,7 @@ fn papers_own(out: &Path, surface: &Surface, failures: &mut usize) -> Outcome<()
     let flat = rough(size, 0.001)?;
     let mut problem = Problem::new(&flat, Westergaard::<f64>::new(*flat.grid(), 1.0)?, Exponential::new(0.0, PAPER)?)?;
     let solution = Solver::default().solve(&mut problem, Control::MeanPressure(LOAD))?;
-    tell("rms slope 1e-3, w = 0", flat.grid(), &solution, problem.law(), failures)?;
+    tell("rms slope 1e-3, w = 0", &solution, failures)?;
     let coarse = rough(size / 2, SLOPE).ok();
     for surface in coarse.iter().chain([surface]) {
         let (grid, shape) = (*surface.grid(), surface.grid().shape());
@@ -242,9 +242,9 @@ fn papers_own(out: &Path, surface: &Surface, failures: &mut usize) -> Outcome<()
             let control = Control::MeanPressure(LOAD);
             let given = start.map_or(Start::Default, |gap| Start::From(gap));
             let solution = Solver::default().solve_with(&mut problem, control, given, |_| ControlFlow::Continue(()))?;
-            tell(name, &grid, &solution, &law, failures)?;
+            tell(name, &solution, failures)?;
             if shape.0 == size && start.is_some() {
-                maps(out, "papers-own", "Not resolved: the paper's adhesion", grid, &solution, &law)?;
+                maps(out, "papers-own", "Not resolved: the paper's adhesion", &solution, &law)?;
             }
         }
     }
@@ -270,8 +270,8 @@ fn figure5(out: &Path, surface: &Surface) -> Outcome<()> {
 }
 
 /// Figures 6 and 7 of one solution.
-fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64>, law: &Exponential) -> Outcome<()> {
-    let report = &solution.report;
+fn maps(out: &Path, file: &str, title: &str, solution: &Solution<f64>, law: &Exponential) -> Outcome<()> {
+    let (grid, report) = (solution.grid, &solution.report);
     let adhesion = if law.work_of_adhesion() == 0.0 {
         String::new()
     } else {
@@ -291,8 +291,8 @@ fn maps(out: &Path, file: &str, title: &str, grid: Grid, solution: &Solution<f64
     };
     map.draw(DPI)?.write(out.join(format!("figure6-{file}.png")))?;
 
-    let found = ContactStatistics::of(solution, law)?;
-    let regions = solution.regions(law)?.mapv(f64::from);
+    let found = ContactStatistics::of(solution)?;
+    let regions = solution.regions().mapv(f64::from);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let map = Map {
         title: &format!("Figure 7: {title}"),

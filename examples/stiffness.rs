@@ -53,13 +53,10 @@ fn main() -> Outcome<()> {
             .random_phase(true)
             .surface(grid)?;
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-        let mut solver = Solver::default();
-        let loads: Vec<_> = pressures.iter().map(|p| Control::MeanPressure(SLOPE * p)).collect();
-        let mut sweep = Sweep::new(&mut solver, &mut problem, loads);
-        let mut points = Vec::new();
-        while let Some(step) = sweep.next() {
-            let solution = step?;
-            let stiffness = ContactStiffness::of(sweep.problem(), &solution)?.pressure_per_length;
+        let (mut solver, mut sweep, mut points) = (Solver::default(), Sweep::default(), Vec::new());
+        for load in pressures.iter().map(|p| Control::MeanPressure(SLOPE * p)) {
+            let solution = sweep.next(&mut solver, &mut problem, load)?;
+            let stiffness = ContactStiffness::of(&mut problem, &solution)?.pressure_per_length;
             let report = &solution.report;
             if stiffness.is_finite() {
                 let scaled = stiffness * surface.rms_height() / SLOPE;

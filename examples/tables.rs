@@ -109,9 +109,9 @@ enum Start {
 
 /// Relative errors of a solution against an exact one on a periodic grid: in energy norm, and in L² of displacement
 /// (without mean) and pressure.
-fn periodic_errors<L: AdhesionLaw<f64>>(
+fn periodic_errors(
     n: usize,
-    law: L,
+    law: impl AdhesionLaw<f64> + 'static,
     mean_gap: f64,
     exact: impl Fn(f64) -> Result<PeriodicContact>,
     start: Start,
@@ -120,8 +120,7 @@ fn periodic_errors<L: AdhesionLaw<f64>>(
     let surface = Surface::paraboloid(grid, RADIUS)?;
     let exact = exact(surface.mean())?;
     let (u_exact, p_exact) = (exact.displacement_field(&grid)?, exact.pressure_field(&grid)?);
-    let sharp = Sharp(&law);
-    let law: &dyn AdhesionLaw<f64> = if let Start::Default = start { &law } else { &sharp };
+    let law: Box<dyn AdhesionLaw<f64>> = if let Start::Default = start { Box::new(law) } else { Box::new(Sharp(law)) };
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
     let start = match start {
         Start::Default => None,
@@ -326,12 +325,14 @@ fn barrier(stiffness: f64) -> f64 {
     (0..60).fold(10.0, |x: f64, _| (stiffness * x).ln())
 }
 
-type Hard = Problem<f64, Westergaard<f64>, NoAdhesion>;
-
 /// A solve, with the number of its rounds.
-type Run<'a> = dyn FnMut(&mut Hard) -> Result<(Solution<f64>, usize)> + 'a;
+type Run<'a> = dyn FnMut(&mut Problem<f64>) -> Result<(Solution<f64>, usize)> + 'a;
 
-fn with<C: ContactConstraint<f64>>(problem: &mut Hard, constraint: C, control: Control) -> Result<(Solution<f64>, C)> {
+fn with<C: ContactConstraint<f64> + 'static>(
+    problem: &mut Problem<f64>,
+    constraint: C,
+    control: Control,
+) -> Result<(Solution<f64>, C)> {
     let mut solver = Solver { settings: settings(1e-8), constraint };
     let solution = solver.solve(problem, control)?;
     Ok((solution, solver.constraint))

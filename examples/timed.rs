@@ -83,7 +83,7 @@ enum Method {
 
 /// A half-space of contact modulus 1, in either precision.
 trait HalfSpace {
-    type Operator<T: Real>: ElasticOperator<T>;
+    type Operator<T: Real>: ElasticOperator<T> + 'static;
     fn new<T: Real>(grid: Grid) -> asperity::Result<Self::Operator<T>>;
 }
 
@@ -134,7 +134,7 @@ fn stick<T: Real, H: HalfSpace>(surface: &Surface, options: &Options) -> Outcome
     }
 }
 
-fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
+fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy + 'static>(
     surface: &Surface,
     law: L,
     options: &Options,
@@ -145,7 +145,7 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
     let settings = Settings::default().tolerance(options.tolerance);
     let tolerance = settings.tolerance_in::<T>();
     let method = match options.method {
-        Method::Default if Nested::new(settings).pays::<T>(surface, &law, control) => Method::Nested,
+        Method::Default if Nested::default().pays::<T>(&settings, surface, &law, control) => Method::Nested,
         Method::Default => Method::Single,
         method => method,
     };
@@ -153,18 +153,18 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
         forget_peak();
         let (begin, busy) = (Instant::now(), ProcessTime::now());
         let (solution, seconds) = match method {
-            Method::Default | Method::Single => run::<T, H, L>(surface, law, control, settings, None)?,
-            Method::Nested => nested::<T, H, L>(surface, law, control, settings)?,
+            Method::Default | Method::Single => run::<T, H>(surface, law, control, settings, None)?,
+            Method::Nested => nested::<T, H>(surface, law, control, settings)?,
             // what single precision reaches is then all that is wanted
             Method::Mixed if T::NAME == "f32" || tolerance >= SINGLE => {
-                nested::<T, H, L>(surface, law, control, settings)?
+                nested::<T, H>(surface, law, control, settings)?
             }
             Method::Mixed => {
                 let settings_single = settings.tolerance(SINGLE);
-                let (near, seconds) = nested::<f32, H, L>(surface, law, control, settings_single)?;
+                let (near, seconds) = nested::<f32, H>(surface, law, control, settings_single)?;
                 let gap = near.gap.mapv(|g| T::lit(g.widen()));
                 drop(near);
-                let (solution, more) = run::<T, H, L>(surface, law, control, settings, Some(gap))?;
+                let (solution, more) = run::<T, H>(surface, law, control, settings, Some(gap))?;
                 (solution, seconds + more)
             }
         };
@@ -192,9 +192,9 @@ fn solve<T: Real, H: HalfSpace, L: AdhesionLaw<T> + AdhesionLaw<f32> + Copy>(
 }
 
 /// The solution, and the seconds that the solve alone took; `near` is where it starts, if that is known.
-fn run<T: Real, H: HalfSpace, L: AdhesionLaw<T>>(
+fn run<T: Real, H: HalfSpace>(
     surface: &Surface,
-    law: L,
+    law: impl AdhesionLaw<T> + 'static,
     control: Control,
     settings: Settings,
     near: Option<Array2<T>>,
@@ -207,14 +207,14 @@ fn run<T: Real, H: HalfSpace, L: AdhesionLaw<T>>(
     Ok((solution, begin.elapsed().as_secs_f64()))
 }
 
-fn nested<T: Real, H: HalfSpace, L: AdhesionLaw<T>>(
+fn nested<T: Real, H: HalfSpace>(
     surface: &Surface,
-    law: L,
+    law: impl AdhesionLaw<T> + 'static,
     control: Control,
     settings: Settings,
 ) -> Outcome<(Solution<T>, f64)> {
     let begin = Instant::now();
-    let solution = Nested::new(settings).solve(surface, H::new::<T>, law, control)?.solution;
+    let solution = Nested::default().solve(&mut Solver::new(settings), surface, H::new::<T>, law, control)?.solution;
     Ok((solution, begin.elapsed().as_secs_f64()))
 }
 

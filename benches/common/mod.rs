@@ -46,7 +46,7 @@ pub fn rough_square(n: usize) -> Surface {
     rough::rough(Grid::square(n, 1.0).expect("a good grid"), 64, 1)
 }
 
-pub fn problem<T: Real>(surface: &Surface, law: Law<T>) -> Problem<T, Westergaard<T>, Law<T>> {
+pub fn problem<T: Real>(surface: &Surface, law: Law<T>) -> Problem<T> {
     let operator = half_space(*surface.grid()).expect("a good modulus");
     Problem::new(surface, operator, law).expect("a good problem")
 }
@@ -60,11 +60,7 @@ pub fn group<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a,
 }
 
 /// The time of so many iterations: that of a solve, less that of one without its first iterations.
-pub fn iterations<T: Real>(
-    problem: &mut Problem<T, Westergaard<T>, Law<T>>,
-    control: Control,
-    count: usize,
-) -> Duration {
+pub fn iterations<T: Real>(problem: &mut Problem<T>, control: Control, count: usize) -> Duration {
     let mut time = |max_iterations| {
         let settings = Settings::default().max_iterations(max_iterations).tolerance(1e-14);
         let clock = Instant::now();

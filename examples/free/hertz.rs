@@ -13,7 +13,7 @@ const SIDE: f64 = 0.4;
 const FORCE: f64 = 1e-3;
 
 /// The report of a solve, and its time in seconds; the best of three.
-fn solve(surface: &Surface, operator: impl ElasticOperator<f64>) -> Result<(Report, f64)> {
+fn solve(surface: &Surface, operator: impl ElasticOperator<f64> + 'static) -> Result<(Report, f64)> {
     let mut problem = Problem::new(surface, operator, NoAdhesion)?;
     let mut best: Option<(Report, f64)> = None;
     for _ in 0..3 {

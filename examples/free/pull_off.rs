@@ -37,8 +37,9 @@ pub fn chart(size: usize) -> Outcome<Chart> {
         let settings = PathSettings::default().steps(STEPS).smallest_step(0.05);
         let mut solver = Solver::new(Settings::default().tolerance(1e-5));
         let (mut strongest, mut applications) = (0.0_f64, 0);
-        for step in Path::new(&mut solver, &mut problem, legs, settings)? {
-            let report = step?.solution.report;
+        let mut path = Path::new(legs, settings)?;
+        while let Some(step) = path.next(&mut solver, &mut problem)? {
+            let report = step.solution.report;
             strongest = strongest.max(-report.normal_force);
             applications += report.operator_applications;
         }

@@ -89,9 +89,9 @@ fn areas(surface: &Surface, loads: &[f64]) -> Outcome<Vec<f64>> {
     let grid = surface.grid();
     let mut problem = Problem::new(surface, Boussinesq::<f64>::new(*grid, 1.0)?, NoAdhesion)?;
     let mut solver = Solver::new(Settings::default().tolerance(1e-4));
-    let mut areas = Vec::new();
-    for step in Sweep::new(&mut solver, &mut problem, loads.iter().copied().map(Control::Force)) {
-        let statistics = ContactStatistics::of(&step?, &NoAdhesion)?;
+    let (mut sweep, mut areas) = (Sweep::default(), Vec::new());
+    for load in loads.iter().copied().map(Control::Force) {
+        let statistics = ContactStatistics::of(&sweep.next(&mut solver, &mut problem, load)?)?;
         areas.push(grid.lengths().0 * grid.lengths().1 * statistics.corrected_contact_fraction);
     }
     Ok(areas)

@@ -37,8 +37,8 @@ pub fn chart(n: usize) -> Outcome<Chart> {
     let mut ways = [Vec::new(), Vec::new()];
     let mut jumps = [Vec::new(), Vec::new()];
     let mut steps = 0;
-    for step in Path::new(&mut solver, &mut problem, legs, settings)?.starting_from(start) {
-        let step = step?;
+    let mut path = Path::new(legs, settings)?.starting_from(start);
+    while let Some(step) = path.next(&mut solver, &mut problem)? {
         let report = &step.solution.report;
         let way = usize::from(step.leg == 2);
         ways[way].push((report.approach.unwrap_or(f64::NAN), report.normal_force));

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use asperity::contact::ContactArea;
 use asperity::{
-    AdhesionLaw, Branch, Control, ElasticOperator, FoundPullOff, Grid, Problem, PullOff, Result, Settings, Solution,
-    Solver, Start, Status, Westergaard,
+    Branch, Control, FoundPullOff, Grid, Problem, PullOff, Result, Settings, Solution, Solver, Start, Status,
+    Westergaard,
 };
 
 /// The tolerance of solves, far below the error of the grid.
@@ -96,30 +96,19 @@ pub fn solver() -> Solver {
 }
 
 /// The solution on a branch.
-pub fn solve<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, O, L>,
-    control: Control,
-    branch: Branch,
-) -> Result<Solution<f64>> {
+pub fn solve(problem: &mut Problem<f64>, control: Control, branch: Branch) -> Result<Solution<f64>> {
     let mut solver = solver();
     solver.settings.branch = Some(branch);
     solver.solve(problem, control)
 }
 
 /// The pull-off to a relative width of the bracket, after a preload or from flat.
-pub fn pull_off<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, O, L>,
-    tolerance: f64,
-    preload: Option<f64>,
-) -> Result<FoundPullOff<f64>> {
+pub fn pull_off(problem: &mut Problem<f64>, tolerance: f64, preload: Option<f64>) -> Result<FoundPullOff<f64>> {
     PullOff::default().tolerance(tolerance).preload(preload).find(&mut solver(), problem)
 }
 
 /// The stiffness between loads on both sides of that of a solution: pressure over mean gap, or over approach.
-pub fn secant<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, O, L>,
-    solution: &Solution<f64>,
-) -> Result<f64> {
+pub fn secant(problem: &mut Problem<f64>, solution: &Solution<f64>) -> Result<f64> {
     let report = &solution.report;
     let step = STEP * report.mean_contact_pressure;
     let mut far = |sign: f64| {
@@ -132,7 +121,7 @@ pub fn secant<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
 }
 
 /// The middle of the bracket of a search for the pull-off, as a mean pressure.
-pub fn tension<T>(found: &FoundPullOff<T>) -> f64 {
+pub fn tension(found: &FoundPullOff<f64>) -> f64 {
     let borne = -found.solution.report.mean_pressure;
     found.lost.map_or(borne, |lost| borne.midpoint(lost))
 }

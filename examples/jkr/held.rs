@@ -3,9 +3,7 @@
 use std::ops::ControlFlow;
 
 use asperity::contact::ContactArea;
-use asperity::{
-    AdhesionLaw, Control, ElasticOperator, Exponential, Grid, Jkr, MaugisDugdale, Problem, Solution, Start, Status,
-};
+use asperity::{AdhesionLaw, Control, Exponential, Grid, Jkr, MaugisDugdale, Problem, Solution, Start, Status};
 use common::Outcome;
 use common::sharp::Sharp;
 
@@ -57,14 +55,14 @@ impl Law {
 }
 
 /// A problem that goes from load to load, each from the gap of the last.
-struct Followed<O> {
-    problem: Problem<f64, O, Box<dyn AdhesionLaw<f64>>>,
+struct Followed {
+    problem: Problem<f64>,
     last: Option<Solution<f64>>,
     applications: usize,
 }
 
-impl<O: ElasticOperator<f64>> Followed<O> {
-    fn new(problem: Problem<f64, O, Box<dyn AdhesionLaw<f64>>>) -> Self {
+impl Followed {
+    fn new(problem: Problem<f64>) -> Self {
         Self { problem, last: None, applications: 0 }
     }
 

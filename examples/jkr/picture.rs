@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asperity::exact::Sphere;
-use asperity::{AdhesionLaw, ElasticOperator, Exponential, Jkr, Problem};
+use asperity::{Exponential, Jkr, Problem};
 use common::Outcome;
 use common::chart::COLOURS;
 use plotters::coord::Shift;
@@ -65,10 +65,7 @@ pub fn draw(quick: bool, path: &Path) -> Outcome<()> {
 }
 
 /// The pull-off of a problem, with the areas before contact is lost.
-fn find<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, O, L>,
-    preload: Option<f64>,
-) -> Outcome<(f64, asperity::Solution<f64>)> {
+fn find(problem: &mut Problem<f64>, preload: Option<f64>) -> Outcome<(f64, asperity::Solution<f64>)> {
     let found = pull_off(problem, BRACKET, preload)?;
     Ok((tension(&found), found.solution))
 }

@@ -1,6 +1,6 @@
 //! Self-affine surfaces on grids from coarse to fine: the pull-off, and the area.
 
-use asperity::{AdhesionLaw, Amplitude, Branch, Control, Grid, Jkr, Problem, Result, SelfAffine, Surface, Westergaard};
+use asperity::{AdhesionLaw, Amplitude, Branch, Control, Grid, Jkr, Problem, Result, SelfAffine, Surface};
 use common::Outcome;
 
 use crate::case::{Areas, extrapolated, half_space, head, pull_off, row, solve, tension};
@@ -26,12 +26,7 @@ pub fn surface(rough: Rough, grid: Grid, seed: u64) -> Result<Surface> {
 }
 
 /// The surface on a grid of n² nodes.
-pub fn problem<L: AdhesionLaw<f64>>(
-    rough: Rough,
-    n: usize,
-    seed: u64,
-    law: L,
-) -> Result<Problem<f64, Westergaard<f64>, L>> {
+pub fn problem(rough: Rough, n: usize, seed: u64, law: impl AdhesionLaw<f64> + 'static) -> Result<Problem<f64>> {
     let grid = Grid::square(n, 1.0)?;
     Problem::new(&surface(rough, grid, seed)?, half_space(grid)?, law)
 }

@@ -3,10 +3,7 @@
 use std::f64::consts::PI;
 
 use asperity::stability::ContactStiffness;
-use asperity::{
-    Amplitude, Boussinesq, Branch, Control, ElasticOperator, Grid, Jkr, Problem, Projection, SelfAffine, Status,
-    Surface,
-};
+use asperity::{Amplitude, Boussinesq, Branch, Control, Grid, Jkr, Problem, Projection, SelfAffine, Status, Surface};
 use common::Outcome;
 use ndarray::Array2;
 
@@ -158,18 +155,10 @@ impl Scene {
     fn level(&self, n: usize, control: Control) -> Outcome<Level> {
         let (surface, law) = (self.surface(n)?, Jkr::new(self.work_of_adhesion)?);
         let grid = *surface.grid();
-        match self.kind {
-            Kind::Periodic => self.solved(&surface, Problem::new(&surface, half_space(grid)?, law)?, control),
-            Kind::Sphere => self.solved(&surface, Problem::new(&surface, Boussinesq::new(grid, 1.0)?, law)?, control),
-        }
-    }
-
-    fn solved<O: ElasticOperator<f64>>(
-        &self,
-        surface: &Surface,
-        mut problem: Problem<f64, O, Jkr>,
-        control: Control,
-    ) -> Outcome<Level> {
+        let mut problem = match self.kind {
+            Kind::Periodic => Problem::new(&surface, half_space(grid)?, law)?,
+            Kind::Sphere => Problem::new(&surface, Boussinesq::new(grid, 1.0)?, law)?,
+        };
         let [loading, unloading] =
             [Branch::Loading, Branch::Unloading].map(|branch| solve(&mut problem, control, branch));
         let (loading, unloading) = (loading?, unloading?);

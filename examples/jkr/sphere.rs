@@ -17,7 +17,7 @@ pub const SIDE: f64 = 1.6;
 const BRACKET: f64 = 0.002;
 
 /// The sphere on a window of n² nodes.
-pub fn problem<L: AdhesionLaw<f64>>(n: usize, law: L) -> Result<Problem<f64, Boussinesq<f64>, L>> {
+pub fn problem(n: usize, law: impl AdhesionLaw<f64> + 'static) -> Result<Problem<f64>> {
     let grid = Grid::square(n, SIDE)?;
     Problem::new(&Surface::paraboloid(grid, RADIUS)?, Boussinesq::new(grid, 1.0)?, law)
 }
@@ -130,8 +130,8 @@ fn by_approach(n: usize, from: f64) -> Outcome<(f64, f64)> {
     let settings = PathSettings::default().steps(8).smallest_step(2e-4);
     let mut solver = solver();
     let mut last = (f64::NAN, f64::NAN);
-    for step in Path::new(&mut solver, &mut problem, legs, settings)? {
-        let step = step?;
+    let mut path = Path::new(legs, settings)?;
+    while let Some(step) = path.next(&mut solver, &mut problem)? {
         if let Some(Event::Jump(_)) = step.event {
             break;
         }

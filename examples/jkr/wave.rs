@@ -70,34 +70,33 @@ impl Wave {
         (closing * (low - q)).powi(2) * self.wavelength / 2.0 / (low / (1.0 - low)).sqrt()
     }
 
-    pub fn problem<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(
+    pub fn problem(
         &self,
-        operator: O,
-        law: L,
-    ) -> Result<Problem<f64, O, L>> {
+        operator: impl ElasticOperator<f64> + 'static,
+        law: impl AdhesionLaw<f64> + 'static,
+    ) -> Result<Problem<f64>> {
         let (kx, ky) = (TAU * self.periods.0, TAU * self.periods.1);
         let surface = Surface::from_fn(self.grid, |x, y| self.amplitude() * (kx * x + ky * y).cos())?;
         Problem::new(&surface, operator, law)
     }
 
     /// The areas by energy under the loads, over the exact ones, and the operator applications.
-    pub fn areas<L: AdhesionLaw<f64>>(&self, law: L) -> Outcome<(Vec<f64>, usize)> {
+    pub fn areas(&self, law: impl AdhesionLaw<f64> + 'static) -> Outcome<(Vec<f64>, usize)> {
         let (both, applications) = self.both_areas(law)?;
         Ok((both.iter().map(|both| both[0]).collect(), applications))
     }
 
     /// The same, with the areas less the zone at the edge.
-    fn both_areas<L: AdhesionLaw<f64>>(&self, law: L) -> Outcome<(Vec<[f64; 2]>, usize)> {
+    fn both_areas(&self, law: impl AdhesionLaw<f64> + 'static) -> Outcome<(Vec<[f64; 2]>, usize)> {
         let (exact, closing) = (self.exact()?, self.exact()?.closing_pressure());
         let mut problem = self.problem(half_space(self.grid)?, law)?;
         let mut solver = solver();
         solver.settings.branch = Some(Branch::Loading);
-        let (mut ratios, mut applications) = (Vec::new(), 0);
-        let loads = LOADS.map(|load| Control::MeanPressure(load * closing));
-        for (step, load) in Sweep::new(&mut solver, &mut problem, loads).zip(LOADS) {
-            let solution = step?;
+        let (mut sweep, mut ratios, mut applications) = (Sweep::default(), Vec::new(), 0);
+        for pressure in LOADS.map(|load| load * closing) {
+            let solution = sweep.next(&mut solver, &mut problem, Control::MeanPressure(pressure))?;
             let (report, areas) = (&solution.report, Areas::of(&solution)?);
-            let of_exact = 2.0 * exact.at_mean_pressure(load * closing)?.half_width() / self.wavelength;
+            let of_exact = 2.0 * exact.at_mean_pressure(pressure)?.half_width() / self.wavelength;
             ratios.push([areas.by_energy, areas.less_zone()].map(|area| area / of_exact));
             applications += report.operator_applications;
         }
@@ -105,7 +104,7 @@ impl Wave {
     }
 
     /// The pull-off over the exact one, and the operator applications of its search.
-    pub fn pull_off<L: AdhesionLaw<f64>>(&self, law: L) -> Outcome<(f64, usize)> {
+    pub fn pull_off(&self, law: impl AdhesionLaw<f64> + 'static) -> Outcome<(f64, usize)> {
         let exact = self.exact()?;
         let mut problem = self.problem(half_space(self.grid)?, law)?;
         let found = pull_off(&mut problem, BRACKET, Some(PRELOAD * exact.closing_pressure()))?;

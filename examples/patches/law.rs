@@ -1,5 +1,7 @@
 //! A law that differs from node to node: each node has one of several laws.
 
+use std::sync::Arc;
+
 use asperity::adhesion::{Discretisation, Hints, Values};
 use asperity::{AdhesionLaw, Real};
 
@@ -23,7 +25,7 @@ impl<L> Patches<L> {
     }
 }
 
-impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Patches<L> {
+impl<T: Real, L: AdhesionLaw<T> + Clone + 'static> AdhesionLaw<T> for Patches<L> {
     fn energy(&self, gap: T) -> T {
         self.strongest().energy(gap)
     }
@@ -61,7 +63,7 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for Patches<L> {
             _ => {}
         }
         // a law that stays the same
-        let laws = adapted.into_iter().zip(&self.laws).map(|(law, same)| law.unwrap_or_else(|| Box::new(same)));
-        Some(Box::new(Patches { laws: laws.collect(), shape, of }))
+        let laws = adapted.into_iter().zip(&self.laws).map(|(law, same)| law.unwrap_or_else(|| Arc::new(same.clone())));
+        Some(Arc::new(Patches { laws: laws.collect(), shape, of }))
     }
 }

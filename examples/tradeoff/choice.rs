@@ -111,11 +111,11 @@ pub fn run(scene: &Scene, surface: &Surface, control: Control, choice: Choice) -
     match choice.precision {
         Precision::Single => {
             let (solution, count) = solve::<f32>(scene, surface, control, choice, tolerance, None)?;
-            found(scene, surface, control, solution, begin, [count, 0.0])
+            found(surface, control, solution, begin, [count, 0.0])
         }
         Precision::Double => {
             let (solution, count) = solve::<f64>(scene, surface, control, choice, tolerance, None)?;
-            found(scene, surface, control, solution, begin, [0.0, count])
+            found(surface, control, solution, begin, [0.0, count])
         }
         Precision::Mixed => {
             let handover = tolerance.max(HANDOVER);
@@ -123,7 +123,7 @@ pub fn run(scene: &Scene, surface: &Surface, control: Control, choice: Choice) -
             let gap = near.gap.mapv(f64::from);
             drop(near);
             let (solution, double) = solve::<f64>(scene, surface, control, choice, tolerance, Some(gap))?;
-            found(scene, surface, control, solution, begin, [single, double])
+            found(surface, control, solution, begin, [single, double])
         }
     }
 }
@@ -141,7 +141,6 @@ pub fn measure(scene: &Scene, surface: &Surface, control: Control, choice: Choic
 }
 
 fn found<T: Real>(
-    scene: &Scene,
     surface: &Surface,
     control: Control,
     solution: Solution<T>,
@@ -149,7 +148,7 @@ fn found<T: Real>(
     applications: [f64; 2],
 ) -> Outcome<Found> {
     let seconds = begin.elapsed().as_secs_f64();
-    let state = State::of(&solution, surface, control, scene.law::<T>()?.as_ref())?;
+    let state = State::of(&solution, surface, control)?;
     let (status, certified) = (solution.report.status, solution.report.relative_error);
     Ok(Found { state, status, certified, seconds, applications })
 }
@@ -166,7 +165,8 @@ fn solve<T: Real>(
     let settings = choice.settings(tolerance);
     let half_space = |grid| Westergaard::<T>::new(grid, 1.0);
     if choice.nested && near.is_none() {
-        let nested = Nested::new(settings).solve(surface, half_space, scene.law::<T>()?, control)?;
+        let mut solver = Solver::new(settings);
+        let nested = Nested::default().solve(&mut solver, surface, half_space, scene.law::<T>()?, control)?;
         let count = nested.equivalent_applications();
         return Ok((nested.solution, count));
     }

@@ -88,9 +88,9 @@ pub fn measure(quick: bool) -> Outcome<()> {
             let pressure = Control::MeanPressure(SLOPE * draw.log(0.004, 0.6));
             let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
             let solve = |control| {
-                let mut wanted = Accuracy::new(NEVER, Quantity::Stiffness).memory(MEMORY);
-                wanted.nested.solver = Solver::new(Settings::default().tolerance(0.02 * NEVER));
-                wanted.solve(&surface, half_space, NoAdhesion, control)
+                let mut solver = Solver::new(Settings::default().tolerance(0.02 * NEVER));
+                let wanted = Accuracy::new(NEVER, Quantity::Stiffness).memory(MEMORY);
+                wanted.solve(&mut solver, &surface, half_space, NoAdhesion, control)
             };
             let mut found = solve(pressure)?;
             if draw.unit() < 0.4 {

@@ -79,11 +79,11 @@ impl Scene {
     /// The corrected area as the tool finds it without an accuracy, with coarser grids where they pay, and the work.
     fn by_hand(&self, n: usize, tolerance: f64) -> Outcome<(f64, f64)> {
         let (surface, law) = (self.surface(n)?, self.law()?);
-        let mut nested = Nested::new(Settings::default().tolerance(tolerance));
-        if !nested.pays::<f64>(&surface, &law, self.control) {
+        let (mut solver, mut nested) = (Solver::new(Settings::default().tolerance(tolerance)), Nested::default());
+        if !nested.pays::<f64>(&solver.settings, &surface, &law, self.control) {
             nested.coarsest = n;
         }
-        let found = nested.solve(&surface, half_space, law, self.control)?;
+        let found = nested.solve(&mut solver, &surface, half_space, law, self.control)?;
         let area = ContactArea::of_solution(&found.solution)?;
         Ok((area.corrected_contact_fraction, work(&found.levels)))
     }
@@ -183,8 +183,9 @@ fn estimates(scenes: &[Scene], truths: &[Found], quick: bool) -> Outcome<()> {
                 let surface = scene.surface(n)?;
                 // as the tool does: the solver leaves next to nothing on the finest grid
                 let stiffness = (quantity != Quantity::Area).then_some(ContactStiffness::TOLERANCE);
-                let mut nested = Nested::default().coarse_tolerance(1e-3).coarsest(GIVEN).stiffness(stiffness);
-                let found = nested.solve(&surface, half_space, scene.law()?, scene.control)?;
+                let nested = Nested::default().coarse_tolerance(1e-3).coarsest(GIVEN).stiffness(stiffness);
+                let mut solver = Solver::default();
+                let found = nested.solve(&mut solver, &surface, half_space, scene.law()?, scene.control)?;
                 let waves = surface.nodes_per_wave(Boundary::Periodic);
                 let mu_rho = found.solution.report.mu_rho;
                 let (Some(error), Some(level)) =
@@ -219,9 +220,10 @@ fn coarse(scenes: &[Scene], quick: bool) -> Outcome<()> {
         for coarse_tolerance in [1e-2, 1e-3, 1e-4] {
             let mut sum = 0.0;
             for scene in scenes {
-                let settings = Settings::default().tolerance(fine);
-                let mut nested = Nested::new(settings).coarse_tolerance(coarse_tolerance).coarsest(GIVEN);
-                let found = nested.solve(&scene.surface(n)?, half_space, scene.law()?, scene.control)?;
+                let mut solver = Solver::new(Settings::default().tolerance(fine));
+                let nested = Nested::default().coarse_tolerance(coarse_tolerance).coarsest(GIVEN);
+                let surface = scene.surface(n)?;
+                let found = nested.solve(&mut solver, &surface, half_space, scene.law()?, scene.control)?;
                 sum += found.equivalent_applications();
             }
             println!("  {fine:.0e}, {coarse_tolerance:.0e}: {:.1}", sum / scenes.len() as f64);
@@ -273,12 +275,8 @@ fn knob(scenes: &[Scene], truths: &[Found], quick: bool, out: &Path) -> Outcome<
         let (mut errors, mut taken, mut reached) = (Vec::new(), Vec::new(), 0);
         for (scene, truth) in scenes.iter().zip(truths) {
             let surface = scene.surface(GIVEN)?;
-            let found = Accuracy::new(target, Quantity::Area).memory(2e8).solve(
-                &surface,
-                half_space,
-                scene.law()?,
-                scene.control,
-            )?;
+            let wanted = Accuracy::new(target, Quantity::Area).memory(2e8);
+            let found = wanted.solve(&mut Solver::default(), &surface, half_space, scene.law()?, scene.control)?;
             let Some(level) = found.levels.last().filter(|_| found.reached) else { continue };
             reached += 1;
             let error = (level.area.corrected_contact_fraction / truth.area - 1.0).abs();

@@ -55,13 +55,8 @@ pub struct State {
 }
 
 impl State {
-    pub fn of<T: Real>(
-        solution: &Solution<T>,
-        surface: &Surface,
-        control: Control,
-        law: &dyn AdhesionLaw<T>,
-    ) -> Outcome<Self> {
-        let statistics = ContactStatistics::of(solution, &law)?;
+    pub fn of<T: Real>(solution: &Solution<T>, surface: &Surface, control: Control) -> Outcome<Self> {
+        let statistics = ContactStatistics::of(solution)?;
         let report = &solution.report;
         Ok(Self {
             displacement: solution.gap.mapv(Real::widen) + surface.heights(),

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use asperity::accuracy::{Accuracy, Quantity};
 use asperity::contact::ContactArea;
-use asperity::{Control, Grid, Nested, NoAdhesion, Settings, Surface, Westergaard};
+use asperity::{Control, Grid, Nested, NoAdhesion, Settings, Solver, Surface, Westergaard};
 
 use common::Outcome;
 
@@ -127,8 +127,8 @@ impl Scene {
             let surface = Surface::from_fn(grid, |x, y| {
                 self.height(x / period) + if self.lattice { self.height(y / period) } else { 0.0 }
             })?;
-            let settings = Settings::default().tolerance(1e-8);
-            let found = Nested::new(settings).solve(&surface, half_space, NoAdhesion, self.control)?.solution;
+            let mut solver = Solver::new(Settings::default().tolerance(1e-8));
+            let found = Nested::default().solve(&mut solver, &surface, half_space, NoAdhesion, self.control)?.solution;
             let area = ContactArea::of_solution(&found)?.corrected_contact_fraction;
             Ok((area, found.report.mean_gap))
         };
@@ -147,12 +147,8 @@ impl Scene {
             let across = if self.lattice { self.height(kx * y - ky * x + other) } else { 0.0 };
             self.height(kx * x + ky * y + one) + across
         })?;
-        let found = Accuracy::new(target, Quantity::Area).memory(MEMORY).solve(
-            &surface,
-            half_space,
-            NoAdhesion,
-            self.control,
-        )?;
+        let wanted = Accuracy::new(target, Quantity::Area).memory(MEMORY);
+        let found = wanted.solve(&mut Solver::default(), &surface, half_space, NoAdhesion, self.control)?;
         let level = found.levels.last().filter(|_| found.reached);
         Ok(level.map(|level| (level.area.corrected_contact_fraction / self.area - 1.0).abs()))
     }

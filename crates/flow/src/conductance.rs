@@ -1,6 +1,5 @@
 //! Conductance of heat and electric current through a contact, from its stiffness.
 
-use asperity::elastic::ElasticOperator;
 use asperity::stability::ContactStiffness;
 use asperity::{Boussinesq, Control, Error, Grid, NoAdhesion, Problem, Result, Solver, Surface, Westergaard};
 use ndarray::ArrayView2;
@@ -106,24 +105,15 @@ impl Conductance {
             return Self::checked((0.0, 0.0, 0.0), 1.0, resistivities);
         }
         let punch = Surface::new(grid, contact.mapv(|contact| if contact { 0.0 } else { -lx.max(ly) }))?;
-        if periodic {
-            of_punch(&punch, Westergaard::<f64>::new(grid, 1.0)?, resistivities)
+        let mut problem = if periodic {
+            Problem::new(&punch, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?
         } else {
-            of_punch(&punch, Boussinesq::<f64>::new(grid, 1.0)?, resistivities)
-        }
+            Problem::new(&punch, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?
+        };
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(PRESSED))?;
+        let mut stiffness = ContactStiffness::of(&mut problem, &solution)?;
+        // the edge of a punch is where its nodes are
+        stiffness.edge = None;
+        Self::of(&stiffness, 1.0, resistivities)
     }
-}
-
-/// The conductance of a flat punch.
-fn of_punch(
-    punch: &Surface,
-    body: impl ElasticOperator<f64> + 'static,
-    resistivities: (f64, f64),
-) -> Result<Conductance> {
-    let mut problem = Problem::new(punch, body, NoAdhesion)?;
-    let solution = Solver::default().solve(&mut problem, Control::MeanPressure(PRESSED))?;
-    let mut stiffness = ContactStiffness::of(&mut problem, &solution)?;
-    // the edge of a punch is where its nodes are
-    stiffness.edge = None;
-    Conductance::of(&stiffness, 1.0, resistivities)
 }

@@ -239,7 +239,7 @@ impl Warning {
 
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range). Nothing without adhesion.
-    pub fn of_law<T: Real>(law: &impl AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
+    pub fn of_law<T: Real>(law: &dyn AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
         if law.hints().zero {
             return Vec::new();
         }
