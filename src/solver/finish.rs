@@ -2,7 +2,6 @@
 
 use ndarray::Array2;
 
-use super::minimisation::Left;
 use super::passes::Fields;
 use super::plastic::to_the_yielded;
 use super::report::{Plastic, Report, Solution, Solved, Status};
@@ -23,17 +22,17 @@ const EDGE: f64 = 1e-3;
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
         if self.steps.age > 0 {
-            self.refresh(Left::Nothing)?;
+            self.refresh()?;
             self.sums.certificate = f64::INFINITY;
         }
         if self.sums.certificate.is_infinite() {
-            self.residual(Left::Nothing);
+            self.residual();
             self.certify()?;
         }
         self.trust_work(T::epsilon().widen().sqrt())?;
         let mean = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
         let shift = T::lit(mean - self.sums.drift);
-        let (law, flat) = (self.posed.law, self.posed.flat);
+        let (law, flat) = (self.posed.law(), self.posed.flat);
         let Self { fields, posed, .. } = &mut self;
         let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
         for correction in [residual, preconditioned, change] {
@@ -84,8 +83,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             operator_applications: self.counters.applications,
             boundary: flat.boundary.alone(),
             modulus,
-            control: self.posed.asked.0,
-            wall: self.posed.asked.1,
+            control: self.posed.control,
+            wall: self.posed.constraint.wall().name(),
             law: law.hints().known_as().into(),
             work_of_adhesion: law.hints().work_of_adhesion.widen(),
             mean_gap: facing_mean + deeper,
@@ -158,7 +157,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The share of contact that the adhesive energy tells, of a law whose range is that of the grid.
     fn adhesive_contact_fraction(&self, facing: f64, plastic: Option<&Plastic>) -> Option<f64> {
-        let hints = self.posed.law.hints();
+        let hints = self.posed.law().hints();
         // below a wall that gives the energy goes on
         let hard = self.posed.projects() && plastic.is_none_or(|plastic| plastic.fraction == 0.0);
         let tells = hints.of_grid && !hints.zero && hints.shape.is_none() && hard;

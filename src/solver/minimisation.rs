@@ -68,8 +68,8 @@ pub(super) struct Steps {
     /// the contacts in the preconditioner
     pub(super) coarse: Option<Coarse>,
     pub(super) nearness: Nearness,
-    /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`](crate::Method::Rey2017)
-    pub(super) residual_norm: Option<f64>,
+    /// Σ r'² of the step before, if the next one of Algorithm 3 may be conjugate to it
+    pub(super) norm: Option<f64>,
     /// steps since the pressure was last computed from the gap
     pub(super) age: usize,
     /// the sum of ⟨c, c⟩/N over these steps, with c their change
@@ -78,15 +78,7 @@ pub(super) struct Steps {
 
 impl Steps {
     pub(super) fn new(coarse: Option<Coarse>) -> Self {
-        Self {
-            momentum: None,
-            step_length: 1.0,
-            coarse,
-            nearness: Nearness::Afar,
-            residual_norm: None,
-            age: 0,
-            updates: 0.0,
-        }
+        Self { momentum: None, step_length: 1.0, coarse, nearness: Nearness::Afar, norm: None, age: 0, updates: 0.0 }
     }
 }
 
@@ -113,17 +105,15 @@ pub(super) struct Made {
     pub(super) sum: f64,
 }
 
-/// The content of the field `residual` after a step.
+/// What comes next after a step, for the residual r' of the new state.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Left {
-    /// Values without use, such as K⁻¹c.
-    Nothing,
-    /// The gradient r less the level of the state before.
-    Gradient(Made),
-    /// The residual r', under pressure control.
-    Residual(Made),
-    /// Values without use, beside a pressure that was computed anew after the step.
-    Renewed(Made),
+pub(super) enum Next {
+    /// To compute it from gap and pressure.
+    Compute,
+    /// To subtract the level from the gradient in its field.
+    Level,
+    /// Nothing: the step has left it in its field.
+    Go,
 }
 
 #[derive(Clone, Copy, Debug, Default)]

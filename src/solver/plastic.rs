@@ -14,7 +14,7 @@ use crate::real::Real;
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether some nodes yield in the present state.
     pub(super) fn has_yielded(&self) -> bool {
-        let yields = self.posed.constraint.wall().hardness().is_some();
+        let yields = self.posed.wall().hardness().is_some();
         // these are in contact, and free
         yields && self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
     }
@@ -24,7 +24,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// it yields does a part of the work: its energy, which went on below zero gap, is that of touching surfaces.
     pub(super) fn plastic(&mut self) -> Option<(Array2<T>, Plastic)> {
         let Self { fields, posed, sums, .. } = self;
-        let hardness = posed.constraint.wall().hardness()?.mean();
+        let hardness = posed.wall().hardness()?.mean();
         let before = posed.flat.yielded.as_ref().map(Yielded::depth);
         let mut depth = before.cloned().unwrap_or_else(|| Array2::zeros(fields.gap.dim()));
         let local = posed.potential();

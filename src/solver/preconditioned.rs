@@ -1,7 +1,7 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
-use super::minimisation::{Left, Made, Nearness, Residual};
-use super::passes::{self, Advance, Attempt, Continued, Fields, Tried, idles};
+use super::minimisation::{Made, Nearness, Next};
+use super::passes::{self, Advance, Attempt, Fields, Tried, idles};
 use super::potential::CLOSER;
 use super::state::State;
 use crate::error::Result;
@@ -79,20 +79,20 @@ struct Step {
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// A step along the projected, conjugate, preconditioned residual; nothing if no step lowers the energy.
-    pub(super) fn preconditioned_step(&mut self) -> Result<Option<Left>> {
+    pub(super) fn preconditioned_step(&mut self) -> Result<Option<Next>> {
         // with the waves at rest
         let waits = self.hangs_on_spring() && self.relative_error() <= self.posed.settings.tolerance_in::<T>();
         if waits && self.shift()? {
-            return Ok(Some(Left::Nothing));
+            return Ok(Some(Next::Compute));
         }
         let length = self.steps.step_length;
-        let left = self.try_step()?;
-        if left.is_some() || length >= 1.0 || self.is_at_floor() {
-            return Ok(left);
+        let next = self.try_step()?;
+        if next.is_some() || length >= 1.0 || self.is_at_floor() {
+            return Ok(next);
         }
         // a step shorter than the last digit of the gaps changes nothing: begin anew at full length
-        (self.steps.step_length, self.steps.momentum) = (1.0, None);
-        self.residual(Left::Nothing);
+        self.steps.step_length = 1.0;
+        self.residual();
         self.certify()?;
         self.try_step()
     }
@@ -109,17 +109,19 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let trial = Trial { slope, descent: slope, ..trial };
         let step = if trial.clipped || slope >= 0.0 { None } else { self.search(&trial, 0.0) };
         self.steps.step_length = length;
-        if let Some(step) = &step {
-            self.fields.residual.fill(Lo::zero());
-            self.advance(step);
-        } else {
-            self.residual(Left::Nothing);
+        let Some(step) = step else {
+            self.residual();
             self.certify()?;
-        }
-        Ok(step.is_some())
+            return Ok(false);
+        };
+        self.fields.residual.fill(Lo::zero());
+        self.advance(&step);
+        // the last change is of the waves
+        self.steps.momentum = None;
+        Ok(true)
     }
 
-    fn try_step(&mut self) -> Result<Option<Left>> {
+    fn try_step(&mut self) -> Result<Option<Next>> {
         let (centre, mut momentum) = self.direction();
         loop {
             let trial_length = self.steps.step_length;
@@ -132,8 +134,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 return Ok(Some(self.advance(&step)));
             }
             // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
-            self.steps.step_length = trial_length * if momentum.take().is_some() { 1.0 } else { step.length };
-            self.residual(Left::Nothing);
+            let shorter = if momentum.is_some() { 1.0 } else { step.length };
+            self.steps.step_length = trial_length * shorter;
+            momentum = None;
+            self.residual();
         }
     }
 
@@ -366,8 +370,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
     }
 
-    /// Takes a step, with the tally of the new state. Returns what it leaves of the residual.
-    fn advance(&mut self, step: &Step) -> Left {
+    /// Takes a step, with the tally of the new state. Returns what is left to do for its residual.
+    fn advance(&mut self, step: &Step) -> Next {
         let &Step { length, scale, slope, change, square, work, elastic, spring } = step;
         self.sums.given = self.posed.load.pressure_at((self.sums.tally.sum_gap + length * change) / self.posed.nodes());
         let level = self.posed.is_gap_controlled().then_some(T::lit(self.sums.residual.level));
@@ -384,15 +388,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.sums.tally = advanced.tally;
         let change = length * (2.0 * work + length * elastic);
         self.sums.work = self.sums.work.after(change, self.update_noise() * change.abs());
-        let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
+        self.steps.momentum = Some(Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 });
         self.steps.updates += (length * scale).powi(2) * square / self.posed.nodes();
         self.steps.age += 1;
-        match advanced.residual {
-            None => Left::Gradient(made),
-            Some(Continued { complementarity, working, descent, overlap, .. }) => {
-                self.sums.residual = Residual { level: 0.0, working, complementarity, ..self.sums.residual };
-                Left::Residual(Made { descent, overlap, ..made })
-            }
-        }
+        let Some(found) = advanced.residual else { return Next::Level };
+        self.go_on_with(found);
+        Next::Go
     }
 }
