@@ -1,6 +1,7 @@
 //! The certificate: the distance of the state from the solution, and the tests that end a solve.
 
 use super::Criterion;
+use super::driver::End;
 use super::minimisation::Goal;
 use super::report::Status;
 use super::state::{SCALED, State};
@@ -49,7 +50,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         // flats that attract each other have no waves but those of rounding
-        let traction = self.sums.tally.traction / self.posed.nodes();
+        let traction = self.mean_traction();
         let (softest, stiffest) = self.posed.stiffness_range();
         // nor have flats held apart by their mean gap, or by a law with gaps of its range
         let lifted = match self.posed.wall() {
@@ -59,7 +60,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
-        let mean = (self.sums.tally.sum_gap / self.posed.nodes()).abs();
+        let mean = (self.mean_gap()).abs();
         let carried = self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height);
         let rounding = epsilon * epsilon * carried;
         let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
@@ -117,7 +118,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
     pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
-        let contact = self.sums.given + self.sums.tally.traction / self.posed.nodes();
+        let contact = self.sums.given + self.mean_traction();
         // a relaxed spring carries only the rounding of its length, and surfaces apart under no load that of K⁻¹h
         let lengths = self.mean_gap().abs() + self.posed.load.rest().abs();
         let unloaded = self.sums.given == 0.0 && self.sums.tally.contact == 0.0;
@@ -225,14 +226,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if self.is_at_floor() { STALL_AT_FLOOR } else { STALL }
     }
 
-    /// Whether the iterations ran out, or so many made no progress that the solve has stalled.
-    pub(super) fn verdict(&self, patience: usize) -> Option<Status> {
+    /// The end, if the iterations ran out or so many made no progress that the solve has stalled.
+    pub(super) fn verdict(&self, patience: usize) -> Option<End> {
         if self.counters.iterations >= self.posed.settings.max_iterations {
-            return Some(Status::IterationLimit);
+            return Some(End::Cut(Status::IterationLimit));
         }
         let idle = self.counters.progress.idle.max(self.counters.progress.refuted);
-        let stalled = !self.energy().is_finite() || idle >= patience;
-        stalled.then_some(Status::Stalled)
+        (!self.energy().is_finite() || idle >= patience).then_some(End::Stalled)
     }
 
     /// Whether a solve that would stall may renew its pressure, once: many updates may leave mostly rounding.

@@ -34,17 +34,10 @@ pub(super) enum End {
     Converged,
     /// A tensile load has pulled the surfaces apart.
     Adrift,
-    /// The iterations ran out, progress ceased, or the observer stopped it.
-    Gave(Status),
-}
-
-impl End {
-    pub(super) fn is_final(&self) -> Option<Status> {
-        match *self {
-            Self::Gave(status @ (Status::Stopped | Status::IterationLimit)) => Some(status),
-            _ => None,
-        }
-    }
+    /// Progress ceased.
+    Stalled,
+    /// The iterations ran out, or the observer stopped the solve.
+    Cut(Status),
 }
 
 /// Minimises the energy of the present goal by the method of the settings.
@@ -64,26 +57,26 @@ fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_
         }
         let converged = state.converged();
         if observe(&state.iteration()).is_break() {
-            return Ok(End::Gave(Status::Stopped));
+            return Ok(End::Cut(Status::Stopped));
         }
         if converged {
             return Ok(End::Converged);
         }
         state.note_progress();
         let verdict = state.verdict(state.patience().1);
-        if verdict == Some(Status::Stalled) && state.may_renew() {
+        if matches!(verdict, Some(End::Stalled)) && state.may_renew() {
             state.renew()?;
             continue;
         }
-        if let Some(status) = verdict {
-            return Ok(End::Gave(status));
+        if let Some(end) = verdict {
+            return Ok(end);
         }
         if state.is_adrift() {
             return Ok(End::Adrift);
         }
         let moved = state.step()?;
         if !moved && !state.may_renew() {
-            return Ok(End::Gave(Status::Stalled));
+            return Ok(End::Stalled);
         }
         if !moved {
             state.renew()?;
@@ -131,7 +124,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         state.enter(phase);
         let end = minimise(&mut state, &mut *observe)?;
         state.leave(phase)?;
-        if let Some(status) = end.is_final() {
+        if let End::Cut(status) = end {
             return state.finish(status);
         }
     }
@@ -140,10 +133,7 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     }
     loop {
         let end = minimise(&mut state, &mut *observe)?;
-        if let Some(status) = end.is_final() {
-            return state.finish(status);
-        }
-        if state.is_apart() && state.seek_hold(&mut *observe)? {
+        if !matches!(end, End::Cut(_)) && state.is_apart() && state.seek_hold(&mut *observe)? {
             continue;
         }
         match end {
@@ -153,7 +143,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
                 Update::Failed => return state.finish(Status::IterationLimit),
             },
             End::Adrift => state.hold_apart(),
-            End::Gave(status) => return state.finish(status),
+            End::Stalled => return state.finish(Status::Stalled),
+            End::Cut(status) => return state.finish(status),
         }
     }
 }

@@ -16,7 +16,7 @@ pub(super) enum Goal {
     Solution,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Sums {
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
@@ -31,21 +31,6 @@ pub(super) struct Sums {
     /// the mean of r'·K r'; infinite as long as it is not known
     pub(super) certificate: f64,
     pub(super) preconditioned: Preconditioned,
-}
-
-impl Default for Sums {
-    fn default() -> Self {
-        Self {
-            tally: Tally::default(),
-            work: Work::default(),
-            drift: 0.0,
-            given: 0.0,
-            detached: None,
-            residual: Residual::default(),
-            certificate: f64::INFINITY,
-            preconditioned: Preconditioned::default(),
-        }
-    }
 }
 
 /// What the start of a solve knows of the solution, in ascending order.

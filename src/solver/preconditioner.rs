@@ -55,7 +55,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
         let external = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
-        (external + self.sums.tally.traction / self.posed.nodes()).abs() / self.posed.flat.rms_height
+        (external + self.mean_traction()).abs() / self.posed.flat.rms_height
     }
 
     /// The stiffness of the contacts in the preconditioner; from a far start under a pressure, the softest wave's.
@@ -75,7 +75,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let (softest, stiffest) = self.posed.stiffness_range();
         if stiffest <= 0.0 {
             // nothing resists before a node touches: a step is as long as the gap
-            let gap = self.sums.tally.sum_gap / self.posed.nodes();
+            let gap = self.mean_gap();
             let falls = gap > 0.0 && self.posed.law().hints().zero && self.sums.given > 0.0;
             let contact = if falls { self.foundation().min(self.sums.given / gap) } else { self.foundation() };
             return contact + self.posed.load.stiffness();
@@ -94,7 +94,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The mean of r over the nodes apart; where all are, without that of p, whose rounding is much to a soft spring.
     pub(super) fn imbalance(&self) -> f64 {
-        let balance = || self.sums.given + self.sums.tally.traction / self.posed.nodes();
+        let balance = || self.sums.given + self.mean_traction();
         if self.hangs_on_spring() { balance() } else { self.sums.tally.sum_r / self.sums.tally.free }
     }
 

@@ -33,7 +33,7 @@ pub(super) fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: 
         }
         let converged = state.converged();
         if observe(&state.iteration()).is_break() {
-            return Ok(End::Gave(Status::Stopped));
+            return Ok(End::Cut(Status::Stopped));
         }
         if converged {
             return Ok(End::Converged);
@@ -42,14 +42,14 @@ pub(super) fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: 
         if state.counters.progress.idle == STALL.0 {
             state.steps.norm = None;
         }
-        if let Some(status) = state.verdict(STALL.1) {
-            return Ok(End::Gave(status));
+        if let Some(end) = state.verdict(STALL.1) {
+            return Ok(end);
         }
         if state.is_adrift() {
             return Ok(End::Adrift);
         }
         if !state.step_of_paper()? {
-            return Ok(End::Gave(Status::Stalled));
+            return Ok(End::Stalled);
         }
     }
 }

@@ -51,7 +51,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let mut state = Self {
             posed,
             fields: Fields::new(&grid, gap, pressure),
-            sums: Sums::default(),
+            sums: Sums { certificate: f64::INFINITY, ..Sums::default() },
             steps: Steps::new(coarse),
             counters: Counters::default(),
         };
@@ -94,6 +94,11 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     /// The mean gap, over all nodes of the operator's grid.
     pub(super) fn mean_gap(&self) -> f64 {
         self.sums.tally.sum_gap / self.posed.nodes()
+    }
+
+    /// The mean traction of the law.
+    pub(super) fn mean_traction(&self) -> f64 {
+        self.sums.tally.traction / self.posed.nodes()
     }
 
     /// The constant b in r = p + φ'(g) + b: the given mean pressure, zero under gap control, less the mean of p.

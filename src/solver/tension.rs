@@ -1,7 +1,7 @@
 //! Surfaces that come apart under a load: the search for a state that adhesion holds, and the final gap if there is
 //! none.
 
-use super::driver::{Observer, minimise};
+use super::driver::{End, Observer, minimise};
 use super::minimisation::{Goal, Nearness};
 use super::passes::Fields;
 use super::posed::Posed;
@@ -140,13 +140,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.start_undeformed()?;
         self.adhere(Load::Pressure(0.0), if smooths { Goal::Start } else { Goal::Hold })?;
         let mut end = minimise(self, &mut *observe)?;
-        if smooths && end.is_final().is_none() {
+        if smooths && !matches!(end, End::Cut(_)) {
             self.go_on(load, Goal::Start)?;
             end = minimise(self, &mut *observe)?;
         }
         self.go_on(load, Goal::Solution)?;
         // a solve that is cut short ends at once
-        Ok(end.is_final().is_some() || !self.is_apart())
+        Ok(matches!(end, End::Cut(_)) || !self.is_apart())
     }
 
     /// Looks for a state that holds more than the tensile load, to go on from under the load; `false` if it finds none.
@@ -203,7 +203,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         self.go_on(self.posed.holding(gap), Goal::Hold)?;
         let end = minimise(self, observe)?;
-        Ok(end.is_final().is_none().then(|| self.multiplier() - self.sums.given))
+        Ok((!matches!(end, End::Cut(_))).then(|| self.multiplier() - self.sums.given))
     }
 
     /// Scales the gaps of nodes apart to a given mean gap, or makes all gaps that.
@@ -238,7 +238,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Holds drifting surfaces out of each other's reach, to come to rest.
     pub(super) fn hold_apart(&mut self) {
         let far = 2.0 * self.posed.out_of_reach();
-        let mean = self.sums.tally.sum_gap / self.posed.nodes();
+        let mean = self.mean_gap();
         let target = mean.max(far);
         let lift = T::lit(target - mean);
         self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
