@@ -1,9 +1,10 @@
 //! The certificate: the distance of the state from the solution, and the tests that end a solve.
 
-use super::minimisation::{Goal, Left};
+use super::Criterion;
+use super::driver::End;
+use super::minimisation::Goal;
 use super::report::Status;
 use super::state::{SCALED, State};
-use super::{Criterion, Method};
 use crate::constraint::Wall;
 use crate::error::Result;
 use crate::problem::Load;
@@ -28,9 +29,6 @@ const STALL: (usize, usize) = (10, 30);
 const STALL_AT_FLOOR: (usize, usize) = (3, 6);
 const NEAR_FLOOR: f64 = 2.0;
 
-/// The same numbers for [`Method::Rey2017`], whose energy and residual need not fall.
-const STALL_REY2017: (usize, usize) = (400, 800);
-
 /// The roundings of a spring's length, and of K⁻¹h under no load, that count as no load, in units of ε.
 const NO_LOAD: f64 = 8.0;
 
@@ -52,17 +50,17 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
         // flats that attract each other have no waves but those of rounding
-        let traction = self.sums.tally.traction / self.posed.nodes();
-        let (softest, stiffest) = self.posed.operators.state().stiffness_range();
+        let traction = self.mean_traction();
+        let (softest, stiffest) = self.posed.stiffness_range();
         // nor have flats held apart by their mean gap, or by a law with gaps of its range
-        let lifted = match self.posed.constraint.wall() {
-            Wall::None => self.mean_gap().abs().max(self.posed.law.hints().range.widen()),
+        let lifted = match self.posed.wall() {
+            Wall::None => self.mean_gap().abs().max(self.posed.law().hints().range.widen()),
             _ if self.sums.tally.contact > 0.0 => 0.0,
             _ => self.mean_gap(),
         };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
-        let mean = (self.sums.tally.sum_gap / self.posed.nodes()).abs();
+        let mean = (self.mean_gap()).abs();
         let carried = self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height);
         let rounding = epsilon * epsilon * carried;
         let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
@@ -71,7 +69,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let adhesion = self.attraction();
         if traction.max(adhesion) >= self.sums.given.abs() && rounding > (self.tolerance() / NEAR_FLOOR).powi(2) * waves
         {
-            let strongest = (self.posed.law.hints().work_of_adhesion / self.posed.law.hints().range).widen();
+            let strongest = (self.posed.law().hints().work_of_adhesion / self.posed.law().hints().range).widen();
             waves = waves.max(adhesion * strongest / stiffest);
         }
         if waves >= flat {
@@ -84,7 +82,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The mean traction that has the energy of adhesion over its range; zero without adhesion.
     fn attraction(&self) -> f64 {
-        let range = self.posed.law.hints().range.widen();
+        let range = self.posed.law().hints().range.widen();
         let stored = -self.sums.tally.adhesive / self.posed.nodes();
         if stored > 0.0 && range > 0.0 { stored / range } else { 0.0 }
     }
@@ -114,13 +112,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     fn gap_error(&self, held: f64) -> f64 {
         let off = (self.mean_gap() - held).abs();
         let rounding = SCALED * T::epsilon().widen() * (held.abs() + self.posed.flat.rms_height);
-        let range = if self.posed.has_no_wall() { self.posed.law.hints().range.widen() } else { 0.0 };
+        let range = if self.posed.has_no_wall() { self.posed.law().hints().range.widen() } else { 0.0 };
         if off <= rounding { 0.0 } else { off / held.abs().max(range) }
     }
 
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
     pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
-        let contact = self.sums.given + self.sums.tally.traction / self.posed.nodes();
+        let contact = self.sums.given + self.mean_traction();
         // a relaxed spring carries only the rounding of its length, and surfaces apart under no load that of K⁻¹h
         let lengths = self.mean_gap().abs() + self.posed.load.rest().abs();
         let unloaded = self.sums.given == 0.0 && self.sums.tally.contact == 0.0;
@@ -178,10 +176,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         let before = self.sums.certificate;
         // the difference δ of the two residuals adds at most ⟨δ, δ⟩/(softest stiffness) to the certificate
-        self.steps.momentum = None;
-        self.refresh(Left::Nothing)?;
-        self.residual(Left::Nothing);
-        let softest = self.posed.operators.state().stiffness_range().0;
+        self.refresh()?;
+        self.residual();
+        let softest = self.posed.stiffness_range().0;
         let change = self.sums.residual.difference;
         let difference = if change == 0.0 { 0.0 } else { change / self.posed.nodes() / softest };
         self.sums.certificate = (before.sqrt() + difference.sqrt()).powi(2);
@@ -208,55 +205,46 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// Notes whether the last iteration has made progress, and drops the last step after several without.
     pub(super) fn note_progress(&mut self) {
-        let energy = self.energy();
-        let error = match self.posed.settings.method {
-            Method::Preconditioned => self.relative_error().max(self.load_error()),
-            Method::Rey2017 => self.scaled_complementarity(),
-        };
-        if error < PROGRESS * self.counters.progress.best_error
-            || energy < self.counters.progress.lowest_energy - self.energy_noise()
-        {
-            self.counters.progress.idle = 0;
-        } else {
-            self.counters.progress.idle += 1;
-        }
-        self.counters.progress.best_error = self.counters.progress.best_error.min(error);
-        self.counters.progress.lowest_energy = self.counters.progress.lowest_energy.min(energy);
+        self.note_error(self.relative_error().max(self.load_error()));
         if self.counters.progress.idle == self.patience().0 {
-            (self.steps.momentum, self.steps.residual_norm) = (None, None);
+            self.steps.momentum = None;
         }
     }
 
-    /// The iterations of [`STALL`], [`STALL_AT_FLOOR`] or [`STALL_REY2017`].
-    fn patience(&self) -> (usize, usize) {
-        match self.posed.settings.method {
-            Method::Preconditioned if self.is_at_floor() => STALL_AT_FLOOR,
-            Method::Preconditioned => STALL,
-            Method::Rey2017 => STALL_REY2017,
-        }
+    /// Notes an error, and whether it or the energy is progress.
+    pub(super) fn note_error(&mut self, error: f64) {
+        let (energy, noise) = (self.energy(), self.energy_noise());
+        let progress = &mut self.counters.progress;
+        let better = error < PROGRESS * progress.best_error || energy < progress.lowest_energy - noise;
+        progress.idle = if better { 0 } else { progress.idle + 1 };
+        progress.best_error = progress.best_error.min(error);
+        progress.lowest_energy = progress.lowest_energy.min(energy);
     }
 
-    pub(super) fn verdict(&self) -> Option<Status> {
+    /// The iterations of [`STALL`] or [`STALL_AT_FLOOR`].
+    pub(super) fn patience(&self) -> (usize, usize) {
+        if self.is_at_floor() { STALL_AT_FLOOR } else { STALL }
+    }
+
+    /// The end, if the iterations ran out or so many made no progress that the solve has stalled.
+    pub(super) fn verdict(&self, patience: usize) -> Option<End> {
         if self.counters.iterations >= self.posed.settings.max_iterations {
-            return Some(Status::IterationLimit);
+            return Some(End::Cut(Status::IterationLimit));
         }
         let idle = self.counters.progress.idle.max(self.counters.progress.refuted);
-        let stalled = !self.energy().is_finite() || idle >= self.patience().1;
-        stalled.then_some(Status::Stalled)
+        (!self.energy().is_finite() || idle >= patience).then_some(End::Stalled)
     }
 
     /// Whether a solve that would stall may renew its pressure, once: many updates may leave mostly rounding.
     pub(super) fn may_renew(&self) -> bool {
-        self.steps.age > STALL_AT_FLOOR.1
-            && !self.counters.progress.renewed
-            && self.posed.settings.method == Method::Preconditioned
+        self.steps.age > STALL_AT_FLOOR.1 && !self.counters.progress.renewed
     }
 
     pub(super) fn renew(&mut self) -> Result<()> {
-        self.refresh(Left::Nothing)?;
+        self.refresh()?;
         self.restart();
         self.counters.progress.renewed = true;
-        self.residual(Left::Nothing);
+        self.residual();
         Ok(())
     }
 }

@@ -1,17 +1,17 @@
-//! The order of a solve: phases, rounds of the constraint, and the loop in each.
+//! The order of a solve: the loop of a minimisation, and the phases and rounds that call it.
 
 use std::ops::ControlFlow;
 
-use super::minimisation::{Goal, Left};
+use super::minimisation::Goal;
 use super::operators::Operators;
 use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
 use super::start::{Begin, check_hardness, check_wall};
 use super::state::State;
 use super::tension::Hold;
-use super::{Branch, Method, Settings};
-use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw};
-use crate::constraint::{ContactConstraint, Projection, Update, Wall};
+use super::{Branch, Method, Settings, rey2017};
+use crate::adhesion::{AdhesionLaw, SharedLaw};
+use crate::constraint::{ContactConstraint, Update};
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, smoothed_law};
 use crate::real::Real;
@@ -36,48 +36,49 @@ pub(super) enum End {
     Converged,
     /// A tensile load has pulled the surfaces apart.
     Adrift,
-    /// The iterations ran out, progress ceased, or the observer stopped it.
-    Gave(Status),
+    /// Progress ceased.
+    Stalled,
+    /// The iterations ran out, or the observer stopped the solve.
+    Cut(Status),
 }
 
-impl End {
-    pub(super) fn is_final(&self) -> Option<Status> {
-        match *self {
-            Self::Gave(status @ (Status::Stopped | Status::IterationLimit)) => Some(status),
-            _ => None,
-        }
+/// Minimises the energy of the present goal by the method of the settings.
+pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
+    match state.posed.settings.method {
+        Method::Preconditioned => descend(state, observe),
+        Method::Rey2017 => rey2017::descend(state, observe),
     }
 }
 
-pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
-    state.residual(Left::Nothing);
+fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
+    state.residual();
     loop {
-        state.precondition()?;
+        state.certify()?;
         if state.converged() {
             state.confirm()?;
         }
         let converged = state.converged();
         if observe(&state.iteration()).is_break() {
-            return Ok(End::Gave(Status::Stopped));
+            return Ok(End::Cut(Status::Stopped));
         }
         if converged {
             return Ok(End::Converged);
         }
         state.note_progress();
-        let verdict = state.verdict();
-        if verdict == Some(Status::Stalled) && state.may_renew() {
+        let verdict = state.verdict(state.patience().1);
+        if matches!(verdict, Some(End::Stalled)) && state.may_renew() {
             state.renew()?;
             continue;
         }
-        if let Some(status) = verdict {
-            return Ok(End::Gave(status));
+        if let Some(end) = verdict {
+            return Ok(end);
         }
         if state.is_adrift() {
             return Ok(End::Adrift);
         }
         let moved = state.step()?;
         if !moved && !state.may_renew() {
-            return Ok(End::Gave(Status::Stalled));
+            return Ok(End::Stalled);
         }
         if !moved {
             state.renew()?;
@@ -85,76 +86,55 @@ pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe:
     }
 }
 
-/// Solves a problem: from afar with the wall alone, then with the law smoothed, then with the law itself.
+/// Solves a problem: phases that lead to a start, and then the solution in rounds of the constraint.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
     let Job { law, given, flat, constraint, control, settings, begin, observe } = job;
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
     check_wall(law, constraint.wall())?;
     let load = flat.load(control, constraint.wall())?;
     check_hardness(law, load, flat, constraint.wall())?;
-    let asked = (control, constraint.wall().name());
     let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
-    let (default_start, nearness) = (begin.is_default(), begin.nearness());
-    let from_afar = default_start && branch == Some(Branch::Loading);
-    let smooths = settings.method == Method::Preconditioned;
-    let smoothed = if smooths { smoothed_law(operators.state(), law) } else { None };
-
-    // a wall stands for the repulsion of a law, in gaps above its equilibrium separation
-    let mut rigid = Projection;
-    let (wall, repelled): (&mut dyn ContactConstraint<T>, Option<&mut dyn ContactConstraint<T>>) =
-        match constraint.wall() {
-            Wall::None if from_afar => (&mut rigid, Some(constraint)),
-            _ => (constraint, None),
-        };
-    let separation = repelled.as_ref().and_then(|_| law.hints().rest).unwrap_or_else(T::zero);
-    let (first_law, first_load): (&dyn AdhesionLaw<T>, _) =
-        if from_afar { (&NoAdhesion, load.of_wall(separation.widen())) } else { (law, load) };
-
-    let goal = if from_afar { Goal::Wall } else { Goal::Solution };
-    let posed = Posed {
+    let preconditioned = settings.method == Method::Preconditioned;
+    let smoothed = if preconditioned { smoothed_law(operators.state(), law) } else { None };
+    let from_afar = begin.is_default() && branch == Some(Branch::Loading);
+    let mut posed = Posed {
         operators,
-        law: first_law,
+        adhesion: law,
+        smoothed: smoothed.as_deref(),
         given,
         flat,
-        constraint: wall,
-        load: first_load,
-        asked,
+        constraint,
+        control,
+        load,
         branch,
         settings,
-        goal,
+        goal: Goal::Solution,
+        // a given start is on a branch, which ends where the surfaces come apart
+        holds: if begin.is_default() && !from_afar { Hold::ALL.iter() } else { [].iter() },
         leads_on: true,
-        from_full_contact: default_start && branch == Some(Branch::Unloading),
+        from_full_contact: begin.is_default() && branch == Some(Branch::Unloading),
     };
-    let mut state = State::new(posed, begin)?;
-    state.begins(nearness);
+    let is_torn = posed.is_torn();
+    let smooths = posed.smoothed.is_some() && !is_torn;
+    let phases = [from_afar.then_some(Goal::Wall), smooths.then_some(Goal::Start)];
     if from_afar {
+        posed.leave_adhesion();
+    }
+    let mut state = State::new(posed, begin)?;
+    for phase in phases.into_iter().flatten() {
+        state.enter(phase);
         let end = minimise(&mut state, &mut *observe)?;
-        if let Some(constraint) = repelled {
-            state.stand_on(constraint, separation)?;
-        }
-        state.adhere(law, load)?;
-        if let Some(status) = end.is_final() {
+        state.leave(phase)?;
+        if let End::Cut(status) = end {
             return state.finish(status);
         }
     }
-    if state.posed.is_torn() {
+    if is_torn {
         state.hold_apart();
-    } else if let Some(smoothed) = &smoothed {
-        state.change_law(&**smoothed, Goal::Start);
-        let end = minimise(&mut state, &mut *observe)?;
-        state.sharpen(law, branch.is_some())?;
-        if let Some(status) = end.is_final() {
-            return state.finish(status);
-        }
     }
-    // a given start is on a branch, which ends where the surfaces come apart
-    let mut holds = if default_start && !from_afar { [Hold::Touching, Hold::Gap].iter() } else { [].iter() };
     loop {
         let end = minimise(&mut state, &mut *observe)?;
-        if let Some(status) = end.is_final() {
-            return state.finish(status);
-        }
-        if state.is_apart() && state.seek_hold(&mut holds, (law, smoothed.as_deref()), &mut *observe)? {
+        if !matches!(end, End::Cut(_)) && state.is_apart() && state.seek_hold(&mut *observe)? {
             continue;
         }
         match end {
@@ -164,7 +144,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
                 Update::Failed => return state.finish(Status::IterationLimit),
             },
             End::Adrift => state.hold_apart(),
-            End::Gave(status) => return state.finish(status),
+            End::Stalled => return state.finish(Status::Stalled),
+            End::Cut(status) => return state.finish(status),
         }
     }
 }

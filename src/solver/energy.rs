@@ -38,8 +38,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// the stiffness of the shortest.
     pub(super) fn has_lost_its_pressure(&self) -> bool {
         let rounding = STALE * self.rounding_of_corrections();
-        self.sums.certificate
-            < rounding * rounding * self.posed.operators.state().stiffness_range().1 * self.steps.updates
+        self.sums.certificate < rounding * rounding * self.posed.stiffness_range().1 * self.steps.updates
     }
 
     /// The work from the sums of a tally: Σ g·p and Σ g·K⁻¹h.
@@ -53,11 +52,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.sums.work.is_doubtful(TRUSTED)
     }
 
-    /// Computes the work as ⟨p, K p⟩, over the corrections, if rounding may exceed `share` of it; tells whether it did.
-    pub(super) fn trust_work(&mut self, share: f64) -> Result<bool> {
+    /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of it, over the corrections and the last step.
+    pub(super) fn trust_work(&mut self, share: f64) -> Result<()> {
         if !self.sums.work.is_doubtful(share) {
-            return Ok(false);
+            return Ok(());
         }
+        self.steps.momentum = None;
         let stiffness = self.foundation();
         let Fields { pressure, residual, preconditioned, change, .. } = &mut self.fields;
         let work = self.posed.operators.work(pressure, stiffness, [preconditioned, residual, change])?;
@@ -66,7 +66,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let sum = self.posed.nodes() * work.max(0.0);
             self.sums.work = Work { sum, noise: self.sum_noise(sum) };
         }
-        Ok(true)
+        Ok(())
     }
 
     pub(super) fn energy(&self) -> f64 {

@@ -2,12 +2,11 @@
 
 use ndarray::Array2;
 
-use super::minimisation::Left;
 use super::passes::Fields;
-use super::plastic::to_the_yielded;
+use super::posed::Posed;
 use super::report::{Plastic, Report, Solution, Solved, Status};
 use super::state::State;
-use crate::adhesion::{mu_rho, noticeable};
+use crate::adhesion::{AdhesionLaw, mu_rho, noticeable};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
@@ -20,22 +19,86 @@ use crate::vector::sums;
 /// The share of the largest traction above which one at the edge of the window matters.
 const EDGE: f64 = 1e-3;
 
+/// The pressures that the fields of a state carry.
+struct Carried<T> {
+    contact_pressure: Array2<T>,
+    /// the mean pressure p̄, given or of a given mean gap
+    mean: f64,
+    mean_contact: f64,
+    /// ⟨λ⟩ − ⟨φ'⟩
+    net: f64,
+    load_error: f64,
+    /// Σ (p̄ − p − p̄), over the nodes that face the surface
+    missing: f64,
+    /// the sum of their gaps, and the least gap
+    sum_gap: f64,
+    min_gap: f64,
+}
+
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
+        self.certify_as_returned()?;
+        let carried = self.carry();
+        let yielded = self.yielded();
+        if let Some(yielded) = &yielded {
+            self.sums.tally.adhesive += yielded.pulled;
+        }
+        let report = self.report(status, &carried, yielded.as_ref().map(|yielded| yielded.figures));
+        let (on_grid, flat, at_floor) = (self.posed.law(), self.posed.flat, self.is_at_floor());
+        let law = self.posed.given.clone();
+        let (grid, facing) = (*self.posed.operators.state().grid(), self.posed.facing());
+        let Fields { gap, mut pressure, .. } = self.fields;
+        let plastic_depth = yielded.map(|yielded| yielded.depth);
+        let yields = plastic_depth.is_some();
+        let Carried { contact_pressure, missing, .. } = carried;
+        let (mut solution, whole) = match &flat.window {
+            None => {
+                let whole = yields.then(|| (grid, gap.clone()));
+                (Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law }, whole)
+            }
+            Some(window) => {
+                // the nodes that face no surface have their part of the residual: in balance the others bear the load
+                if report.status == Status::Converged {
+                    let share = T::lit(missing / facing);
+                    pressure.mapv_inplace(|p| p + share);
+                }
+                let [pressure, contact_pressure] =
+                    [pressure, contact_pressure].map(|field| window.crop(&field, T::zero()));
+                let plastic_depth = plastic_depth.map(|depth| window.crop(&depth, T::zero()));
+                let own = window.crop(&gap, T::infinity());
+                let (grid, whole) = (*window.grid(), Some((grid, gap)));
+                (Solution { gap: own, pressure, contact_pressure, plastic_depth, grid, report, law }, whole)
+            }
+        };
+        if yields {
+            // the gap to the surface that has yielded
+            solution.gap.mapv_inplace(|gap| gap.max(T::zero()));
+        }
+        if flat.boundary != Boundary::Periodic {
+            solution.watch_edge(on_grid);
+        }
+        Ok(Solved { solution, whole, at_floor })
+    }
+
+    /// The certificate and the work of the fields as they are.
+    fn certify_as_returned(&mut self) -> Result<()> {
         if self.steps.age > 0 {
-            self.refresh(Left::Nothing)?;
+            self.refresh()?;
             self.sums.certificate = f64::INFINITY;
         }
         if self.sums.certificate.is_infinite() {
-            self.residual(Left::Nothing);
+            self.residual();
             self.certify()?;
         }
-        self.trust_work(T::epsilon().widen().sqrt())?;
+        self.trust_work(T::epsilon().widen().sqrt())
+    }
+
+    /// Makes the elastic pressure that of the load, and divides it into contact and adhesion.
+    fn carry(&mut self) -> Carried<T> {
+        let nodes = self.posed.nodes();
         let mean = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
         let shift = T::lit(mean - self.sums.drift);
-        let (law, flat) = (self.posed.law, self.posed.flat);
-        let own = self.posed.given.clone();
-        let Self { fields, posed, .. } = &mut self;
+        let Self { fields, posed, .. } = self;
         let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
         for correction in [residual, preconditioned, change] {
             *correction = Array2::zeros((0, 0));
@@ -54,27 +117,33 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 [contact[i].widen(), gap[i].widen(), pressure[i].widen()]
             })
         });
-        let mean_contact_pressure = total.sum[0] / self.posed.nodes();
-        let net_pressure = mean_contact_pressure - self.sums.tally.traction / self.posed.nodes();
+        let [sum_contact, sum_gap, sum_pressure, ..] = total.sum;
+        let mean_contact = sum_contact / nodes;
+        let net = mean_contact - self.mean_traction();
         let load_error = match self.posed.load {
             _ if self.sums.detached.is_some() => 1.0,
             Load::Gap(_) => self.load_error(),
-            _ => self.load_error().max(self.share_of_load(net_pressure - mean)),
+            _ => self.load_error().max(self.share_of_load(net - mean)),
         };
-        let plastic = self.plastic();
-        let modulus = self.posed.operators.state().modulus();
-        let mu_rho = mu_rho(law, self.posed.operators.state().grid(), modulus);
-        let facing = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.facing() as f64);
-        let (given, padding) = (self.sums.detached.unwrap_or(mean), flat.padding);
+        let missing = mean * nodes - sum_pressure;
+        Carried { contact_pressure, mean, mean_contact, net, load_error, missing, sum_gap, min_gap: total.min }
+    }
+
+    fn report(&self, status: Status, carried: &Carried<T>, plastic: Option<Plastic>) -> Report {
+        let &Carried { mean, mean_contact, net, load_error, sum_gap, min_gap, .. } = carried;
+        let Posed { flat, settings, .. } = self.posed;
+        let (law, operator) = (self.posed.law(), self.posed.operators.state());
+        let (hints, modulus, padding) = (law.hints(), operator.modulus(), flat.padding);
+        let (nodes, facing) = (self.posed.nodes(), self.posed.facing());
+        let nominal = flat.window.as_ref().map_or(nodes, |window| window.grid().nodes() as f64);
+        let mu_rho = mu_rho(law, operator.grid(), modulus);
+        let given = self.sums.detached.unwrap_or(mean);
         // the mean of the displacement is no wave
-        let of_mean = 0.5 * flat.boundary.mean_compliance() * net_pressure.powi(2);
-        let nominal = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.grid().nodes() as f64);
+        let of_mean = 0.5 * flat.boundary.mean_compliance() * net.powi(2);
         // to the surface as it is now, beside that as it was before the solve
-        let facing_mean = if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() };
-        let deeper = plastic
-            .as_ref()
-            .map_or(0.0, |(_, plastic)| plastic.depth_mean - flat.mean_depth() * self.posed.nodes() / facing);
-        let mut report = Report {
+        let facing_mean = if flat.window.is_some() { sum_gap / facing } else { self.mean_gap() };
+        let deeper = plastic.map_or(0.0, |plastic| plastic.depth_mean - flat.mean_depth() * nodes / facing);
+        Report {
             status: self.final_status(status, load_error),
             branch: self.posed.branch,
             relative_error: self.relative_error(),
@@ -85,81 +154,40 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             operator_applications: self.counters.applications,
             boundary: flat.boundary.alone(),
             modulus,
-            control: self.posed.asked.0,
-            wall: self.posed.asked.1,
-            law: law.hints().known_as().into(),
-            work_of_adhesion: law.hints().work_of_adhesion.widen(),
+            control: self.posed.control,
+            wall: self.posed.constraint.wall().name(),
+            law: hints.known_as().into(),
+            work_of_adhesion: hints.work_of_adhesion.widen(),
             mean_gap: facing_mean + deeper,
             mean_pressure: given * padding,
             normal_force: given * padding * flat.area,
             approach: flat.approach(self.mean_gap(), mean),
-            net_pressure: net_pressure * padding,
-            mean_contact_pressure: mean_contact_pressure * padding,
+            net_pressure: net * padding,
+            mean_contact_pressure: mean_contact * padding,
             contact_fraction: self.sums.tally.contact / facing,
             contact_nodes: self.sums.tally.contact as usize,
             absent_nodes: (nominal - facing) as usize,
             edge_traction: None,
             reaches_edge: false,
-            min_gap: if plastic.is_some() { total.min.max(0.0) } else { total.min },
+            min_gap: if plastic.is_some() { min_gap.max(0.0) } else { min_gap },
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
-            adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
-            range: law.hints().of_grid.then(|| law.hints().range.widen()),
-            peak_traction: law.hints().of_grid.then(|| law.traction(T::zero()).widen()),
-            adhesive_contact_fraction: self.adhesive_contact_fraction(facing, plastic.as_ref().map(|(_, found)| found)),
+            adhesive_energy: padding * self.sums.tally.adhesive / nodes,
+            range: hints.of_grid.then(|| hints.range.widen()),
+            peak_traction: hints.of_grid.then(|| law.traction(T::zero()).widen()),
+            adhesive_contact_fraction: self.adhesive_contact_fraction(facing, plastic),
             mu_rho,
             under_resolved: mu_rho > Report::RESOLVED_MU_RHO,
             precision: T::NAME,
-            method: self.posed.settings.method,
-            criterion: self.posed.settings.criterion,
-            tolerance: self.posed.settings.tolerance_in::<T>(),
-            plastic: plastic.as_ref().map(|(_, figures)| *figures),
-        };
-        let (grid, at_floor) = (*self.posed.operators.state().grid(), self.is_at_floor());
-        let missing = mean * self.posed.nodes() - total.sum[2];
-        let Fields { mut gap, mut pressure, .. } = self.fields;
-        let plastic_depth = plastic.map(|(depth, _)| depth);
-        let Some(window) = &flat.window else {
-            let whole = plastic_depth.is_some().then(|| (grid, gap.clone()));
-            if whole.is_some() {
-                to_the_yielded(&mut gap);
-            }
-            let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law: own };
-            return Ok(Solved { solution, whole, at_floor });
-        };
-        let (whole, grid) = ((grid, gap), *window.grid());
-        let mut gap = window.crop(&whole.1, T::infinity());
-        if plastic_depth.is_some() {
-            to_the_yielded(&mut gap);
+            method: settings.method,
+            criterion: settings.criterion,
+            tolerance: settings.tolerance_in::<T>(),
+            plastic,
         }
-        let plastic_depth = plastic_depth.map(|depth| window.crop(&depth, T::zero()));
-        // the nodes that face no surface have their part of the residual: in balance the others bear the load
-        if report.status == Status::Converged {
-            let share = T::lit(missing / facing);
-            pressure.mapv_inplace(|p| p + share);
-        }
-        let pressure = window.crop(&pressure, T::zero());
-        let contact_pressure = window.crop(&contact_pressure, T::zero());
-        if flat.boundary != Boundary::Periodic {
-            let [at_edge, largest] = [largest(edge(&pressure, &grid)), largest(pressure.iter().copied())]
-                .map(|own| grid.each(own).into_iter().fold(0.0, f64::max));
-            let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
-            report.edge_traction = Some(share);
-            // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
-            let attract = !law.hints().zero && largest > noticeable(law);
-            let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
-            let touches = grid.each(edge(&gap, &grid).any(|gap| gap <= T::zero())).contains(&true);
-            report.reaches_edge = !apart && (share > EDGE || touches);
-        }
-        Ok(Solved {
-            solution: Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law: own },
-            whole: Some(whole),
-            at_floor,
-        })
     }
 
     /// The share of contact that the adhesive energy tells, of a law whose range is that of the grid.
-    fn adhesive_contact_fraction(&self, facing: f64, plastic: Option<&Plastic>) -> Option<f64> {
-        let hints = self.posed.law.hints();
+    fn adhesive_contact_fraction(&self, facing: f64, plastic: Option<Plastic>) -> Option<f64> {
+        let hints = self.posed.law().hints();
         // below a wall that gives the energy goes on
         let hard = self.posed.projects() && plastic.is_none_or(|plastic| plastic.fraction == 0.0);
         let tells = hints.of_grid && !hints.zero && hints.shape.is_none() && hard;
@@ -176,6 +204,21 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             Status::Stalled if good && self.posed.projects() => Status::Converged,
             _ => status,
         }
+    }
+}
+
+impl<T: Real> Solution<T> {
+    /// Notes the traction at the edge of the window, and whether the contact reaches it.
+    fn watch_edge(&mut self, law: &dyn AdhesionLaw<T>) {
+        let (grid, report) = (self.grid, &mut self.report);
+        let tractions = [largest(edge(&self.pressure, &grid)), largest(self.pressure.iter().copied())];
+        let [at_edge, largest] = tractions.map(|own| grid.each(own).into_iter().fold(0.0, f64::max));
+        let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
+        // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
+        let attract = !law.hints().zero && largest > noticeable(law);
+        let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
+        let touches = grid.each(edge(&self.gap, &grid).any(|gap| gap <= T::zero())).contains(&true);
+        (report.edge_traction, report.reaches_edge) = (Some(share), !apart && (share > EDGE || touches));
     }
 }
 

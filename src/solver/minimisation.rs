@@ -16,7 +16,7 @@ pub(super) enum Goal {
     Solution,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Sums {
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
@@ -31,21 +31,6 @@ pub(super) struct Sums {
     /// the mean of r'·K r'; infinite as long as it is not known
     pub(super) certificate: f64,
     pub(super) preconditioned: Preconditioned,
-}
-
-impl Default for Sums {
-    fn default() -> Self {
-        Self {
-            tally: Tally::default(),
-            work: Work::default(),
-            drift: 0.0,
-            given: 0.0,
-            detached: None,
-            residual: Residual::default(),
-            certificate: f64::INFINITY,
-            preconditioned: Preconditioned::default(),
-        }
-    }
 }
 
 /// What the start of a solve knows of the solution, in ascending order.
@@ -68,8 +53,8 @@ pub(super) struct Steps {
     /// the contacts in the preconditioner
     pub(super) coarse: Option<Coarse>,
     pub(super) nearness: Nearness,
-    /// ⟨r', r'⟩ of the step before, for [`Method::Rey2017`](crate::Method::Rey2017)
-    pub(super) residual_norm: Option<f64>,
+    /// Σ r'² of the step before, if the next one of Algorithm 3 may be conjugate to it
+    pub(super) norm: Option<f64>,
     /// steps since the pressure was last computed from the gap
     pub(super) age: usize,
     /// the sum of ⟨c, c⟩/N over these steps, with c their change
@@ -78,15 +63,7 @@ pub(super) struct Steps {
 
 impl Steps {
     pub(super) fn new(coarse: Option<Coarse>) -> Self {
-        Self {
-            momentum: None,
-            step_length: 1.0,
-            coarse,
-            nearness: Nearness::Afar,
-            residual_norm: None,
-            age: 0,
-            updates: 0.0,
-        }
+        Self { momentum: None, step_length: 1.0, coarse, nearness: Nearness::Afar, norm: None, age: 0, updates: 0.0 }
     }
 }
 
@@ -113,17 +90,15 @@ pub(super) struct Made {
     pub(super) sum: f64,
 }
 
-/// The content of the field `residual` after a step.
+/// What comes next after a step, for the residual r' of the new state.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Left {
-    /// Values without use, such as K⁻¹c.
-    Nothing,
-    /// The gradient r less the level of the state before.
-    Gradient(Made),
-    /// The residual r', under pressure control.
-    Residual(Made),
-    /// Values without use, beside a pressure that was computed anew after the step.
-    Renewed(Made),
+pub(super) enum Next {
+    /// To compute it from gap and pressure.
+    Compute,
+    /// To subtract the level from the gradient in its field.
+    Level,
+    /// Nothing: the step has left it in its field.
+    Go,
 }
 
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,11 +1,11 @@
-//! The beginnings of the phases of a solve, each with an energy and a goal.
+//! The passage from phase to phase of a solve, each with an energy and a goal.
 
 use super::coarse::Coarse;
-use super::minimisation::{Goal, Left, Nearness, Progress};
+use super::minimisation::{Goal, Nearness, Progress};
 use super::start::uniform_start;
 use super::state::State;
-use crate::adhesion::{AdhesionLaw, Values};
-use crate::constraint::{ContactConstraint, Update, Wall};
+use crate::adhesion::Values;
+use crate::constraint::{Update, Wall};
 use crate::error::{Error, Result};
 use crate::field::flat;
 use crate::problem::{Control, Load};
@@ -14,12 +14,25 @@ use crate::real::Real;
 /// The first trial length near the solution: r' then has short waves at contact edges, too stiff for a whole step.
 const NEAR: f64 = 0.5;
 
-impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn begins(&mut self, nearness: Nearness) {
         self.steps.nearness = nearness;
         if nearness == Nearness::Near {
             self.steps.step_length = NEAR;
         }
+    }
+
+    /// Goes on with another goal, if it is another one.
+    pub(super) fn enter(&mut self, goal: Goal) {
+        if goal != self.posed.goal {
+            self.posed.goal = goal;
+            self.restart();
+        }
+    }
+
+    /// Goes over from a phase to the law itself.
+    pub(super) fn leave(&mut self, phase: Goal) -> Result<()> {
+        if phase == Goal::Wall { self.leave_wall() } else { self.sharpen() }
     }
 
     pub(super) fn check_start(&self) -> Result<()> {
@@ -30,7 +43,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     }
 
     fn check_gaps(&self) -> Result<()> {
-        let law = self.posed.law;
+        let law = self.posed.law();
         let mut value = [T::zero()];
         let first = self.posed.operators.state().grid().slab().first_node();
         for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
@@ -52,44 +65,40 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         Ok(())
     }
 
-    /// Puts the constraint of a law that repels in the place of its wall, moved by the law's equilibrium separation, or
-    /// by a smaller mean gap that is held.
-    pub(super) fn stand_on(&mut self, constraint: &'a mut dyn ContactConstraint<T>, separation: T) -> Result<()> {
-        self.posed.constraint = constraint;
-        self.posed.prepare()?;
-        let lift = match self.posed.asked.0 {
-            Control::MeanGap(held) => separation.min(T::lit(held)),
-            _ => separation,
-        };
-        self.fields.gap.mapv_inplace(|gap| gap + lift);
-        Ok(())
+    /// Goes on with adhesion, under the load. A wall that stood for the repulsion of the law leaves the surfaces as far
+    /// apart as the law's equilibrium separation, or a smaller mean gap that is held.
+    fn leave_wall(&mut self) -> Result<()> {
+        if let Some(separation) = self.posed.separation() {
+            let lift = match self.posed.control {
+                Control::MeanGap(held) => separation.min(T::lit(held)),
+                _ => separation,
+            };
+            self.fields.gap.mapv_inplace(|gap| gap + lift);
+        }
+        let load = self.posed.flat.load(self.posed.control, self.posed.constraint.wall())?;
+        self.adhere(load, Goal::Solution)
     }
 
-    /// Goes on with adhesion, under the load, from a gap without it.
-    pub(super) fn adhere(&mut self, law: &'a dyn AdhesionLaw<T>, load: Load) -> Result<()> {
-        (self.posed.load, self.steps.step_length) = (load, 1.0);
+    /// Goes on with adhesion under a load, from a gap without it.
+    pub(super) fn adhere(&mut self, load: Load, goal: Goal) -> Result<()> {
+        (self.posed.load, self.posed.goal, self.steps.step_length) = (load, goal, 1.0);
         // the contacts before are not those that adhesion makes
         self.steps.coarse.iter_mut().for_each(Coarse::forget);
-        self.change_law(law, Goal::Solution);
+        self.restart();
         self.sums.certificate = f64::INFINITY;
         self.check_start()
     }
 
-    pub(super) fn change_law(&mut self, law: &'a dyn AdhesionLaw<T>, goal: Goal) {
-        (self.posed.law, self.posed.goal) = (law, goal);
-        self.restart();
-    }
-
     /// Goes on with the law itself after the smoothed one. A given start is on a branch, which ends where the smoothed
     /// law lets go.
-    pub(super) fn sharpen(&mut self, law: &'a dyn AdhesionLaw<T>, on_any_branch: bool) -> Result<()> {
-        self.posed.law = law;
-        if on_any_branch && self.is_adrift() {
+    fn sharpen(&mut self) -> Result<()> {
+        self.posed.goal = Goal::Solution;
+        if self.posed.branch.is_some() && self.is_adrift() {
             // the law itself may hold this tension
-            self.fields.gap.fill(T::lit(uniform_start(law, self.posed.flat, self.posed.load)));
-            self.refresh(Left::Nothing)?;
+            self.fields.gap.fill(T::lit(uniform_start(self.posed.adhesion, self.posed.flat, self.posed.load)));
+            self.refresh()?;
         }
-        self.change_law(law, Goal::Solution);
+        self.restart();
         // this certificate was of the smoothed law
         self.sums.certificate = f64::INFINITY;
         Ok(())
@@ -113,7 +122,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     }
 
     pub(super) fn restart(&mut self) {
-        (self.steps.momentum, self.steps.residual_norm) = (None, None);
+        (self.steps.momentum, self.steps.norm) = (None, None);
         self.counters.progress = Progress::default();
         self.counters.rounds += 1;
         self.count();

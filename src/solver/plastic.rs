@@ -87,20 +87,27 @@ impl<T: Real> Potential<'_, T> {
     }
 }
 
+/// The plastic depth on the operator's grid, and its figures.
+pub(super) struct Depth<T> {
+    pub(super) depth: Array2<T>,
+    pub(super) figures: Plastic,
+    /// The work that the law has done at nodes that yield, below the gap of touching surfaces.
+    pub(super) pulled: f64,
+}
+
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether some nodes yield in the present state.
     pub(super) fn has_yielded(&self) -> bool {
-        let yields = self.posed.constraint.wall().hardness().is_some();
+        let yields = self.posed.wall().hardness().is_some();
         // these are in contact, and free
         yields && self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
     }
 
-    /// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing
-    /// if the wall does not yield. The energy is over all nodes of the operator's grid. A law that pulls at a node where
-    /// it yields does a part of the work: its energy, which went on below zero gap, is that of touching surfaces.
-    pub(super) fn plastic(&mut self) -> Option<(Array2<T>, Plastic)> {
-        let Self { fields, posed, sums, .. } = self;
-        let hardness = posed.constraint.wall().hardness()?.mean();
+    /// How far the surface has yielded, with the depth that it had before; nothing if the wall does not yield. The
+    /// energy is over all nodes of the operator's grid.
+    pub(super) fn yielded(&mut self) -> Option<Depth<T>> {
+        let Self { fields, posed, .. } = self;
+        let hardness = posed.wall().hardness()?.mean();
         let before = posed.flat.yielded.as_ref().map(Yielded::depth);
         let mut depth = before.cloned().unwrap_or_else(|| Array2::zeros(fields.gap.dim()));
         let local = posed.potential();
@@ -124,21 +131,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
             part
         });
-        let facing = posed.flat.window.as_ref().map_or(posed.nodes(), |window| window.facing() as f64);
-        let [yielded, sum, energy, pulled, ..] = total.sum;
-        sums.tally.adhesive += pulled;
-        let plastic = Plastic {
+        let ([yielded, sum, energy, pulled, ..], facing) = (total.sum, posed.facing());
+        let figures = Plastic {
             hardness,
             fraction: yielded / facing,
             depth_max: (-total.min).max(0.0),
             depth_mean: sum / facing,
             energy: posed.flat.padding * energy / posed.nodes(),
         };
-        Some((depth, plastic))
+        Some(Depth { depth, figures, pulled })
     }
-}
-
-/// The gap to a surface that has yielded where the gap to that before was negative.
-pub(super) fn to_the_yielded<T: Real>(gap: &mut Array2<T>) {
-    gap.mapv_inplace(|gap| gap.max(T::zero()));
 }

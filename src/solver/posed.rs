@@ -1,11 +1,14 @@
 //! The problem that is posed to the driver.
 
+use std::slice;
+
 use super::minimisation::Goal;
 use super::operators::Operators;
 use super::potential::Potential;
+use super::tension::Hold;
 use super::{Branch, Method, Settings};
-use crate::adhesion::{AdhesionLaw, SharedLaw};
-use crate::constraint::{ContactConstraint, Wall};
+use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw};
+use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
 use crate::problem::{Control, Load, PressedFlat, Window};
 use crate::real::Real;
@@ -14,20 +17,24 @@ use crate::real::Real;
 /// are the better start without adhesion on a periodic grid.
 const HARDLY: f64 = 1e-3;
 
-/// The energy to be minimised, and how well. A phase may change law, constraint, load and goal.
+/// The energy to be minimised, and how well. A phase may change load and goal, and with the goal law and wall.
 pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) operators: &'a mut dyn Operators<T, Lo>,
-    pub(super) law: &'a dyn AdhesionLaw<T>,
+    /// the law itself
+    pub(super) adhesion: &'a dyn AdhesionLaw<T>,
+    /// the law with its jumps smoothed
+    pub(super) smoothed: Option<&'a dyn AdhesionLaw<T>>,
     /// the law of the problem, as it was given
     pub(super) given: &'a SharedLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
     pub(super) constraint: &'a mut dyn ContactConstraint<T>,
+    pub(super) control: Control,
     pub(super) load: Load,
-    /// the control, of which the load is made, and the name of the wall
-    pub(super) asked: (Control, &'static str),
     pub(super) branch: Option<Branch>,
     pub(super) settings: Settings,
     pub(super) goal: Goal,
+    /// the states that may hold a load where surfaces come apart, which were not tried
+    pub(super) holds: slice::Iter<'static, Hold>,
     /// whether the present round of the constraint may lead to another one
     pub(super) leads_on: bool,
     /// whether full contact may have thrown the surfaces apart
@@ -52,21 +59,60 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         Ok(())
     }
 
+    /// Poses the wall alone, under the load that it bears.
+    pub(super) fn leave_adhesion(&mut self) {
+        let separation = self.separation().unwrap_or_else(T::zero);
+        (self.goal, self.load) = (Goal::Wall, self.load.of_wall(separation.widen()));
+    }
+
+    /// The law of the present goal.
+    pub(super) fn law(&self) -> &'a dyn AdhesionLaw<T> {
+        match (self.goal, self.smoothed) {
+            (Goal::Wall, _) => &NoAdhesion,
+            (Goal::Start, Some(smoothed)) => smoothed,
+            _ => self.adhesion,
+        }
+    }
+
+    /// The wall of the present goal: without the law a rigid one stands for its repulsion.
+    pub(super) fn wall(&self) -> Wall<'_, T> {
+        self.present().wall()
+    }
+
+    fn present(&self) -> &dyn ContactConstraint<T> {
+        if self.goal == Goal::Wall && self.separation().is_some() { &Projection } else { &*self.constraint }
+    }
+
+    /// The gap at which a wall stands for the repulsion of a law.
+    pub(super) fn separation(&self) -> Option<T> {
+        matches!(self.constraint.wall(), Wall::None).then(|| self.adhesion.hints().rest.unwrap_or_else(T::zero))
+    }
+
     pub(super) fn nodes(&self) -> f64 {
         self.operators.state().grid().nodes() as f64
     }
 
+    /// The least and the largest stiffness of a wave.
+    pub(super) fn stiffness_range(&self) -> (f64, f64) {
+        self.operators.state().stiffness_range()
+    }
+
+    /// The number of nodes that face the surface.
+    pub(super) fn facing(&self) -> f64 {
+        self.flat.window.as_ref().map_or(self.nodes(), |window| window.facing() as f64)
+    }
+
     pub(super) fn potential(&self) -> Potential<'_, T> {
-        Potential::new(self.law, &*self.constraint, self.flat.window.as_ref())
+        Potential::new(self.law(), self.present(), self.flat.window.as_ref())
     }
 
     pub(super) fn projects(&self) -> bool {
-        self.constraint.wall().projects()
+        self.wall().projects()
     }
 
     /// Whether nothing but the law keeps the surfaces apart.
     pub(super) fn has_no_wall(&self) -> bool {
-        matches!(self.constraint.wall(), Wall::None)
+        matches!(self.wall(), Wall::None)
     }
 
     pub(super) fn is_gap_controlled(&self) -> bool {

@@ -1,7 +1,7 @@
 //! Conjugate gradients with the compliance as preconditioner, two operator applications a step.
 
-use super::minimisation::{Left, Made, Nearness, Residual};
-use super::passes::{self, Advance, Attempt, Continued, Fields, Tried, idles};
+use super::minimisation::{Made, Nearness, Next};
+use super::passes::{self, Advance, Attempt, Fields, Tried, idles};
 use super::potential::CLOSER;
 use super::state::State;
 use crate::error::Result;
@@ -38,39 +38,35 @@ struct Momentum {
     mean: f64,
 }
 
-/// The sums of a trial step d = scale·(g + c) − g, with c its change.
+/// A trial step d = scale·(g + c) − g, with the sums of its change c.
 struct Trial {
-    clipped: bool,
-    /// whether nodes that the gradient drives into contact were clipped
-    blocked: bool,
+    tried: Tried,
+    scale: f64,
     /// ⟨r', d⟩
     slope: f64,
-    scale: f64,
-    /// Σ c
-    change: f64,
-    /// ⟨r', c⟩
-    descent: f64,
-    /// ⟨c, c⟩
-    square: f64,
-    /// Σ c·K⁻¹h and Σ g·K⁻¹h, if the scale is not one
-    surface: [f64; 2],
     /// the energy beyond the tangents of nodes that pass a corner of the local energy
     kink: f64,
-    /// Σ φ'·c, and Σ φ''·d²
-    traction: f64,
+    /// Σ φ''·d²
     slopes: f64,
 }
 
-/// The length of a step to be taken, and its sums.
+impl Trial {
+    /// Whether nodes ended at the wall, or passed a corner.
+    fn is_clipped(&self) -> bool {
+        self.tried.clipped > 0.0 || self.kink > 0.0
+    }
+
+    /// Whether nodes that the gradient drives into contact were clipped.
+    fn is_blocked(&self) -> bool {
+        self.tried.blocked > 0.0
+    }
+}
+
+/// The length of a step along a trial to be taken, and its sums.
 struct Step {
     length: f64,
-    scale: f64,
-    /// ⟨r', d⟩
-    slope: f64,
     /// Σ d
     change: f64,
-    /// ⟨c, c⟩
-    square: f64,
     /// Σ d·p and ⟨d, K⁻¹d⟩
     work: f64,
     elastic: f64,
@@ -79,20 +75,20 @@ struct Step {
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// A step along the projected, conjugate, preconditioned residual; nothing if no step lowers the energy.
-    pub(super) fn preconditioned_step(&mut self) -> Result<Option<Left>> {
+    pub(super) fn preconditioned_step(&mut self) -> Result<Option<Next>> {
         // with the waves at rest
         let waits = self.hangs_on_spring() && self.relative_error() <= self.posed.settings.tolerance_in::<T>();
         if waits && self.shift()? {
-            return Ok(Some(Left::Nothing));
+            return Ok(Some(Next::Compute));
         }
         let length = self.steps.step_length;
-        let left = self.try_step()?;
-        if left.is_some() || length >= 1.0 || self.is_at_floor() {
-            return Ok(left);
+        let next = self.try_step()?;
+        if next.is_some() || length >= 1.0 || self.is_at_floor() {
+            return Ok(next);
         }
         // a step shorter than the last digit of the gaps changes nothing: begin anew at full length
-        (self.steps.step_length, self.steps.momentum) = (1.0, None);
-        self.residual(Left::Nothing);
+        self.steps.step_length = 1.0;
+        self.residual();
         self.certify()?;
         self.try_step()
     }
@@ -103,23 +99,25 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let imbalance = self.imbalance();
         let length = std::mem::replace(&mut self.steps.step_length, 1.0);
         self.fields.preconditioned.fill(Lo::zero());
-        let trial = self.trial(-imbalance / self.posed.load.stiffness(), None);
+        let mut trial = self.trial(-imbalance / self.posed.load.stiffness(), None);
         // the sum of r', which is of Lo, has the rounding of the waves
-        let slope = trial.change * imbalance;
-        let trial = Trial { slope, descent: slope, ..trial };
-        let step = if trial.clipped || slope >= 0.0 { None } else { self.search(&trial, 0.0) };
+        trial.slope = trial.tried.change * imbalance;
+        trial.tried.descent = trial.slope;
+        let step = if trial.is_clipped() || trial.slope >= 0.0 { None } else { self.search(&trial, 0.0) };
         self.steps.step_length = length;
-        if let Some(step) = &step {
-            self.fields.residual.fill(Lo::zero());
-            self.advance(step);
-        } else {
-            self.residual(Left::Nothing);
+        let Some(step) = step else {
+            self.residual();
             self.certify()?;
-        }
-        Ok(step.is_some())
+            return Ok(false);
+        };
+        self.fields.residual.fill(Lo::zero());
+        self.advance(&trial, &step);
+        // the last change is of the waves
+        self.steps.momentum = None;
+        Ok(true)
     }
 
-    fn try_step(&mut self) -> Result<Option<Left>> {
+    fn try_step(&mut self) -> Result<Option<Next>> {
         let (centre, mut momentum) = self.direction();
         loop {
             let trial_length = self.steps.step_length;
@@ -128,12 +126,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let elastic = self.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.counters.applications += 1;
             let Some(step) = self.search(&trial, elastic * self.posed.nodes()) else { return Ok(None) };
-            if !trial.blocked || self.has_yielded() || step.length >= SHORT {
-                return Ok(Some(self.advance(&step)));
+            if !trial.is_blocked() || self.has_yielded() || step.length >= SHORT {
+                return Ok(Some(self.advance(&trial, &step)));
             }
             // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
-            self.steps.step_length = trial_length * if momentum.take().is_some() { 1.0 } else { step.length };
-            self.residual(Left::Nothing);
+            let shorter = if momentum.is_some() { 1.0 } else { step.length };
+            self.steps.step_length = trial_length * shorter;
+            momentum = None;
+            self.residual();
         }
     }
 
@@ -166,7 +166,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if momentum.take().is_some() {
                 continue;
             }
-            if trial.blocked {
+            if trial.is_blocked() {
                 return Some(self.land(centre, trial)).filter(|trial| trial.slope < 0.0);
             }
             self.steps.step_length *= 0.5;
@@ -186,31 +186,24 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let surface = self.posed.is_gap_controlled().then_some(&self.posed.flat.pressure);
         let local = self.posed.potential();
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
-        let Tried { change, clipped, blocked, descent, square, gap_descent, change_surface, gap_surface, .. } = tried;
-        let Tried { kink, traction, slope_change, slope_mixed, slope_gap, .. } = tried;
         // the given mean would let a long step multiply the rounding of their difference
         let present = self.sums.tally.sum_gap;
-        let scale = if self.posed.is_gap_controlled() && clipped > 0.0 { present / (present + change) } else { 1.0 };
+        let scales = self.posed.is_gap_controlled() && tried.clipped > 0.0;
+        let scale = if scales { present / (present + tried.change) } else { 1.0 };
         let possible = scale.is_finite() && scale > 0.0;
-        let of_both_signs = self.has_yielded() || yields && self.sums.tally.contact > 0.0;
         // rounded as in the passes
         let scale = T::lit(scale).widen();
         let rest = scale - 1.0;
+        let Tried { slope_change, slope_mixed, slope_gap, .. } = tried;
         let trial = Trial {
-            clipped: clipped > 0.0 || kink > 0.0,
-            blocked: blocked > 0.0,
-            slope: if possible { scale * descent + rest * gap_descent } else { f64::INFINITY },
+            tried,
             scale,
-            change,
-            descent,
-            square,
-            surface: [change_surface, gap_surface],
-            kink: if possible { scale * kink } else { 0.0 },
-            traction,
+            slope: if possible { scale * tried.descent + rest * tried.gap_descent } else { f64::INFINITY },
+            kink: if possible { scale * tried.kink } else { 0.0 },
             slopes: scale * scale * slope_change + 2.0 * scale * rest * slope_mixed + rest * rest * slope_gap,
         };
-        let keeps = clipped == 0.0 || !self.posed.is_gap_controlled();
-        if of_both_signs && !keeps { self.scale_apart(trial) } else { trial }
+        let of_both_signs = self.has_yielded() || yields && self.sums.tally.contact > 0.0;
+        if of_both_signs && scales { self.scale_apart(trial) } else { trial }
     }
 
     /// A change of which the gaps above zero alone are scaled: all of them, of both signs, may have hardly any mean.
@@ -223,7 +216,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             part.sum[0] = gap.iter().zip(change).map(|(&gap, &c)| next(gap, c).max(T::zero()).widen()).sum();
             part
         });
-        let scale = 1.0 - trial.change / total.sum[0];
+        let scale = 1.0 - trial.tried.change / total.sum[0];
         if !(scale.is_finite() && scale > 0.0) {
             return Trial { slope: f64::INFINITY, ..trial };
         }
@@ -300,7 +293,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             part
         });
         let [slope, change, traction, slopes, square, kink, ..] = total.sum;
-        Trial { slope, scale: 1.0, change, descent: slope, square, kink, traction, slopes, ..trial }
+        let tried = Tried { change, descent: slope, square, traction, ..trial.tried };
+        Trial { tried, scale: 1.0, slope, kink, slopes }
     }
 
     /// The length of a step with `elastic` = ⟨c, K⁻¹c⟩; `None` if the energy rises at every length.
@@ -311,9 +305,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let Self { fields, posed, sums, .. } = self;
         let (local, tally) = (posed.potential(), &sums.tally);
         let (scale, rest) = (T::lit(trial.scale), trial.scale - 1.0);
+        let Tried { change, descent, traction, change_surface, gap_surface, .. } = trial.tried;
         // p = r' − φ'(g) and two constants, at every node with a change
-        let pressed = trial.descent - shift * trial.change - trial.traction;
-        let [change_surface, gap_surface] = trial.surface;
+        let pressed = descent - shift * change - traction;
         let cross = if rest == 0.0 {
             0.0
         } else {
@@ -322,7 +316,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         // the elastic curvature of a uniform change is rounding, of either sign
         let elastic = (trial.scale * trial.scale * elastic + cross).max(0.0);
         let work = trial.scale * pressed + rest * tally.sum_gp;
-        let change = trial.scale * trial.change + rest * tally.sum_gap;
+        let change = trial.scale * change + rest * tally.sum_gap;
         let shifted = work + shift * change;
         let spring = stiffness * change * change / nodes;
         if !(elastic + shifted).is_finite() {
@@ -334,7 +328,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let best = (-(trial.slope + trial.kink) / curvature).min(FARTHEST);
         // nodes that pass their corners leave none along the tangent: the whole step, which the search halves
         let best = if trial.kink > 0.0 && best <= 0.0 { 1.0 } else { best };
-        let mut length = match trial.clipped {
+        let mut length = match trial.is_clipped() {
             true if best >= WHOLE => 1.0,
             true => best,
             false if local.projects() && best <= 1.0 => best,
@@ -362,13 +356,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let ratio = if self.steps.nearness >= Nearness::Ahead { best.sqrt() } else { best };
         let (least, most) = if yielded { ADAPT_YIELDING } else { ADAPT };
         self.steps.step_length *= ratio.clamp(least, most);
-        let (scale, slope, square) = (trial.scale, trial.slope, trial.square);
-        (length > 0.0).then_some(Step { length, scale, slope, change, square, work, elastic, spring })
+        (length > 0.0).then_some(Step { length, change, work, elastic, spring })
     }
 
-    /// Takes a step, with the tally of the new state. Returns what it leaves of the residual.
-    fn advance(&mut self, step: &Step) -> Left {
-        let &Step { length, scale, slope, change, square, work, elastic, spring } = step;
+    /// Takes a step, with the tally of the new state. Returns what is left to do for its residual.
+    fn advance(&mut self, trial: &Trial, step: &Step) -> Next {
+        let &Step { length, change, work, elastic, spring } = step;
+        let (scale, square) = (trial.scale, trial.tried.square);
         self.sums.given = self.posed.load.pressure_at((self.sums.tally.sum_gap + length * change) / self.posed.nodes());
         let level = self.posed.is_gap_controlled().then_some(T::lit(self.sums.residual.level));
         let advance = Advance { length: T::lit(length), scale: T::lit(scale), offset: T::lit(self.offset()), level };
@@ -379,20 +373,16 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let curvature = if local.is_straight() {
             length * length * (elastic + spring)
         } else {
-            length * (advanced.product - slope)
+            length * (advanced.product - trial.slope)
         };
         self.sums.tally = advanced.tally;
         let change = length * (2.0 * work + length * elastic);
         self.sums.work = self.sums.work.after(change, self.update_noise() * change.abs());
-        let made = Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 };
+        self.steps.momentum = Some(Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 });
         self.steps.updates += (length * scale).powi(2) * square / self.posed.nodes();
         self.steps.age += 1;
-        match advanced.residual {
-            None => Left::Gradient(made),
-            Some(Continued { complementarity, working, descent, overlap, .. }) => {
-                self.sums.residual = Residual { level: 0.0, working, complementarity, ..self.sums.residual };
-                Left::Residual(Made { descent, overlap, ..made })
-            }
-        }
+        let Some(found) = advanced.residual else { return Next::Level };
+        self.go_on_with(found);
+        Next::Go
     }
 }

@@ -4,7 +4,6 @@ use super::coarse::Coarse;
 use super::minimisation::{Nearness, Preconditioned};
 use super::passes::{self, Fields, idles};
 use super::state::State;
-use super::{Criterion, Method};
 use crate::elastic::Foundation;
 use crate::error::Result;
 use crate::real::Real;
@@ -25,30 +24,15 @@ const SETTLED: f64 = 0.1;
 /// The stiffness of one node over that of the stiffest wave: the reciprocal of a square grid's mean compliance.
 const ALONE: f64 = 0.4;
 
-/// The iterations between two certificates of [`Method::Rey2017`], which needs them for the report only.
-const CERTIFY: usize = 10;
-
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// z = M r' and the certificate, from one application.
-    pub(super) fn precondition(&mut self) -> Result<()> {
-        if self.posed.settings.method == Method::Rey2017 {
-            let due = self.posed.settings.criterion == Criterion::EnergyNorm
-                && self.counters.iterations.is_multiple_of(CERTIFY);
-            if !due {
-                self.sums.certificate = f64::INFINITY;
-                return Ok(());
-            }
-        }
-        self.certify()
-    }
-
     pub(super) fn certify(&mut self) -> Result<()> {
         self.renew_coarse();
         let (stiffness, mean_stiffness) = (self.foundation(), self.mean_stiffness());
         let centred = self.posed.is_gap_controlled();
         let coarse = self.steps.coarse.as_mut().and_then(Coarse::ready);
         let foundation = Foundation { stiffness, mean_stiffness, coarse };
-        let stiffest = self.posed.operators.state().stiffness_range().1;
+        let stiffest = self.posed.stiffness_range().1;
         let holds = self.posed.potential().is_soft() && stiffest > 0.0;
         let held = holds.then(|| passes::hold(&mut self.fields, &self.posed.potential(), ALONE * stiffest, centred));
         let Fields { residual, preconditioned, .. } = &mut self.fields;
@@ -71,12 +55,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
         let external = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
-        (external + self.sums.tally.traction / self.posed.nodes()).abs() / self.posed.flat.rms_height
+        (external + self.mean_traction()).abs() / self.posed.flat.rms_height
     }
 
     /// The stiffness of the contacts in the preconditioner; from a far start under a pressure, the softest wave's.
     pub(super) fn foundation(&self) -> f64 {
-        let (softest, stiffest) = self.posed.operators.state().stiffness_range();
+        let (softest, stiffest) = self.posed.stiffness_range();
         if stiffest <= 0.0 {
             return self.posed.operators.state().modulus() / self.posed.operators.state().grid().lengths().0;
         }
@@ -88,11 +72,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The stiffness of the mean gap in the preconditioner: of the contacts, and of a spring. On the way from a far
     /// start the geometric mean of that of the contacts, too small for light loads, and of the softest wave.
     pub(super) fn mean_stiffness(&self) -> f64 {
-        let (softest, stiffest) = self.posed.operators.state().stiffness_range();
+        let (softest, stiffest) = self.posed.stiffness_range();
         if stiffest <= 0.0 {
             // nothing resists before a node touches: a step is as long as the gap
-            let gap = self.sums.tally.sum_gap / self.posed.nodes();
-            let falls = gap > 0.0 && self.posed.law.hints().zero && self.sums.given > 0.0;
+            let gap = self.mean_gap();
+            let falls = gap > 0.0 && self.posed.law().hints().zero && self.sums.given > 0.0;
             let contact = if falls { self.foundation().min(self.sums.given / gap) } else { self.foundation() };
             return contact + self.posed.load.stiffness();
         }
@@ -104,13 +88,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether the bodies are apart on a spring softer than the preconditioner's mean gap.
     pub(super) fn hangs_on_spring(&self) -> bool {
         let spring = self.posed.load.stiffness();
-        let soft = spring > 0.0 && spring < LEAST_MEAN * self.posed.operators.state().stiffness_range().0;
+        let soft = spring > 0.0 && spring < LEAST_MEAN * self.posed.stiffness_range().0;
         soft && self.sums.tally.contact == 0.0
     }
 
     /// The mean of r over the nodes apart; where all are, without that of p, whose rounding is much to a soft spring.
     pub(super) fn imbalance(&self) -> f64 {
-        let balance = || self.sums.given + self.sums.tally.traction / self.posed.nodes();
+        let balance = || self.sums.given + self.mean_traction();
         if self.hangs_on_spring() { balance() } else { self.sums.tally.sum_r / self.sums.tally.free }
     }
 
@@ -118,13 +102,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let loaded = self.steps.nearness > Nearness::Afar
             || self.posed.is_gap_controlled()
             || (self.counters.iterations >= UNSETTLED && self.load_error() <= LOADED);
-        loaded && (self.posed.law.hints().zero || self.relative_error() <= SETTLED)
+        loaded && (self.posed.law().hints().zero || self.relative_error() <= SETTLED)
     }
 
     /// Renews the contact map now and then, from the nodes outside of the working set or those that springs hold.
     pub(super) fn renew_coarse(&mut self) {
         let (settled, projects, held) = (self.is_settled(), self.posed.projects(), self.posed.is_gap_controlled());
-        let (stiffness, range) = (self.posed.flat.stiffness, self.posed.operators.state().stiffness_range());
+        let (stiffness, range) = (self.posed.flat.stiffness, self.posed.stiffness_range());
         let (spring, window) = (self.posed.load.stiffness(), self.posed.flat.window.as_ref());
         let iteration = self.counters.iterations;
         let Some(coarse) = self.steps.coarse.as_mut().filter(|coarse| coarse.is_due(iteration, settled)) else {
@@ -134,7 +118,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let touches = |_, residual| idles(residual);
             coarse.renew(iteration, &self.fields.residual, touches, (stiffness, spring), range, held);
         } else {
-            let rest = self.posed.law.hints().rest.unwrap_or_else(T::zero);
+            let rest = self.posed.law().hints().rest.unwrap_or_else(T::zero);
             let touches = |node, gap| gap <= rest && window.is_none_or(|window| window.faces(node));
             coarse.renew(iteration, &self.fields.gap, touches, (stiffness, spring), range, held);
         }

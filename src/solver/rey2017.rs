@@ -1,7 +1,9 @@
 //! Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
 
-use super::minimisation::Left;
+use super::Criterion;
+use super::driver::{End, Observer};
 use super::passes::Fields;
+use super::report::Status;
 use super::state::State;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
@@ -9,9 +11,53 @@ use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::{Real, cast};
 
+/// The iterations between two certificates, which the algorithm needs for the report only.
+const CERTIFY: usize = 10;
+
+/// Iterations without progress until the direction is dropped, and until the solve has stalled: energy and residual need
+/// not fall.
+const STALL: (usize, usize) = (400, 800);
+
+/// Minimises the energy that is posed. The criterion ε of the paper measures the progress.
+pub(super) fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
+    state.steps.coarse = None;
+    state.residual();
+    loop {
+        state.sums.certificate = f64::INFINITY;
+        let certifies = state.posed.settings.criterion == Criterion::EnergyNorm;
+        if certifies && state.counters.iterations.is_multiple_of(CERTIFY) {
+            state.certify()?;
+        }
+        if state.converged() {
+            state.confirm()?;
+        }
+        let converged = state.converged();
+        if observe(&state.iteration()).is_break() {
+            return Ok(End::Cut(Status::Stopped));
+        }
+        if converged {
+            return Ok(End::Converged);
+        }
+        state.note_error(state.scaled_complementarity());
+        if state.counters.progress.idle == STALL.0 {
+            state.steps.norm = None;
+        }
+        if let Some(end) = state.verdict(STALL.1) {
+            return Ok(end);
+        }
+        if state.is_adrift() {
+            return Ok(End::Adrift);
+        }
+        if !state.step_of_paper()? {
+            return Ok(End::Stalled);
+        }
+    }
+}
+
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// One pass of the loop: an operator application for the direction, another after clipping or release.
-    pub(super) fn rey2017_step(&mut self) -> Result<Option<Left>> {
+    /// One pass of the loop: an operator application for the direction, another after clipping or release. `false` if
+    /// no step is possible.
+    fn step_of_paper(&mut self) -> Result<bool> {
         let projects = self.posed.projects();
         let apart = move |gap: T| !projects || gap > T::zero();
 
@@ -23,7 +69,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
             part
         });
-        let conjugate = self.steps.residual_norm.map_or(0.0, |before| norm.sum[0] / before);
+        let conjugate = self.steps.norm.map_or(0.0, |before| norm.sum[0] / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
         if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
             // uphill, or beyond all numbers: the norm of the residual has jumped, as rounding may let it
@@ -55,7 +101,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         // nor has one that is uniform up to rounding
         let length = length.min(1.0 / (T::epsilon().widen().sqrt() * softest));
         if !length.is_finite() {
-            return Ok(None);
+            return Ok(false);
         }
 
         let length = T::lit(length);
@@ -83,19 +129,24 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             // every node was clipped: only the mean gap remains to be kept
             if let Load::Gap(mean) = self.posed.load {
                 self.fields.gap.fill(T::lit(mean));
-                self.refresh(Left::Nothing)?;
-                self.residual(Left::Nothing);
+                self.refresh()?;
+                self.residual();
                 self.sums.certificate = f64::INFINITY;
             }
-            return Ok(None);
+            return Ok(false);
         }
-        self.steps.residual_norm = (released == 0.0).then_some(norm.sum[0]);
+        self.steps.norm = (released == 0.0).then_some(norm.sum[0]);
         let linear = released == 0.0 && clipped == 0.0;
         self.scale(T::lit(scale), length, linear);
         if !linear {
-            self.refresh(Left::Nothing)?;
+            self.refresh()?;
         }
-        Ok(Some(Left::Nothing))
+        self.counters.iterations += 1;
+        if self.is_stale() {
+            self.refresh()?;
+        }
+        self.residual();
+        Ok(true)
     }
 
     /// The direction t = r' + `conjugate` t where the surfaces are apart; returns ⟨r', t⟩.

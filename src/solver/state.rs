@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::Method;
 use super::coarse::Coarse;
-use super::minimisation::{Counters, Goal, Left, Made, Residual, Steps, Sums};
+use super::minimisation::{Counters, Goal, Made, Next, Residual, Steps, Sums};
 use super::passes::{self, Continued, Fields, Taken, Working};
 use super::posed::Posed;
 use super::report::Iteration;
@@ -34,39 +34,39 @@ pub(super) struct State<'a, T: Real, Lo> {
 impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     pub(super) fn new(mut posed: Posed<'a, T, Lo>, begin: Begin<'_, T>) -> Result<Self> {
         posed.prepare()?;
-        let Posed { operators, law, flat, constraint, load, settings, .. } = &mut posed;
-        let grid = operators.state().grid();
+        let Posed { flat, load, .. } = posed;
+        let grid = posed.operators.state().grid();
         let (grid, shape) = (*grid, grid.field_shape());
-        let uniform = begin.is_default();
-        let given = given_start(begin, &grid, flat.window.as_ref(), *load, constraint.wall())?;
+        let (uniform, nearness) = (begin.is_default(), begin.nearness());
+        let given = given_start(begin, &grid, flat.window.as_ref(), load, posed.wall())?;
         let (gap, pressure) = match given {
             Some(gap) => {
                 let mut pressure = Array2::zeros(shape);
-                operators.pressure(&gap, &mut pressure, &mut [])?;
+                posed.operators.pressure(&gap, &mut pressure, &mut [])?;
                 (gap, pressure)
             }
-            None => (Array2::from_elem(shape, T::lit(uniform_start(*law, flat, *load))), flat.pressure.clone()),
+            None => (Array2::from_elem(shape, T::lit(uniform_start(posed.law(), flat, load))), flat.pressure.clone()),
         };
-        let preconditioned = settings.method == Method::Preconditioned;
-        let coarse = if preconditioned { Coarse::of(operators.corrections()) } else { None };
+        let coarse = Coarse::of(posed.operators.corrections());
         let mut state = Self {
             posed,
             fields: Fields::new(&grid, gap, pressure),
-            sums: Sums::default(),
+            sums: Sums { certificate: f64::INFINITY, ..Sums::default() },
             steps: Steps::new(coarse),
             counters: Counters::default(),
         };
         if uniform
-            && state.posed.law.hints().zero
+            && state.posed.law().hints().zero
             && (state.posed.flat.boundary != Boundary::Periodic || state.posed.is_hardly_pressed())
         {
             state.start_undeformed()?;
         } else if uniform {
             state.sums.work = state.count();
         } else {
-            state.take_pressure(None)?;
+            state.take_pressure()?;
         }
         state.check_start()?;
+        state.begins(nearness);
         Ok(state)
     }
 
@@ -96,13 +96,24 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.sums.tally.sum_gap / self.posed.nodes()
     }
 
+    /// The mean traction of the law.
+    pub(super) fn mean_traction(&self) -> f64 {
+        self.sums.tally.traction / self.posed.nodes()
+    }
+
     /// The constant b in r = p + φ'(g) + b: the given mean pressure, zero under gap control, less the mean of p.
     pub(super) fn offset(&self) -> f64 {
         self.sums.given - self.sums.drift
     }
 
-    /// Computes p = K⁻¹g + K⁻¹h and its tally anew; returns what the step has `left` of the residual.
-    pub(super) fn refresh(&mut self, left: Left) -> Result<Left> {
+    /// Computes p = K⁻¹g + K⁻¹h and its tally anew, and forgets the last step.
+    pub(super) fn refresh(&mut self) -> Result<()> {
+        self.steps.momentum = None;
+        self.renew_pressure()
+    }
+
+    /// Computes p = K⁻¹g + K⁻¹h and its tally anew.
+    fn renew_pressure(&mut self) -> Result<()> {
         if let Load::Gap(mean) = self.posed.load {
             let (scale, present) =
                 (mean * self.posed.nodes() / self.sums.tally.sum_gap, self.sums.tally.sum_gap / self.posed.nodes());
@@ -127,20 +138,16 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                 });
             }
         }
-        let made = match left {
-            Left::Nothing => None,
-            Left::Gradient(made) | Left::Residual(made) | Left::Renewed(made) => Some(made),
-        };
         let Fields { gap, pressure, residual, preconditioned, change, .. } = &mut self.fields;
-        match made {
+        match self.steps.momentum {
             Some(_) => self.posed.operators.pressure(gap, pressure, &mut [residual])?,
             None => self.posed.operators.pressure(gap, pressure, &mut [preconditioned, change])?,
         }
-        self.take_pressure(made)
+        self.take_pressure()
     }
 
-    /// Takes K⁻¹g as the pressure of the state, after the step that was made, with its tally.
-    fn take_pressure(&mut self, made: Option<Made>) -> Result<Left> {
+    /// Takes K⁻¹g as the pressure of the state.
+    fn take_pressure(&mut self) -> Result<()> {
         self.counters.applications += 1;
         (self.steps.age, self.steps.updates) = (0, 0.0);
         let Fields { reducer, pressure, .. } = &mut self.fields;
@@ -149,8 +156,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             Partial::NONE
         });
         self.sums.work = self.count();
-        let overwritten = self.trust_work(TRUSTED)?;
-        Ok(made.filter(|_| !overwritten).map_or(Left::Nothing, Left::Renewed))
+        self.trust_work(TRUSTED)
     }
 
     /// Takes the tally; returns the elastic work ⟨u, p⟩ by its sums.
@@ -176,60 +182,76 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         }
     }
 
-    /// r' on the working set, from what a step has left in its field.
-    pub(super) fn residual(&mut self, left: Left) {
-        let (gradient, made) = match left {
-            Left::Residual(made) => {
-                self.steps.momentum = Some(made);
-                return;
-            }
-            Left::Gradient(made) => (true, Some(made)),
-            Left::Renewed(made) => (false, Some(made)),
-            Left::Nothing => (false, None),
-        };
-        let (offset, release) = (T::lit(self.offset()), T::lit(self.multiplier()));
+    /// Computes r' on the working set, and forgets the last step.
+    pub(super) fn residual(&mut self) {
+        self.steps.momentum = None;
+        self.compute_residual();
+    }
+
+    fn compute_residual(&mut self) {
+        let working = self.working_set(0.0);
+        let (found, difference) = passes::residual(&mut self.fields, &self.posed.potential(), working);
+        self.sums.residual.difference = difference;
+        self.go_on_with(found);
+    }
+
+    /// Takes r' from the gradient r less the level before, of which that of the state differs little.
+    fn take_level(&mut self) {
+        let working = self.working_set(T::lit(self.sums.residual.level).widen());
+        let found = passes::release(&mut self.fields, &self.posed.potential(), working);
+        self.go_on_with(found);
+    }
+
+    /// The working set of the gradient less a level `before`, and the level of the state.
+    fn working_set(&mut self, before: f64) -> Working<T> {
+        let (offset, multiplier) = (T::lit(self.offset()), T::lit(self.multiplier()));
         let centred = self.posed.is_gap_controlled() && self.posed.settings.method == Method::Preconditioned;
-        let before = T::lit(self.sums.residual.level);
         let yielded = self.has_yielded();
         let Self { fields, posed, sums, .. } = self;
         let (local, tally) = (posed.potential(), &sums.tally);
-        let (mut level, mut yields) = (release.widen(), local.is_capped());
+        let (mut level, mut yields) = (multiplier.widen(), local.is_capped());
         if centred && tally.contact > 0.0 && local.projects() {
-            let released = passes::released(fields, &local, offset, release);
+            let released = passes::released(fields, &local, offset, multiplier);
             let working = tally.free + released.count;
             if working > 0.0 {
                 level = (tally.sum_r + released.sum_r) / working;
             }
-            yields = yields && (released.most > release.widen() || yielded);
+            yields = yields && (released.most > multiplier.widen() || yielded);
         }
+        (sums.residual.level, sums.residual.yields) = (level, yields);
         // where some yield, both sides of the corner have one level
-        let release = if yields { T::lit(level) } else { release };
-        let (found, difference) = if gradient {
-            // of the gradient less the level before; their difference is small
-            let [release, level] = [release.widen(), level].map(|value| T::lit(value - before.widen()));
-            let found = passes::release(fields, &local, Working { offset, release, level });
-            (found, self.sums.residual.difference)
-        } else {
-            passes::residual(fields, &local, Working { offset, release, level: T::lit(level) })
-        };
-        let Continued { complementarity, working, descent, overlap, sum_change } = found;
-        self.sums.residual = Residual { level, working, complementarity, difference, yields };
-        self.steps.momentum = made.map(|made| Made { descent, overlap, sum: sum_change, ..made });
+        let release = if yields { T::lit(level) } else { multiplier };
+        let [release, level] = [release.widen(), level].map(|value| T::lit(value - before));
+        Working { offset, release, level }
     }
 
-    /// A step of the chosen method; `false` if none is possible.
+    /// Notes the sums of r', those with the last step for the next one to be conjugate to it.
+    pub(super) fn go_on_with(&mut self, found: Continued) {
+        let Continued { complementarity, working, descent, overlap, sum_change: sum } = found;
+        self.sums.residual = Residual { working, complementarity, ..self.sums.residual };
+        self.steps.momentum = self.steps.momentum.map(|made| Made { descent, overlap, sum, ..made });
+    }
+
+    /// A step; `false` if none is possible.
     pub(super) fn step(&mut self) -> Result<bool> {
-        let moved = match self.posed.settings.method {
-            Method::Preconditioned => self.preconditioned_step()?,
-            Method::Rey2017 => self.rey2017_step()?,
-        };
-        let Some(mut left) = moved else { return Ok(false) };
+        let Some(next) = self.preconditioned_step()? else { return Ok(false) };
         self.counters.iterations += 1;
-        if self.steps.age >= REFRESH || self.has_lost_its_work() || self.has_lost_its_pressure() {
-            left = self.refresh(left)?;
+        if self.is_stale() {
+            self.renew_pressure()?;
+            self.compute_residual();
+            return Ok(true);
         }
-        self.residual(left);
+        match next {
+            Next::Compute => self.compute_residual(),
+            Next::Level => self.take_level(),
+            Next::Go => {}
+        }
         Ok(true)
+    }
+
+    /// Whether the pressure has to be computed anew from the gap.
+    pub(super) fn is_stale(&self) -> bool {
+        self.steps.age >= REFRESH || self.has_lost_its_work() || self.has_lost_its_pressure()
     }
 
     pub(super) fn iteration(&self) -> Iteration {

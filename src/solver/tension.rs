@@ -1,14 +1,11 @@
 //! Surfaces that come apart under a load: the search for a state that adhesion holds, and the final gap if there is
 //! none.
 
-use std::slice;
-
-use super::driver::{Observer, minimise};
-use super::minimisation::{Goal, Left, Nearness};
+use super::driver::{End, Observer, minimise};
+use super::minimisation::{Goal, Nearness};
 use super::passes::Fields;
 use super::posed::Posed;
 use super::state::State;
-use crate::adhesion::AdhesionLaw;
 use crate::error::Result;
 use crate::field::{Partial, read, write};
 use crate::problem::Load;
@@ -49,49 +46,53 @@ pub(super) enum Hold {
     Gap,
 }
 
+impl Hold {
+    pub(super) const ALL: [Self; 2] = [Self::Touching, Self::Gap];
+}
+
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
     /// The mean gap from which on the surfaces hardly attract each other.
     fn out_of_reach(&self) -> f64 {
-        self.flat.height_span + REACH * self.law.hints().range.widen()
+        self.flat.height_span + REACH * self.law().hints().range.widen()
     }
 
     /// Whether the load pulls by more than the law's strongest traction on all nodes that face the surface.
     pub(super) fn is_torn(&self) -> bool {
-        let facing = self.flat.window.as_ref().map_or(1.0, |window| window.facing() as f64 / self.nodes());
+        let facing = self.facing() / self.nodes();
         matches!(self.load, Load::Pressure(load) if -load > BETWEEN * facing * self.strongest_traction())
     }
 
     /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
     pub(super) fn closest(&self) -> T {
-        let rest = if self.projects() { None } else { self.law.hints().rest };
+        let rest = if self.projects() { None } else { self.law().hints().rest };
         rest.unwrap_or_else(T::zero)
     }
 
     /// The largest of many tractions of the law, which no uniform gap exceeds; narrow peaks may be missed. Without bound
     /// if the law does not say over which range it acts.
     fn strongest_traction(&self) -> f64 {
-        let hints = self.law.hints();
+        let hints = self.law().hints();
         let range = hints.range.widen();
         if range <= 0.0 && !hints.zero {
             return f64::INFINITY;
         }
         let gaps = (0..SAMPLES).map(|i| T::lit(REACH * range * i as f64 / SAMPLES as f64));
-        gaps.map(|gap| self.law.traction(gap).widen()).fold(0.0, f64::max)
+        gaps.map(|gap| self.law().traction(gap).widen()).fold(0.0, f64::max)
     }
 
     /// The load that holds a mean gap: that, or a spring as stiff as the stiffest wave if nodes face no surface.
     fn holding(&self, gap: f64) -> Load {
         match self.flat.window {
             None => Load::Gap(gap),
-            Some(_) => Load::Spring { stiffness: self.operators.state().stiffness_range().1, rest: gap },
+            Some(_) => Load::Spring { stiffness: self.stiffness_range().1, rest: gap },
         }
     }
 }
 
-impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
+impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether a load that does not press has left the surfaces apart: no contact, and hardly any traction.
     pub(super) fn is_apart(&self) -> bool {
-        let (hints, nodes) = (self.posed.law.hints(), self.posed.nodes());
+        let (hints, nodes) = (self.posed.law().hints(), self.posed.nodes());
         if hints.zero || self.posed.is_gap_controlled() || self.sums.given > 0.0 || self.sums.tally.contact > 0.0 {
             return false;
         }
@@ -119,15 +120,10 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     }
 
     /// Goes on to the next state that may hold the load; `false` if there is none.
-    pub(super) fn seek_hold(
-        &mut self,
-        holds: &mut slice::Iter<'_, Hold>,
-        laws: (&'a dyn AdhesionLaw<T>, Option<&'a dyn AdhesionLaw<T>>),
-        observe: Observer<'_>,
-    ) -> Result<bool> {
-        for hold in holds {
+    pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
+        while let Some(hold) = self.posed.holds.next() {
             let held = match hold {
-                Hold::Touching => self.touch(laws, &mut *observe)?,
+                Hold::Touching => self.touch(&mut *observe)?,
                 Hold::Gap => self.hold_gap(&mut *observe)?,
             };
             if held {
@@ -138,25 +134,19 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     }
 
     /// Goes on under the load from surfaces that touch undeformed and adhere under no load.
-    fn touch(
-        &mut self,
-        (law, smoothed): (&'a dyn AdhesionLaw<T>, Option<&'a dyn AdhesionLaw<T>>),
-        observe: Observer<'_>,
-    ) -> Result<bool> {
-        let load = self.posed.load;
+    fn touch(&mut self, observe: Observer<'_>) -> Result<bool> {
+        let (load, smooths) = (self.posed.load, self.posed.smoothed.is_some());
         self.posed.from_full_contact = false;
         self.start_undeformed()?;
-        self.adhere(smoothed.unwrap_or(law), Load::Pressure(0.0))?;
-        self.posed.goal = if smoothed.is_some() { Goal::Start } else { Goal::Hold };
+        self.adhere(Load::Pressure(0.0), if smooths { Goal::Start } else { Goal::Hold })?;
         let mut end = minimise(self, &mut *observe)?;
-        if smoothed.is_some() && end.is_final().is_none() {
+        if smooths && !matches!(end, End::Cut(_)) {
             self.go_on(load, Goal::Start)?;
             end = minimise(self, &mut *observe)?;
         }
-        self.posed.law = law;
         self.go_on(load, Goal::Solution)?;
         // a solve that is cut short ends at once
-        Ok(end.is_final().is_some() || !self.is_apart())
+        Ok(matches!(end, End::Cut(_)) || !self.is_apart())
     }
 
     /// Looks for a state that holds more than the tensile load, to go on from under the load; `false` if it finds none.
@@ -170,7 +160,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         };
         let (touch, rest) = (self.posed.flat.peak, self.posed.closest().widen());
         let mut interval =
-            [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.posed.law.hints().range.widen()];
+            [rest + 0.5 * touch, rest + 1.5 * touch + 0.5 * REACH * self.posed.law().hints().range.widen()];
         let [mut gaps, mut held] = [[0.0; 2]; 2];
         let (mut next, mut tried) = (None, Vec::with_capacity(SECTIONS));
         for section in 0..SECTIONS {
@@ -213,7 +203,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         }
         self.go_on(self.posed.holding(gap), Goal::Hold)?;
         let end = minimise(self, observe)?;
-        Ok(end.is_final().is_none().then(|| self.multiplier() - self.sums.given))
+        Ok((!matches!(end, End::Cut(_))).then(|| self.multiplier() - self.sums.given))
     }
 
     /// Scales the gaps of nodes apart to a given mean gap, or makes all gaps that.
@@ -239,7 +229,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         (self.posed.load, self.posed.goal) = (load, goal);
         // the refresh scales the mean of the present gap to the one that is held
         self.count();
-        self.refresh(Left::Nothing)?;
+        self.refresh()?;
         self.restart();
         self.sums.certificate = f64::INFINITY;
         Ok(())
@@ -248,7 +238,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     /// Holds drifting surfaces out of each other's reach, to come to rest.
     pub(super) fn hold_apart(&mut self) {
         let far = 2.0 * self.posed.out_of_reach();
-        let mean = self.sums.tally.sum_gap / self.posed.nodes();
+        let mean = self.mean_gap();
         let target = mean.max(far);
         let lift = T::lit(target - mean);
         self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
