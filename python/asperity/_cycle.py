@@ -183,7 +183,7 @@ def cycle(
     out : str or path, optional
         File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
         comes. The same call goes on with a file that is there, and ends with the same bytes as one that was not
-        interrupted; for that it keeps ``.state.npz`` beside the file. Rows that the file has are in ``columns`` and are
+        interrupted; for that it keeps ``.state`` beside the file. Rows that the file has are in ``columns`` and are
         not solved again: iterating gives the states behind them.
     fields : str or path, optional
         Folder for gap, pressure and contact pressure at the jumps and of the last row, ``gap-0001.npy`` and so on; with

@@ -129,7 +129,7 @@ def sweep(
     out : str or path, optional
         File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
         comes. The same call goes on with a file that is there, also with loads added to the end of the list, and ends
-        with the same bytes as one that was not interrupted; for that it keeps ``.state.npz`` beside the file. Rows that
+        with the same bytes as one that was not interrupted; for that it keeps ``.state`` beside the file. Rows that
         the file has are in ``columns`` and are not solved again: iterating gives the states behind them.
     fields : str or path, optional
         Folder for gap, pressure and contact pressure of the rows, ``gap-0001.npy`` and so on; with ``out``.
