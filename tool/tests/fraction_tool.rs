@@ -71,7 +71,7 @@ fn a_sweep_over_contact_fractions_can_be_continued() {
         let more = sweep.replace(" --force", "");
         assert!(bench.said(&format!("{more} parts.csv")).contains("2 of 4 rows already"));
         assert!(bench.bytes("parts.csv") == bench.bytes("whole.csv"), "{law}");
-        for name in ["parts.csv", "parts.csv.scene.toml", "parts.csv.state.npz"] {
+        for name in ["parts.csv", "parts.csv.scene.toml", "parts.csv.state"] {
             fs::remove_file(bench.path(name)).unwrap();
         }
     }

@@ -241,7 +241,7 @@ fn changed() -> io::Error {
 }
 
 /// The error of a table with which a run cannot go on.
-fn refused(path: &Path, reason: String) -> Error {
+pub fn refused(path: &Path, reason: String) -> Error {
     Error::file(path, format!("{reason}: {REMEDY}"))
 }
 

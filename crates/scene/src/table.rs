@@ -11,7 +11,7 @@ use crate::course::{Course, Place, Row};
 use crate::csv;
 use crate::found::Found;
 use crate::identity::Identity;
-use crate::journal::{Journal, Row as Line, Seen, damaged, state_path};
+use crate::journal::{Journal, Row as Line, Seen, damaged, refused, state_path};
 use crate::kept::Kept;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
@@ -185,7 +185,7 @@ impl Table {
             self.kept().forget(self.rows - 1);
         }
         let out = &self.opening.out;
-        let place: Place<T> = postcard::from_bytes(place).map_err(|_| Error::file(out, damaged(out)))?;
+        let place: Place<T> = postcard::from_bytes(place).map_err(|_| refused(out, damaged(out)))?;
         Ok(course.continuing(place.shared(&self.opening.nodes)))
     }
 

@@ -152,24 +152,20 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
     let gaps = [0.02, 0.01, 0.04].map(Control::MeanGap).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(gaps.clone()), Way::Search(vec![0.1, 0.2, 0.15]), Way::Cycle(gaps, settings)] {
-        let names = Course::<f64>::new(way.clone(), stiff()).columns();
+        let names = Course::<f64>::new(way.clone(), stiff()).unwrap().columns();
         let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
             let mut found = course.next(posed, &mut |_| ControlFlow::Continue(())).unwrap()?;
             let account = found.account(course.command(), &inputs(), None, Vec::new()).unwrap();
             let row = course.row(&mut found, account, Some(7)).unwrap();
             assert!(names.iter().all(|name| json!(row).as_object().unwrap().contains_key(*name)));
-            let apart = row
-                .step
-                .as_ref()
-                .is_some_and(|step| step.direction == "withdrawal" && json!(row)["attractive_fraction"] == 0.0);
-            Some((row.cells(&names), apart))
+            Some(row.cells(&names))
         };
-        let (mut whole, mut problem) = (Course::new(way.clone(), stiff()), posed());
-        let (mut place, mut last, mut rows) = (whole.place().clone(), false, 0);
-        while let Some((row, apart)) = next(&mut whole, &mut problem) {
-            let mut course = Course::new(way.clone(), stiff()).continuing(rows, place, (0, last));
-            assert_eq!(next(&mut course, &mut posed()).unwrap().0, row);
-            (place, last, rows) = (course.place().clone(), apart, rows + 1);
+        let (mut whole, mut problem) = (Course::new(way.clone(), stiff()).unwrap(), posed());
+        let (mut place, mut rows) = (whole.place().clone(), 0);
+        while let Some(row) = next(&mut whole, &mut problem) {
+            let mut course = Course::new(way.clone(), stiff()).unwrap().continuing(place);
+            assert_eq!(next(&mut course, &mut posed()).unwrap(), row);
+            (place, rows) = (course.place().clone(), rows + 1);
         }
         assert!(rows >= 3);
     }
@@ -182,7 +178,7 @@ fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
     let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
-        let new = || Course::<f64>::new(way.clone(), After::default()).with(&scene.adhesion);
+        let new = || Course::<f64>::new(way.clone(), After::default()).unwrap().with(&scene.adhesion);
         let names = new().columns();
         assert!(names.ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
         let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
@@ -193,7 +189,7 @@ fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
         let (mut whole, mut problem) = (new(), posed_by(scene.clone()));
         let (mut place, mut rows, mut deepest) = (whole.place().clone(), 0, 0.0_f64);
         while let Some((row, depth)) = next(&mut whole, &mut problem) {
-            let mut course = new().continuing(rows, place, (0, false));
+            let mut course = new().continuing(place);
             assert_eq!(
                 next(&mut course, &mut posed_by(scene.clone())).unwrap(),
                 (row, depth.clone()),
