@@ -11,7 +11,7 @@ use crate::adhesion::{AdhesionLaw, Discretisation};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Partial, flat, write};
+use crate::field::{CHUNK, Minimum, flat, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Parts, Problem, Window, smoothed_law};
@@ -336,19 +336,19 @@ fn slopes<T: Real>(
         _ => local.projects() && gap <= T::zero(),
     };
     let wrong = grid.reducer().run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
-        let mut part = Partial::NONE;
+        let mut wrong = f64::INFINITY;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
             if touches(first + i, gap) {
                 *slope = T::infinity();
             } else if !(slope.is_finite() && gap.is_finite()) && (window.is_none() || gap != T::infinity()) {
-                part.min = part.min.min((first + i) as f64);
+                wrong = wrong.min((first + i) as f64);
             }
         }
-        part
+        Minimum(wrong)
     });
-    if wrong.min.is_finite() {
-        let own = (wrong.min as usize).checked_sub(grid.first_node());
+    if wrong.0.is_finite() {
+        let own = (wrong.0 as usize).checked_sub(grid.first_node());
         let own = own.and_then(|node| Some((gaps.get(node)?.widen(), flat(&slopes).get(node)?.widen())));
         let refused = own.map_or(Ok(()), |(gap, value)| {
             Err(Error::Law { function: "slope of the local traction", gap, value, expected: None })

@@ -10,7 +10,7 @@ use super::state::State;
 use crate::adhesion::{mu_rho, noticeable};
 use crate::elastic::Boundary;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
+use crate::field::{Minimum, Sums, found, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::Load;
@@ -19,6 +19,16 @@ use crate::vector::sums;
 
 /// The share of the largest traction above which one at the edge of the window matters.
 const EDGE: f64 = 1e-3;
+
+found! {
+    /// The sums over the fields of a solution.
+    struct Borne {
+        contact: f64,
+        gap: f64,
+        pressure: f64,
+        least_gap: Minimum,
+    }
+}
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
@@ -46,14 +56,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             pressure.iter_mut().for_each(|p| *p += shift);
             local.contact_pressures(first, gap, pressure, contact);
             if !local.is_surface() {
-                return Partial::NONE;
+                return Borne::NONE;
             }
-            sums!(3, [gap, contact, pressure], [], least low, |i| {
-                low[i] = gap[i].widen();
-                [contact[i].widen(), gap[i].widen(), pressure[i].widen()]
+            sums!([gap, contact, pressure], [], |i| {} => Borne {
+                contact: contact[i].widen(), gap: gap[i].widen(), pressure: pressure[i].widen();
+                least least_gap: gap[i].widen()
             })
         });
-        let mean_contact_pressure = total.sum[0] / self.posed.nodes();
+        let mean_contact_pressure = total.contact / self.posed.nodes();
         let net_pressure = mean_contact_pressure - self.sums.tally.traction / self.posed.nodes();
         let load_error = match self.posed.load {
             _ if self.sums.detached.is_some() => 1.0,
@@ -69,7 +79,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let of_mean = 0.5 * flat.boundary.mean_compliance() * net_pressure.powi(2);
         let nominal = flat.window.as_ref().map_or(self.posed.nodes(), |window| window.grid().nodes() as f64);
         // to the surface as it is now, beside that as it was before the solve
-        let facing_mean = if flat.window.is_some() { total.sum[1] / facing } else { self.mean_gap() };
+        let facing_mean = if flat.window.is_some() { total.gap / facing } else { self.mean_gap() };
         let deeper = plastic
             .as_ref()
             .map_or(0.0, |(_, plastic)| plastic.depth_mean - flat.mean_depth() * self.posed.nodes() / facing);
@@ -99,7 +109,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             absent_nodes: (nominal - facing) as usize,
             edge_traction: None,
             reaches_edge: false,
-            min_gap: if plastic.is_some() { total.min.max(0.0) } else { total.min },
+            min_gap: if plastic.is_some() { total.least_gap.0.max(0.0) } else { total.least_gap.0 },
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
             adhesive_energy: padding * self.sums.tally.adhesive / self.posed.nodes(),
             range: law.hints().of_grid.then(|| law.hints().range.widen()),
@@ -114,7 +124,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             plastic: plastic.as_ref().map(|(_, figures)| *figures),
         };
         let (grid, at_floor) = (*self.posed.operators.state().grid(), self.is_at_floor());
-        let missing = mean * self.posed.nodes() - total.sum[2];
+        let missing = mean * self.posed.nodes() - total.pressure;
         let Fields { mut gap, mut pressure, .. } = self.fields;
         let plastic_depth = plastic.map(|(depth, _)| depth);
         let Some(window) = &flat.window else {

@@ -12,7 +12,7 @@ use super::start::{Begin, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use crate::elastic::Boundary;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
+use crate::field::{read, write};
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::Real;
@@ -83,7 +83,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                 let apart = peak - *gap;
                 (*gap, *pressure) = (if local.projects() { apart.max(T::zero()) } else { apart }, T::zero());
             }
-            Partial::NONE
         });
         // nothing is deformed: the sums that would cancel need not be trusted
         self.count();
@@ -112,7 +111,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                     let scale = T::lit(scale);
                     self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
                         gap.iter_mut().for_each(|gap| *gap *= scale);
-                        Partial::NONE
                     });
                 }
             } else if self.sums.tally.free > 0.0 && present != mean {
@@ -123,7 +121,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                 self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
                     let moves = gap.iter_mut().filter(|gap| !projects || **gap > T::zero());
                     moves.for_each(|gap| *gap = if projects { (*gap + shift).max(T::zero()) } else { *gap + shift });
-                    Partial::NONE
                 });
             }
         }
@@ -146,7 +143,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let Fields { reducer, pressure, .. } = &mut self.fields;
         reducer.run(write(pressure).zip(read(&self.posed.flat.pressure)), |_, (p, surface)| {
             p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
-            Partial::NONE
         });
         self.sums.work = self.count();
         let overwritten = self.trust_work(TRUSTED)?;
@@ -172,7 +168,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             Load::Pressure(_) | Load::Spring { .. } => 0.0,
             Load::Gap(_) if self.sums.tally.free > 0.0 => self.sums.tally.sum_r / self.sums.tally.free,
             // no node is free: the least pressure that keeps all in contact
-            Load::Gap(_) => self.sums.tally.min_r,
+            Load::Gap(_) => self.sums.tally.min_r.0,
         }
     }
 
@@ -200,19 +196,19 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             if working > 0.0 {
                 level = (tally.sum_r + released.sum_r) / working;
             }
-            yields = yields && (released.most > release.widen() || yielded);
+            yields = yields && (-released.spare.0 > release.widen() || yielded);
         }
         // where some yield, both sides of the corner have one level
         let release = if yields { T::lit(level) } else { release };
-        let (found, difference) = if gradient {
+        let found = if gradient {
             // of the gradient less the level before; their difference is small
             let [release, level] = [release.widen(), level].map(|value| T::lit(value - before.widen()));
             let found = passes::release(fields, &local, Working { offset, release, level });
-            (found, self.sums.residual.difference)
+            Continued { difference: self.sums.residual.difference, ..found }
         } else {
             passes::residual(fields, &local, Working { offset, release, level: T::lit(level) })
         };
-        let Continued { complementarity, working, descent, overlap, sum_change } = found;
+        let Continued { complementarity, working, descent, overlap, sum_change, difference } = found;
         self.sums.residual = Residual { level, working, complementarity, difference, yields };
         self.steps.momentum = made.map(|made| Made { descent, overlap, sum: sum_change, ..made });
     }
