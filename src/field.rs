@@ -1,5 +1,7 @@
 //! Passes over fields: chunk by chunk, with sums that do not depend on the number of threads.
 
+use std::slice::{Iter, IterMut};
+
 use ndarray::{Array2, ArrayView2};
 
 use crate::error::{Error, Result};
@@ -33,30 +35,104 @@ pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: Arra
     slab.agreed(found)
 }
 
-pub(crate) const SUMS: usize = 13;
+/// The result of a pass over the nodes: sums, [minima](Minimum), named [structs](found) of them, or nothing.
+pub(crate) trait Sums: Copy + Send + Sync {
+    /// the result over no nodes
+    const NONE: Self;
+    /// how many numbers it holds
+    const COUNT: usize;
 
-/// The result of a pass over a chunk: sums, and a minimum.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Partial {
-    pub(crate) sum: [f64; SUMS],
-    pub(crate) min: f64,
+    fn add(self, other: Self) -> Self;
+
+    fn put(self, numbers: &mut IterMut<'_, f64>);
+
+    fn take(numbers: &mut Iter<'_, f64>) -> Self;
 }
 
-impl Partial {
-    pub(crate) const NONE: Self = Self { sum: [0.0; SUMS], min: f64::INFINITY };
+/// The largest [`Sums::COUNT`].
+const NUMBERS: usize = 16;
 
-    fn of(values: impl Iterator<Item = f64>) -> Self {
-        let mut part = Self::NONE;
-        part.sum[0] = values.sum();
-        part
+type Numbers = [f64; NUMBERS];
+
+impl Sums for () {
+    const NONE: Self = ();
+    const COUNT: usize = 0;
+    fn add(self, (): Self) -> Self {}
+    fn put(self, _: &mut IterMut<'_, f64>) {}
+    fn take(_: &mut Iter<'_, f64>) -> Self {}
+}
+
+impl Sums for f64 {
+    const NONE: Self = 0.0;
+    const COUNT: usize = 1;
+    fn add(self, other: Self) -> Self {
+        self + other
     }
-
-    pub(crate) fn add(mut self, other: &Self) -> Self {
-        self.sum.iter_mut().zip(other.sum).for_each(|(sum, other)| *sum += other);
-        self.min = self.min.min(other.min);
-        self
+    fn put(self, numbers: &mut IterMut<'_, f64>) {
+        numbers.take(1).for_each(|number| *number = self);
+    }
+    fn take(numbers: &mut Iter<'_, f64>) -> Self {
+        numbers.next().copied().unwrap_or_default()
     }
 }
+
+impl<const N: usize> Sums for [f64; N] {
+    const NONE: Self = [0.0; N];
+    const COUNT: usize = N;
+    fn add(self, other: Self) -> Self {
+        std::array::from_fn(|i| self[i] + other[i])
+    }
+    fn put(self, numbers: &mut IterMut<'_, f64>) {
+        self.into_iter().for_each(|sum| sum.put(numbers));
+    }
+    fn take(numbers: &mut Iter<'_, f64>) -> Self {
+        std::array::from_fn(|_| f64::take(numbers))
+    }
+}
+
+/// The least of some numbers.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Minimum(pub(crate) f64);
+
+impl Sums for Minimum {
+    const NONE: Self = Self(f64::INFINITY);
+    const COUNT: usize = 1;
+    fn add(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
+    }
+    fn put(self, numbers: &mut IterMut<'_, f64>) {
+        self.0.put(numbers);
+    }
+    fn take(numbers: &mut Iter<'_, f64>) -> Self {
+        Self(f64::take(numbers))
+    }
+}
+
+/// Declares a struct of named [`Sums`], which is one itself.
+macro_rules! found {
+    ($(#[$about:meta])* $see:vis struct $Name:ident {
+        $($(#[$meta:meta])* $of:vis $field:ident: $kind:ty),* $(,)?
+    }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug)]
+        $see struct $Name { $($(#[$meta])* $of $field: $kind),* }
+
+        impl $crate::field::Sums for $Name {
+            const NONE: Self = Self { $($field: <$kind as $crate::field::Sums>::NONE),* };
+            const COUNT: usize = 0 $(+ <$kind as $crate::field::Sums>::COUNT)*;
+            fn add(self, other: Self) -> Self {
+                Self { $($field: $crate::field::Sums::add(self.$field, other.$field)),* }
+            }
+            fn put(self, numbers: &mut std::slice::IterMut<'_, f64>) {
+                $($crate::field::Sums::put(self.$field, numbers);)*
+            }
+            fn take(numbers: &mut std::slice::Iter<'_, f64>) -> Self {
+                Self { $($field: $crate::field::Sums::take(numbers)),* }
+            }
+        }
+    };
+}
+pub(crate) use found;
 
 /// The nodes of a chunk in one field or in several, which can be divided.
 pub(crate) trait Nodes: Sized {
@@ -98,7 +174,7 @@ impl<A: Nodes, B: Nodes> Nodes for (A, B) {
 /// The reducer of passes over fields in a slab: adds up the results of the chunks in their order, and those of slabs.
 #[derive(Debug)]
 pub(crate) struct Reducer {
-    chunks: Vec<Partial>,
+    chunks: Vec<Numbers>,
     /// the number of the first node
     first: usize,
     /// the chunks of a band
@@ -111,11 +187,9 @@ pub(crate) struct Reducer {
 struct Others {
     slab: Slab,
     shares: Shares,
-    own: Vec<[f64; NUMBERS]>,
-    all: Vec<[f64; NUMBERS]>,
+    own: Vec<Numbers>,
+    all: Vec<Numbers>,
 }
-
-const NUMBERS: usize = SUMS + 1;
 
 impl Others {
     fn new(slab: Slab) -> Self {
@@ -125,65 +199,63 @@ impl Others {
     }
 
     /// The results of all bands, of which these are those of this process.
-    fn gather(&mut self, bands: impl Iterator<Item = Partial>) -> impl Iterator<Item = Partial> {
+    fn gather<S: Sums>(&mut self, bands: impl Iterator<Item = S>) -> impl Iterator<Item = S> {
         // bands beyond a window have no nodes
-        let bands = bands.chain(std::iter::repeat(Partial::NONE));
-        for (numbers, Partial { sum, min }) in self.own.iter_mut().zip(bands) {
-            numbers[..SUMS].copy_from_slice(&sum);
-            numbers[SUMS] = min;
-        }
+        let bands = bands.chain(std::iter::repeat(S::NONE));
+        self.own.iter_mut().zip(bands).for_each(|(numbers, band)| band.put(&mut numbers.iter_mut()));
         self.slab.ranks().gather(self.own.as_flattened(), &self.shares, self.all.as_flattened_mut());
-        self.all.iter().map(|numbers| Partial { sum: std::array::from_fn(|i| numbers[i]), min: numbers[SUMS] })
+        self.all.iter().map(|numbers| S::take(&mut numbers.iter()))
     }
 }
 
 impl Reducer {
     pub(crate) fn new(slab: Slab) -> Self {
         let (rows, columns) = slab.held();
-        let chunks = vec![Partial::NONE; (rows * columns).div_ceil(CHUNK)];
+        let chunks = vec![[0.0; NUMBERS]; (rows * columns).div_ceil(CHUNK)];
         let others = slab.is_shared().then(|| Others::new(slab));
         Self { chunks, first: slab.first_node(), band: slab.chunks_of_a_band(), others }
     }
 
     /// Runs `f(first node, chunk)` over the chunks; nodes count on the whole grid.
-    pub(crate) fn run<A: Parts>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> Partial + Sync + Send) -> Partial {
-        let first = self.first;
-        par::update(chunks, &mut self.chunks, |i, chunk, part| *part = f(first + i * CHUNK, chunk));
-        self.total()
+    pub(crate) fn run<A: Parts, S: Sums>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> S + Sync + Send) -> S {
+        self.run_where(|_| true, chunks, f)
     }
 
-    /// Runs `f(first node, chunk)` over the chunks whose kept number is `wanted`.
-    pub(crate) fn run_where<A: Parts>(
+    /// Runs `f(first node, chunk)` over the chunks whose number is `wanted`.
+    pub(crate) fn run_where<A: Parts, S: Sums>(
         &mut self,
-        kept: &[f64],
-        wanted: impl Fn(f64) -> bool + Sync + Send,
+        wanted: impl Fn(usize) -> bool + Sync + Send,
         chunks: A,
-        f: impl Fn(usize, A::Part) -> Partial + Sync + Send,
-    ) -> Partial {
+        f: impl Fn(usize, A::Part) -> S + Sync + Send,
+    ) -> S {
+        const { assert!(S::COUNT <= NUMBERS) };
         let first = self.first;
-        par::update(chunks, &mut self.chunks, |i, chunk, part| {
-            *part = if wanted(kept[i]) { f(first + i * CHUNK, chunk) } else { Partial::NONE };
+        par::update(chunks, &mut self.chunks, |i, chunk, numbers| {
+            let found = if wanted(i) { f(first + i * CHUNK, chunk) } else { S::NONE };
+            found.put(&mut numbers.iter_mut());
         });
         self.total()
     }
 
     /// Keeps a number of each chunk of the last pass, for a later one.
-    pub(crate) fn keep(&self, of: impl Fn(&Partial) -> f64, kept: &mut [f64]) {
-        kept.iter_mut().zip(&self.chunks).for_each(|(kept, part)| *kept = of(part));
+    pub(crate) fn keep<S: Sums>(&self, of: impl Fn(S) -> f64, kept: &mut [f64]) {
+        kept.iter_mut().zip(&self.chunks).for_each(|(kept, numbers)| *kept = of(S::take(&mut numbers.iter())));
     }
 
     pub(crate) fn chunks(&self) -> usize {
         self.chunks.len()
     }
 
-    fn total(&mut self) -> Partial {
+    fn total<S: Sums>(&mut self) -> S {
+        if S::COUNT == 0 {
+            return S::NONE;
+        }
         // the sums of chunks are summed as nodes are: in runs, and then the runs
-        let add = |a: Partial, b: Partial| a.add(&b);
-        let run = |run: &[Partial]| run.iter().fold(Partial::NONE, Partial::add);
-        let bands = self.chunks.chunks(self.band).map(|band| band.chunks(CHUNK).map(run).fold(Partial::NONE, add));
+        let run = |run: &[Numbers]| run.iter().map(|chunk| S::take(&mut chunk.iter())).fold(S::NONE, S::add);
+        let bands = self.chunks.chunks(self.band).map(|band| band.chunks(CHUNK).map(run).fold(S::NONE, S::add));
         match &mut self.others {
-            None => bands.fold(Partial::NONE, add),
-            Some(others) => others.gather(bands).fold(Partial::NONE, add),
+            None => bands.fold(S::NONE, S::add),
+            Some(others) => others.gather(bands).fold(S::NONE, S::add),
         }
     }
 }
@@ -200,8 +272,8 @@ pub(crate) fn mean_over<T: Copy + Sync>(
 ) -> f64 {
     let field = field.as_standard_layout();
     let chunks = par::chunks(field.as_slice().unwrap_or_default(), CHUNK);
-    let total = Reducer::new(slab).run(chunks, |_, values| Partial::of(values.iter().map(|&value| of(value))));
-    total.sum[0] / slab.nodes() as f64
+    let sum = Reducer::new(slab).run(chunks, |_, values| values.iter().map(|&value| of(value)).sum::<f64>());
+    sum / slab.nodes() as f64
 }
 
 pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
@@ -213,8 +285,8 @@ pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
     let (a, b) = (a.as_standard_layout(), b.as_standard_layout());
     let chunks = par::chunks(a.as_slice().unwrap_or_default(), CHUNK);
     let chunks = chunks.zip(par::chunks(b.as_slice().unwrap_or_default(), CHUNK));
-    let total = Reducer::new(slab).run(chunks, |_, (a, b)| Partial::of(a.iter().zip(b).map(|(&a, &b)| of(a, b))));
-    total.sum[0] / slab.nodes() as f64
+    let sum = Reducer::new(slab).run(chunks, |_, (a, b)| a.iter().zip(b).map(|(&a, &b)| of(a, b)).sum::<f64>());
+    sum / slab.nodes() as f64
 }
 
 /// The nodes of a field that this crate made, in row-major order; none in another layout.

@@ -10,7 +10,7 @@ use ndarray::Array2;
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Partial, Reducer, flat, write};
+use crate::field::{CHUNK, Minimum, Reducer, flat, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Parts, Problem, Window, smoothed_law};
@@ -310,19 +310,19 @@ fn slopes<T: Real>(
         _ => local.projects() && gap <= T::zero(),
     };
     let wrong = Reducer::new(slab).run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
-        let mut part = Partial::NONE;
+        let mut wrong = f64::INFINITY;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
             if touches(first + i, gap) {
                 *slope = T::infinity();
             } else if !(slope.is_finite() && gap.is_finite()) && (window.is_none() || gap != T::infinity()) {
-                part.min = part.min.min((first + i) as f64);
+                wrong = wrong.min((first + i) as f64);
             }
         }
-        part
+        Minimum(wrong)
     });
-    if wrong.min.is_finite() {
-        let own = (wrong.min as usize).checked_sub(slab.first_node());
+    if wrong.0.is_finite() {
+        let own = (wrong.0 as usize).checked_sub(slab.first_node());
         let own = own.and_then(|node| Some((gaps.get(node)?.widen(), flat(&slopes).get(node)?.widen())));
         let refused =
             own.map_or(Ok(()), |(gap, value)| Err(Error::not_finite("slope of the local traction", gap, value)));

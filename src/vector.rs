@@ -2,6 +2,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::field::found;
+
 /// The modes of a spectrum whose terms are stored before they are summed: a loop without sums vectorises.
 pub(crate) const BLOCK: usize = 64;
 
@@ -58,11 +60,19 @@ pub(crate) fn range(values: &[f64]) -> (f64, f64) {
     (low.fold(NOTHING.0, f64::min), high.fold(NOTHING.1, f64::max))
 }
 
-/// Sums the terms of a chunk's nodes. With `least name`, the loop sets `name[i]` too, of which the least is found.
+found! {
+    /// The result of a loop that sums one term.
+    pub(crate) struct Single { pub(crate) sum: f64 }
+}
+
+/// Sums terms of a chunk's nodes: `|i| term`, or several that go to the fields of a struct of [`Sums`], and one of which
+/// the least is found, `|i| { let … } => Name { field: term, …; least field: term }`. Other fields are those of no nodes.
 macro_rules! sums {
-    ($count:literal, [$($read:ident),*], [$($write:ident),*], $(least $low:ident,)? |$i:ident| $terms:expr) => {{
-        let mut total = $crate::field::Partial::NONE;
-        let part = &mut total;
+    ([$($read:ident),*], [$($write:ident),*], |$i:ident| { $($body:tt)* } => $Name:ident {
+        $($field:ident: $term:expr),* $(; least $least:ident: $low:expr)?
+    }) => {{
+        let mut found = <$Name as $crate::field::Sums>::NONE;
+        let part = &mut found;
         $(let $read = &$read[..];)*
         $(let $write = &mut *$write;)*
         // the closure holds copies: a value behind a reference would be read anew for every node
@@ -70,29 +80,32 @@ macro_rules! sums {
             #[inline(always)]
             move || {
                 use $crate::vector::{Aligned, LANES, NODES};
+                const COUNT: usize = [$(stringify!($field)),*].len();
                 let len = usize::MAX$(.min($read.len()))*$(.min($write.len()))*;
-                let (mut lanes, mut block) = ([[0.0_f64; LANES]; $count], Aligned([[0.0_f64; NODES]; $count]));
-                $(let (mut least, mut $low) = ([f64::INFINITY; LANES], Aligned([f64::INFINITY; NODES]));)?
+                let (mut lanes, mut block) = ([[0.0_f64; LANES]; COUNT], Aligned([[0.0_f64; NODES]; COUNT]));
+                $(let (mut least, mut $least) = ([f64::INFINITY; LANES], Aligned([f64::INFINITY; NODES]));)?
                 let mut start = 0;
                 while start < len {
                     let size = NODES.min(len - start);
                     $(let $read = &$read[start..start + size];)*
                     $(let $write = &mut $write[start..start + size];)*
                     let block = &mut block.0;
-                    $(let $low = &mut $low.0;)?
+                    $(let $least = &mut $least.0;)?
                     for $i in 0..size {
-                        let terms: [f64; $count] = $terms;
-                        for s in 0..$count {
+                        $($body)*
+                        let terms: [f64; COUNT] = [$($term),*];
+                        $($least[$i] = $low;)?
+                        for s in 0..COUNT {
                             block[s][$i] = terms[s];
                         }
                     }
                     if size < NODES {
-                        for s in 0..$count {
+                        for s in 0..COUNT {
                             block[s][size..].fill(0.0);
                         }
-                        $($low[size..].fill(f64::INFINITY);)?
+                        $($least[size..].fill(f64::INFINITY);)?
                     }
-                    for s in 0..$count {
+                    for s in 0..COUNT {
                         for k in 0..NODES / LANES {
                             for l in 0..LANES {
                                 lanes[s][l] += block[s][k * LANES + l];
@@ -101,22 +114,23 @@ macro_rules! sums {
                     }
                     $(for k in 0..NODES / LANES {
                         for l in 0..LANES {
-                            let low = $low[k * LANES + l];
+                            let low = $least[k * LANES + l];
                             least[l] = if low < least[l] { low } else { least[l] };
                         }
                     })?
                     start += size;
                 }
-                for s in 0..$count {
-                    let l = &lanes[s];
-                    part.sum[s] = ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
-                }
-                $(for $low in least {
-                    part.min = if $low < part.min { $low } else { part.min };
+                [$(part.$field),*] = lanes.map(|l| ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7])));
+                $(for low in least {
+                    part.$least.0 = if low < part.$least.0 { low } else { part.$least.0 };
                 })?
             },
         );
-        total
+        found
+    }};
+    ([$($read:ident),*], [$($write:ident),*], |$i:ident| $term:expr) => {{
+        use $crate::vector::Single;
+        sums!([$($read),*], [$($write),*], |$i| {} => Single { sum: $term }).sum
     }};
 }
 

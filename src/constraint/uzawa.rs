@@ -6,7 +6,7 @@ use super::penalty::check_stiffness;
 use super::{ContactConstraint, Springs, Update, Wall};
 use crate::adhesion::Values;
 use crate::error::Result;
-use crate::field::{CHUNK, Partial, flat, read, write};
+use crate::field::{CHUNK, flat, read, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
@@ -147,18 +147,18 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
         let next = move |multiplier: T, gap: T| (multiplier - stiffness * gap).max(T::zero());
         let mut reducer = grid.reducer();
-        let total = reducer.run(read(&self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
-            let mut part = Partial::NONE;
-            for (&multiplier, &gap) in multipliers.iter().zip(gaps) {
-                let next = next(multiplier, gap);
-                let [change, next] = [next - multiplier, next].map(T::widen);
-                part.sum[0] += change;
-                part.sum[1] += change * change;
-                part.sum[2] += next * next;
-            }
-            part
-        });
-        let [change, change_squared, squared, ..] = total.sum;
+        let [change, change_squared, squared] =
+            reducer.run(read(&self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
+                let [mut sum, mut change_squared, mut squared] = [0.0; 3];
+                for (&multiplier, &gap) in multipliers.iter().zip(gaps) {
+                    let next = next(multiplier, gap);
+                    let [change, next] = [next - multiplier, next].map(T::widen);
+                    sum += change;
+                    change_squared += change * change;
+                    squared += next * next;
+                }
+                [sum, change_squared, squared]
+            });
         let (nodes, k) = (grid.nodes() as f64, stiffness.widen());
         let off = change_squared.sqrt() / k;
         let left = self.stiffest * off.powi(2) + change * change / (nodes * k);
@@ -174,7 +174,6 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         // only now: the gap was found with the multipliers before
         reducer.run(write(&mut self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
             multipliers.iter_mut().zip(gaps).for_each(|(multiplier, &gap)| *multiplier = next(*multiplier, gap));
-            Partial::NONE
         });
         if off > SLOW * self.off {
             self.stiffness = stiffness * T::lit(STIFFEN);

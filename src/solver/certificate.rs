@@ -102,7 +102,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         match (self.posed.load, self.sums.tally.free) {
             (Load::Gap(gap), _) => self.gap_error(gap),
             // contact everywhere: in balance, unless it is under tension somewhere
-            (_, 0.0) => self.share_of_load((-self.sums.tally.min_r).max(0.0)),
+            (_, 0.0) => self.share_of_load((-self.sums.tally.min_r.0).max(0.0)),
             _ => self.share_of_load(self.imbalance()),
         }
     }

@@ -9,7 +9,7 @@ use super::state::State;
 use crate::adhesion::{AdhesionLaw, mu_rho, noticeable};
 use crate::elastic::Boundary;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
+use crate::field::{Minimum, Sums, found, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::Load;
@@ -33,6 +33,16 @@ struct Carried<T> {
     /// the sum of their gaps, and the least gap
     sum_gap: f64,
     min_gap: f64,
+}
+
+found! {
+    /// The sums over the fields of a solution.
+    struct Borne {
+        contact: f64,
+        gap: f64,
+        pressure: f64,
+        least_gap: Minimum,
+    }
 }
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
@@ -110,23 +120,23 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             pressure.iter_mut().for_each(|p| *p += shift);
             local.contact_pressures(first, gap, pressure, contact);
             if !local.is_surface() {
-                return Partial::NONE;
+                return Borne::NONE;
             }
-            sums!(3, [gap, contact, pressure], [], least low, |i| {
-                low[i] = gap[i].widen();
-                [contact[i].widen(), gap[i].widen(), pressure[i].widen()]
+            sums!([gap, contact, pressure], [], |i| {} => Borne {
+                contact: contact[i].widen(), gap: gap[i].widen(), pressure: pressure[i].widen();
+                least least_gap: gap[i].widen()
             })
         });
-        let [sum_contact, sum_gap, sum_pressure, ..] = total.sum;
-        let mean_contact = sum_contact / nodes;
+        let mean_contact = total.contact / nodes;
         let net = mean_contact - self.mean_traction();
         let load_error = match self.posed.load {
             _ if self.sums.detached.is_some() => 1.0,
             Load::Gap(_) => self.load_error(),
             _ => self.load_error().max(self.share_of_load(net - mean)),
         };
-        let missing = mean * nodes - sum_pressure;
-        Carried { contact_pressure, mean, mean_contact, net, load_error, missing, sum_gap, min_gap: total.min }
+        let missing = mean * nodes - total.pressure;
+        let (sum_gap, min_gap) = (total.gap, total.least_gap.0);
+        Carried { contact_pressure, mean, mean_contact, net, load_error, missing, sum_gap, min_gap }
     }
 
     fn report(&self, status: Status, carried: &Carried<T>, plastic: Option<Plastic>) -> Report {

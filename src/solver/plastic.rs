@@ -6,7 +6,7 @@ use super::passes::count;
 use super::potential::{Of, Potential};
 use super::report::Plastic;
 use super::state::State;
-use crate::field::{CHUNK, Partial, read, write};
+use crate::field::{CHUNK, Minimum, Sums, found, read, write};
 use crate::par::Parts;
 use crate::problem::Yielded;
 use crate::real::{Real, cast};
@@ -18,6 +18,17 @@ const PASSES: f64 = 0.3;
 impl<T: Real> Potential<'_, T> {
     pub(crate) fn is_capped(&self) -> bool {
         self.hardness().is_some()
+    }
+
+    /// The caps on the contact pressure where the surfaces touch, ∞ elsewhere.
+    pub(crate) fn caps_of_contacts<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut Option<[T; CHUNK]>) -> &'b [T] {
+        let Some(hardness) = self.hardness() else { return &T::CONSTANT[2][..gaps.len()] };
+        let caps = &mut buffer.insert([T::zero(); CHUNK])[..gaps.len()];
+        hardness.fill(first, caps);
+        vectors!([gaps], [caps], |i| {
+            caps[i] = if gaps[i] == T::zero() { caps[i] } else { T::infinity() };
+        });
+        caps
     }
 
     /// The bounds of gaps after a step at the corner where the surface yields, from the side on which a node is, or to which
@@ -61,7 +72,7 @@ impl<T: Real> Potential<'_, T> {
         let caps = self.caps(first, gaps.len(), &mut caps);
         // a node that stops there is beyond it by no more than its rounding
         let rounding = T::lit(4.0) * cast(Lo::epsilon());
-        sums!(1, [gaps, change, caps], [tractions, slopes], |i| {
+        sums!([gaps, change, caps], [tractions, slopes], |i| {
             let (gap, change, cap): (_, T, _) = (gaps[i], cast(change[i]), caps[i]);
             let falls = (gap == T::zero()) & (change < T::zero());
             tractions[i] = if falls { tractions[i] - cap } else { tractions[i] };
@@ -69,9 +80,8 @@ impl<T: Real> Potential<'_, T> {
             let next = gap + change;
             let passes = (gap != T::zero()) & ((next < T::zero()) != (gap < T::zero()));
             let beyond = passes & (next.abs() > rounding * gap.abs());
-            [if beyond { (cap * next.abs()).widen() } else { 0.0 }]
+            if beyond { (cap * next.abs()).widen() } else { 0.0 }
         })
-        .sum[0]
     }
 
     /// Σ H d over nodes that touch after a step d from where they yield.
@@ -95,6 +105,20 @@ pub(super) struct Depth<T> {
     pub(super) pulled: f64,
 }
 
+found! {
+    /// The sums over the plastic depth.
+    struct Deepened {
+        /// the number of nodes that have yielded
+        yielded: f64,
+        depth: f64,
+        /// the least of minus the depth
+        deepest: Minimum,
+        energy: f64,
+        /// the work of the law in this solve
+        pulled: f64,
+    }
+}
+
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether some nodes yield in the present state.
     pub(super) fn has_yielded(&self) -> bool {
@@ -113,9 +137,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let local = posed.potential();
         let chunks = read(&fields.gap).zip(write(&mut depth));
         let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
-            let (mut caps, mut pulls, mut part) = (None, [T::zero(); CHUNK], Partial::NONE);
+            let (mut caps, mut pulls, mut found) = (None, [T::zero(); CHUNK], Deepened::NONE);
             if !local.is_surface() {
-                return part;
+                return found;
             }
             let caps = local.caps(first, gaps.len(), &mut caps);
             local.law(Of::Traction, first, &[T::zero(); CHUNK][..gaps.len()], &mut pulls[..gaps.len()]);
@@ -123,22 +147,24 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 let deeper = (-gap).max(T::zero());
                 *depth += deeper;
                 let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);
-                part.min = part.min.min(-deep);
-                part.sum[0] += count(deep > 0.0);
-                part.sum[1] += deep;
-                part.sum[2] += (cap - pull) * deep;
-                part.sum[3] += pull * deeper.widen();
+                found = found.add(Deepened {
+                    yielded: count(deep > 0.0),
+                    depth: deep,
+                    deepest: Minimum(-deep),
+                    energy: (cap - pull) * deep,
+                    pulled: pull * deeper.widen(),
+                });
             }
-            part
+            found
         });
-        let ([yielded, sum, energy, pulled, ..], facing) = (total.sum, posed.facing());
+        let facing = posed.facing();
         let figures = Plastic {
             hardness,
-            fraction: yielded / facing,
-            depth_max: (-total.min).max(0.0),
-            depth_mean: sum / facing,
-            energy: posed.flat.padding * energy / posed.nodes(),
+            fraction: total.yielded / facing,
+            depth_max: (-total.deepest.0).max(0.0),
+            depth_mean: total.depth / facing,
+            energy: posed.flat.padding * total.energy / posed.nodes(),
         };
-        Some(Depth { depth, figures, pulled })
+        Some(Depth { depth, figures, pulled: total.pulled })
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::adhesion::{AdhesionLaw, Hints, NoAdhesion, Values};
 use crate::constraint::{ContactConstraint, Hardness, Wall};
-use crate::field::{CHUNK, Nodes, Partial, Reducer};
+use crate::field::{CHUNK, Nodes, Reducer, Sums, found};
 use crate::par::Parts;
 use crate::problem::Window;
 use crate::real::Real;
@@ -55,6 +55,14 @@ pub(crate) struct Potential<'a, T> {
     window: Option<&'a Window>,
 }
 
+found! {
+    /// The nodes that springs, the law or a wall that yields press apart, and the energy of springs and wall.
+    pub(crate) struct Pressed {
+        pub(crate) nodes: f64,
+        pub(crate) energy: f64,
+    }
+}
+
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Of {
     Energy,
@@ -77,53 +85,44 @@ impl<'a, T: Real> Potential<'a, T> {
 
     /// Runs a pass `f(potential, first node on the surface's grid, nodes)` over the chunks, as [`Reducer::run`], in
     /// pieces of which all nodes face the surface, or none does.
-    pub(crate) fn run<A: Parts<Part: Nodes>>(
+    pub(crate) fn run<A: Parts<Part: Nodes>, S: Sums>(
         &self,
         reducer: &mut Reducer,
         chunks: A,
-        f: impl Fn(&Self, usize, A::Part) -> Partial + Sync + Send,
-    ) -> Partial {
-        match self.window {
-            None => reducer.run(chunks, |first, chunk| f(self, first, chunk)),
-            Some(window) => reducer.run(chunks, |first, chunk| self.divide(window, first, chunk, &f)),
-        }
+        f: impl Fn(&Self, usize, A::Part) -> S + Sync + Send,
+    ) -> S {
+        self.run_where(reducer, |_| true, chunks, f)
     }
 
-    /// Runs a pass over the chunks whose kept number is `wanted`, as [`Reducer::run_where`].
-    pub(crate) fn run_where<A: Parts<Part: Nodes>>(
+    /// Runs a pass over the chunks whose number is `wanted`, as [`Reducer::run_where`].
+    pub(crate) fn run_where<A: Parts<Part: Nodes>, S: Sums>(
         &self,
         reducer: &mut Reducer,
-        kept: &[f64],
-        wanted: impl Fn(f64) -> bool + Sync + Send,
+        wanted: impl Fn(usize) -> bool + Sync + Send,
         chunks: A,
-        f: impl Fn(&Self, usize, A::Part) -> Partial + Sync + Send,
-    ) -> Partial {
-        match self.window {
-            None => reducer.run_where(kept, wanted, chunks, |first, chunk| f(self, first, chunk)),
-            Some(window) => {
-                reducer.run_where(kept, wanted, chunks, |first, chunk| self.divide(window, first, chunk, &f))
-            }
-        }
+        f: impl Fn(&Self, usize, A::Part) -> S + Sync + Send,
+    ) -> S {
+        reducer.run_where(wanted, chunks, |first, chunk| match self.window {
+            None => f(self, first, chunk),
+            Some(window) => self.divide(window, first, chunk, &f),
+        })
     }
 
-    fn divide<N: Nodes>(
+    fn divide<N: Nodes, S: Sums>(
         &self,
         window: &Window,
         first: usize,
         chunk: N,
-        f: &impl Fn(&Self, usize, N) -> Partial,
-    ) -> Partial {
+        f: &impl Fn(&Self, usize, N) -> S,
+    ) -> S {
         let (whole, nothing) = (Self { window: None, ..*self }, Self::nothing());
-        let (mut total, mut rest) = (Partial::NONE, Some(chunk));
+        let (mut total, mut rest) = (S::NONE, Some(chunk));
         let count = rest.as_ref().map_or(0, Nodes::count);
         for (len, node) in window.pieces(first..first + count) {
             let Some((piece, others)) = rest.take().map(|rest| rest.divide(len)) else { break };
             rest = Some(others);
-            let part = match node {
-                Some(node) => f(&whole, node, piece),
-                None => f(&nothing, first, piece),
-            };
-            total = total.add(&part);
+            let (local, node) = node.map_or((&nothing, first), |node| (&whole, node));
+            total = total.add(f(local, node, piece));
         }
         total
     }
@@ -295,35 +294,32 @@ impl<'a, T: Real> Potential<'a, T> {
         }
     }
 
-    /// The number of nodes that springs, the law or a wall that yields press apart, and the energy of springs and wall.
-    pub(crate) fn pressed(&self, first: usize, gaps: &[T], tractions: &[T]) -> [f64; 2] {
-        let mut sums = [0.0; 2];
+    pub(crate) fn pressed(&self, first: usize, gaps: &[T], tractions: &[T]) -> Pressed {
+        let mut found = Pressed::NONE;
         let springs = match self.wall {
             Some(Wall::Springs(springs)) => springs,
             Some(Wall::Capped(hardness)) => {
                 let mut energies = [T::zero(); CHUNK];
                 let energies = &mut energies[..gaps.len()];
                 hardness.add(Of::Energy as usize, first, gaps, energies);
-                let found = sums!(2, [gaps, energies], [], |i| {
-                    let touches = if gaps[i] <= T::zero() { 1.0 } else { 0.0 };
-                    [touches, energies[i].widen()]
+                return sums!([gaps, energies], [], |i| {} => Pressed {
+                    nodes: if gaps[i] <= T::zero() { 1.0 } else { 0.0 }, energy: energies[i].widen()
                 });
-                return [found.sum[0], found.sum[1]];
             }
             Some(Wall::None) => {
-                sums[0] = tractions.iter().filter(|&&traction| traction < T::zero()).count() as f64;
-                return sums;
+                found.nodes = tractions.iter().filter(|&&traction| traction < T::zero()).count() as f64;
+                return found;
             }
-            _ => return sums,
+            _ => return found,
         };
         let (mut energies, mut tractions) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
         let (energies, tractions) = (&mut energies[..gaps.len()], &mut tractions[..gaps.len()]);
         springs.evaluate(first, gaps, Values::energies_and_tractions(energies, tractions));
         for ((&gap, energy), traction) in gaps.iter().zip(energies).zip(tractions) {
-            sums[0] += f64::from(u8::from(gap <= T::zero() || *traction < T::zero()));
-            sums[1] += energy.widen();
+            found.nodes += f64::from(u8::from(gap <= T::zero() || *traction < T::zero()));
+            found.energy += energy.widen();
         }
-        sums
+        found
     }
 
     /// The contact pressures at gaps and full elastic pressures.

@@ -5,7 +5,7 @@ use super::passes::{self, Advance, Attempt, Fields, Tried, idles};
 use super::potential::CLOSER;
 use super::state::State;
 use crate::error::Result;
-use crate::field::{CHUNK, Partial, read, write};
+use crate::field::{CHUNK, Sums, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 
@@ -183,7 +183,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let [length, centre, keep, mean] = [length, centre, keep, mean].map(T::lit);
         let yields = self.sums.residual.yields;
         let attempt = Attempt { length, centre, keep, mean, yields };
-        let surface = self.posed.is_gap_controlled().then_some(&self.posed.flat.pressure);
+        let surface = (self.posed.is_gap_controlled(), &self.posed.flat.pressure);
         let local = self.posed.potential();
         let tried = passes::trial(&mut self.fields, &local, attempt, surface);
         // the given mean would let a long step multiply the rounding of their difference
@@ -211,12 +211,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let local = self.posed.potential();
         let Fields { reducer, gap, change, .. } = &mut self.fields;
         let next = |gap: T, change: Lo| gap + cast::<_, T>(change);
-        let total = local.run(reducer, read(gap).zip(read(change)), |_, _, (gap, change)| {
-            let mut part = Partial::NONE;
-            part.sum[0] = gap.iter().zip(change).map(|(&gap, &c)| next(gap, c).max(T::zero()).widen()).sum();
-            part
+        let apart = local.run(reducer, read(gap).zip(read(change)), |_, _, (gap, change)| {
+            gap.iter().zip(change).map(|(&gap, &c)| next(gap, c).max(T::zero()).widen()).sum::<f64>()
         });
-        let scale = 1.0 - trial.tried.change / total.sum[0];
+        let scale = 1.0 - trial.tried.change / apart;
         if !(scale.is_finite() && scale > 0.0) {
             return Trial { slope: f64::INFINITY, ..trial };
         }
@@ -242,18 +240,17 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let lifted = move |gap: T, r: Lo| !(idles(r) || capped && gap == T::zero());
         let Fields { reducer, gap, residual, preconditioned, .. } = &mut self.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned));
-        let total = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
-            let (mut part, faces) = (Partial::NONE, local.is_surface());
+        let [landed, others] = local.run(reducer, fields, |local, _, ((gap, residual), z)| {
+            let ([mut landed, mut others], faces) = ([0.0; 2], local.is_surface());
             for ((&gap, &r), &z) in gap.iter().zip(residual).zip(z) {
                 if faces && lands(gap, r, z) {
-                    part.sum[0] += gap.widen();
+                    landed += gap.widen();
                 } else if lifted(gap, r) {
-                    part.sum[1] += 1.0;
+                    others += 1.0;
                 }
             }
-            part
+            [landed, others]
         });
-        let [landed, others, ..] = total.sum;
         let lift = Lo::lit(if held { landed / others } else { 0.0 });
         self.remake(trial, move |faces, gap, [r, z, _]| {
             if faces && lands(gap, r, z) {
@@ -272,27 +269,26 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let local = self.posed.potential();
         let Fields { reducer, gap, residual, preconditioned, change, .. } = &mut self.fields;
         let fields = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change));
-        let total = local.run(reducer, fields, |local, first, (((gap, residual), z), change)| {
+        let found = local.run(reducer, fields, |local, first, (((gap, residual), z), change)| {
             let nodes = gap.iter().zip(residual).zip(z).zip(&mut *change);
             nodes.for_each(|(((&gap, &r), &z), d)| *d = anew(local.is_surface(), gap, [r, z, *d]));
-            let mut part = Partial::NONE;
-            let (mut tractions, mut slopes) = ([T::zero(); CHUNK], [T::zero(); CHUNK]);
+            let (mut found, mut tractions, mut slopes) = (Tried::NONE, [T::zero(); CHUNK], [T::zero(); CHUNK]);
             if !local.is_zero() {
                 let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
                 local.tractions_and_slopes(first, gap, tractions, slopes);
-                part.sum[5] = local.yielding(first, gap, change, tractions, slopes);
+                found.kink = local.yielding(first, gap, change, tractions, slopes);
             }
             for (i, (&r, &d)) in residual.iter().zip(&*change).enumerate() {
                 let ([r, d], [t, s]) = ([r, d].map(Lo::widen), [tractions[i], slopes[i]].map(T::widen));
-                part.sum[0] += r * d;
-                part.sum[1] += d;
-                part.sum[2] += t * d;
-                part.sum[3] += s * d * d;
-                part.sum[4] += d * d;
+                found.descent += r * d;
+                found.change += d;
+                found.traction += t * d;
+                found.slope_change += s * d * d;
+                found.square += d * d;
             }
-            part
+            found
         });
-        let [slope, change, traction, slopes, square, kink, ..] = total.sum;
+        let Tried { descent: slope, change, square, traction, slope_change: slopes, kink, .. } = found;
         let tried = Tried { change, descent: slope, square, traction, ..trial.tried };
         Trial { tried, scale: 1.0, slope, kink, slopes }
     }
@@ -381,8 +377,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.steps.momentum = Some(Made { factor: length, curvature, descent: 0.0, overlap: 0.0, sum: 0.0 });
         self.steps.updates += (length * scale).powi(2) * square / self.posed.nodes();
         self.steps.age += 1;
-        let Some(found) = advanced.residual else { return Next::Level };
-        self.go_on_with(found);
+        if level.is_some() {
+            return Next::Level;
+        }
+        self.go_on_with(advanced.residual);
         Next::Go
     }
 }

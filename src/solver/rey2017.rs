@@ -6,7 +6,7 @@ use super::passes::Fields;
 use super::report::Status;
 use super::state::State;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
+use crate::field::{read, write};
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::{Real, cast};
@@ -63,13 +63,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
         let Fields { reducer, gap, residual, .. } = &mut self.fields;
         let norm = reducer.run(read(gap).zip(read(residual)), |_, (gap, residual)| {
-            let mut part = Partial::NONE;
-            for (&gap, &r) in gap.iter().zip(residual) {
-                part.sum[0] += if apart(gap) { r.widen().powi(2) } else { 0.0 };
-            }
-            part
+            let squares = gap.iter().zip(residual).map(|(&gap, &r)| if apart(gap) { r.widen().powi(2) } else { 0.0 });
+            squares.sum::<f64>()
         });
-        let conjugate = self.steps.norm.map_or(0.0, |before| norm.sum[0] / before);
+        let conjugate = self.steps.norm.map_or(0.0, |before| norm / before);
         let mut slope = self.conjugate_direction(if conjugate.is_finite() { conjugate } else { 0.0 });
         if !(slope.is_finite() && slope > 0.0) && conjugate > 0.0 {
             // uphill, or beyond all numbers: the norm of the residual has jumped, as rounding may let it
@@ -80,19 +77,19 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.counters.applications += 1;
 
         let Fields { reducer, gap, change, preconditioned: response, .. } = &mut self.fields;
-        let total = reducer.run(read(gap).zip(read(change)).zip(read(response)), |_, ((gap, direction), response)| {
-            let mut part = Partial::NONE;
+        let pass = read(gap).zip(read(change)).zip(read(response));
+        let [curvature, response, t] = reducer.run(pass, |_, ((gap, direction), response)| {
+            let [mut curvature, mut responses, mut sum] = [0.0; 3];
             for ((&gap, &t), &response) in gap.iter().zip(direction).zip(response) {
                 if apart(gap) {
                     let [t, response] = [t, response].map(Lo::widen);
-                    part.sum[0] += response * t;
-                    part.sum[1] += response;
-                    part.sum[2] += t;
+                    curvature += response * t;
+                    responses += response;
+                    sum += t;
                 }
             }
-            part
+            [curvature, responses, sum]
         });
-        let [curvature, response, t, ..] = total.sum;
         let mean = if self.posed.is_gap_controlled() { response / self.sums.tally.free } else { 0.0 };
         let length = slope / (curvature - mean * t);
         // a uniform direction has no curvature: the softest wave bounds the step
@@ -106,21 +103,21 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
         let length = T::lit(length);
         let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
-        let total = reducer.run(write(gap).zip(read(residual)).zip(read(change)), |_, ((gap, residual), direction)| {
-            let mut part = Partial::NONE;
+        let pass = write(gap).zip(read(residual)).zip(read(change));
+        let [sum, released, clipped] = reducer.run(pass, |_, ((gap, residual), direction)| {
+            let [mut sum, mut released, mut clipped] = [0.0; 3];
             for ((gap, &r), &t) in gap.iter_mut().zip(residual).zip(direction) {
                 let next = *gap - length * cast(t);
-                part.sum[2] += f64::from(u8::from(projects && next < T::zero()));
+                clipped += f64::from(u8::from(projects && next < T::zero()));
                 *gap = if projects { next.max(T::zero()) } else { next };
                 if projects && *gap <= T::zero() && r < Lo::zero() {
                     *gap = -length * cast(r);
-                    part.sum[1] += 1.0;
+                    released += 1.0;
                 }
-                part.sum[0] += gap.widen();
+                sum += gap.widen();
             }
-            part
+            [sum, released, clipped]
         });
-        let [sum, released, clipped, ..] = total.sum;
         let scale = match self.posed.load {
             Load::Gap(mean) if projects => mean * self.posed.nodes() / sum,
             _ => 1.0,
@@ -135,7 +132,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
             return Ok(false);
         }
-        self.steps.norm = (released == 0.0).then_some(norm.sum[0]);
+        self.steps.norm = (released == 0.0).then_some(norm);
         let linear = released == 0.0 && clipped == 0.0;
         self.scale(T::lit(scale), length, linear);
         if !linear {
@@ -154,19 +151,18 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let projects = self.posed.projects();
         let conjugate = Lo::lit(conjugate);
         let Fields { reducer, gap, residual, change, .. } = &mut self.fields;
-        let total = reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
-            let mut part = Partial::NONE;
+        reducer.run(read(gap).zip(read(residual)).zip(write(change)), |_, ((gap, residual), direction)| {
+            let mut slope = 0.0;
             for ((&gap, &r), t) in gap.iter().zip(residual).zip(direction) {
                 *t = if !projects || gap > T::zero() {
                     r + if conjugate > Lo::zero() { conjugate * *t } else { Lo::zero() }
                 } else {
                     Lo::zero()
                 };
-                part.sum[0] += r.widen() * t.widen();
+                slope += r.widen() * t.widen();
             }
-            part
-        });
-        total.sum[0]
+            slope
+        })
     }
 
     /// Scales the gap to its mean and, if the step was `linear`, the pressure with it: K⁻¹(s(g − τt) + h).
@@ -180,7 +176,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                     *p = scale * (*p - surface - length * cast(response)) + surface;
                 }
             }
-            Partial::NONE
         });
         if linear {
             self.steps.age += 1;

@@ -8,7 +8,7 @@ use super::potential::{Least, bounded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
-use crate::field::{Partial, read, write};
+use crate::field::{read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::{Load, PressedFlat, Window};
@@ -162,7 +162,6 @@ pub(crate) fn extrapolated<T: Real>(
             let free = wanted < feasible && window.is_some_and(|window| !window.faces(node));
             *gap = if free { wanted } else { feasible };
         }
-        Partial::NONE
     });
     next
 }

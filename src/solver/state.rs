@@ -12,7 +12,7 @@ use super::start::{Begin, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use crate::elastic::Boundary;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
+use crate::field::{read, write};
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::Real;
@@ -83,7 +83,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                 let apart = peak - *gap;
                 (*gap, *pressure) = (if local.projects() { apart.max(T::zero()) } else { apart }, T::zero());
             }
-            Partial::NONE
         });
         // nothing is deformed: the sums that would cancel need not be trusted
         self.count();
@@ -123,7 +122,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                     let scale = T::lit(scale);
                     self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
                         gap.iter_mut().for_each(|gap| *gap *= scale);
-                        Partial::NONE
                     });
                 }
             } else if self.sums.tally.free > 0.0 && present != mean {
@@ -134,7 +132,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
                 self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
                     let moves = gap.iter_mut().filter(|gap| !projects || **gap > T::zero());
                     moves.for_each(|gap| *gap = if projects { (*gap + shift).max(T::zero()) } else { *gap + shift });
-                    Partial::NONE
                 });
             }
         }
@@ -153,7 +150,6 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let Fields { reducer, pressure, .. } = &mut self.fields;
         reducer.run(write(pressure).zip(read(&self.posed.flat.pressure)), |_, (p, surface)| {
             p.iter_mut().zip(surface).for_each(|(p, &surface)| *p += surface);
-            Partial::NONE
         });
         self.sums.work = self.count();
         self.trust_work(TRUSTED)
@@ -178,7 +174,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             Load::Pressure(_) | Load::Spring { .. } => 0.0,
             Load::Gap(_) if self.sums.tally.free > 0.0 => self.sums.tally.sum_r / self.sums.tally.free,
             // no node is free: the least pressure that keeps all in contact
-            Load::Gap(_) => self.sums.tally.min_r,
+            Load::Gap(_) => self.sums.tally.min_r.0,
         }
     }
 
@@ -190,8 +186,8 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
 
     fn compute_residual(&mut self) {
         let working = self.working_set(0.0);
-        let (found, difference) = passes::residual(&mut self.fields, &self.posed.potential(), working);
-        self.sums.residual.difference = difference;
+        let found = passes::residual(&mut self.fields, &self.posed.potential(), working);
+        self.sums.residual.difference = found.difference;
         self.go_on_with(found);
     }
 
@@ -216,7 +212,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             if working > 0.0 {
                 level = (tally.sum_r + released.sum_r) / working;
             }
-            yields = yields && (released.most > multiplier.widen() || yielded);
+            yields = yields && (-released.spare.0 > multiplier.widen() || yielded);
         }
         (sums.residual.level, sums.residual.yields) = (level, yields);
         // where some yield, both sides of the corner have one level
@@ -227,7 +223,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
 
     /// Notes the sums of r', those with the last step for the next one to be conjugate to it.
     pub(super) fn go_on_with(&mut self, found: Continued) {
-        let Continued { complementarity, working, descent, overlap, sum_change: sum } = found;
+        let Continued { complementarity, working, descent, overlap, sum_change: sum, .. } = found;
         self.sums.residual = Residual { working, complementarity, ..self.sums.residual };
         self.steps.momentum = self.steps.momentum.map(|made| Made { descent, overlap, sum, ..made });
     }

@@ -7,7 +7,7 @@ use super::passes::Fields;
 use super::posed::Posed;
 use super::state::State;
 use crate::error::Result;
-use crate::field::{Partial, read, write};
+use crate::field::{found, read, write};
 use crate::problem::Load;
 use crate::real::Real;
 use crate::vector::sums;
@@ -48,6 +48,14 @@ pub(super) enum Hold {
 
 impl Hold {
     pub(super) const ALL: [Self; 2] = [Self::Touching, Self::Gap];
+}
+
+found! {
+    /// The sums of the gaps up to the closest gap, and of those beyond it.
+    struct Opened {
+        near: f64,
+        apart: f64,
+    }
 }
 
 impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
@@ -210,10 +218,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     fn open_to(&mut self, mean: f64) {
         let (nodes, closest) = (self.posed.nodes(), self.posed.closest());
         let Fields { reducer, gap, .. } = &mut self.fields;
-        let total = reducer.run(read(gap), |_, gap| {
-            sums!(2, [gap], [], |i| [gap[i].min(closest).widen(), (gap[i] - closest).max(T::zero()).widen()])
+        let Opened { near, apart } = reducer.run(read(gap), |_, gap| {
+            sums!([gap], [], |i| {} => Opened {
+                near: gap[i].min(closest).widen(), apart: (gap[i] - closest).max(T::zero()).widen()
+            })
         });
-        let [near, apart, ..] = total.sum;
         let scale = (mean * nodes - near) / apart;
         let possible = scale.is_finite() && scale > 0.0;
         let (scale, mean) = (T::lit(scale), T::lit(mean));
@@ -221,7 +230,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             for gap in gap.iter_mut().filter(|gap| !possible || **gap > closest) {
                 *gap = if possible { closest + scale * (*gap - closest) } else { mean };
             }
-            Partial::NONE
         });
     }
 
@@ -243,7 +251,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let lift = T::lit(target - mean);
         self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
             gap.iter_mut().for_each(|gap| *gap += lift);
-            Partial::NONE
         });
         self.sums.detached = Some(self.sums.given);
         self.posed.load = self.posed.holding(target);

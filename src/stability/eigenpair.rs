@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::hessian::Hessian;
 use crate::error::Result;
-use crate::field::{Partial, read};
+use crate::field::read;
 use crate::par::Parts;
 use crate::real::Real;
 
@@ -118,16 +118,16 @@ fn products<T: Real>(hessian: &mut Hessian<'_, T>, of: [&Array2<T>; 3], images: 
     let [gram, energy] = [of, images].map(|others| {
         let ([a, b, c], [u, v, w]) = (of.map(read), others.map(read));
         let total = hessian.reducer.run(a.zip(b).zip(c).zip(u.zip(v).zip(w)), |_, (((a, b), c), ((u, v), w))| {
-            let mut part = Partial::NONE;
+            let mut sums = [0.0; 6];
             for i in 0..a.len() {
                 let ([a, b, c], [u, v, w]) = ([a[i], b[i], c[i]].map(T::widen), [u[i], v[i], w[i]].map(T::widen));
-                for (sum, product) in part.sum.iter_mut().zip([a * u, b * v, c * w, a * v, a * w, b * w]) {
+                for (sum, product) in sums.iter_mut().zip([a * u, b * v, c * w, a * v, a * w, b * w]) {
                     *sum += product;
                 }
             }
-            part
+            sums
         });
-        let [aa, bb, cc, ab, ac, bc, ..] = total.sum.map(|sum| sum / nodes);
+        let [aa, bb, cc, ab, ac, bc] = total.map(|sum| sum / nodes);
         [[aa, ab, ac], [ab, bb, bc], [ac, bc, cc]]
     });
     (gram, energy)

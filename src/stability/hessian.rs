@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
-use crate::field::{Partial, Reducer, read, write};
+use crate::field::{Minimum, Reducer, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::Load;
@@ -31,15 +31,9 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, load: Load) -> Self {
         let (centred, spring) = (matches!(load, Load::Gap(_)), load.stiffness());
         let mut reducer = operator.grid().reducer();
-        let total = reducer.run(read(&slopes), |_, slopes| {
-            let mut part = Partial::NONE;
-            for slope in slopes {
-                part.sum[0] += f64::from(u8::from(slope.is_finite()));
-                part.min = part.min.min(slope.widen());
-            }
-            part
-        });
-        let (free, least) = (total.sum[0], total.min);
+        let free = reducer.run(read(&slopes), |_, slopes| slopes.iter().filter(|s| s.is_finite()).count() as f64);
+        let least = |slopes: &[T]| slopes.iter().fold(f64::INFINITY, |least, slope| least.min(slope.widen()));
+        let Minimum(least) = reducer.run(read(&slopes), |_, slopes| Minimum(least(slopes)));
         Self { operator, slopes, centred, spring, free, least, reducer, coarse: None, applications: 0 }
     }
 
@@ -101,15 +95,14 @@ impl<'a, T: Real> Hessian<'a, T> {
     pub(super) fn admit(&mut self, field: &mut Array2<T>) {
         let nodes = self.nodes();
         let Self { reducer, slopes, free, .. } = self;
-        let total = reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
-            let mut part = Partial::NONE;
+        let sum = reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
+            let mut sum = 0.0;
             for (slope, value) in slopes.iter().zip(values) {
                 *value = if slope.is_finite() { *value } else { T::zero() };
-                part.sum[0] += value.widen();
+                sum += value.widen();
             }
-            part
+            sum
         });
-        let sum = total.sum[0];
         let uniform = T::lit(nodes / *free);
         let factor = if sum > 0.0 { T::lit(nodes / sum) } else { T::zero() };
         let usable = factor > T::zero() && factor.is_finite();
@@ -121,7 +114,6 @@ impl<'a, T: Real> Hessian<'a, T> {
                     false => T::zero(),
                 };
             }
-            Partial::NONE
         });
     }
 
@@ -130,20 +122,16 @@ impl<'a, T: Real> Hessian<'a, T> {
         let Self { reducer, slopes, centred, free, .. } = self;
         let mut mean = T::zero();
         if *centred && *free > 0.0 {
-            let total = reducer.run(read(slopes).zip(read(field)), |_, (slopes, values)| {
-                let mut part = Partial::NONE;
-                for (slope, value) in slopes.iter().zip(values) {
-                    part.sum[0] += if slope.is_finite() { value.widen() } else { 0.0 };
-                }
-                part
+            let sum = reducer.run(read(slopes).zip(read(field)), |_, (slopes, values)| {
+                let free = slopes.iter().zip(values).filter(|(slope, _)| slope.is_finite());
+                free.map(|(_, value)| value.widen()).sum::<f64>()
             });
-            mean = T::lit(total.sum[0] / *free);
+            mean = T::lit(sum / *free);
         }
         reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
             for (slope, value) in slopes.iter().zip(values) {
                 *value = if slope.is_finite() { *value - mean } else { T::zero() };
             }
-            Partial::NONE
         });
         mean.widen()
     }
@@ -161,7 +149,6 @@ impl<'a, T: Real> Hessian<'a, T> {
                     *image += slope * value + uniform;
                 }
             }
-            Partial::NONE
         });
         Ok(self.project(image))
     }
@@ -175,7 +162,6 @@ impl<'a, T: Real> Hessian<'a, T> {
             for (slope, value) in slopes.iter().zip(values) {
                 *value = if slope.is_finite() { T::zero() } else { level - *value };
             }
-            Partial::NONE
         });
         Ok(())
     }
@@ -192,19 +178,16 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     pub(super) fn product(&mut self, a: &Array2<T>, b: &Array2<T>) -> f64 {
-        let total = self.reducer.run(read(a).zip(read(b)), |_, (a, b)| {
-            let mut part = Partial::NONE;
-            part.sum[0] = a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum();
-            part
-        });
-        total.sum[0] / self.nodes()
+        let sum = self
+            .reducer
+            .run(read(a).zip(read(b)), |_, (a, b)| a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum::<f64>());
+        sum / self.nodes()
     }
 
     pub(super) fn scale(&mut self, field: &mut Array2<T>, factor: f64) {
         let factor = T::lit(factor);
         self.reducer.run(write(field), |_, values| {
             values.iter_mut().for_each(|value| *value *= factor);
-            Partial::NONE
         });
     }
 
@@ -213,7 +196,6 @@ impl<'a, T: Real> Hessian<'a, T> {
         let (factor, other) = (T::lit(factor), T::lit(other));
         self.reducer.run(write(a).zip(read(b)), |_, (a, b)| {
             a.iter_mut().zip(b).for_each(|(a, &b)| *a = factor * *a + other * b);
-            Partial::NONE
         });
     }
 
@@ -229,7 +211,6 @@ impl<'a, T: Real> Hessian<'a, T> {
                         *value *= (slope / least).max(T::lit(0.1));
                     }
                 }
-                Partial::NONE
             });
             self.project(field);
         }

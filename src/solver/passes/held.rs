@@ -6,7 +6,7 @@
 //! pulls, springs take no more than their pressure.
 
 use super::Fields;
-use crate::field::{CHUNK, read, write};
+use crate::field::{CHUNK, found, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
@@ -45,18 +45,19 @@ fn holding<'a, T: Real>(
     (slopes, limits)
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(in crate::solver) struct Held {
-    /// k, the stiffness of one node among its neighbours
-    stiffness: f64,
-    /// the mean of r', weighted by s², where the mean gap is given
-    level: f64,
-    /// Σ s²
-    shares: f64,
-    /// Σ (1 − s)² (r' − level)²/κ, the certificate beside M
-    pub(in crate::solver) beside: f64,
-    /// Σ (1 − s²)(r' − level)²/(k + κ), of ⟨r', z⟩ beside the waves
-    pub(in crate::solver) descent: f64,
+found! {
+    pub(in crate::solver) struct Held {
+        /// k, the stiffness of one node among its neighbours
+        stiffness: f64,
+        /// the mean of r', weighted by s², where the mean gap is given
+        level: f64,
+        /// Σ s²
+        shares: f64,
+        /// Σ (1 − s)² (r' − level)²/κ, the certificate beside M
+        pub(in crate::solver) beside: f64,
+        /// Σ (1 − s²)(r' − level)²/(k + κ), of ⟨r', z⟩ beside the waves
+        pub(in crate::solver) descent: f64,
+    }
 }
 
 /// Multiplies r' less its level by S.
@@ -73,29 +74,26 @@ pub(in crate::solver) fn hold<T: Real, Lo: Real>(
         let total = local.run(reducer, read(gap).zip(read(residual)), |local, first, (gap, residual)| {
             let mut buffer = [[T::zero(); CHUNK]; 2];
             let (slopes, _) = holding(local, first, gap, &mut buffer);
-            sums!(2, [slopes, residual], [], |i| {
+            sums!([slopes, residual], [], |i| {
                 let (s, _) = share(slopes[i], k);
-                [(s * s).widen() * residual[i].widen(), (s * s).widen()]
-            })
+            } => Held { level: (s * s).widen() * residual[i].widen(), shares: (s * s).widen() })
         });
-        shares = total.sum[1];
-        level = total.sum[0] / shares;
+        (level, shares) = (total.level / total.shares, total.shares);
     }
     let level = T::lit(level);
     let total = local.run(reducer, read(gap).zip(write(residual)), |local, first, (gap, residual)| {
         let mut buffer = [[T::zero(); CHUNK]; 2];
         let (slopes, limits) = holding(local, first, gap, &mut buffer);
-        sums!(2, [slopes, limits], [residual], |i| {
+        sums!([slopes, limits], [residual], |i| {
             let (slope, r) = (slopes[i], cast::<_, T>(residual[i]) - level);
             let (share, own) = share(slope, k);
             let s = limited(share, r, limits[i]);
             residual[i] = cast(s * r);
             let rest = ((T::one() - s) * r).widen();
             let error = if slope > T::zero() { rest * rest / slope.widen() } else { 0.0 };
-            [error, ((T::one() - s * s) * own * r * r).widen()]
-        })
+        } => Held { beside: error, descent: ((T::one() - s * s) * own * r * r).widen() })
     });
-    Held { stiffness, level: level.widen(), shares, beside: total.sum[0], descent: total.sum[1] }
+    Held { stiffness, level: level.widen(), shares, ..total }
 }
 
 /// Multiplies z by S, adds what is beside the waves, and puts r' back; returns Σ z.
@@ -107,33 +105,32 @@ pub(in crate::solver) fn release_held<T: Real, Lo: Real>(
     let Fields { reducer, gap, residual, preconditioned, .. } = fields;
     let (k, level) = (T::lit(held.stiffness), T::lit(held.level));
     let chunks = read(gap).zip(write(residual)).zip(write(preconditioned));
-    let total = local.run(reducer, chunks, |local, first, ((gap, residual), z)| {
+    let sum = local.run(reducer, chunks, |local, first, ((gap, residual), z)| {
         let mut buffer = [[T::zero(); CHUNK]; 2];
         let (slopes, limits) = holding(local, first, gap, &mut buffer);
-        sums!(1, [slopes, limits], [residual, z], |i| {
+        sums!([slopes, limits], [residual, z], |i| {
             let (share, own) = share(slopes[i], k);
             let r = whole(share, cast(residual[i]), limits[i]);
             let s = limited(share, r, limits[i]);
             let moved = s * cast(z[i]) + (T::one() - s * s) * own * r;
             (residual[i], z[i]) = (cast(r + level), cast(moved));
-            [moved.widen()]
+            moved.widen()
         })
     });
     if held.shares == 0.0 {
-        return total.sum[0];
+        return sum;
     }
     // no mean, where the mean gap is given: a node that is held hardly moves
     let Fields { reducer, gap, preconditioned, .. } = fields;
-    let mean = T::lit(total.sum[0] / held.shares);
-    let total = local.run(reducer, read(gap).zip(write(preconditioned)), |local, first, (gap, z)| {
+    let mean = T::lit(sum / held.shares);
+    local.run(reducer, read(gap).zip(write(preconditioned)), |local, first, (gap, z)| {
         let mut buffer = [[T::zero(); CHUNK]; 2];
         let (slopes, _) = holding(local, first, gap, &mut buffer);
-        sums!(1, [slopes], [z], |i| {
+        sums!([slopes], [z], |i| {
             let (s, _) = share(slopes[i], k);
             let moved: T = cast::<_, T>(z[i]) - mean * (s * s);
             z[i] = cast(moved);
-            [moved.widen()]
+            moved.widen()
         })
-    });
-    total.sum[0]
+    })
 }

@@ -1,7 +1,7 @@
 //! The residual r' on the working set, and the passes that use it before a step is made.
 
 use super::{Fields, count, idles};
-use crate::field::{CHUNK, Partial, read, write};
+use crate::field::{CHUNK, Minimum, found, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
@@ -18,28 +18,32 @@ pub(in crate::solver) struct Working<T> {
     pub(in crate::solver) level: T,
 }
 
-/// The sums over the contact nodes that are released.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::solver) struct Released {
-    pub(in crate::solver) count: f64,
-    /// Σ r over these nodes, less the cap where they yield
-    pub(in crate::solver) sum_r: f64,
-    /// the most that r exceeds the cap of a contact node
-    pub(in crate::solver) most: f64,
+found! {
+    /// The sums over the contact nodes that are released.
+    pub(in crate::solver) struct Released {
+        pub(in crate::solver) count: f64,
+        /// Σ r over these nodes, less the cap where they yield
+        pub(in crate::solver) sum_r: f64,
+        /// the least that the cap of a contact node exceeds its r
+        pub(in crate::solver) spare: Minimum,
+    }
 }
 
-/// The sums of a residual r', and those with the change c of the last step.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::solver) struct Continued {
-    /// Σ|g r'|
-    pub(in crate::solver) complementarity: f64,
-    pub(in crate::solver) working: f64,
-    /// Σ r'·c, with c the field of the change
-    pub(in crate::solver) descent: f64,
-    /// Σ r'·z', with z' the preconditioned residual of the state before
-    pub(in crate::solver) overlap: f64,
-    /// Σ c over the working set
-    pub(in crate::solver) sum_change: f64,
+found! {
+    /// The sums of a residual r', and those with the change c of the last step.
+    pub(in crate::solver) struct Continued {
+        /// Σ|g r'|
+        pub(in crate::solver) complementarity: f64,
+        pub(in crate::solver) working: f64,
+        /// Σ r'·c, with c the field of the change
+        pub(in crate::solver) descent: f64,
+        /// Σ r'·z', with z' the preconditioned residual of the state before
+        pub(in crate::solver) overlap: f64,
+        /// Σ c over the working set
+        pub(in crate::solver) sum_change: f64,
+        /// Σ (r' − r'₀)², with r'₀ the previous content of the field, if r' was computed anew
+        pub(in crate::solver) difference: f64,
+    }
 }
 
 /// The residual of a node of the working set.
@@ -53,7 +57,7 @@ fn works<T: Real>(residual: T) -> T {
 /// whether it may.
 #[inline(always)]
 fn gradient<T: Real>(touching: T, release: T, cap: T, gap: T, r: T) -> (T, bool) {
-    let yields = (gap == touching) & (r - cap > release);
+    let yields = r - cap > release;
     (if yields { r - cap } else { r }, (gap != touching) | (r < release) | yields)
 }
 
@@ -72,54 +76,53 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
 ) -> Released {
     let Fields { reducer, least_r, gap, pressure, .. } = fields;
     let (limit, capped) = (release.widen(), local.is_capped());
-    let total = local.run_where(
+    local.run_where(
         reducer,
-        least_r,
-        |least| least < limit || capped,
+        |chunk| least_r[chunk] < limit || capped,
         read(gap).zip(read(pressure)),
         |local, first, (gap, pressure)| {
             let touching = local.touching();
             let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
             let tractions = local.tractions(first, gap, &mut tractions);
-            let caps = local.caps(first, gap.len(), &mut caps);
-            sums!(2, [gap, pressure, tractions, caps], [], least low, |i| {
-                let (r, touches) = (pressure[i] + tractions[i] + offset, gap[i] == touching);
-                low[i] = if touches { (caps[i] - r).widen() } else { f64::INFINITY };
-                let (r, may) = gradient(touching, release, caps[i], gap[i], r);
-                let released = touches & may;
-                [count(released), if released { r.widen() } else { 0.0 }]
+            let caps = local.caps_of_contacts(first, gap, &mut caps);
+            sums!([gap, pressure, tractions, caps], [], |i| {
+                let r = pressure[i] + tractions[i] + offset;
+                let (less, may) = gradient(touching, release, caps[i], gap[i], r);
+                let released = (gap[i] == touching) & may;
+            } => Released {
+                count: count(released), sum_r: if released { less.widen() } else { 0.0 };
+                least spare: (caps[i] - r).widen()
             })
         },
-    );
-    Released { count: total.sum[0], sum_r: total.sum[1], most: -total.min }
+    )
 }
 
-/// Computes r' from gap and pressure, and Σ (r' − r'₀)², with r'₀ the previous content of the field.
+/// Computes r' from gap and pressure.
 pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     working: Working<T>,
-) -> (Continued, f64) {
+) -> Continued {
     let Fields { reducer, moving, gap, pressure, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(pressure)).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, first, ((((gap, pressure), residual), z), change)| {
         let touching = local.touching();
         let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
         let tractions = local.tractions(first, gap, &mut tractions);
-        let caps = local.caps(first, gap.len(), &mut caps);
-        sums!(6, [gap, pressure, tractions, z, change, caps], [residual], |i| {
+        let caps = local.caps_of_contacts(first, gap, &mut caps);
+        sums!([gap, pressure, tractions, z, change, caps], [residual], |i| {
             let r = pressure[i] + tractions[i] + working.offset;
             let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], r);
             let difference = (r - residual[i]).widen();
             residual[i] = r;
             let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
-            let moved = if may { d } else { 0.0 };
-            [count(may), (gap[i].widen() * r).abs(), r * d, r * z, moved, difference * difference]
+        } => Continued {
+            working: count(may), complementarity: (gap[i].widen() * r).abs(), descent: r * d, overlap: r * z,
+            sum_change: if may { d } else { 0.0 }, difference: difference * difference
         })
     });
-    reducer.keep(|part| part.sum[0], moving);
-    let [working, complementarity, descent, overlap, sum_change, difference, ..] = total.sum;
-    (Continued { complementarity, working, descent, overlap, sum_change }, difference)
+    reducer.keep(|found: Continued| found.working, moving);
+    total
 }
 
 /// The residual r' of a chunk from the gradient in its field. One constant is subtracted from gradient, release and
@@ -131,14 +134,16 @@ pub(super) fn release_chunk<T: Real, Lo: Real>(
     gap: &[T],
     (z, change): (&[Lo], &[Lo]),
     residual: &mut [Lo],
-) -> Partial {
+) -> Continued {
     let (touching, mut caps) = (local.touching(), None);
-    let caps = local.caps(first, gap.len(), &mut caps);
-    sums!(5, [gap, z, change, caps], [residual], |i| {
+    let caps = local.caps_of_contacts(first, gap, &mut caps);
+    sums!([gap, z, change, caps], [residual], |i| {
         let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], cast(residual[i]));
         residual[i] = r;
         let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
-        [count(may), (gap[i].widen() * r).abs(), r * d, r * z, if may { d } else { 0.0 }]
+    } => Continued {
+        working: count(may), complementarity: (gap[i].widen() * r).abs(), descent: r * d, overlap: r * z,
+        sum_change: if may { d } else { 0.0 }
     })
 }
 
@@ -154,19 +159,16 @@ pub(in crate::solver) fn release<T: Real, Lo: Real>(
     let total = local.run(reducer, chunks, |local, first, (((gap, residual), z), change)| {
         release_chunk(local, working, first, gap, (z, change), residual)
     });
-    reducer.keep(|part| part.sum[0], moving);
-    let [working, complementarity, descent, overlap, sum_change, ..] = total.sum;
-    Continued { complementarity, working, descent, overlap, sum_change }
+    reducer.keep(|found: Continued| found.working, moving);
+    total
 }
 
 /// Σ z outside of the working set of the present residual.
 pub(in crate::solver) fn idle<T: Real, Lo: Real>(fields: &mut Fields<T, Lo>) -> f64 {
     let Fields { reducer, moving, residual, preconditioned, .. } = fields;
-    let total = reducer.run_where(
-        moving,
-        |moving| moving < CHUNK as f64,
+    reducer.run_where(
+        |chunk| moving[chunk] < CHUNK as f64,
         read(residual).zip(read(preconditioned)),
-        |_, (residual, z)| sums!(1, [residual, z], [], |i| [if idles(residual[i]) { z[i].widen() } else { 0.0 }]),
-    );
-    total.sum[0]
+        |_, (residual, z)| sums!([residual, z], [], |i| if idles(residual[i]) { z[i].widen() } else { 0.0 }),
+    )
 }

@@ -3,73 +3,64 @@
 use ndarray::Array2;
 
 use super::{Fields, count};
-use crate::field::{CHUNK, Partial, read};
+use crate::field::{CHUNK, Minimum, found, read};
 use crate::par::Parts;
 use crate::real::Real;
 use crate::solver::potential::Potential;
 use crate::vector::sums;
 
-/// The sums over the nodes of a state, on which the driver decides.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::solver) struct Tally {
-    /// the number of nodes apart, and of those that yield
-    pub(in crate::solver) free: f64,
-    /// Σ r over these nodes
-    pub(in crate::solver) sum_r: f64,
-    /// the least r where the surfaces touch and do not yield
-    pub(in crate::solver) min_r: f64,
-    pub(in crate::solver) sum_gap: f64,
-    /// Σ g·p
-    pub(in crate::solver) sum_gp: f64,
-    /// the number of nodes in contact
-    pub(in crate::solver) contact: f64,
-    /// Σ φ' of the law
-    pub(in crate::solver) traction: f64,
-    /// Σ φ of the law
-    pub(in crate::solver) adhesive: f64,
-    /// Σ of the constraint's energy
-    pub(in crate::solver) penalty: f64,
+found! {
+    /// The sums over the nodes of a state, on which the driver decides.
+    #[derive(Default)]
+    pub(in crate::solver) struct Tally {
+        /// the number of nodes apart, and of those that yield
+        pub(in crate::solver) free: f64,
+        /// Σ r over these nodes
+        pub(in crate::solver) sum_r: f64,
+        /// the least r where the surfaces touch and do not yield
+        pub(in crate::solver) min_r: Minimum,
+        pub(in crate::solver) sum_gap: f64,
+        /// Σ g·p
+        pub(in crate::solver) sum_gp: f64,
+        /// the number of nodes in contact
+        pub(in crate::solver) contact: f64,
+        /// Σ φ' of the law
+        pub(in crate::solver) traction: f64,
+        /// Σ φ of the law
+        pub(in crate::solver) adhesive: f64,
+        /// Σ of the constraint's energy
+        pub(in crate::solver) penalty: f64,
+    }
 }
-
-/// The slots of a tally: those that law and springs fill, one more product, and Σ p.
-const CONTACT: usize = 4;
-const TRACTION: usize = 5;
-const ADHESIVE: usize = 6;
-const PENALTY: usize = 7;
-pub(super) const PRODUCT: usize = 8;
-const SUM_P: usize = 9;
 
 impl Tally {
-    pub(super) fn new(total: &Partial) -> Self {
-        let [free, sum_r, sum_gap, sum_gp, contact, traction, adhesive, penalty, ..] = total.sum;
-        Self { free, sum_r, min_r: total.min, sum_gap, sum_gp, contact, traction, adhesive, penalty }
-    }
-
     pub(in crate::solver) fn shift(&mut self, by: f64) {
         self.sum_r += by * self.free;
-        self.min_r += by;
+        self.min_r.0 += by;
     }
 }
 
-/// A tally with two more sums.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::solver) struct Taken {
-    pub(in crate::solver) tally: Tally,
-    /// Σ g·K⁻¹h
-    pub(in crate::solver) gap_surface: f64,
-    /// Σ p
-    pub(in crate::solver) sum_p: f64,
+found! {
+    /// A tally with two more sums.
+    pub(in crate::solver) struct Taken {
+        pub(in crate::solver) tally: Tally,
+        /// Σ g·K⁻¹h
+        pub(in crate::solver) gap_surface: f64,
+        /// Σ p
+        pub(in crate::solver) sum_p: f64,
+    }
 }
 
 /// The tally of a chunk by its gap, pressure and traction.
-fn tally_of<T: Real>(touching: T, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Partial {
-    sums!(5, [gap, pressure, traction], [], least low, |i| {
+fn tally_of<T: Real>(touching: T, offset: T, gap: &[T], pressure: &[T], traction: &[T]) -> Tally {
+    sums!([gap, pressure, traction], [], |i| {
         let (g, p) = (gap[i], pressure[i]);
         let r = (p + traction[i] + offset).widen();
         let touches = g == touching;
         let free = count(!touches);
-        low[i] = if touches { r } else { f64::INFINITY };
-        [free, if touches { 0.0 } else { r }, g.widen(), g.widen() * p.widen(), 1.0 - free]
+    } => Tally {
+        free: free, sum_r: if touches { 0.0 } else { r }, sum_gap: g.widen(), sum_gp: g.widen() * p.widen(),
+        contact: 1.0 - free; least min_r: if touches { r } else { f64::INFINITY }
     })
 }
 
@@ -80,7 +71,7 @@ pub(super) fn tally_chunk<T: Real>(
     first: usize,
     (gap, pressure): (&[T], &[T]),
     tractions: &mut [T],
-) -> Partial {
+) -> Tally {
     let touching = local.touching();
     if local.is_zero() {
         return tally_of(touching, offset, gap, pressure, tractions);
@@ -88,17 +79,18 @@ pub(super) fn tally_chunk<T: Real>(
     let mut buffer = [T::zero(); CHUNK];
     let values = &mut buffer[..gap.len()];
     local.energies_and_tractions(first, gap, values, tractions);
-    let mut part = tally_of(touching, offset, gap, pressure, tractions);
-    let sum = |values: &[T]| sums!(1, [values], [], |i| [values[i].widen()]).sum[0];
-    part.sum[ADHESIVE] = sum(values);
+    let mut tally = tally_of(touching, offset, gap, pressure, tractions);
+    let sum = |values: &[T]| sums!([values], [], |i| values[i].widen());
+    tally.adhesive = sum(values);
     if !local.is_soft() && !local.is_capped() {
-        part.sum[TRACTION] = sum(tractions);
+        tally.traction = sum(tractions);
     } else {
         local.attractions(first, gap, tractions, values);
-        part.sum[TRACTION] = sum(values);
-        [part.sum[CONTACT], part.sum[PENALTY]] = local.pressed(first, gap, tractions);
+        tally.traction = sum(values);
+        let pressed = local.pressed(first, gap, tractions);
+        (tally.contact, tally.penalty) = (pressed.nodes, pressed.energy);
     }
-    part
+    tally
 }
 
 pub(in crate::solver) fn tally<T: Real, Lo: Real>(
@@ -111,14 +103,14 @@ pub(in crate::solver) fn tally<T: Real, Lo: Real>(
     let chunks = read(gap).zip(read(pressure)).zip(read(surface));
     let total = local.run(reducer, chunks, |local, first, ((gap, pressure), surface)| {
         let mut tractions = [T::zero(); CHUNK];
-        let mut part = tally_chunk(local, offset, first, (gap, pressure), &mut tractions[..gap.len()]);
-        let more =
-            sums!(2, [gap, pressure, surface], [], |i| { [gap[i].widen() * surface[i].widen(), pressure[i].widen()] });
-        [part.sum[PRODUCT], part.sum[SUM_P]] = [more.sum[0], more.sum[1]];
-        part
+        let tally = tally_chunk(local, offset, first, (gap, pressure), &mut tractions[..gap.len()]);
+        let more = sums!([gap, pressure, surface], [], |i| {} => Taken {
+            gap_surface: gap[i].widen() * surface[i].widen(), sum_p: pressure[i].widen()
+        });
+        Taken { tally, ..more }
     });
-    reducer.keep(|part| part.min, least_r);
-    Taken { tally: Tally::new(&total), gap_surface: total.sum[PRODUCT], sum_p: total.sum[SUM_P] }
+    reducer.keep(|taken: Taken| taken.tally.min_r.0, least_r);
+    total
 }
 
 #[cfg(test)]
