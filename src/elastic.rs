@@ -108,7 +108,7 @@ pub trait ElasticOperator<T: Real>: Send {
     ) -> Result<Preconditioned> {
         self.displacement(residual, preconditioned.view_mut())?;
         let error = mean_product(self.grid(), residual, preconditioned.view());
-        let mean_residual = field::mean_over(self.grid().slab(), residual, T::widen);
+        let mean_residual = self.grid().mean(residual, T::widen);
         let mean = mean_residual / foundation.mean_stiffness;
         let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
@@ -140,13 +140,6 @@ impl Boundary {
         match self {
             Self::Periodic => "periodic",
             Self::Free { .. } => "free",
-        }
-    }
-
-    pub(crate) fn alone(self) -> Self {
-        match self {
-            Self::Periodic => self,
-            Self::Free { window, mean_compliance } => Self::Free { window: window.alone(), mean_compliance },
         }
     }
 
@@ -198,7 +191,7 @@ pub struct Preconditioned {
 }
 
 fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
-    field::mean_of_both(grid.slab(), a, b, |a: S, b: T| a.widen() * b.widen())
+    grid.mean_of_both(a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
 /// The elastic pressure K⁻¹h of heights, as [`Waves::surface_pressure`]; rounded for an operator without waves.

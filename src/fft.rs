@@ -46,7 +46,7 @@ pub(crate) struct Convolver<T: Real> {
     own: Range<usize>,
     sums: Vec<Sums>,
     pool: Pool<Workspace<T>>,
-    shared: Option<Shared<T>>,
+    shared: Shared<T>,
 }
 
 pub(crate) type Sums = [f64; 3];
@@ -102,8 +102,8 @@ impl<T: Real> Convolver<T> {
     fn planned(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {
         let (n0, n1) = layout.plane();
         let (own, scratch) = (layout.columns_of(&slab), rows.scratch_len().max(columns.scratch_len()));
-        let shared = slab.is_shared().then(|| Shared::new(slab, layout));
-        let line = if shared.as_ref().is_some_and(Shared::is_in_pieces) { n0 } else { 0 };
+        let shared = Shared::new(slab, layout);
+        let line = if shared.is_in_pieces() { n0 } else { 0 };
         let pool = Pool::new(|| Workspace {
             tile: vec![Complex::zero(); TILE.min(n0).div_ceil(2) * (n1 + SLACK)],
             column: vec![Complex::zero(); line],
@@ -123,7 +123,7 @@ impl<T: Real> Convolver<T> {
     /// Gives back the spectrum; the next convolution takes it anew.
     pub(crate) fn release_memory(&mut self) {
         self.spectrum = Array2::zeros((0, 0));
-        self.shared.iter_mut().for_each(Shared::release_memory);
+        self.shared.release_memory();
     }
 
     pub(crate) fn layout(&self) -> Layout {
@@ -160,7 +160,7 @@ impl<T: Real> Convolver<T> {
         if held.0 > 0 {
             self.rows_forward(self.layout.view(&input).view());
         }
-        let Self { columns, spectrum, own, sums, pool, twiddles, shared, slab, .. } = self;
+        let Self { columns, spectrum, own, sums, pool, twiddles, shared, .. } = self;
         let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0: self.layout.plane().0 };
         columns_of.come();
         let turn = |k: usize, column: &mut [_], back| twiddles.iter().for_each(|t| t.turn(k, column, back));
@@ -174,7 +174,7 @@ impl<T: Real> Convolver<T> {
                 [0.0; 3]
             });
         }
-        let seen = look(&columns_of.modes(*slab));
+        let seen = look(&columns_of.modes());
         columns_of.each(usize::MAX, |k, column, scratch| {
             if k >= ahead {
                 forward(k, column, scratch);
@@ -206,11 +206,11 @@ impl<T: Real> Convolver<T> {
         let (_, n1) = layout.plane();
         par::for_each(par::tiles(input, 0, TILE).zip(par::tiles_mut(spectrum.view_mut(), 1, TILE)), |_, (x, z)| {
             let Workspace { tile, scratch, .. } = &mut *pool.get();
-            pack(x, tile);
-            for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
+            pack(x.0, tile);
+            for line in lines_mut(tile, n1).take(x.0.nrows().div_ceil(2)) {
                 rows.forward.process_with_scratch(line, scratch);
             }
-            separate(tile, n1, z);
+            separate(tile, n1, z.0);
         });
     }
 
@@ -219,11 +219,11 @@ impl<T: Real> Convolver<T> {
         let (_, n1) = layout.plane();
         par::for_each(par::tiles_mut(output, 0, TILE).zip(par::tiles(spectrum.view(), 1, TILE)), |_, (x, z)| {
             let Workspace { tile, scratch, .. } = &mut *pool.get();
-            join(z, n1, norm, tile);
-            for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
+            join(z.0, n1, norm, tile);
+            for line in lines_mut(tile, n1).take(x.0.nrows().div_ceil(2)) {
                 rows.inverse.process_with_scratch(line, scratch);
             }
-            unpack(tile, x);
+            unpack(tile, x.0);
         });
     }
 }

@@ -45,7 +45,7 @@ pub(crate) struct Partial {
 impl Partial {
     pub(crate) const NONE: Self = Self { sum: [0.0; SUMS], min: f64::INFINITY };
 
-    fn of(values: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn of(values: impl Iterator<Item = f64>) -> Self {
         let mut part = Self::NONE;
         part.sum[0] = values.sum();
         part
@@ -58,58 +58,12 @@ impl Partial {
     }
 }
 
-/// The nodes of a chunk in one field or in several, which can be divided.
-pub(crate) trait Nodes: Sized {
-    /// The number of nodes.
-    fn count(&self) -> usize;
-
-    /// The first `at` nodes, and the others.
-    fn divide(self, at: usize) -> (Self, Self);
-}
-
-impl<T> Nodes for &[T] {
-    fn count(&self) -> usize {
-        self.len()
-    }
-    fn divide(self, at: usize) -> (Self, Self) {
-        self.split_at(at)
-    }
-}
-
-impl<T> Nodes for &mut [T] {
-    fn count(&self) -> usize {
-        self.len()
-    }
-    fn divide(self, at: usize) -> (Self, Self) {
-        self.split_at_mut(at)
-    }
-}
-
-impl<A: Nodes, B: Nodes> Nodes for (A, B) {
-    fn count(&self) -> usize {
-        self.0.count()
-    }
-    fn divide(self, at: usize) -> (Self, Self) {
-        let ((a, c), (b, d)) = (self.0.divide(at), self.1.divide(at));
-        ((a, b), (c, d))
-    }
-}
-
 /// The reducer of passes over fields in a slab: adds up the results of the chunks in their order, and those of slabs.
 #[derive(Debug)]
 pub(crate) struct Reducer {
     chunks: Vec<Partial>,
-    /// the number of the first node
-    first: usize,
-    /// the chunks of a band
-    band: usize,
-    others: Option<Others>,
-}
-
-/// The sums of the bands, where several processes share them.
-#[derive(Debug)]
-struct Others {
     slab: Slab,
+    /// the sums of the bands of this process, and of all
     shares: Shares,
     own: Vec<[f64; NUMBERS]>,
     all: Vec<[f64; NUMBERS]>,
@@ -117,37 +71,19 @@ struct Others {
 
 const NUMBERS: usize = SUMS + 1;
 
-impl Others {
-    fn new(slab: Slab) -> Self {
-        let [own, all] =
-            [slab.bands_of(slab.ranks().rank()).len(), slab.bands()].map(|bands| vec![[0.0; NUMBERS]; bands]);
-        Self { slab, shares: slab.by_bands(NUMBERS), own, all }
-    }
-
-    /// The results of all bands, of which these are those of this process.
-    fn gather(&mut self, bands: impl Iterator<Item = Partial>) -> impl Iterator<Item = Partial> {
-        // bands beyond a window have no nodes
-        let bands = bands.chain(std::iter::repeat(Partial::NONE));
-        for (numbers, Partial { sum, min }) in self.own.iter_mut().zip(bands) {
-            numbers[..SUMS].copy_from_slice(&sum);
-            numbers[SUMS] = min;
-        }
-        self.slab.ranks().gather(self.own.as_flattened(), &self.shares, self.all.as_flattened_mut());
-        self.all.iter().map(|numbers| Partial { sum: std::array::from_fn(|i| numbers[i]), min: numbers[SUMS] })
-    }
-}
-
 impl Reducer {
     pub(crate) fn new(slab: Slab) -> Self {
         let (rows, columns) = slab.held();
         let chunks = vec![Partial::NONE; (rows * columns).div_ceil(CHUNK)];
-        let others = slab.is_shared().then(|| Others::new(slab));
-        Self { chunks, first: slab.first_node(), band: slab.chunks_of_a_band(), others }
+        let shares = slab.shares(|rank| NUMBERS * slab.bands_of(rank).len());
+        let [own, all] =
+            [slab.bands_of(slab.ranks().rank()).len(), slab.bands()].map(|bands| vec![[0.0; NUMBERS]; bands]);
+        Self { chunks, slab, shares, own, all }
     }
 
     /// Runs `f(first node, chunk)` over the chunks; nodes count on the whole grid.
     pub(crate) fn run<A: Parts>(&mut self, chunks: A, f: impl Fn(usize, A::Part) -> Partial + Sync + Send) -> Partial {
-        let first = self.first;
+        let first = self.slab.first_node();
         par::update(chunks, &mut self.chunks, |i, chunk, part| *part = f(first + i * CHUNK, chunk));
         self.total()
     }
@@ -160,7 +96,7 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Part) -> Partial + Sync + Send,
     ) -> Partial {
-        let first = self.first;
+        let first = self.slab.first_node();
         par::update(chunks, &mut self.chunks, |i, chunk, part| {
             *part = if wanted(kept[i]) { f(first + i * CHUNK, chunk) } else { Partial::NONE };
         });
@@ -180,41 +116,18 @@ impl Reducer {
         // the sums of chunks are summed as nodes are: in runs, and then the runs
         let add = |a: Partial, b: Partial| a.add(&b);
         let run = |run: &[Partial]| run.iter().fold(Partial::NONE, Partial::add);
-        let bands = self.chunks.chunks(self.band).map(|band| band.chunks(CHUNK).map(run).fold(Partial::NONE, add));
-        match &mut self.others {
-            None => bands.fold(Partial::NONE, add),
-            Some(others) => others.gather(bands).fold(Partial::NONE, add),
+        let bands = self.chunks.chunks(self.slab.chunks_of_a_band());
+        let bands = bands.map(|band| band.chunks(CHUNK).map(run).fold(Partial::NONE, add));
+        // bands beyond a window have no nodes
+        for (numbers, Partial { sum, min }) in self.own.iter_mut().zip(bands.chain(std::iter::repeat(Partial::NONE))) {
+            numbers[..SUMS].copy_from_slice(&sum);
+            numbers[SUMS] = min;
         }
+        self.slab.ranks().gather(self.own.as_flattened(), &self.shares, self.all.as_flattened_mut());
+        let all = self.all.iter();
+        let all = all.map(|numbers| Partial { sum: std::array::from_fn(|i| numbers[i]), min: numbers[SUMS] });
+        all.fold(Partial::NONE, add)
     }
-}
-
-pub(crate) fn mean<T: Copy + Sync>(field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
-    mean_over(Slab::whole(field.dim()), field, of)
-}
-
-/// The mean of a function of all nodes of a grid, of which the field has those of a slab, in any layout.
-pub(crate) fn mean_over<T: Copy + Sync>(
-    slab: Slab,
-    field: ArrayView2<'_, T>,
-    of: impl Fn(T) -> f64 + Sync + Send,
-) -> f64 {
-    let field = field.as_standard_layout();
-    let chunks = par::chunks(field.as_slice().unwrap_or_default(), CHUNK);
-    let total = Reducer::new(slab).run(chunks, |_, values| Partial::of(values.iter().map(|&value| of(value))));
-    total.sum[0] / slab.nodes() as f64
-}
-
-pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
-    slab: Slab,
-    a: ArrayView2<'_, S>,
-    b: ArrayView2<'_, T>,
-    of: impl Fn(S, T) -> f64 + Sync + Send,
-) -> f64 {
-    let (a, b) = (a.as_standard_layout(), b.as_standard_layout());
-    let chunks = par::chunks(a.as_slice().unwrap_or_default(), CHUNK);
-    let chunks = chunks.zip(par::chunks(b.as_slice().unwrap_or_default(), CHUNK));
-    let total = Reducer::new(slab).run(chunks, |_, (a, b)| Partial::of(a.iter().zip(b).map(|(&a, &b)| of(a, b))));
-    total.sum[0] / slab.nodes() as f64
 }
 
 /// The nodes of a field that this crate made, in row-major order; none in another layout.

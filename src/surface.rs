@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use ndarray::{Array2, Axis, Slice};
 
 use crate::error::{Error, Result};
+use crate::field::all_finite;
 use crate::grid::Grid;
 
 mod fill;
@@ -68,21 +69,20 @@ impl Surface {
     /// ones, [`Error::Value`] if all nodes are absent.
     pub fn with_absent(grid: Grid, heights: Array2<f64>) -> Result<Self> {
         grid.fits("heights", heights.dim())?;
-        let missing = heights.iter().filter(|h| h.is_nan()).count();
-        let all_missing: usize = grid.each(missing).iter().sum();
-        if all_missing == 0 {
+        if grid.each(heights.iter().all(|h| h.is_finite())).iter().all(|&all| all) {
             return Self::new(grid, heights);
         }
-        if grid.each(heights.iter().any(|h| h.is_infinite())).contains(&true) {
-            grid.finite("heights", heights.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
+        // holes are filled as on the whole map, by every process
+        let whole = grid.whole(&heights);
+        if whole.iter().any(|h| h.is_infinite()) {
+            all_finite("heights", whole.mapv(|h| if h.is_nan() { 0.0 } else { h }).view())?;
         }
         let absent = Array2::from_shape_vec(grid.field_shape(), heights.iter().map(|h| h.is_nan()).collect()).ok();
-        if all_missing == grid.nodes() {
+        if whole.iter().all(|h| h.is_nan()) {
             let requirement = "at least 1: all nodes are absent";
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
         }
-        // holes are filled as on the whole map, by every process
-        let filled = fill(grid.whole(heights).into_owned(), grid.spacing())?;
+        let filled = fill(whole.into_owned(), grid.spacing())?;
         let held = filled.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
         Ok(Self { absent, ..Self::new(grid, held)? })
     }

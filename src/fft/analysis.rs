@@ -60,7 +60,7 @@ pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> 
         columns.forward.process_with_scratch(column, scratch);
         [0.0; 3]
     });
-    let modes = columns_of.modes(slab);
+    let modes = columns_of.modes();
     Array2::from_shape_fn((count, n0 / 2 + 1), |(k, i)| modes.own(first + k, i).re)
 }
 

@@ -7,15 +7,14 @@ use ndarray::Array2;
 
 use super::shared::{Modes, Shared};
 use super::{Sums, Workspace};
-use crate::field::flat_mut;
+use crate::field::{flat, flat_mut};
 use crate::par::{self, Pool};
 use crate::real::Real;
-use crate::slab::Slab;
 
 pub(super) struct ColumnsOf<'a, T: Real> {
     pub(super) own: Range<usize>,
     pub(super) spectrum: &'a mut Array2<Complex<T>>,
-    pub(super) shared: &'a mut Option<Shared<T>>,
+    pub(super) shared: &'a mut Shared<T>,
     pub(super) pool: &'a Pool<Workspace<T>>,
     pub(super) sums: &'a mut [Sums],
     pub(super) n0: usize,
@@ -23,13 +22,11 @@ pub(super) struct ColumnsOf<'a, T: Real> {
 
 impl<T: Real> ColumnsOf<'_, T> {
     pub(super) fn come(&mut self) {
-        let spectrum = flat_mut(self.spectrum);
-        self.shared.iter_mut().for_each(|shared| shared.come(spectrum));
+        self.shared.come(flat_mut(self.spectrum));
     }
 
     pub(super) fn go(&mut self) {
-        let spectrum = flat_mut(self.spectrum);
-        self.shared.iter_mut().for_each(|shared| shared.go(spectrum));
+        self.shared.go(flat_mut(self.spectrum));
     }
 
     /// Runs `f(index, column, scratch)` over the columns below `end`, and keeps what it returns as their sums.
@@ -41,7 +38,7 @@ impl<T: Real> ColumnsOf<'_, T> {
         let (first, pool) = (self.own.start, self.pool);
         let count = end.clamp(first, self.own.end) - first;
         let sums = &mut self.sums[..count];
-        if let Some(pieces) = self.shared.as_mut().and_then(|shared| shared.pieces(count)) {
+        if let Some(pieces) = self.shared.pieces(count) {
             return par::update(pieces, sums, |k, mut pieces: Vec<&mut [_]>, sum| {
                 let Workspace { column, scratch, .. } = &mut *pool.get();
                 let mut rest = &mut column[..];
@@ -65,15 +62,12 @@ impl<T: Real> ColumnsOf<'_, T> {
         });
     }
 
-    pub(super) fn modes(&self, slab: Slab) -> Modes<'_, T> {
-        Modes::new(slab, self.n0, self.spectrum.as_slice().unwrap_or_default(), self.shared.as_ref())
+    pub(super) fn modes(&self) -> Modes<'_, T> {
+        Modes { n0: self.n0, spectrum: flat(self.spectrum), shared: self.shared }
     }
 
     pub(super) fn sums(&mut self) -> Sums {
         let add = |a: Sums, b: &Sums| std::array::from_fn(|i| a[i] + b[i]);
-        match &mut *self.shared {
-            None => self.sums.iter().fold([0.0; 3], add),
-            Some(shared) => shared.gather(self.sums).iter().fold([0.0; 3], add),
-        }
+        self.shared.gather(self.sums).iter().fold([0.0; 3], add)
     }
 }

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use asperity_fft::num_complex::Complex;
 
 use super::{Layout, Sums};
-use crate::par::{self, ChunksMut};
+use crate::par::{self, Chunks};
 use crate::ranks::{Ranks, Shares};
 use crate::real::{Compiled, Real};
 use crate::slab::Slab;
@@ -42,7 +42,7 @@ impl<T: Real> Shared<T> {
 
     /// Whether columns come in pieces: not if one process has all of them.
     pub(super) fn is_in_pieces(&self) -> bool {
-        self.slab.bands() > 1
+        self.slab.is_shared() && self.slab.bands() > 1
     }
 
     pub(super) fn release_memory(&mut self) {
@@ -71,7 +71,7 @@ impl<T: Real> Shared<T> {
     }
 
     /// The first `count` of the columns, each in its pieces; nothing if they are whole.
-    pub(super) fn pieces(&mut self, count: usize) -> Option<Vec<ChunksMut<'_, Complex<T>>>> {
+    pub(super) fn pieces(&mut self, count: usize) -> Option<Vec<Chunks<&mut [Complex<T>]>>> {
         self.take_memory();
         if !self.is_in_pieces() {
             return None;
@@ -116,38 +116,33 @@ impl<'a> Compiled for Exchange<'a> {
 }
 
 pub(crate) struct Modes<'a, T> {
-    slab: Slab,
-    n0: usize,
-    spectrum: &'a [Complex<T>],
-    shared: Option<&'a Shared<T>>,
+    pub(super) n0: usize,
+    pub(super) spectrum: &'a [Complex<T>],
+    pub(super) shared: &'a Shared<T>,
 }
 
-impl<'a, T: Real> Modes<'a, T> {
-    pub(super) fn new(slab: Slab, n0: usize, spectrum: &'a [Complex<T>], shared: Option<&'a Shared<T>>) -> Self {
-        Self { slab, n0, spectrum, shared }
-    }
-
+impl<T: Real> Modes<'_, T> {
     pub(super) fn own(&self, column: usize, row: usize) -> Complex<T> {
-        match self.shared {
-            Some(shared) if shared.is_in_pieces() => shared.mode(column, row),
-            _ => self.spectrum[column * self.n0 + row],
+        match self.shared.is_in_pieces() {
+            true => self.shared.mode(column, row),
+            false => self.spectrum[column * self.n0 + row],
         }
     }
 
     /// The modes at some places, column and row, sorted by their columns.
     pub(crate) fn read(&self, places: impl Iterator<Item = (usize, usize)> + Clone, modes: &mut [Complex<f64>]) {
         let widened = |mode: Complex<T>| Complex::new(mode.re.widen(), mode.im.widen());
-        let Some(shared) = self.shared else {
+        let &Shared { slab, layout, .. } = self.shared;
+        if !slab.is_shared() {
             let found = places.map(|(column, row)| self.spectrum[column * self.n0 + row]);
             return modes.iter_mut().zip(found).for_each(|(mode, found)| *mode = widened(found));
-        };
-        let (columns, _) = shared.layout.spectrum();
+        }
+        let (columns, _) = layout.spectrum();
         let of = |rank: usize| {
-            let own = self.slab.share_of(columns, rank);
+            let own = slab.share_of(columns, rank);
             places.clone().filter(move |(column, _)| own.contains(column))
         };
-        let found = of(self.slab.ranks().rank()).map(|(column, row)| self.own(column, row));
-        let own: Vec<_> = found.map(widened).collect();
-        self.slab.ranks().gather(&own, &self.slab.shares(|rank| of(rank).count()), modes);
+        let own: Vec<_> = of(slab.ranks().rank()).map(|(column, row)| widened(self.own(column, row))).collect();
+        slab.ranks().gather(&own, &slab.shares(|rank| of(rank).count()), modes);
     }
 }
