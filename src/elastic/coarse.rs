@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
 
-use crate::fft::{Layout, Modes, Sums};
+use crate::fft::{HalfSpectrum, Layout, Sums};
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -132,7 +132,7 @@ impl CoarseSpace {
     }
 
     /// Finds the response to a load, whose half spectrum is given.
-    pub(super) fn respond<T: Real>(&mut self, spectrum: &Modes<'_, T>) {
+    pub(super) fn respond<T: Real>(&mut self, spectrum: &HalfSpectrum<T>) {
         let Self { waves, factor, apart, held, load, response, vector, .. } = self;
         spectrum.read(waves.iter().map(|wave| (wave.column, wave.row)), load);
         for (i, load) in load.iter().enumerate() {
