@@ -136,7 +136,7 @@ impl<T: Real> dyn ElasticOperator<T> + '_ {
         }
         self.displacement(residual, preconditioned.view_mut())?;
         let error = mean_product(self.grid(), residual, preconditioned.view());
-        let mean_residual = field::mean_over(self.grid().slab(), residual, T::widen);
+        let mean_residual = self.grid().mean(residual, T::widen);
         let mean = mean_residual / foundation.mean_stiffness;
         let shift = T::lit(mean);
         preconditioned.mapv_inplace(|u| u + shift);
@@ -191,13 +191,6 @@ impl Boundary {
         }
     }
 
-    pub(crate) fn alone(self) -> Self {
-        match self {
-            Self::Periodic => self,
-            Self::Free { window, mean_compliance } => Self::Free { window: window.alone(), mean_compliance },
-        }
-    }
-
     /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell.
     pub(crate) fn mean_compliance(self) -> f64 {
         match self {
@@ -237,7 +230,7 @@ pub(crate) struct Preconditioned {
 }
 
 fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayView2<'_, T>) -> f64 {
-    field::mean_of_both(grid.slab(), a, b, |a: S, b: T| a.widen() * b.widen())
+    grid.mean_of_both(a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
 /// The methods of an operator that is another one, `$inner` of `$this`, with the boundary and the spectral operator of

@@ -1,7 +1,6 @@
 //! The two-dimensional real transform, as a convolution: forward, a factor per mode, inverse.
 
 use std::fmt;
-use std::ops::Range;
 
 use asperity_fft::Transform;
 use asperity_fft::num_complex::Complex;
@@ -17,15 +16,12 @@ mod analysis;
 mod columns;
 mod layout;
 mod pack;
-mod shared;
 
 pub(crate) use analysis::{even_modes, filtered, powers, synthesise};
-use columns::ColumnsOf;
+pub(crate) use columns::HalfSpectrum;
 pub(crate) use layout::Layout;
 use layout::Twiddles;
 use pack::{join, lines_mut, pack, separate, unpack};
-pub(crate) use shared::Modes;
-use shared::Shared;
 
 /// Slack after each line of a tile: with a power-of-two stride a column of the tile would fall into one cache set.
 const SLACK: usize = 8;
@@ -40,13 +36,8 @@ pub struct Convolver<T: Real> {
     twiddles: Option<Twiddles<T>>,
     rows: Transform<T>,
     columns: Transform<T>,
-    /// its columns, of the rows in the slab
-    spectrum: Array2<Complex<T>>,
-    /// the columns that this process transforms
-    own: Range<usize>,
-    sums: Vec<Sums>,
+    spectrum: HalfSpectrum<T>,
     pool: Pool<Workspace<T>>,
-    shared: Option<Shared<T>>,
 }
 
 pub(crate) type Sums = [f64; 3];
@@ -82,29 +73,19 @@ impl<T: Real> Convolver<T> {
 
     pub(crate) fn planned(slab: Slab, layout: Layout, rows: Transform<T>, columns: Transform<T>) -> Self {
         let (n0, n1) = layout.plane();
-        let (own, scratch) = (layout.columns_of(&slab), rows.scratch_len().max(columns.scratch_len()));
-        let shared = slab.is_shared().then(|| Shared::new(slab, layout));
-        let line = if shared.as_ref().is_some_and(Shared::is_in_pieces) { n0 } else { 0 };
+        let (spectrum, scratch) = (HalfSpectrum::new(slab, layout), rows.scratch_len().max(columns.scratch_len()));
+        let line = if spectrum.is_in_pieces() { n0 } else { 0 };
         let pool = Pool::new(|| Workspace {
             tile: vec![Complex::zero(); TILE.min(n0).div_ceil(2) * (n1 + SLACK)],
             column: vec![Complex::zero(); line],
             scratch: vec![Complex::zero(); scratch],
         });
-        let spectrum = Array2::zeros((0, 0));
-        let (twiddles, sums) = (Twiddles::new(&layout), vec![[0.0; 3]; own.len()]);
-        Self { slab, layout, twiddles, rows, columns, spectrum, own, sums, pool, shared }
-    }
-
-    fn take_memory(&mut self) {
-        if self.spectrum.is_empty() {
-            self.spectrum = Array2::zeros(self.layout.spectrum_of(&self.slab));
-        }
+        Self { slab, layout, twiddles: Twiddles::new(&layout), rows, columns, spectrum, pool }
     }
 
     /// Gives back the spectrum; the next convolution takes it anew.
     pub(crate) fn release_memory(&mut self) {
-        self.spectrum = Array2::zeros((0, 0));
-        self.shared.iter_mut().for_each(Shared::release_memory);
+        self.spectrum.release_memory();
     }
 
     pub(crate) fn layout(&self) -> Layout {
@@ -130,33 +111,32 @@ impl<T: Real> Convolver<T> {
         input: ArrayView2<'_, T>,
         output: ArrayViewMut2<'_, U>,
         ahead: usize,
-        look: impl FnOnce(&Modes<'_, T>) -> L,
+        look: impl FnOnce(&HalfSpectrum<T>) -> L,
         modify: impl Fn(&L, usize, &mut [Complex<T>]) -> Sums + Sync + Send,
     ) -> Result<Sums> {
         let (held, shape, mut output) = (self.slab.held(), self.layout.shape(), output);
         Error::shape("operator input", input.dim(), held)?;
         Error::shape("operator output", output.dim(), held)?;
         let norm = T::lit(1.0 / (shape.0 as f64 * shape.1 as f64));
-        self.take_memory();
+        self.spectrum.take_memory();
         if held.0 > 0 {
             self.rows_forward(self.layout.view(&input).view());
         }
-        let Self { columns, spectrum, own, sums, pool, twiddles, shared, slab, .. } = self;
-        let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0: self.layout.plane().0 };
-        columns_of.come();
+        let Self { columns, spectrum, pool, twiddles, .. } = self;
+        spectrum.come();
         let turn = |k: usize, column: &mut [_], back| twiddles.iter().for_each(|t| t.turn(k, column, back));
         let forward = |k: usize, column: &mut [_], scratch: &mut [_]| {
             turn(k, column, false);
             columns.forward.process_with_scratch(column, scratch);
         };
         if ahead > 0 {
-            columns_of.each(ahead, |k, column, scratch| {
+            spectrum.each(pool, ahead, |k, column, scratch| {
                 forward(k, column, scratch);
                 [0.0; 3]
             });
         }
-        let seen = look(&columns_of.modes(*slab));
-        columns_of.each(usize::MAX, |k, column, scratch| {
+        let seen = look(spectrum);
+        spectrum.each(pool, usize::MAX, |k, column, scratch| {
             if k >= ahead {
                 forward(k, column, scratch);
             }
@@ -165,8 +145,8 @@ impl<T: Real> Convolver<T> {
             turn(k, column, true);
             sums
         });
-        columns_of.go();
-        let sums = columns_of.sums();
+        spectrum.go();
+        let sums = spectrum.sums();
         if held.0 == 0 {
             return Ok(sums);
         }
@@ -185,26 +165,29 @@ impl<T: Real> Convolver<T> {
     fn rows_forward(&mut self, input: ArrayView2<'_, T>) {
         let Self { rows, spectrum, pool, layout, .. } = self;
         let (_, n1) = layout.plane();
-        par::for_each(par::tiles(input, 0, TILE).zip(par::tiles_mut(spectrum.view_mut(), 1, TILE)), |_, (x, z)| {
-            let Workspace { tile, scratch, .. } = &mut *pool.get();
-            pack(x, tile);
-            for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
-                rows.forward.process_with_scratch(line, scratch);
-            }
-            separate(tile, n1, z);
-        });
+        par::for_each(
+            par::tiles(input, 0, TILE).zip(par::tiles_mut(spectrum.modes.view_mut(), 1, TILE)),
+            |_, (x, z)| {
+                let Workspace { tile, scratch, .. } = &mut *pool.get();
+                pack(x.0, tile);
+                for line in lines_mut(tile, n1).take(x.0.nrows().div_ceil(2)) {
+                    rows.forward.process_with_scratch(line, scratch);
+                }
+                separate(tile, n1, z.0);
+            },
+        );
     }
 
     fn rows_inverse<U: Real>(&mut self, output: ArrayViewMut2<'_, U>, norm: T) {
         let Self { rows, spectrum, pool, layout, .. } = self;
         let (_, n1) = layout.plane();
-        par::for_each(par::tiles_mut(output, 0, TILE).zip(par::tiles(spectrum.view(), 1, TILE)), |_, (x, z)| {
+        par::for_each(par::tiles_mut(output, 0, TILE).zip(par::tiles(spectrum.modes.view(), 1, TILE)), |_, (x, z)| {
             let Workspace { tile, scratch, .. } = &mut *pool.get();
-            join(z, n1, norm, tile);
-            for line in lines_mut(tile, n1).take(x.nrows().div_ceil(2)) {
+            join(z.0, n1, norm, tile);
+            for line in lines_mut(tile, n1).take(x.0.nrows().div_ceil(2)) {
                 rows.inverse.process_with_scratch(line, scratch);
             }
-            unpack(tile, x);
+            unpack(tile, x.0);
         });
     }
 }

@@ -134,86 +134,25 @@ macro_rules! found {
 }
 pub(crate) use found;
 
-/// The nodes of a chunk in one field or in several, which can be divided.
-pub(crate) trait Nodes: Sized {
-    /// The number of nodes.
-    fn count(&self) -> usize;
-
-    /// The first `at` nodes, and the others.
-    fn divide(self, at: usize) -> (Self, Self);
-}
-
-impl<T> Nodes for &[T] {
-    fn count(&self) -> usize {
-        self.len()
-    }
-    fn divide(self, at: usize) -> (Self, Self) {
-        self.split_at(at)
-    }
-}
-
-impl<T> Nodes for &mut [T] {
-    fn count(&self) -> usize {
-        self.len()
-    }
-    fn divide(self, at: usize) -> (Self, Self) {
-        self.split_at_mut(at)
-    }
-}
-
-impl<A: Nodes, B: Nodes> Nodes for (A, B) {
-    fn count(&self) -> usize {
-        self.0.count()
-    }
-    fn divide(self, at: usize) -> (Self, Self) {
-        let ((a, c), (b, d)) = (self.0.divide(at), self.1.divide(at));
-        ((a, b), (c, d))
-    }
-}
-
 /// The reducer of passes over fields in a slab: adds up the results of the chunks in their order, and those of slabs.
 #[derive(Debug)]
 pub(crate) struct Reducer {
     chunks: Vec<Numbers>,
-    /// the number of the first node
-    first: usize,
-    /// the chunks of a band
-    band: usize,
-    others: Option<Others>,
-}
-
-/// The sums of the bands, where several processes share them.
-#[derive(Debug)]
-struct Others {
     slab: Slab,
+    /// the sums of the bands of this process, and of all
     shares: Shares,
     own: Vec<Numbers>,
     all: Vec<Numbers>,
-}
-
-impl Others {
-    fn new(slab: Slab) -> Self {
-        let [own, all] =
-            [slab.bands_of(slab.ranks().rank()).len(), slab.bands()].map(|bands| vec![[0.0; NUMBERS]; bands]);
-        Self { slab, shares: slab.by_bands(NUMBERS), own, all }
-    }
-
-    /// The results of all bands, of which these are those of this process.
-    fn gather<S: Sums>(&mut self, bands: impl Iterator<Item = S>) -> impl Iterator<Item = S> {
-        // bands beyond a window have no nodes
-        let bands = bands.chain(std::iter::repeat(S::NONE));
-        self.own.iter_mut().zip(bands).for_each(|(numbers, band)| band.put(&mut numbers.iter_mut()));
-        self.slab.ranks().gather(self.own.as_flattened(), &self.shares, self.all.as_flattened_mut());
-        self.all.iter().map(|numbers| S::take(&mut numbers.iter()))
-    }
 }
 
 impl Reducer {
     pub(crate) fn new(slab: Slab) -> Self {
         let (rows, columns) = slab.held();
         let chunks = vec![[0.0; NUMBERS]; (rows * columns).div_ceil(CHUNK)];
-        let others = slab.is_shared().then(|| Others::new(slab));
-        Self { chunks, first: slab.first_node(), band: slab.chunks_of_a_band(), others }
+        let shares = slab.shares(|rank| NUMBERS * slab.bands_of(rank).len());
+        let [own, all] =
+            [slab.bands_of(slab.ranks().rank()).len(), slab.bands()].map(|bands| vec![[0.0; NUMBERS]; bands]);
+        Self { chunks, slab, shares, own, all }
     }
 
     /// Runs `f(first node, chunk)` over the chunks; nodes count on the whole grid.
@@ -229,7 +168,7 @@ impl Reducer {
         f: impl Fn(usize, A::Part) -> S + Sync + Send,
     ) -> S {
         const { assert!(S::COUNT <= NUMBERS) };
-        let first = self.first;
+        let first = self.slab.first_node();
         par::update(chunks, &mut self.chunks, |i, chunk, numbers| {
             let found = if wanted(i) { f(first + i * CHUNK, chunk) } else { S::NONE };
             found.put(&mut numbers.iter_mut());
@@ -252,41 +191,14 @@ impl Reducer {
         }
         // the sums of chunks are summed as nodes are: in runs, and then the runs
         let run = |run: &[Numbers]| run.iter().map(|chunk| S::take(&mut chunk.iter())).fold(S::NONE, S::add);
-        let bands = self.chunks.chunks(self.band).map(|band| band.chunks(CHUNK).map(run).fold(S::NONE, S::add));
-        match &mut self.others {
-            None => bands.fold(S::NONE, S::add),
-            Some(others) => others.gather(bands).fold(S::NONE, S::add),
-        }
+        let bands = self.chunks.chunks(self.slab.chunks_of_a_band());
+        let bands = bands.map(|band| band.chunks(CHUNK).map(run).fold(S::NONE, S::add));
+        // bands beyond a window have no nodes
+        let bands = bands.chain(std::iter::repeat(S::NONE));
+        self.own.iter_mut().zip(bands).for_each(|(numbers, band)| band.put(&mut numbers.iter_mut()));
+        self.slab.ranks().gather(self.own.as_flattened(), &self.shares, self.all.as_flattened_mut());
+        self.all.iter().map(|numbers| S::take(&mut numbers.iter())).fold(S::NONE, S::add)
     }
-}
-
-pub(crate) fn mean<T: Copy + Sync>(field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
-    mean_over(Slab::whole(field.dim()), field, of)
-}
-
-/// The mean of a function of all nodes of a grid, of which the field has those of a slab, in any layout.
-pub(crate) fn mean_over<T: Copy + Sync>(
-    slab: Slab,
-    field: ArrayView2<'_, T>,
-    of: impl Fn(T) -> f64 + Sync + Send,
-) -> f64 {
-    let field = field.as_standard_layout();
-    let chunks = par::chunks(field.as_slice().unwrap_or_default(), CHUNK);
-    let sum = Reducer::new(slab).run(chunks, |_, values| values.iter().map(|&value| of(value)).sum::<f64>());
-    sum / slab.nodes() as f64
-}
-
-pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
-    slab: Slab,
-    a: ArrayView2<'_, S>,
-    b: ArrayView2<'_, T>,
-    of: impl Fn(S, T) -> f64 + Sync + Send,
-) -> f64 {
-    let (a, b) = (a.as_standard_layout(), b.as_standard_layout());
-    let chunks = par::chunks(a.as_slice().unwrap_or_default(), CHUNK);
-    let chunks = chunks.zip(par::chunks(b.as_slice().unwrap_or_default(), CHUNK));
-    let sum = Reducer::new(slab).run(chunks, |_, (a, b)| a.iter().zip(b).map(|(&a, &b)| of(a, b)).sum::<f64>());
-    sum / slab.nodes() as f64
 }
 
 /// The nodes of a field that this crate made, in row-major order; none in another layout.

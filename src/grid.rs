@@ -6,7 +6,8 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
-use crate::field::{self, Reducer, all_finite_in};
+use crate::field::{CHUNK, Reducer, all_finite_in};
+use crate::par::{self, Parts};
 use crate::ranks::{COUNTED, Sent};
 use crate::real::Real;
 use crate::slab::Slab;
@@ -143,8 +144,9 @@ impl Grid {
         Reducer::new(self.slab)
     }
 
+    /// The mean of a function of all nodes, of which the field has those of this process, in any layout.
     pub(crate) fn mean<T: Copy + Sync>(&self, field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
-        field::mean_over(self.slab, field, of)
+        self.mean_of_both(field, field, |value, _| of(value))
     }
 
     pub(crate) fn mean_of_both<S: Copy + Sync, T: Copy + Sync>(
@@ -153,7 +155,11 @@ impl Grid {
         b: ArrayView2<'_, T>,
         of: impl Fn(S, T) -> f64 + Sync + Send,
     ) -> f64 {
-        field::mean_of_both(self.slab, a, b, of)
+        let (a, b) = (a.as_standard_layout(), b.as_standard_layout());
+        let chunks = par::chunks(a.as_slice().unwrap_or_default(), CHUNK);
+        let chunks = chunks.zip(par::chunks(b.as_slice().unwrap_or_default(), CHUNK));
+        let sum = self.reducer().run(chunks, |_, (a, b)| a.iter().zip(b).map(|(&a, &b)| of(a, b)).sum::<f64>());
+        sum / self.nodes() as f64
     }
 
     pub(crate) fn slab(&self) -> Slab {
@@ -163,7 +169,8 @@ impl Grid {
     /// The grid with another division into slabs; [`Error::Value`] if a process would hold more nodes than MPI counts.
     pub(crate) fn within(self, slab: Slab) -> Result<Self> {
         // the half spectrum has one column more
-        let nodes = slab.most_rows() * (self.shape().1 + 2);
+        let most = (0..slab.ranks().count()).map(|rank| slab.rows_of(rank).len()).max();
+        let nodes = most.unwrap_or_default() * (self.shape().1 + 2);
         if slab.is_shared() && nodes > COUNTED {
             let requirement = "at most 2^31: take more processes";
             return Err(Error::Value { name: "number of nodes of a process", value: nodes as f64, requirement });

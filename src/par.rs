@@ -88,154 +88,130 @@ impl<A: Parts> Parts for Vec<A> {
     }
 }
 
-/// Runs of `size` nodes, the last of which may be shorter.
-pub(crate) struct Chunks<'a, T>(&'a [T], usize);
+/// Nodes of one field or of several, which can be divided.
+pub(crate) trait Nodes: Sized {
+    /// The number of nodes.
+    fn count(&self) -> usize;
 
-impl<'a, T: Sync> Parts for Chunks<'a, T> {
-    type Part = &'a [T];
+    /// The first `at` nodes, and the others.
+    fn divide(self, at: usize) -> (Self, Self);
+}
 
+impl<T> Nodes for &[T] {
     fn count(&self) -> usize {
-        self.0.len().div_ceil(self.1)
+        self.len()
     }
-
-    fn nodes(&self) -> usize {
-        self.1
-    }
-
     fn divide(self, at: usize) -> (Self, Self) {
-        let (first, others) = self.0.split_at(self.0.len().min(at * self.1));
+        self.split_at(at)
+    }
+}
+
+impl<T> Nodes for &mut [T] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+    fn divide(self, at: usize) -> (Self, Self) {
+        self.split_at_mut(at)
+    }
+}
+
+impl<A: Nodes, B: Nodes> Nodes for (A, B) {
+    fn count(&self) -> usize {
+        self.0.count()
+    }
+    fn divide(self, at: usize) -> (Self, Self) {
+        let ((a, c), (b, d)) = (self.0.divide(at), self.1.divide(at));
+        ((a, b), (c, d))
+    }
+}
+
+/// Rows, or columns, of a field.
+pub(crate) struct Tile<V>(pub(crate) V, Axis);
+
+impl<T> Nodes for Tile<ArrayView2<'_, T>> {
+    fn count(&self) -> usize {
+        self.0.len_of(self.1)
+    }
+    fn divide(self, at: usize) -> (Self, Self) {
+        let (first, others) = self.0.split_at(self.1, at);
         (Self(first, self.1), Self(others, self.1))
     }
-
-    fn next(&mut self) -> Option<Self::Part> {
-        let (first, others) = self.0.split_at(self.0.len().min(self.1));
-        self.0 = others;
-        (!first.is_empty()).then_some(first)
-    }
 }
 
-pub(crate) struct ChunksMut<'a, T>(&'a mut [T], usize);
-
-impl<'a, T: Send> Parts for ChunksMut<'a, T> {
-    type Part = &'a mut [T];
-
+impl<T> Nodes for Tile<ArrayViewMut2<'_, T>> {
     fn count(&self) -> usize {
-        self.0.len().div_ceil(self.1)
+        self.0.len_of(self.1)
     }
-
-    fn nodes(&self) -> usize {
-        self.1
-    }
-
     fn divide(self, at: usize) -> (Self, Self) {
-        let end = self.0.len().min(at * self.1);
-        let (first, others) = self.0.split_at_mut(end);
+        let (first, others) = self.0.split_at(self.1, at);
         (Self(first, self.1), Self(others, self.1))
     }
+}
 
-    fn next(&mut self) -> Option<Self::Part> {
-        let nodes = std::mem::take(&mut self.0);
-        let end = nodes.len().min(self.1);
-        let (first, others) = nodes.split_at_mut(end);
-        self.0 = others;
-        (!first.is_empty()).then_some(first)
+/// Runs of `size` nodes, or tiles of `size` rows or columns, the last of which may be shorter.
+pub(crate) struct Chunks<N> {
+    rest: Option<N>,
+    size: usize,
+    /// the nodes of a row or a column
+    width: usize,
+}
+
+impl<N: Nodes> Chunks<N> {
+    fn of(nodes: N, size: usize, width: usize) -> Self {
+        Self { rest: Some(nodes), size: size.max(1), width }
     }
 }
 
-/// Tiles of `size` rows, or of `size` columns, the last of which may be narrower.
-pub(crate) struct Tiles<'a, T>(ArrayView2<'a, T>, Axis, usize);
-
-impl<'a, T: Sync> Parts for Tiles<'a, T> {
-    type Part = ArrayView2<'a, T>;
+impl<N: Nodes + Send> Parts for Chunks<N> {
+    type Part = N;
 
     fn count(&self) -> usize {
-        self.0.len_of(self.1).div_ceil(self.2)
+        self.rest.as_ref().map_or(0, N::count).div_ceil(self.size)
     }
 
     fn nodes(&self) -> usize {
-        self.2 * self.0.len() / self.0.len_of(self.1).max(1)
+        self.size * self.width
     }
 
     fn divide(self, at: usize) -> (Self, Self) {
-        let end = self.0.len_of(self.1).min(at * self.2);
-        let (first, others) = self.0.split_at(self.1, end);
-        (Self(first, self.1, self.2), Self(others, self.1, self.2))
+        let rest = self.rest.map(|nodes| {
+            let end = nodes.count().min(at * self.size);
+            nodes.divide(end)
+        });
+        let (first, others) = rest.unzip();
+        (Self { rest: first, ..self }, Self { rest: others, ..self })
     }
 
-    fn next(&mut self) -> Option<Self::Part> {
-        let end = self.0.len_of(self.1).min(self.2);
-        let (first, others) = self.0.split_at(self.1, end);
-        self.0 = others;
-        (end > 0).then_some(first)
-    }
-}
-
-pub(crate) struct TilesMut<'a, T>(ArrayViewMut2<'a, T>, Axis, usize);
-
-impl<'a, T: Send> Parts for TilesMut<'a, T> {
-    type Part = ArrayViewMut2<'a, T>;
-
-    fn count(&self) -> usize {
-        self.0.len_of(self.1).div_ceil(self.2)
-    }
-
-    fn nodes(&self) -> usize {
-        self.2 * self.0.len() / self.0.len_of(self.1).max(1)
-    }
-
-    fn divide(self, at: usize) -> (Self, Self) {
-        let end = self.0.len_of(self.1).min(at * self.2);
-        let (first, others) = self.0.split_at(self.1, end);
-        (Self(first, self.1, self.2), Self(others, self.1, self.2))
-    }
-
-    fn next(&mut self) -> Option<Self::Part> {
-        let end = self.0.len_of(self.1).min(self.2);
-        let nodes = std::mem::replace(&mut self.0, ArrayViewMut2::from_shape((0, 0), &mut []).ok()?);
-        let (first, others) = nodes.split_at(self.1, end);
-        self.0 = others;
-        (end > 0).then_some(first)
+    fn next(&mut self) -> Option<N> {
+        let nodes = self.rest.take().filter(|nodes| nodes.count() > 0)?;
+        let end = nodes.count().min(self.size);
+        let (first, others) = nodes.divide(end);
+        self.rest = Some(others);
+        Some(first)
     }
 }
 
-struct Results<'a, R>(&'a mut [R]);
-
-impl<'a, R: Send> Parts for Results<'a, R> {
-    type Part = &'a mut R;
-
-    fn count(&self) -> usize {
-        self.0.len()
-    }
-
-    fn nodes(&self) -> usize {
-        1
-    }
-
-    fn divide(self, at: usize) -> (Self, Self) {
-        let (first, others) = self.0.split_at_mut(at);
-        (Self(first), Self(others))
-    }
-
-    fn next(&mut self) -> Option<Self::Part> {
-        self.0.split_off_first_mut()
-    }
+pub(crate) fn chunks<T: Sync>(field: &[T], size: usize) -> Chunks<&[T]> {
+    Chunks::of(field, size, 1)
 }
 
-pub(crate) fn chunks<T: Sync>(field: &[T], size: usize) -> Chunks<'_, T> {
-    Chunks(field, size.max(1))
-}
-
-pub(crate) fn chunks_mut<T: Send>(field: &mut [T], size: usize) -> ChunksMut<'_, T> {
-    ChunksMut(field, size.max(1))
+pub(crate) fn chunks_mut<T: Send>(field: &mut [T], size: usize) -> Chunks<&mut [T]> {
+    Chunks::of(field, size, 1)
 }
 
 /// The tiles of `size` rows (axis 0) or columns (axis 1) of a field.
-pub(crate) fn tiles<T: Sync>(field: ArrayView2<'_, T>, axis: usize, size: usize) -> Tiles<'_, T> {
-    Tiles(field, Axis(axis), size.max(1))
+pub(crate) fn tiles<T: Sync>(field: ArrayView2<'_, T>, axis: usize, size: usize) -> Chunks<Tile<ArrayView2<'_, T>>> {
+    let width = field.len_of(Axis(1 - axis));
+    Chunks::of(Tile(field, Axis(axis)), size, width)
 }
 
-pub(crate) fn tiles_mut<T: Send>(field: ArrayViewMut2<'_, T>, axis: usize, size: usize) -> TilesMut<'_, T> {
-    TilesMut(field, Axis(axis), size.max(1))
+pub(crate) fn tiles_mut<T: Send>(
+    field: ArrayViewMut2<'_, T>,
+    axis: usize,
+    size: usize,
+) -> Chunks<Tile<ArrayViewMut2<'_, T>>> {
+    let width = field.len_of(Axis(1 - axis));
+    Chunks::of(Tile(field, Axis(axis)), size, width)
 }
 
 pub(crate) fn for_each<P: Parts>(parts: P, f: impl Fn(usize, P::Part) + Sync) {
@@ -244,7 +220,11 @@ pub(crate) fn for_each<P: Parts>(parts: P, f: impl Fn(usize, P::Part) + Sync) {
 }
 
 pub(crate) fn update<P: Parts, R: Send>(parts: P, results: &mut [R], f: impl Fn(usize, P::Part, &mut R) + Sync) {
-    for_each((parts, Results(results)), |i, (part, result): (_, &mut R)| f(i, part, result));
+    for_each((parts, chunks_mut(results, 1)), |i, (part, result)| {
+        if let [result] = result {
+            f(i, part, result);
+        }
+    });
 }
 
 /// The most parts that a worker takes at once.
@@ -351,10 +331,13 @@ mod tests {
         for axis in [0, 1] {
             let field = Array2::from_shape_fn((13, 9), |(i, j)| 9 * i + j);
             let mut copy = Array2::zeros((13, 9));
-            for_each(tiles(field.view(), axis, 4).zip(tiles_mut(copy.view_mut(), axis, 4)), |i, (from, mut to)| {
-                assert_eq!(from[[0, 0]], 4 * i * [9, 1][axis]);
-                to.assign(&from);
-            });
+            for_each(
+                tiles(field.view(), axis, 4).zip(tiles_mut(copy.view_mut(), axis, 4)),
+                |i, (Tile(from, _), Tile(mut to, _))| {
+                    assert_eq!(from[[0, 0]], 4 * i * [9, 1][axis]);
+                    to.assign(&from);
+                },
+            );
             assert_eq!(field, copy);
         }
     }

@@ -45,15 +45,11 @@ impl Shares {
     /// Parts of so many numbers for each rank, [`COUNTED`] at most together.
     pub(crate) fn new(counts: impl Iterator<Item = usize>) -> Self {
         let counts: Vec<i32> = counts.map(|count| count as i32).collect();
-        let mut place = 0;
-        let places = counts
-            .iter()
-            .map(|count| {
-                place += count;
-                place - count
-            })
-            .collect();
-        Self { counts, places }
+        let places = counts.iter().scan(0, |end, count| {
+            *end += count;
+            Some(*end - count)
+        });
+        Self { places: places.collect(), counts }
     }
 }
 
@@ -98,12 +94,6 @@ impl Ranks {
         let mut all = vec![E::default(); lengths.iter().sum()];
         self.gather(&own, &Shares::new(lengths.into_iter()), &mut all);
         all
-    }
-
-    /// The bytes of the first rank.
-    #[cfg(feature = "mpi")]
-    pub(crate) fn first(self, own: &[u8]) -> Vec<u8> {
-        self.lists(if self.rank == 0 { own.to_vec() } else { Vec::new() })
     }
 
     /// Adds the numbers of all ranks to those of this one.

@@ -149,10 +149,6 @@ impl Slab {
         (bands.start * self.band).min(self.shape.0)..(bands.end * self.band).min(self.shape.0)
     }
 
-    pub(crate) fn most_rows(&self) -> usize {
-        (0..self.ranks.count()).map(|rank| self.rows_of(rank).len()).max().unwrap_or_default()
-    }
-
     /// The share of a process of `count` objects, such as the columns of a spectrum, in proportion to its bands.
     pub(crate) fn share_of(&self, count: usize, rank: usize) -> Range<usize> {
         let (Range { start, end }, bands) = (self.bands_of(rank), self.bands());
@@ -171,13 +167,7 @@ impl Slab {
         to: &Self,
         needs: impl Fn(usize) -> I,
     ) -> Rows<'a, A> {
-        let (mut held, first) = (held.into(), self.rows().start);
-        if !held.is_standard_layout() {
-            held = held.as_standard_layout().into_owned().into();
-        }
-        if !self.is_shared() {
-            return Rows { held, first, others: Vec::new(), fetched: Array2::default((0, 0)) };
-        }
+        let (held, first) = (held.into(), self.rows().start);
         let of = |rank: usize| {
             let own = self.rows_of(rank);
             let needed: BTreeSet<_> = to.rows_of(rank).flat_map(&needs).filter(|row| !own.contains(row)).collect();
@@ -267,10 +257,6 @@ impl Slab {
 
     pub(crate) fn chunks_of_a_band(&self) -> usize {
         (self.band * self.shape.1).div_ceil(CHUNK).max(1)
-    }
-
-    pub(crate) fn by_bands(&self, width: usize) -> Shares {
-        self.shares(|rank| width * self.bands_of(rank).len())
     }
 
     /// The parts of a buffer, one for each rank, by their lengths.

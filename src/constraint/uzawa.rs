@@ -6,10 +6,11 @@ use super::penalty::check_stiffness;
 use super::{ContactConstraint, Springs, Update, Wall};
 use crate::adhesion::Values;
 use crate::error::Result;
-use crate::field::{CHUNK, flat, read, write};
+use crate::field::{CHUNK, Reducer, flat, read, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
+use crate::slab::Slab;
 
 /// The factor by which the springs become stiffer, and the share of the interpenetration above which they do so if it is
 /// left after a round.
@@ -69,7 +70,6 @@ pub struct Uzawa<T> {
     /// the relative error to which the present round is solved
     present: f64,
     multipliers: Array2<T>,
-    grid: Option<Grid>,
     rounds: usize,
 }
 
@@ -93,7 +93,6 @@ impl<T: Real> Uzawa<T> {
             solved_to: 0.0,
             present: 0.0,
             multipliers,
-            grid: None,
             rounds: 0,
         })
     }
@@ -127,8 +126,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         (self.solved_to, self.present) = (tolerance, FIRST);
-        (self.grid, self.multipliers) = (Some(*grid), Array2::zeros(grid.shape()));
-        self.rounds = 1;
+        (self.multipliers, self.rounds) = (Array2::zeros(grid.shape()), 1);
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
             self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
@@ -142,11 +140,11 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         true
     }
     fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
-        let (Some(grid), stiffness) = (self.grid, self.stiffness) else { return Update::Failed };
+        let stiffness = self.stiffness;
         let gap = gap.as_standard_layout();
         let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
         let next = move |multiplier: T, gap: T| (multiplier - stiffness * gap).max(T::zero());
-        let mut reducer = grid.reducer();
+        let mut reducer = Reducer::new(Slab::whole(gap.dim()));
         let [change, change_squared, squared] =
             reducer.run(read(&self.multipliers).zip(gaps()), |_, (multipliers, gaps)| {
                 let [mut sum, mut change_squared, mut squared] = [0.0; 3];
@@ -159,7 +157,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
                 }
                 [sum, change_squared, squared]
             });
-        let (nodes, k) = (grid.nodes() as f64, stiffness.widen());
+        let (nodes, k) = (gap.len() as f64, stiffness.widen());
         let off = change_squared.sqrt() / k;
         let left = self.stiffest * off.powi(2) + change * change / (nodes * k);
         let allowed = self.tolerance.max(self.solved_to).powi(2) * work;

@@ -100,7 +100,7 @@ impl ContactArea {
         edge: impl FnOnce((usize, usize)) -> Edge,
     ) -> Self {
         let contact_nodes = map.fold(0, |count, &touches| count + usize::from(touches));
-        let (along_x, along_y) = edges(map, grid, periodic);
+        let (along_x, along_y) = edges(map, periodic);
         let (dx, dy) = grid.spacing();
         let perimeter = if grid.is_line() { along_x as f64 } else { along_x as f64 * dy + along_y as f64 * dx };
         let (nodes, Edge { excess, edges, places }) = (facing as f64, edge((along_x, along_y)));
@@ -126,10 +126,10 @@ fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
 }
 
 /// The pairs of neighbours along x, and along y, of which one is on the map; across opposite sides if periodic.
-fn edges(map: ArrayView2<'_, bool>, grid: &Grid, periodic: bool) -> (usize, usize) {
+fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let map = map.as_standard_layout();
-    let nx = grid.shape().0;
+    let nx = map.nrows();
     for i in 0..nx {
         let [row, after] = [map.row(i), map.row((i + 1) % nx)];
         let [row, after] = [&row, &after].map(|row| row.to_slice().unwrap_or_default());
@@ -158,7 +158,7 @@ mod tests {
 
     fn edges_of(rows: &[&str], periodic: bool) -> (usize, usize) {
         let map = crate::contact::clusters::tests::map(rows);
-        edges(map.view(), &Grid::new(map.dim(), (1.0, 1.0)).unwrap(), periodic)
+        edges(map.view(), periodic)
     }
 
     #[test]

@@ -36,13 +36,18 @@ pub(super) fn patches<T: Real>(
     let gaps = vec![law.hints().rest.unwrap_or_else(T::zero); nodes.len()];
     let mut energies = vec![T::zero(); gaps.len()];
     law.evaluate(0, &gaps, Values::one(0, &mut energies));
-    let mut counts = Vec::new();
+    let mut counts: Vec<Counts> = Vec::new();
     for (energy, node) in energies.iter().zip(nodes) {
         let (Some([touches, attracts]), work) = (node, 0.0 - energy.widen()) else { continue };
-        count(&mut counts, work, [1, u64::from(touches), u64::from(attracts)]);
-    }
-    if counts.len() > MOST {
-        return Vec::new();
+        let at = counts.iter().position(|(other, _)| *other == work).unwrap_or(counts.len());
+        if at == MOST {
+            return Vec::new();
+        }
+        if at == counts.len() {
+            counts.push((work, [0; 3]));
+        }
+        let more = [1, u64::from(touches), u64::from(attracts)];
+        counts[at].1.iter_mut().zip(more).for_each(|(count, more)| *count += more);
     }
     counts.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let whole: u64 = counts.iter().map(|(_, [all, ..])| all).sum();
@@ -53,16 +58,4 @@ pub(super) fn patches<T: Real>(
         Patch { work_of_adhesion, area_fraction, contact_fraction, attractive_fraction }
     };
     counts.into_iter().map(patch).collect()
-}
-
-/// Adds nodes to those of their work of adhesion; beyond [`MOST`] works only one more is kept.
-fn count(counts: &mut Vec<Counts>, work: f64, nodes: [u64; 3]) {
-    let at = counts.iter().position(|(other, _)| *other == work).unwrap_or(counts.len());
-    if at == counts.len() {
-        if at > MOST {
-            return;
-        }
-        counts.push((work, [0; 3]));
-    }
-    counts[at].1.iter_mut().zip(nodes).for_each(|(count, more)| *count += more);
 }

@@ -65,7 +65,7 @@ impl<T: Real> Boussinesq<T> {
         let modes = even_modes(grid.slab(), kernel(&grid, (0.5 * dx, 0.5 * dy), modulus).view());
         let mean_compliance = grid.each(modes.first().copied().unwrap_or_default())[0];
         let spectral = Spectral::of_compliance(grid, modulus, modes)?;
-        Ok(Self { spectral, boundary: Boundary::Free { window, mean_compliance } })
+        Ok(Self { spectral, boundary: Boundary::Free { window: window.alone(), mean_compliance } })
     }
 
     /// The free boundary, with the window on which the half-space is loaded.

@@ -4,7 +4,6 @@ use ndarray::Array2;
 
 use super::{Boundary, ElasticOperator, Foundation, mean_product};
 use crate::error::{Breach, Error, Place, Result};
-use crate::field;
 use crate::real::Real;
 
 /// Applications of the compliance, and of the stiffness, that look for the softest and for the stiffest wave.
@@ -44,7 +43,7 @@ pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<
     }
     let rounding = 64.0 * T::epsilon().widen();
     let product = |a: &Array2<T>, b: &Array2<T>| mean_product(&grid, a.view(), b.view());
-    let mean = |field: &Array2<T>| field::mean(field.view(), T::widen);
+    let mean = |field: &Array2<T>| grid.mean(field.view(), T::widen);
     let holds = |property, found: f64, expected: f64, allowed: f64| match (found - expected).abs() <= allowed {
         true => Ok(()),
         false => Err(broken(property, found, expected)),

@@ -4,7 +4,6 @@ use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, ArrayView2};
 
 use super::Convolver;
-use super::columns::ColumnsOf;
 use super::layout::Layout;
 use crate::error::Result;
 use crate::field::flat_mut;
@@ -15,12 +14,12 @@ use crate::slab::Slab;
 pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     let (n0, n1) = field.dim();
     let mut convolver = Convolver::with(Slab::whole((n0, n1)), Layout::plain((n0, n1)));
-    convolver.take_memory();
+    convolver.spectrum.take_memory();
     convolver.rows_forward(field);
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     let norm = (n0 as f64 * n1 as f64).recip().powi(2);
-    let mut powers = Array2::zeros(spectrum.dim());
-    let pairs = par::chunks_mut(flat_mut(spectrum), n0).zip(par::chunks_mut(flat_mut(&mut powers), n0));
+    let mut powers = Array2::zeros(spectrum.modes.dim());
+    let pairs = par::chunks_mut(flat_mut(&mut spectrum.modes), n0).zip(par::chunks_mut(flat_mut(&mut powers), n0));
     par::for_each(pairs, |_, (z, power)| {
         columns.forward.process_with_scratch(z, &mut pool.get().scratch);
         power.iter_mut().zip(z).for_each(|(power, z)| *power = norm * z.norm_sqr());
@@ -48,20 +47,18 @@ pub(crate) fn filtered(
 /// process transforms, laid out as in a convolver, the first half and the middle one.
 pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> {
     let mut convolver = Convolver::new(slab);
-    convolver.take_memory();
+    convolver.spectrum.take_memory();
     if !field.is_empty() {
         convolver.rows_forward(convolver.layout.view(&field).view());
     }
-    let Convolver { columns, spectrum, own, sums, pool, shared, layout, .. } = &mut convolver;
-    let (first, count, n0) = (own.start, own.len(), layout.plane().0);
-    let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0 };
-    columns_of.come();
-    columns_of.each(usize::MAX, |_, column, scratch| {
+    let Convolver { columns, spectrum, pool, layout, .. } = &mut convolver;
+    spectrum.come();
+    spectrum.each(pool, usize::MAX, |_, column, scratch| {
         columns.forward.process_with_scratch(column, scratch);
         [0.0; 3]
     });
-    let modes = columns_of.modes(slab);
-    Array2::from_shape_fn((count, n0 / 2 + 1), |(k, i)| modes.own(first + k, i).re)
+    let shape = (spectrum.own.len(), layout.plane().0 / 2 + 1);
+    Array2::from_shape_fn(shape, |(k, i)| spectrum.mode(spectrum.own.start + k, i).re)
 }
 
 /// The field of given modes in a slab, index zero along the first axis in the middle, and `fill`'s values summed in
@@ -73,18 +70,17 @@ pub(crate) fn synthesise(
     fill: impl Fn(usize, &mut [Complex<f64>]) -> f64 + Sync + Send,
 ) -> (Array2<f64>, f64) {
     let mut convolver = Convolver::with(slab, Layout::plain(slab.shape()));
-    convolver.take_memory();
-    let Convolver { columns, spectrum, own, sums, pool, shared, layout, .. } = &mut convolver;
-    let mut columns_of = ColumnsOf { own: own.clone(), spectrum, shared, pool, sums, n0: layout.plane().0 };
-    columns_of.each(usize::MAX, |k, column, scratch| {
+    convolver.spectrum.take_memory();
+    let Convolver { columns, spectrum, pool, .. } = &mut convolver;
+    spectrum.each(pool, usize::MAX, |k, column, scratch| {
         let sum = fill(k, column);
         columns.inverse.process_with_scratch(column, scratch);
         let half = column.len() / 2;
         column.rotate_right(half);
         [sum, 0.0, 0.0]
     });
-    columns_of.go();
-    let [sum, ..] = columns_of.sums();
+    spectrum.go();
+    let [sum, ..] = spectrum.sums();
     let mut field = Array2::zeros(slab.held());
     if !field.is_empty() {
         convolver.rows_inverse(field.view_mut(), 1.0);

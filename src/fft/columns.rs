@@ -1,48 +1,101 @@
-//! The columns of a half spectrum that this process transforms, whole or in pieces from several processes.
+//! The half spectrum of a field that one process has, or several share.
 
 use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
 use ndarray::Array2;
 
-use super::shared::{Modes, Shared};
-use super::{Sums, Workspace};
-use crate::field::flat_mut;
-use crate::par::{self, Pool};
+use super::{Layout, Sums, Workspace};
+use crate::field::{flat, flat_mut};
+use crate::par::{self, Chunks, Pool};
+use crate::ranks::Shares;
 use crate::real::Real;
 use crate::slab::Slab;
 
-pub(super) struct ColumnsOf<'a, T: Real> {
+/// The half spectrum, stored by columns. Where processes share the field, each has the rows of its slab of all columns,
+/// and transforms some columns: it gets one piece of these from every process, and sends one back. A column is put
+/// together where it is transformed.
+pub(crate) struct HalfSpectrum<T> {
+    slab: Slab,
+    layout: Layout,
+    /// all columns, of the rows in the slab
+    pub(super) modes: Array2<Complex<T>>,
+    /// the columns that this process transforms
     pub(super) own: Range<usize>,
-    pub(super) spectrum: &'a mut Array2<Complex<T>>,
-    pub(super) shared: &'a mut Option<Shared<T>>,
-    pub(super) pool: &'a Pool<Workspace<T>>,
-    pub(super) sums: &'a mut [Sums],
-    pub(super) n0: usize,
+    /// these columns of all rows, by the processes from which they come
+    pieces: Vec<Complex<T>>,
+    /// what the others get of the modes, and what comes from them
+    sent: Shares,
+    received: Shares,
+    /// the sums over the own columns, and over those of each process
+    sums: Vec<Sums>,
+    shares: Shares,
+    all: Vec<Sums>,
 }
 
-impl<T: Real> ColumnsOf<'_, T> {
-    pub(super) fn come(&mut self) {
-        let spectrum = flat_mut(self.spectrum);
-        self.shared.iter_mut().for_each(|shared| shared.come(spectrum));
+impl<T: Real> HalfSpectrum<T> {
+    pub(super) fn new(slab: Slab, layout: Layout) -> Self {
+        let ((columns, _), own, rows) = (layout.spectrum(), layout.columns_of(&slab), slab.rows().len());
+        Self {
+            slab,
+            layout,
+            modes: Array2::default((0, 0)),
+            pieces: Vec::new(),
+            sent: slab.shares(|rank| slab.share_of(columns, rank).len() * rows),
+            received: slab.shares(|rank| slab.rows_of(rank).len() * own.len()),
+            sums: vec![[0.0; 3]; own.len()],
+            shares: slab.shares(|rank| 3 * slab.share_of(columns, rank).len()),
+            all: vec![[0.0; 3]; columns],
+            own,
+        }
     }
 
+    /// Whether columns come in pieces: not if one process has all of them.
+    pub(super) fn is_in_pieces(&self) -> bool {
+        self.slab.is_shared() && self.slab.bands() > 1
+    }
+
+    pub(super) fn take_memory(&mut self) {
+        if self.modes.is_empty() {
+            self.modes = Array2::default(self.layout.spectrum_of(&self.slab));
+        }
+        if self.is_in_pieces() && self.pieces.is_empty() {
+            self.pieces = vec![Complex::default(); self.own.len() * self.slab.shape().0];
+        }
+    }
+
+    pub(super) fn release_memory(&mut self) {
+        (self.modes, self.pieces) = (Array2::default((0, 0)), Vec::new());
+    }
+
+    /// Brings the columns to the processes that transform them.
+    pub(super) fn come(&mut self) {
+        if self.is_in_pieces() {
+            let Self { slab, modes, sent, received, pieces, .. } = self;
+            T::exchange(slab.ranks(), flat(modes), sent, pieces, received);
+        }
+    }
+
+    /// Brings the columns back.
     pub(super) fn go(&mut self) {
-        let spectrum = flat_mut(self.spectrum);
-        self.shared.iter_mut().for_each(|shared| shared.go(spectrum));
+        if self.is_in_pieces() {
+            let Self { slab, modes, sent, received, pieces, .. } = self;
+            T::exchange(slab.ranks(), pieces, received, flat_mut(modes), sent);
+        }
     }
 
     /// Runs `f(index, column, scratch)` over the columns below `end`, and keeps what it returns as their sums.
     pub(super) fn each(
         &mut self,
+        pool: &Pool<Workspace<T>>,
         end: usize,
         f: impl Fn(usize, &mut [Complex<T>], &mut [Complex<T>]) -> Sums + Sync + Send,
     ) {
-        let (first, pool) = (self.own.start, self.pool);
+        let (first, n0) = (self.own.start, self.layout.plane().0);
         let count = end.clamp(first, self.own.end) - first;
-        let sums = &mut self.sums[..count];
-        if let Some(pieces) = self.shared.as_mut().and_then(|shared| shared.pieces(count)) {
-            return par::update(pieces, sums, |k, mut pieces: Vec<&mut [_]>, sum| {
+        if self.is_in_pieces() {
+            let pieces = in_pieces(&mut self.pieces, self.slab, (self.own.len(), count));
+            return par::update(pieces, &mut self.sums[..count], |k, mut pieces: Vec<&mut [_]>, sum| {
                 let Workspace { column, scratch, .. } = &mut *pool.get();
                 let mut rest = &mut column[..];
                 for piece in &pieces {
@@ -59,21 +112,54 @@ impl<T: Real> ColumnsOf<'_, T> {
                 }
             });
         }
-        let columns = flat_mut(self.spectrum).get_mut(..count * self.n0).unwrap_or_default();
-        par::update(par::chunks_mut(columns, self.n0), sums, |k, column, sum| {
+        let columns = flat_mut(&mut self.modes).get_mut(..count * n0).unwrap_or_default();
+        par::update(par::chunks_mut(columns, n0), &mut self.sums[..count], |k, column, sum| {
             *sum = f(first + k, column, &mut pool.get().scratch);
         });
     }
 
-    pub(super) fn modes(&self, slab: Slab) -> Modes<'_, T> {
-        Modes::new(slab, self.n0, self.spectrum.as_slice().unwrap_or_default(), self.shared.as_ref())
+    /// The sum over all columns, in their order.
+    pub(super) fn sums(&mut self) -> Sums {
+        self.slab.ranks().gather(self.sums.as_flattened(), &self.shares, self.all.as_flattened_mut());
+        self.all.iter().fold([0.0; 3], |a, b| std::array::from_fn(|i| a[i] + b[i]))
     }
 
-    pub(super) fn sums(&mut self) -> Sums {
-        let add = |a: Sums, b: &Sums| std::array::from_fn(|i| a[i] + b[i]);
-        match &mut *self.shared {
-            None => self.sums.iter().fold([0.0; 3], add),
-            Some(shared) => shared.gather(self.sums).iter().fold([0.0; 3], add),
+    /// A mode of the own columns.
+    pub(super) fn mode(&self, column: usize, row: usize) -> Complex<T> {
+        if !self.is_in_pieces() {
+            return flat(&self.modes)[column * self.layout.plane().0 + row];
         }
+        let rows = (0..self.slab.ranks().count()).map(|rank| self.slab.rows_of(rank)).find(|rows| rows.contains(&row));
+        let rows = rows.unwrap_or_default();
+        self.pieces[self.own.len() * rows.start + (column - self.own.start) * rows.len() + (row - rows.start)]
     }
+
+    /// The modes at some places, column and row, sorted by their columns.
+    pub(crate) fn read(&self, places: impl Iterator<Item = (usize, usize)> + Clone, modes: &mut [Complex<f64>]) {
+        let read = |(column, row)| {
+            let mode = self.mode(column, row);
+            Complex::new(mode.re.widen(), mode.im.widen())
+        };
+        if !self.slab.is_shared() {
+            return modes.iter_mut().zip(places).for_each(|(mode, place)| *mode = read(place));
+        }
+        let of = |rank: usize| {
+            let own = self.slab.share_of(self.all.len(), rank);
+            places.clone().filter(move |(column, _)| own.contains(column))
+        };
+        let own: Vec<_> = of(self.slab.ranks().rank()).map(read).collect();
+        self.slab.ranks().gather(&own, &self.slab.shares(|rank| of(rank).count()), modes);
+    }
+}
+
+/// The first `count` of the `own` columns, each in its pieces.
+fn in_pieces<E: Send>(pieces: &mut [E], slab: Slab, (own, count): (usize, usize)) -> Vec<Chunks<&mut [E]>> {
+    let mut rest = pieces;
+    let rows = (0..slab.ranks().count()).map(|rank| slab.rows_of(rank).len()).filter(|&rows| rows > 0);
+    rows.map(|rows| {
+        let (piece, others) = std::mem::take(&mut rest).split_at_mut(rows * own);
+        rest = others;
+        par::chunks_mut(&mut piece[..rows * count], rows)
+    })
+    .collect()
 }

@@ -118,7 +118,7 @@ impl Coarse {
             count(head, begun, first, counts);
         }
         par::for_each(par::tiles(others, 0, block.0).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
-            count(nodes, 0, first + (head.nrows() + i * block.0) * ny, counts);
+            count(nodes.0, 0, first + (head.nrows() + i * block.0) * ny, counts);
         });
         self.grid.slab().ranks().add_up(self.counts.as_flattened_mut());
 

@@ -162,7 +162,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             complementarity: self.scaled_complementarity(),
             iterations: self.counters.iterations,
             operator_applications: self.counters.applications,
-            boundary: flat.boundary.alone(),
+            boundary: flat.boundary,
             modulus,
             control: self.posed.control,
             wall: self.posed.constraint.wall().name(),

@@ -2,8 +2,8 @@
 
 use crate::adhesion::{AdhesionLaw, Hints, NoAdhesion, Values};
 use crate::constraint::{ContactConstraint, Hardness, Wall};
-use crate::field::{CHUNK, Nodes, Reducer, Sums, found};
-use crate::par::Parts;
+use crate::field::{CHUNK, Reducer, Sums, found};
+use crate::par::{Nodes, Parts};
 use crate::problem::Window;
 use crate::real::Real;
 use crate::vector::sums;

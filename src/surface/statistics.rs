@@ -4,7 +4,6 @@ use ndarray::ArrayView1;
 
 use super::spectrum::is_line;
 use super::{Surface, rms_slope};
-use crate::field;
 
 /// The statistics of a rough surface, in the unit of the heights: [`Surface::statistics`].
 ///
@@ -57,7 +56,7 @@ impl Surface {
         let mean = self.mean();
         let rms_height = self.rms_about(mean);
         // of heights over the rms height, whose fourth powers stay in range
-        let power = |n: i32| field::mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));
+        let power = |n: i32| self.grid.mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));
         let laplacian = self.rms_laplacian();
         let spectrum = self.spectrum();
         SurfaceStatistics {

@@ -5,8 +5,6 @@ use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use crate::interface::peak;
-
 /// The boundary of the elastic body, by the surroundings of the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -88,4 +86,10 @@ impl Boundary {
         let peak = peak(surface);
         heights.mapv(|height| peak - height - at)
     }
+}
+
+/// The greatest height.
+pub(crate) fn peak(surface: &Surface) -> f64 {
+    let own = surface.heights().fold(f64::NEG_INFINITY, |highest, height| highest.max(*height));
+    surface.grid().each(own).into_iter().fold(own, f64::max)
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::after::{Conductors, LEAKAGE};
+use crate::boundary::peak;
 use crate::units::Units;
 
 /// The columns of a table of an interface, before those for what is asked for after each state.
@@ -29,12 +30,6 @@ pub enum Code {
 /// The mean gap at which the undeformed surfaces first touch, from which the closure counts.
 pub fn touch(surface: &Surface) -> f64 {
     peak(surface) - surface.mean()
-}
-
-/// The greatest height.
-pub(crate) fn peak(surface: &Surface) -> f64 {
-    let own = surface.heights().fold(f64::NEG_INFINITY, |highest, height| highest.max(*height));
-    surface.grid().each(own).into_iter().fold(own, f64::max)
 }
 
 /// A function of one argument, by points with growing arguments.
