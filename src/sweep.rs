@@ -64,7 +64,7 @@ pub struct Sweep<'a, T, O, L, I, C = Projection> {
 const MOST: usize = 3;
 
 /// The farthest extrapolation of the last step, in steps.
-const FARTHEST: f64 = 2.0;
+pub(crate) const MOST_STEPS: f64 = 2.0;
 
 /// The distance of a gap from that which the two before it foretold, over that from the one before it, from which on it
 /// may have jumped.
@@ -192,7 +192,7 @@ where
         }
         let least = Potential::new(self.problem.law_on_grid(), &self.solver.constraint, None).least();
         let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
-        Some(extrapolated([before, last], steps.clamp(-FARTHEST, FARTHEST), (least, true), on))
+        Some(extrapolated([before, last], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
     }
 
     /// Whether two gaps have led to the next one, without a jump: their extrapolation is closer to it than the second.

@@ -8,12 +8,10 @@ use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::real::Real;
 use crate::solver::{Least, Potential, extrapolated};
+use crate::sweep::MOST_STEPS;
 
 /// The number of gaps at which a law without a wall is asked whether it bears a pressure.
 const CLOSEST: usize = 64;
-
-/// The farthest extrapolation of the last step, in steps.
-const FARTHEST: f64 = 2.0;
 
 impl<T, O, L, C> Path<'_, T, O, L, C>
 where
@@ -46,7 +44,7 @@ where
     pub(super) fn predict(&self, target: f64) -> Array2<T> {
         match &self.gaps[..] {
             [before, last] => {
-                let steps = self.course.extrapolation(target).clamp(-FARTHEST, FARTHEST);
+                let steps = self.course.extrapolation(target).clamp(-MOST_STEPS, MOST_STEPS);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
                 let on = (self.problem.flat.window.as_ref(), *self.problem.operator.grid());
                 extrapolated([before, last], steps, (self.least(), false), on)

@@ -2,7 +2,7 @@
 
 use asperity::accuracy::{AccurateSolution, GridError};
 use asperity::nested::NestedSolution;
-use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
+use asperity::stability::{ContactStiffness, Departure, StabilityTest, Verdict};
 use asperity::{ContactSearch, Grid, Iteration, Nested, Real, Result, Solution, Solver, Start, Status};
 use ndarray::Array2;
 
@@ -96,28 +96,29 @@ impl<T: Real> Posed<T> {
         let clock = Instant::now();
         let (solver, problem) = self.parts()?;
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
-        let observe = |state: &Iteration| observe(&grid, state, tolerance);
+        let mut observe = |state: &Iteration| observe(&grid, state, tolerance);
         let (mut solution, search) = match asked.fraction {
             Some(fraction) => {
                 let mut search = ContactSearch::new(solver, problem)?;
                 if let Some(start) = start {
                     search = search.starting_from(start);
                 }
-                let found = search.at_observed(fraction, observe)?;
+                let found = search.at_observed(fraction, &mut observe)?;
                 let search = Search::of(fraction, &found);
                 (found.solution, Some(search))
             }
             None => {
                 let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-                (solver.solve_with(problem, asked.control, start, observe)?, None)
+                (solver.solve_with(problem, asked.control, start, &mut observe)?, None)
             }
         };
         let (mut departures, mut verdict) = (Vec::new(), None);
         while asked.stability && solution.report.status != Status::Stopped {
             let found = StabilityTest::default().run_with(problem, &solver.constraint, &solution)?;
             let leaves = asked.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-            let left = if leaves { found.leave(solver, problem, &solution)? } else { None };
-            let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
+            let left = if leaves { found.leave(solver, problem, &solution, &mut observe)? } else { None };
+            let ends = |left: &Departure<T>| left.energy_drop > 0.0 || left.solution.report.status == Status::Stopped;
+            let Some(left) = left.filter(ends) else {
                 verdict = Some(found);
                 break;
             };
