@@ -151,8 +151,8 @@ pub enum Breach {
     Derivative(f64),
     /// A law that [says](crate::adhesion::Hints) that it is zero has no traction.
     Zero,
-    /// The traction of a law that [says](crate::adhesion::Hints::concave) that it is concave does not rise with the gap:
-    /// at a smaller one it is this.
+    /// The traction of a law that [says](crate::adhesion::Hints::concave) that it is concave does not rise with the
+    /// gap: at a smaller one it is this.
     Concave(f64),
     /// A traction that falls at once, from this, has a [smoothed](crate::adhesion::Discretisation::Smooth) law.
     Jump(f64),

@@ -122,6 +122,7 @@ heavy! {
     /// The departure from a saddle.
     fn leave(
         stability: &Stability<Self>, solver: &mut AnySolver<Self>, problem: &mut Problem<Self>, from: &Solution<Self>,
+        observe: Observer<'_>,
     ) -> Result<Option<Departure<Self>>> = Stability::depart;
     /// The contact stiffness of a solution.
     fn stiffness(

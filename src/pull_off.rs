@@ -103,8 +103,9 @@ impl PullOff {
     /// The pull-off of a problem.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] without adhesion, and where surfaces under no load do not attract each other; [`Error::Value`]
-    /// for a tolerance or a preload out of their ranges; [`Error::Unsuited`] for springs; those of [`Solver::solve_with`].
+    /// [`Error::Unsuited`] without adhesion, and where surfaces under no load do not attract each other;
+    /// [`Error::Value`] for a tolerance or a preload out of their ranges; [`Error::Unsuited`] for springs; those of
+    /// [`Solver::solve_with`].
     pub fn find<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,

@@ -217,8 +217,8 @@ impl<C> Solver<C> {
     /// [`Error::Value`](crate::Error::Value) for a negative or infinite mean gap, an infinite pressure, a spring
     /// without stiffness, or a tolerance that is not positive; [`Error::Shape`](crate::Error::Shape),
     /// [`Error::NotFinite`](crate::Error::NotFinite) or [`Error::Value`](crate::Error::Value) for a start that does not
-    /// fit, is not finite, or is negative somewhere; [`Error::Contract`](crate::Error::Contract) if the law is not finite at the
-    /// start; those of the constraint. Without convergence see [`Report::status`].
+    /// fit, is not finite, or is negative somewhere; [`Error::Contract`](crate::Error::Contract) if the law is not
+    /// finite at the start; those of the constraint. Without convergence see [`Report::status`].
     pub fn solve_with<T: Real>(
         &mut self,
         problem: &mut Problem<T>,

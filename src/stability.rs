@@ -28,6 +28,7 @@ mod tangent;
 mod watch;
 
 pub use departure::Departure;
+pub(crate) use departure::PERTURBATION;
 pub use edge::EdgeError;
 use eigenpair::{Eigenpair, lowest};
 use hessian::Hessian;
@@ -169,8 +170,8 @@ impl StabilityTest {
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] for a solution of another problem, or a tolerance that is not positive;
-    /// [`Error::Unsuited`] if its wall is not rigid, or the law has no bound at a wall; [`Error::Contract`] if φ'' is not
-    /// finite somewhere; [`Error::Unsuited`] for a control that the problem does not have.
+    /// [`Error::Unsuited`] if its wall is not rigid, or the law has no bound at a wall; [`Error::Contract`] if φ'' is
+    /// not finite somewhere; [`Error::Unsuited`] for a control that the problem does not have.
     pub fn run<T: Real>(&self, problem: &mut Problem<T>, solution: &Solution<T>) -> Result<Stability<T>> {
         self.run_with(problem, &Projection, solution)
     }

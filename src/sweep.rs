@@ -62,7 +62,7 @@ pub struct Sweep<T> {
 }
 
 /// The farthest extrapolation of the last step, in steps.
-const FARTHEST: f64 = 2.0;
+pub(crate) const MOST_STEPS: f64 = 2.0;
 
 /// The distance of a gap from that which the two before it foretold, over that from the one before it, from which on it
 /// may have jumped.
@@ -201,7 +201,7 @@ fn ahead<T: Real>(
         return None;
     }
     let on = (problem.flat.window.as_ref(), *problem.operator.grid());
-    Some(extrapolated([&before.1, &last.1], steps.clamp(-FARTHEST, FARTHEST), (least, true), on))
+    Some(extrapolated([&before.1, &last.1], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
 }
 
 /// Whether a gap was foretold, without a jump: it is closer to the one that was than the one before.

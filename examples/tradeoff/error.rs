@@ -1,54 +1,21 @@
-//! Errors: of the discretisation, of the solver, and both together.
+//! Errors: of the discretisation and of the solver, for each choice on each grid.
+
+use std::time::Instant;
 
 use asperity::{ElasticOperator, Westergaard};
 use ndarray::Array2;
 
-use crate::choice::{Choice, Found, measure};
-use crate::scene::{Scene, State};
+use crate::scene::{Choice, Scene, State};
 use common::Outcome;
 
-/// Relative differences of two states; over several loads the root mean square.
-#[derive(Clone, Copy, Default)]
-pub struct Errors {
-    /// of the displacement at the nodes, in the energy norm
-    pub energy: f64,
-    /// of the share of nodes in contact
-    pub counted: f64,
-    /// of the contact fraction corrected for its edge
-    pub area: f64,
-    /// of the mean gap or mean pressure
-    pub answer: f64,
-}
+/// The largest grid that has no coarser ones below it.
+const COARSEST: usize = 64;
+/// The largest grid for Algorithm 3, whose applications grow with the number of nodes along a side.
+const SLOW: usize = 256;
 
-impl Errors {
-    pub fn between(found: &State, truth: &State, operator: &mut Westergaard<f64>) -> Outcome<Self> {
-        let mut pressure = Array2::zeros(truth.displacement.dim());
-        let mut work = |u: &Array2<f64>| -> Outcome<f64> {
-            operator.pressure(u.view(), pressure.view_mut())?;
-            Ok((u * &pressure).sum())
-        };
-        let all = work(&truth.displacement)?;
-        let wrong = work(&(&found.displacement - &truth.displacement))?.max(0.0);
-        let relative = |found: f64, truth: f64| (found / truth - 1.0).abs();
-        Ok(Self {
-            energy: (wrong / all).sqrt(),
-            counted: relative(found.counted, truth.counted),
-            area: relative(found.area, truth.area),
-            answer: relative(found.answer, truth.answer),
-        })
-    }
-
-    /// The root mean square.
-    pub fn mean(all: &[Self]) -> Self {
-        let of = |part: fn(&Self) -> f64| {
-            (all.iter().map(|errors| part(errors).powi(2)).sum::<f64>() / all.len() as f64).sqrt()
-        };
-        Self { energy: of(|e| e.energy), counted: of(|e| e.counted), area: of(|e| e.area), answer: of(|e| e.answer) }
-    }
-}
-
-/// One of the errors.
-pub type Part = fn(&Errors) -> f64;
+/// Relative root mean squares over the loads: of the displacement at the nodes in the energy norm, of the share of
+/// nodes in contact, of the contact fraction corrected for its edge, and of the mean gap or mean pressure.
+pub type Errors = [f64; 4];
 
 /// A grid of a scene.
 pub struct OnGrid {
@@ -57,87 +24,132 @@ pub struct OnGrid {
     pub nodes: f64,
     /// Of the solution converged on the grid, against the truth.
     pub discretisation: Errors,
-    /// Of areas extrapolated from this grid and one of half the nodes along a side: counted as of first order, and
-    /// corrected for the edge as of second.
-    pub extrapolated: Option<[f64; 2]>,
     pub rows: Vec<Row>,
 }
 
 /// A choice on a grid.
 pub struct Row {
     pub choice: Choice,
-    /// In units of one application on the grid, in `f32` and in `f64`; the mean over the loads, as are the seconds.
-    pub applications: [f64; 2],
+    /// In units of one application on the grid; the mean over the loads, as are the seconds.
+    pub applications: f64,
     pub seconds: f64,
     /// Under all loads.
     pub converged: bool,
-    /// Against the solution converged on the grid, and against the truth.
+    /// Against the solution converged on the grid.
     pub solver: Errors,
-    pub whole: Errors,
 }
 
-impl Row {
-    pub fn applications(&self) -> f64 {
-        self.applications[0] + self.applications[1]
+impl Choice {
+    /// The choices that are measured on a grid.
+    fn all(n: usize, quick: bool) -> Vec<Self> {
+        let families = [(false, false, false), (false, false, true), (false, true, false), (false, true, true)];
+        let families = families.into_iter().chain([(true, false, false)]);
+        let fitting =
+            families.filter(|&(rey2017, _, nested)| if rey2017 { n <= SLOW } else { n > COARSEST || !nested });
+        let choices = fitting.flat_map(|(rey2017, single, nested)| {
+            let step = if quick || rey2017 { 2 } else { 1 };
+            let tolerances = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8].into_iter().step_by(step);
+            let reached = tolerances.filter(move |&tolerance| tolerance >= if single { 1e-5 } else { 1e-8 });
+            reached.map(move |tolerance| Self { rey2017, single, nested, tolerance })
+        });
+        choices.collect()
     }
 
-    /// The error of the discretisation and that of the solver together, as if they never cancelled: a loose tolerance
-    /// that happens to make up for a coarse grid is no choice.
-    pub fn bound(&self, grid: &OnGrid, part: Part) -> f64 {
-        part(&grid.discretisation) + part(&self.solver)
-    }
-
-    /// Applications times nodes, in units of a million nodes in `f64`. In `f32` one moves half of the bytes, and counts
-    /// half.
-    pub fn work(&self, grid: &OnGrid) -> f64 {
-        1e-6 * (0.5 * self.applications[0] + self.applications[1]) * grid.nodes
+    pub fn family(&self) -> &'static str {
+        match (self.rey2017, self.nested, self.single) {
+            (true, ..) => "rey2017, f64",
+            (_, false, false) => "default, f64",
+            (_, true, false) => "nested, f64",
+            (_, false, true) => "default, f32",
+            (_, true, true) => "nested, f32",
+        }
     }
 }
 
 /// Measures a scene on all of its grids.
-pub fn on_grids(scene: &Scene, choices: impl Fn(usize) -> Vec<Choice>) -> Outcome<Vec<OnGrid>> {
-    let mut grids: Vec<OnGrid> = Vec::new();
-    let mut coarser: Vec<(State, usize)> = Vec::new();
-    for &n in &scene.sizes {
+pub fn on_grids(scene: &Scene, references: &[State], quick: bool) -> Outcome<Vec<OnGrid>> {
+    let measured = |&n: &usize| -> Outcome<OnGrid> {
         let surface = scene.surface(n)?;
-        let mut operator = scene.operator(n)?;
-        let (mut truths, mut converged) = (Vec::new(), Vec::new());
-        for load in 0..scene.loads.len() {
-            truths.push(scene.truth(n, load)?);
-            converged.push(scene.converged(&surface, load)?);
-        }
-        let mut against = |found: &[State], truths: &[State]| -> Outcome<Errors> {
-            let pairs = found.iter().zip(truths);
-            let all = pairs.map(|(found, truth)| Errors::between(found, truth, &mut operator));
-            Ok(Errors::mean(&all.collect::<Outcome<Vec<_>>>()?))
-        };
-        let discretisation = against(&converged, &truths)?;
-        let extrapolated = coarser.iter().all(|before| 2 * before.1 == n) && !coarser.is_empty();
-        let extrapolated = extrapolated.then(|| {
-            let of = |part: fn(&State) -> f64, share: f64| {
-                let error = |((fine, coarse), truth): ((&State, &(State, usize)), &State)| {
-                    (part(fine) + share * (part(fine) - part(&coarse.0))) / part(truth) - 1.0
-                };
-                let pairs = converged.iter().zip(&coarser).zip(&truths);
-                (pairs.map(|pair| error(pair).powi(2)).sum::<f64>() / truths.len() as f64).sqrt()
-            };
-            [of(|state| state.counted, 1.0), of(|state| state.area, 1.0 / 3.0)]
-        });
+        let mut operator = Westergaard::<f64>::new(*surface.grid(), 1.0)?;
+        let truths: Vec<_> = references.iter().map(|reference| scene.truth(n, reference)).collect();
+        let sharp = scene.loads.iter().map(|&load| scene.converged(&surface, load, false));
+        let sharp = sharp.collect::<Outcome<Vec<_>>>()?;
+        let discretisation = errors(&sharp, &truths, &mut operator)?;
         let mut rows = Vec::new();
-        for choice in choices(n) {
-            let found: Outcome<Vec<Found>> =
-                scene.loads.iter().map(|&load| measure(scene, &surface, load, choice)).collect();
-            let found = found?;
-            let mean = |part: &dyn Fn(&Found) -> f64| found.iter().map(part).sum::<f64>() / found.len() as f64;
-            let (applications, seconds) =
-                ([0, 1].map(|k| mean(&|found| found.applications[k])), mean(&|found| found.seconds));
-            let is_converged = found.iter().all(|found| found.status == asperity::Status::Converged);
-            let states: Vec<_> = found.into_iter().map(|found| found.state).collect();
-            let (solver, whole) = (against(&states, &converged)?, against(&states, &truths)?);
-            rows.push(Row { choice, applications, seconds, converged: is_converged, solver, whole });
+        for choice in Choice::all(n, quick) {
+            let (mut states, mut converged, mut applications, mut seconds) = (Vec::new(), true, 0.0, 0.0);
+            for &load in &scene.loads {
+                let begin = Instant::now();
+                let solve = if choice.single { Scene::solve::<f32> } else { Scene::solve::<f64> };
+                let (state, count, well) = solve(scene, &surface, load, choice)?;
+                (converged, applications) = (converged && well, applications + count / scene.loads.len() as f64);
+                seconds += begin.elapsed().as_secs_f64() / scene.loads.len() as f64;
+                states.push(state);
+            }
+            rows.push(Row {
+                choice,
+                applications,
+                seconds,
+                converged,
+                solver: errors(&states, &sharp, &mut operator)?,
+            });
         }
-        coarser = converged.into_iter().map(|state| (state, n)).collect();
-        grids.push(OnGrid { n, nodes: surface.grid().nodes() as f64, discretisation, extrapolated, rows });
+        Ok(OnGrid { n, nodes: surface.grid().nodes() as f64, discretisation, rows })
+    };
+    scene.sizes.iter().map(measured).collect()
+}
+
+fn errors(found: &[State], truths: &[State], operator: &mut Westergaard<f64>) -> Outcome<Errors> {
+    let mut squares = [0.0; 4];
+    for (found, truth) in found.iter().zip(truths) {
+        let mut pressure = Array2::zeros(truth.0.dim());
+        let mut work = |u: &Array2<f64>| -> Outcome<f64> {
+            operator.pressure(u.view(), pressure.view_mut())?;
+            Ok((u * &pressure).sum())
+        };
+        let all = work(&truth.0)?;
+        squares[0] += work(&(&found.0 - &truth.0))?.max(0.0) / all;
+        for ((square, found), truth) in squares[1..].iter_mut().zip(found.1).zip(truth.1) {
+            *square += (found / truth - 1.0).powi(2);
+        }
     }
-    Ok(grids)
+    Ok(squares.map(|sum| (sum / found.len() as f64).sqrt()))
+}
+
+fn percent(error: f64) -> String {
+    let percent = 100.0 * error;
+    let digits = (1.0 - percent.abs().log10().floor()).clamp(0.0, 9.0) as usize;
+    if percent == 0.0 { "0".to_owned() } else { format!("{percent:.digits$}") }
+}
+
+/// Prints the discretisation error of each grid, and the solver errors of each choice.
+pub fn tell(scene: &Scene, grids: &[OnGrid]) {
+    println!("\nErrors of converged solutions on the grids, that of the displacement in the energy norm\n");
+    let (length, name) = scene.length;
+    println!(
+        "| nodes in the {name} | nodes | μ_ρ | displacement, % | nodes in contact, % | corrected area, % | mean gap or pressure, % |"
+    );
+    println!("|{}", "---|".repeat(7));
+    for grid in grids {
+        let (nodes, mu_rho) = ((10.0 * grid.n as f64 * length).round() / 10.0, scene.resolution(grid.n));
+        let errors = grid.discretisation.map(percent).join(" | ");
+        println!("| {nodes} | {} | {mu_rho:.2} | {errors} |", grid.n);
+    }
+    println!("\nErrors of the solver in %, of area that corrected for its edge; ! not converged");
+    println!(
+        "{:>6} {:<14} {:>9} {:>12} {:>9} | {:>12} {:>8} {:>8}",
+        "nodes", "choice", "tolerance", "applications", "time/ms", "displacement", "area", "answer"
+    );
+    for (grid, row) in grids.iter().flat_map(|grid| grid.rows.iter().map(move |row| (grid, row))) {
+        let [energy, _, area, answer] = row.solver.map(percent);
+        println!(
+            "{:>6} {:<14} {:>9.0e} {:>12.1} {:>9.2} | {energy:>12} {area:>8} {answer:>8} {}",
+            grid.n,
+            row.choice.family(),
+            row.choice.tolerance,
+            row.applications,
+            1e3 * row.seconds,
+            if row.converged { "" } else { "!" },
+        );
+    }
 }

@@ -295,11 +295,13 @@ impl Accuracy {
                 break (error, converged && error.as_ref().is_some_and(enough), None);
             }
             let shape = twice(surface.grid().shape());
-            let half_space = operators.on(Grid::new(shape, surface.grid().lengths())?)?;
-            let bytes = 8.0 * NUMBERS * half_space.grid().nodes() as f64;
+            // the operator's grid grows as that of the surface
+            let nodes = whole.as_ref().map_or(surface.grid(), |(grid, _)| grid).nodes() as f64;
+            let bytes = 8.0 * NUMBERS * nodes * (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
             if bytes > self.memory {
                 break (error, false, Some((shape, bytes)));
             }
+            let half_space = operators.on(Grid::new(shape, surface.grid().lengths())?)?;
             let fine = refined(&surface, periodic)?;
             let touching = Touching::of(solver.constraint.wall());
             let coarse = Deformed::of(&surface, solution.gap, whole);

@@ -54,7 +54,8 @@ const ASKED: [[bool; 3]; 6] = [
 ///
 /// # Errors
 /// [`Error::Contract`] with the first function and gap that break it; [`Error::Shape`] of an adapted law;
-/// [`Error::Value`] if `largest_gap` is not positive and finite, or the work of adhesion of the smoothed law is another.
+/// [`Error::Value`] if `largest_gap` is not positive and finite, or the work of adhesion of the smoothed law is
+/// another.
 ///
 /// ```
 /// use asperity::adhesion::check_law;

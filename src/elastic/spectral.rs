@@ -53,8 +53,8 @@ impl<T: Real> Spectral<T> {
     ///
     /// # Errors
     /// [`Error::Value`] if the modulus is not positive and finite, or the range of the stiffness is too wide for T;
-    /// [`Error::Contract`] if the symbol at a mode is not positive and finite in T; [`Error::Memory`] if there is too little
-    /// for the stiffness.
+    /// [`Error::Contract`] if the symbol at a mode is not positive and finite in T; [`Error::Memory`] if there is too
+    /// little for the stiffness.
     pub fn new(grid: Grid, modulus: f64, symbol: impl Fn(f64, f64) -> f64 + Send + Sync + 'static) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         grid.slab().afford("an elastic operator", size_of::<T>())?;

@@ -5,12 +5,10 @@ use ndarray::Array2;
 use super::{Bench, Path};
 use crate::real::Real;
 use crate::solver::{Least, Potential, extrapolated};
+use crate::sweep::MOST_STEPS;
 
 /// The number of gaps at which a law without a wall is asked whether it bears a pressure.
 const CLOSEST: usize = 64;
-
-/// The farthest extrapolation of the last step, in steps.
-const FARTHEST: f64 = 2.0;
 
 impl<T: Real> Bench<'_, T> {
     pub(super) fn least(&self) -> Least<T> {
@@ -39,7 +37,7 @@ impl<T: Real> Path<T> {
     pub(super) fn predict(&self, bench: &Bench<'_, T>, target: f64) -> Array2<T> {
         match &self.gaps[..] {
             [before, last] => {
-                let steps = self.course.extrapolation(target).clamp(-FARTHEST, FARTHEST);
+                let steps = self.course.extrapolation(target).clamp(-MOST_STEPS, MOST_STEPS);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
                 let on = (bench.problem.flat.window.as_ref(), *bench.problem.operator.grid());
                 extrapolated([before, last], steps, (bench.least(), false), on)

@@ -7,10 +7,7 @@ use crate::error::Result;
 use crate::problem::{Control, Parts, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Begin, Solution, Solved, Start, Status};
-use crate::stability::Saddle;
-
-/// The largest change of the gap that is made along the mode, in ranges of adhesion.
-const PERTURBATION: f64 = 0.1;
+use crate::stability::{PERTURBATION, Saddle};
 
 /// The share of the mode in the last change of the gap above which the state jumps; below, a symmetry breaks.
 const DRAWN: f64 = 0.1;

@@ -7,7 +7,10 @@ use crate::constraint::ContactConstraint;
 use crate::error::{Error, Result};
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Potential, Solution, Solved, Solver, Start, bounded, refuse_hardness, refuse_springs};
+use crate::solver::{
+    Begin, Iteration, Observer, Potential, Solution, Solved, Solver, Start, Status, bounded, refuse_hardness,
+    refuse_springs,
+};
 
 /// The departure from an equilibrium: the end of a minimisation that left it along its softest mode.
 #[non_exhaustive]
@@ -24,18 +27,19 @@ pub struct Departure<T: Real> {
 }
 
 /// The largest change of the gap that a perturbation makes, in ranges of adhesion.
-const PERTURBATION: f64 = 0.1;
+pub(crate) const PERTURBATION: f64 = 0.1;
 
 impl<T: Real> Stability<T> {
     /// Leaves an equilibrium: perturbs its gap along the mode both ways, minimises on under the control of the test
     /// and with the solver's wall, and returns the end of lower energy.
     ///
     /// The perturbation is a tenth of the range of adhesion at most; a stable equilibrium comes back within that
-    /// distance. `None` if the mode is zero, as where all nodes are in contact, or without adhesion.
+    /// distance. `None` if the mode is zero, as where all nodes are in contact, or without adhesion. Where `observe`
+    /// stops a solve, the departure ends there, [stopped](Status::Stopped).
     ///
     /// # Errors
-    /// [`Error::Shape`], [`Error::Value`] or [`Error::Unsuited`] if the solution is of another problem, [`Error::Unsuited`]
-    /// for springs, and those of [`Solver::solve_with`].
+    /// [`Error::Shape`], [`Error::Value`] or [`Error::Unsuited`] if the solution is of another problem,
+    /// [`Error::Unsuited`] for springs, and those of [`Solver::solve_with`].
     ///
     /// ```
     /// use asperity::stability::StabilityTest;
@@ -46,7 +50,8 @@ impl<T: Real> Stability<T> {
     /// let mut solver = Solver::default();
     /// let even = solver.solve(&mut problem, Control::MeanGap(0.011))?; // a uniform gap, which does not last
     /// let stability = StabilityTest::default().run(&mut problem, &even)?;
-    /// let left = stability.leave(&mut solver, &mut problem, &even)?.expect("there is a mode");
+    /// let on = |_: &_| std::ops::ControlFlow::Continue(());
+    /// let left = stability.leave(&mut solver, &mut problem, &even, on)?.expect("there is a mode");
     /// assert!(left.energy_drop > 0.0 && left.solution.report.contact_nodes > 0);
     /// # Ok::<(), asperity::Error>(())
     /// ```
@@ -55,8 +60,9 @@ impl<T: Real> Stability<T> {
         solver: &mut Solver<dyn ContactConstraint<T>>,
         problem: &mut Problem<T>,
         from: &Solution<T>,
+        mut observe: impl FnMut(&Iteration) -> ControlFlow<()> + Send,
     ) -> Result<Option<Departure<T>>> {
-        T::leave(self, solver, problem, from)
+        T::leave(self, solver, problem, from, &mut observe)
     }
 
     pub(crate) fn depart(
@@ -64,6 +70,7 @@ impl<T: Real> Stability<T> {
         solver: &mut Solver<dyn ContactConstraint<T>>,
         problem: &mut Problem<T>,
         from: &Solution<T>,
+        observe: Observer<'_>,
     ) -> Result<Option<Departure<T>>> {
         refuse_springs(solver.constraint.wall())?;
         let yields = "the way from a saddle is one of an energy, and a surface that yields has none";
@@ -103,13 +110,16 @@ impl<T: Real> Stability<T> {
             let least = Potential::new(problem.law_on_grid(), &solver.constraint, None).least();
             start.zip_mut_with(&self.mode, |gap, &mode| *gap = bounded(least, *gap, *gap + step * mode));
             let begin = Begin::At(Start::From(&start));
-            let Solved { solution, .. } =
-                solver.run(problem.parts(), control, begin, &mut |_| ControlFlow::Continue(()))?;
+            let Solved { solution, .. } = solver.run(problem.parts(), control, begin, &mut *observe)?;
             let energy_drop = energy(from) - energy(&solution);
-            if best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
+            let stopped = solution.report.status == Status::Stopped;
+            if stopped || best.as_ref().is_none_or(|best| energy_drop > best.energy_drop) {
                 let square = |a: T, b: T| if a == b { 0.0 } else { (a - b).widen().powi(2) };
                 let distance = grid.mean_of_both(solution.gap.view(), from.gap.view(), square).sqrt();
                 best = Some(Departure { solution, energy_drop, distance, direction });
+            }
+            if stopped {
+                break;
             }
         }
         Ok(best)

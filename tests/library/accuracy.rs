@@ -340,8 +340,14 @@ fn what_cannot_be_had_is_refused_by_name() {
     assert!(text.contains("an accuracy of 1e-6 of the area takes about") && text.contains("GiB"), "{text}");
     // and on the way
     let mut small = Accuracy::new(2e-3, Quantity::Area).memory(1e6);
-    let found = small.solve(&surface, half_space, NoAdhesion, control).unwrap();
+    let mut made = 0;
+    let operator = |grid: Grid| {
+        made = made.max(grid.shape().0);
+        half_space(grid)
+    };
+    let found = small.solve(&surface, operator, NoAdhesion, control).unwrap();
     let (shape, bytes) = found.unaffordable.unwrap();
+    assert_eq!(made, found.surface.grid().shape().0);
     assert!(!found.reached && shape.0 == 2 * found.surface.grid().shape().0 && bytes > 1e6);
     assert!(found.error.unwrap().relative > 2e-3);
 }

@@ -1,6 +1,7 @@
 //! Branches of equilibria without a wall: jumps and stability of surfaces that the law itself keeps apart.
 
 use std::f64::consts::TAU;
+use std::ops::ControlFlow;
 
 use asperity::path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
@@ -168,7 +169,7 @@ fn a_saddle_is_left_for_a_minimum_of_lower_energy() {
     let test = StabilityTest::default();
     let saddle = test.run_with(&mut problem, &NoWall, &even).unwrap();
     assert_eq!(saddle.verdict, Verdict::Unstable);
-    let left = saddle.leave(&mut solver, &mut problem, &even).unwrap().unwrap();
+    let left = saddle.leave(&mut solver, &mut problem, &even, |_| ControlFlow::Continue(())).unwrap().unwrap();
     let gap = &left.solution.gap;
     assert!(left.energy_drop > 0.0 && left.solution.report.min_gap > 0.0);
     assert_eq!(test.run_with(&mut problem, &NoWall, &left.solution).unwrap().verdict, Verdict::Stable);

@@ -1,5 +1,7 @@
 //! Branches of equilibria: where they break off, what that dissipates, and what exact solutions say.
 
+use std::ops::ControlFlow;
+
 use crate::common::{check, rough, sphere};
 use asperity::path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
@@ -162,7 +164,10 @@ fn stability_is_lost_at_a_limit_point() {
     let step = &steps[turn + 6];
     let control = Control::MeanPressure(step.solution.report.mean_pressure);
     let saddle = StabilityTest::under(control).run(&mut problem, &step.solution).unwrap();
-    let left = saddle.leave(&mut Solver::default(), &mut problem, &step.solution).unwrap().unwrap();
+    let left = saddle
+        .leave(&mut Solver::default(), &mut problem, &step.solution, |_| ControlFlow::Continue(()))
+        .unwrap()
+        .unwrap();
     assert!(left.energy_drop > 0.0 && left.distance > 0.0);
 }
 

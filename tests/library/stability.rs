@@ -1,6 +1,7 @@
 //! Whether equilibria are stable, against what is known exactly and against dense matrices.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use crate::common::dense::{Dense, Held};
 use crate::common::{rough, solve, sphere};
@@ -151,7 +152,9 @@ fn the_memory_layout_of_the_gap_does_not_matter() {
         let test = StabilityTest::default();
         let rows = test.run(&mut problem, &solution).unwrap();
         assert_eq!(test.run(&mut problem, &columns).unwrap(), rows);
-        let mut leave = |from| rows.leave(&mut Solver::default(), &mut problem, from).unwrap().unwrap();
+        let mut leave = |from| {
+            rows.leave(&mut Solver::default(), &mut problem, from, |_| ControlFlow::Continue(())).unwrap().unwrap()
+        };
         assert_eq!(leave(&columns).solution, leave(&solution).solution);
         let start = |gap: &Array2<f64>| gap.mapv(|gap| 1.1 * gap);
         let mut from = |gap: &Array2<f64>| {
@@ -161,6 +164,23 @@ fn the_memory_layout_of_the_gap_does_not_matter() {
         };
         assert_eq!(from(&columns.gap), from(&solution.gap));
     }
+}
+
+#[test]
+fn an_observer_ends_a_departure() {
+    let grid = Grid::line(64, 1.0).unwrap();
+    let flat = Surface::from_fn(grid, |_, _| 0.0).unwrap();
+    let (half_space, law) = (Westergaard::<f64>::new(grid, 1.0).unwrap(), Exponential::new(1e-3, 1e-2).unwrap());
+    let mut problem = Problem::new(&flat, half_space, law).unwrap();
+    let even = Solver::default().solve(&mut problem, Control::MeanGap(0.011)).unwrap();
+    let stability = StabilityTest::default().run(&mut problem, &even).unwrap();
+    let mut calls = 0;
+    let stop = |_: &Iteration| {
+        calls += 1;
+        ControlFlow::Break(())
+    };
+    let left = stability.leave(&mut Solver::default(), &mut problem, &even, stop).unwrap().unwrap();
+    assert_eq!((left.solution.report.status, calls), (Status::Stopped, 1));
 }
 
 #[test]
@@ -195,7 +215,8 @@ fn nothing_can_move_in_full_contact_and_bad_input_is_refused() {
     assert_eq!(solution.report.contact_fraction, 1.0);
     let stability = StabilityTest::default().run(&mut problem, &solution).unwrap();
     assert_eq!((stability.verdict, stability.eigenvalue), (Verdict::Stable, f64::INFINITY));
-    assert!(stability.leave(&mut Solver::default(), &mut problem, &solution).unwrap().is_none());
+    let left = stability.leave(&mut Solver::default(), &mut problem, &solution, |_| ControlFlow::Continue(()));
+    assert!(left.unwrap().is_none());
 
     let mut other = rough::<f64, _>(12, 4, NoAdhesion);
     let refused = StabilityTest::default().run(&mut other, &solution);

@@ -389,7 +389,7 @@ fn equilibria_are_judged_alike(world: &World, shape: (usize, usize)) -> Result<(
         let solution = solver.solve(&mut problem, control)?;
         let test = stability::StabilityTest::default().max_iterations(30);
         let stability = test.run(&mut problem, &solution)?;
-        let left = stability.leave(&mut solver, &mut problem, &solution)?;
+        let left = stability.leave(&mut solver, &mut problem, &solution, |_| ControlFlow::Continue(()))?;
         let stiffness = stability::ContactStiffness::of(&mut problem, &solution)?;
         let mut bare = Problem::new(&rough(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
         let found = ContactSearch::new(&mut solver, &mut bare)?.at(0.05)?;

@@ -11,8 +11,8 @@ const CLASSES: f64 = 8.0;
 const LAST: usize = 4;
 /// The least number of independent waves in these: of fewer the slope of the spectrum there is not known to 0.25.
 const LEAST_WAVES: f64 = 1600.0;
-/// The slopes of the logarithm of the density up to which a profile and a surface are flat: half of those of self-affine
-/// ones, −1 − 2H and −2 − 2H, at a Hurst exponent H of 0.
+/// The slopes of the logarithm of the density up to which a profile and a surface are flat: half of those of
+/// self-affine ones, −1 − 2H and −2 − 2H, at a Hurst exponent H of 0.
 const FLAT: [f64; 2] = [0.5, 1.0];
 /// The least rms of the noise over that of the heights: rounding to `f32` makes some 1e-7.
 const LEAST: f64 = 1e-6;
@@ -30,8 +30,8 @@ struct Class {
     density: f64,
 }
 
-/// The wavelength of the knee of the spectrum of a surface, at which it flattens to a floor of noise; none where there is no
-/// floor.
+/// The wavelength of the knee of the spectrum of a surface, at which it flattens to a floor of noise; none where there
+/// is no floor.
 ///
 /// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
 /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid falls

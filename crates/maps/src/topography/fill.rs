@@ -30,8 +30,8 @@ const OVERCORRECTION: f64 = 1.8;
 /// around each hole: there are no new peaks, nor the roughness that was there. Measured heights stay as they are.
 /// A plane fills its own holes, but not at the edge of the map: remove a tilt first.
 ///
-/// By conjugate gradients, preconditioned by multigrid cycles, to a residual of 1e-12, and to a smaller one by as much as
-/// cells are longer than wide: the slopes along their longer side have so small a part in it.
+/// By conjugate gradients, preconditioned by multigrid cycles, to a residual of 1e-12, and to a smaller one by as much
+/// as cells are longer than wide: the slopes along their longer side have so small a part in it.
 ///
 /// ```
 /// use asperity_maps::fill;

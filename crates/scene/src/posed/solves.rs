@@ -5,7 +5,7 @@ use std::sync::Arc;
 use asperity::accuracy::{AccurateSolution, GridError};
 use asperity::constraint::Wall;
 use asperity::nested::NestedSolution;
-use asperity::stability::{ContactStiffness, StabilityTest, Verdict};
+use asperity::stability::{ContactStiffness, Departure, StabilityTest, Verdict};
 use asperity::{ContactConstraint, ContactSearch, Grid, Iteration, Nested, Real, Result, Solution, Start, Status};
 use ndarray::Array2;
 
@@ -97,25 +97,26 @@ impl<T: Real> Posed<T> {
         let clock = Instant::now();
         let (solver, problem) = self.parts()?;
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
-        let observe = |state: &Iteration| observe(&grid, state, tolerance);
+        let mut observe = |state: &Iteration| observe(&grid, state, tolerance);
         let (mut solution, search) = match asked.fraction {
             Some(fraction) => {
                 let mut search = start.map_or_else(ContactSearch::default, ContactSearch::starting_from);
-                let found = search.at_observed(solver, problem, fraction, observe)?;
+                let found = search.at_observed(solver, problem, fraction, &mut observe)?;
                 let search = Search::of(fraction, &found);
                 (found.solution, Some(search))
             }
             None => {
                 let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-                (solver.solve_with(problem, asked.control, start, observe)?, None)
+                (solver.solve_with(problem, asked.control, start, &mut observe)?, None)
             }
         };
         let (mut departures, mut verdict) = (Vec::new(), None);
         while asked.stability && solution.report.status != Status::Stopped {
             let found = StabilityTest::default().run_with(problem, &solver.constraint, &solution)?;
             let leaves = asked.leave && found.verdict == Verdict::Unstable && departures.len() < MOST_DEPARTURES;
-            let left = if leaves { found.leave(solver, problem, &solution)? } else { None };
-            let Some(left) = left.filter(|left| left.energy_drop > 0.0) else {
+            let left = if leaves { found.leave(solver, problem, &solution, &mut observe)? } else { None };
+            let ends = |left: &Departure<T>| left.energy_drop > 0.0 || left.solution.report.status == Status::Stopped;
+            let Some(left) = left.filter(ends) else {
                 verdict = Some(found);
                 break;
             };
