@@ -17,6 +17,8 @@ use common::{Outcome, arguments};
 use ndarray::Array2;
 
 const ROUNDS: usize = 5;
+/// The applications in a round, in each precision.
+const APPLICATIONS: usize = 20;
 
 #[derive(Parser)]
 struct Arguments {
@@ -60,7 +62,7 @@ fn measure(
     let loose = Settings::default().tolerance(1e-4);
     let mut figures: [Vec<f64>; 5] = Default::default();
     for _ in 0..ROUNDS {
-        let (in_single, in_double) = (application::<f32>(surface)?, application::<f64>(surface)?);
+        let [in_single, in_double] = application(surface)?;
         let (solution, time) = solve(&mut double, control, Settings::default(), Start::Default)?;
         let (near, time_single) = solve(&mut single, control, loose, Start::Default)?;
         let start = Start::Near(near.gap.mapv(f64::from));
@@ -99,18 +101,27 @@ fn median(values: &mut [f64]) -> f64 {
     values[values.len() / 2]
 }
 
-/// The seconds of an operator application.
-fn application<T: Real>(surface: &Surface) -> Result<f64> {
+/// The seconds of an operator application in `f32` and in `f64`, timed in turn.
+fn application(surface: &Surface) -> Result<[f64; 2]> {
+    let (mut single, mut double) = (applied::<f32>(surface)?, applied::<f64>(surface)?);
+    let mut times: [Vec<f64>; 2] = Default::default();
+    for _ in 0..APPLICATIONS {
+        times[0].push(single()?);
+        times[1].push(double()?);
+    }
+    Ok(times.map(|mut times| median(&mut times)))
+}
+
+/// Applies the half-space to the heights whenever it is called, and tells the seconds.
+fn applied<T: Real>(surface: &Surface) -> Result<impl FnMut() -> Result<f64>> {
     let mut half_space = Westergaard::<T>::new(*surface.grid(), 1.0)?;
     let displacement = surface.heights().mapv(T::lit);
     let mut pressure = Array2::zeros(displacement.dim());
-    let mut times = Vec::new();
-    for _ in 0..ROUNDS {
+    Ok(move || {
         let begin = Instant::now();
         half_space.pressure(displacement.view(), pressure.view_mut())?;
-        times.push(begin.elapsed().as_secs_f64());
-    }
-    Ok(median(&mut times))
+        Ok(begin.elapsed().as_secs_f64())
+    })
 }
 
 /// A solution, and the seconds that it took.
