@@ -11,14 +11,6 @@ use crate::par::Parts;
 use crate::problem::Yielded;
 use crate::real::Real;
 
-/// The plastic depth on the operator's grid, and its figures.
-pub(super) struct Depth<T> {
-    pub(super) depth: Array2<T>,
-    pub(super) figures: Plastic,
-    /// The work that the law has done at nodes that yield, below the gap of touching surfaces.
-    pub(super) pulled: f64,
-}
-
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether some nodes yield in the present state.
     pub(super) fn has_yielded(&self) -> bool {
@@ -27,9 +19,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         yields && self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
     }
 
-    /// How far the surface has yielded, with the depth that it had before; nothing if the wall does not yield. The
-    /// energy is over all nodes of the operator's grid.
-    pub(super) fn yielded(&mut self) -> Option<Depth<T>> {
+    /// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing if
+    /// the wall does not yield. The energy is over all nodes of the operator's grid. Last the work that the law has done
+    /// at nodes that yield, below the gap of touching surfaces.
+    pub(super) fn yielded(&mut self) -> Option<(Array2<T>, Plastic, f64)> {
         let Self { fields, posed, .. } = self;
         let hardness = posed.wall().hardness()?.mean();
         let before = posed.flat.yielded.as_ref().map(Yielded::depth);
@@ -63,6 +56,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             depth_mean: sum / facing,
             energy: posed.flat.padding * energy / posed.nodes(),
         };
-        Some(Depth { depth, figures, pulled })
+        Some((depth, figures, pulled))
     }
 }
