@@ -38,6 +38,7 @@ pub(crate) use potential::{Least, Of, Potential, bounded};
 pub(crate) use precision::{in_double, in_single};
 pub(crate) use report::Solved;
 pub use report::{Iteration, Plastic, Report, Solution, Status};
+pub use rey2017::Criterion;
 pub use start::Start;
 pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
 pub(crate) use tension::STRONGEST;
@@ -61,29 +62,6 @@ impl Method {
         match self {
             Self::Preconditioned => "default",
             Self::Rey2017 => "rey2017",
-        }
-    }
-}
-
-/// The criterion of convergence: the measure that has to fall below the tolerance.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
-pub enum Criterion {
-    /// The certified relative error in the energy norm, [`Report::relative_error`].
-    #[default]
-    EnergyNorm,
-    /// The criterion ε = Σ|g r'| of the paper, in units of E*·√(Lx·Ly): no bound of an error; its rounding floor grows
-    /// with the number of nodes.
-    Complementarity,
-}
-
-impl Criterion {
-    /// The name that the tool and the report use: `"energy-norm"` or `"complementarity"`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::EnergyNorm => "energy-norm",
-            Self::Complementarity => "complementarity",
         }
     }
 }

@@ -7,10 +7,10 @@ use ndarray::Zip;
 #[cfg(doc)]
 use super::Report;
 use super::start::{Begin, Start};
-use super::{Method, Settings, Solution, Status};
+use super::{Method, Settings, Solution, Status, rey2017};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 
@@ -79,10 +79,9 @@ impl Branch {
         };
         let paper = settings.method == Method::Rey2017;
         if paper && wanted == Some(Self::Loading) {
-            return Err(Error::Unsuited {
-                what: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
-                reason: "it starts from full contact: take the default method for the branch of loading",
-            });
+            return Err(rey2017::refused(
+                "it starts from full contact: take the default method for the branch of loading",
+            ));
         }
         let presses = match load {
             Load::Gap(_) => false,

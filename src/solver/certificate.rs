@@ -1,7 +1,6 @@
 //! The certificate: the distance of the state from the solution, and the tests that end a solve.
 
-use super::Criterion;
-use super::driver::End;
+use super::driver::{End, Observer};
 use super::minimisation::Goal;
 use super::report::Status;
 use super::state::{SCALED, State};
@@ -60,7 +59,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         let flat =
             if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
-        let mean = (self.mean_gap()).abs();
+        let mean = self.mean_gap().abs();
         let carried = self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height);
         let rounding = epsilon * epsilon * carried;
         let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
@@ -130,12 +129,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if pressure.abs() <= rounding { 0.0 } else { pressure.abs() / scale }
     }
 
-    pub(super) fn scaled_complementarity(&self) -> f64 {
-        let (lx, ly) = self.posed.operators.state().grid().lengths();
-        self.sums.residual.complementarity / (self.posed.operators.state().modulus() * (lx * ly).sqrt())
-    }
-
-    pub(super) fn converged(&self) -> bool {
+    fn converged(&self) -> bool {
         self.meets(self.load_error())
     }
 
@@ -145,12 +139,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             return self.relative_error() <= tolerance && load_error <= tolerance;
         }
         let tolerance = self.tolerance();
-        let criterion = match self.posed.settings.criterion {
-            Criterion::EnergyNorm => self.relative_error(),
-            Criterion::Complementarity if self.sums.residual.working > self.sums.tally.free => f64::INFINITY,
-            Criterion::Complementarity => self.scaled_complementarity(),
-        };
-        criterion <= tolerance && load_error <= tolerance
+        self.measure() <= tolerance && load_error <= tolerance
     }
 
     /// The tolerance of a state from which a minimisation of another energy goes on; none of the solution.
@@ -168,9 +157,21 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Some(start.max(tolerance))
     }
 
+    /// Confirms convergence, and tells the observer of the iteration; the end, if it is one.
+    pub(super) fn check_end(&mut self, observe: Observer<'_>) -> Result<Option<End>> {
+        if self.converged() {
+            self.confirm()?;
+        }
+        let converged = self.converged();
+        if observe(&self.iteration()).is_break() {
+            return Ok(Some(End::Cut(Status::Stopped)));
+        }
+        Ok(converged.then_some(End::Converged))
+    }
+
     /// Computes p = K⁻¹(g + h) anew, and the certificate of its residual: a solve ends only if that meets the
     /// tolerance. A start needs no such proof.
-    pub(super) fn confirm(&mut self) -> Result<()> {
+    fn confirm(&mut self) -> Result<()> {
         if self.steps.age == 0 || self.start_tolerance().is_some() {
             return Ok(());
         }

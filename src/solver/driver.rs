@@ -54,15 +54,8 @@ fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_
     state.residual();
     loop {
         state.certify()?;
-        if state.converged() {
-            state.confirm()?;
-        }
-        let converged = state.converged();
-        if observe(&state.iteration()).is_break() {
-            return Ok(End::Cut(Status::Stopped));
-        }
-        if converged {
-            return Ok(End::Converged);
+        if let Some(end) = state.check_end(observe)? {
+            return Ok(end);
         }
         state.note_progress();
         let verdict = state.verdict(state.patience().1);

@@ -70,22 +70,18 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     pub(super) fn energy(&self) -> f64 {
+        let (load, tally, nodes) = (self.posed.load, &self.sums.tally, self.posed.nodes());
         let of_load = match self.sums.detached {
-            Some(load) => load * self.sums.tally.sum_gap,
-            None => {
-                self.posed.load.share()
-                    * self.sums.given
-                    * (self.sums.tally.sum_gap - self.posed.nodes() * self.posed.load.rest())
-            }
+            Some(load) => load * tally.sum_gap,
+            None => load.share() * self.sums.given * (tally.sum_gap - nodes * load.rest()),
         };
-        0.5 * self.mean_work() + (self.sums.tally.adhesive + self.sums.tally.penalty + of_load) / self.posed.nodes()
+        0.5 * self.mean_work() + (tally.adhesive + tally.penalty + of_load) / nodes
     }
 
     pub(super) fn energy_noise(&self) -> f64 {
-        let local = self.sums.tally.adhesive.abs()
-            + self.sums.tally.penalty.abs()
-            + self.sums.given.abs()
-                * (self.sums.tally.sum_gap.abs() + self.posed.nodes() * self.posed.load.rest().abs());
-        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / self.posed.nodes())
+        let (tally, nodes) = (&self.sums.tally, self.posed.nodes());
+        let of_load = self.sums.given.abs() * (tally.sum_gap.abs() + nodes * self.posed.load.rest().abs());
+        let local = tally.adhesive.abs() + tally.penalty.abs() + of_load;
+        2.0 * T::epsilon().widen() * (0.5 * self.mean_work() + local / nodes)
     }
 }

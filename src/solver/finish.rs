@@ -19,22 +19,6 @@ use crate::vector::sums;
 /// The share of the largest traction above which one at the edge of the window matters.
 const EDGE: f64 = 1e-3;
 
-/// The pressures that the fields of a state carry.
-struct Carried<T> {
-    contact_pressure: Array2<T>,
-    /// the mean pressure p̄, given or of a given mean gap
-    mean: f64,
-    mean_contact: f64,
-    /// ⟨λ⟩ − ⟨φ'⟩
-    net: f64,
-    load_error: f64,
-    /// Σ (p̄ − p − p̄), over the nodes that face the surface
-    missing: f64,
-    /// the sum of their gaps, and the least gap
-    sum_gap: f64,
-    min_gap: f64,
-}
-
 found! {
     /// The sums over the fields of a solution.
     struct Borne {
@@ -48,19 +32,25 @@ found! {
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn finish(mut self, status: Status) -> Result<Solved<T>> {
         self.certify_as_returned()?;
-        let carried = self.carry();
+        let mean = self.external_pressure();
+        let (contact_pressure, carried) = self.carry(mean);
+        let load_error = match self.posed.load {
+            _ if self.sums.detached.is_some() => 1.0,
+            Load::Gap(_) => self.load_error(),
+            _ => self.load_error().max(self.share_of_load(self.net_pressure(&carried) - mean)),
+        };
         let yielded = self.yielded();
-        if let Some(yielded) = &yielded {
-            self.sums.tally.adhesive += yielded.pulled;
+        if let Some((.., pulled)) = yielded {
+            self.sums.tally.adhesive += pulled;
         }
-        let report = self.report(status, &carried, yielded.as_ref().map(|yielded| yielded.figures));
+        let (plastic_depth, plastic) = yielded.map(|(depth, figures, _)| (depth, figures)).unzip();
+        let report = self.report(status, (mean, load_error), &carried, plastic);
         let (on_grid, flat, at_floor) = (self.posed.law(), self.posed.flat, self.is_at_floor());
         let law = self.posed.given.clone();
-        let (grid, facing) = (*self.posed.operators.state().grid(), self.posed.facing());
+        let (grid, nodes) = (*self.posed.operators.state().grid(), self.posed.nodes());
+        let facing = self.posed.facing();
         let Fields { gap, mut pressure, .. } = self.fields;
-        let plastic_depth = yielded.map(|yielded| yielded.depth);
         let yields = plastic_depth.is_some();
-        let Carried { contact_pressure, missing, .. } = carried;
         let (mut solution, whole) = match &flat.window {
             None => {
                 let whole = yields.then(|| (grid, gap.clone()));
@@ -69,7 +59,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             Some(window) => {
                 // the nodes that face no surface have their part of the residual: in balance the others bear the load
                 if report.status == Status::Converged {
-                    let share = T::lit(missing / facing);
+                    let share = T::lit((mean * nodes - carried.pressure) / facing);
                     pressure.mapv_inplace(|p| p + share);
                 }
                 let [pressure, contact_pressure] =
@@ -103,10 +93,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.trust_work(T::epsilon().widen().sqrt())
     }
 
-    /// Makes the elastic pressure that of the load, and divides it into contact and adhesion.
-    fn carry(&mut self) -> Carried<T> {
-        let nodes = self.posed.nodes();
-        let mean = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
+    /// Makes a mean pressure that of the elastic pressure, and takes the contact pressure λ out of it. Returns Σ λ, Σ g and
+    /// the sum of the pressure over the nodes that face the surface, and the least gap.
+    fn carry(&mut self, mean: f64) -> (Array2<T>, Borne) {
         let shift = T::lit(mean - self.sums.drift);
         let Self { fields, posed, .. } = self;
         let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
@@ -116,7 +105,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let mut contact_pressure = Array2::zeros(gap.dim());
         let local = posed.potential();
         let fields = read(gap).zip(write(pressure)).zip(write(&mut contact_pressure));
-        let total = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
+        let carried = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
             pressure.iter_mut().for_each(|p| *p += shift);
             local.contact_pressures(first, gap, pressure, contact);
             if !local.is_surface() {
@@ -127,20 +116,22 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 least least_gap: gap[i].widen()
             })
         });
-        let mean_contact = total.contact / nodes;
-        let net = mean_contact - self.mean_traction();
-        let load_error = match self.posed.load {
-            _ if self.sums.detached.is_some() => 1.0,
-            Load::Gap(_) => self.load_error(),
-            _ => self.load_error().max(self.share_of_load(net - mean)),
-        };
-        let missing = mean * nodes - total.pressure;
-        let (sum_gap, min_gap) = (total.gap, total.least_gap.0);
-        Carried { contact_pressure, mean, mean_contact, net, load_error, missing, sum_gap, min_gap }
+        (contact_pressure, carried)
     }
 
-    fn report(&self, status: Status, carried: &Carried<T>, plastic: Option<Plastic>) -> Report {
-        let &Carried { mean, mean_contact, net, load_error, sum_gap, min_gap, .. } = carried;
+    /// ⟨λ⟩ − ⟨φ'⟩.
+    fn net_pressure(&self, carried: &Borne) -> f64 {
+        carried.contact / self.posed.nodes() - self.mean_traction()
+    }
+
+    fn report(
+        &self,
+        status: Status,
+        (mean, load_error): (f64, f64),
+        carried: &Borne,
+        plastic: Option<Plastic>,
+    ) -> Report {
+        let net = self.net_pressure(carried);
         let Posed { flat, settings, .. } = self.posed;
         let (law, operator) = (self.posed.law(), self.posed.operators.state());
         let (hints, modulus, padding) = (law.hints(), operator.modulus(), flat.padding);
@@ -151,7 +142,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         // the mean of the displacement is no wave
         let of_mean = 0.5 * flat.boundary.mean_compliance() * net.powi(2);
         // to the surface as it is now, beside that as it was before the solve
-        let facing_mean = if flat.window.is_some() { sum_gap / facing } else { self.mean_gap() };
+        let facing_mean = if flat.window.is_some() { carried.gap / facing } else { self.mean_gap() };
         let deeper = plastic.map_or(0.0, |plastic| plastic.depth_mean - flat.mean_depth() * nodes / facing);
         Report {
             status: self.final_status(status, load_error),
@@ -173,13 +164,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             normal_force: given * padding * flat.area,
             approach: flat.approach(self.mean_gap(), mean),
             net_pressure: net * padding,
-            mean_contact_pressure: mean_contact * padding,
+            mean_contact_pressure: carried.contact / nodes * padding,
             contact_fraction: self.sums.tally.contact / facing,
             contact_nodes: self.sums.tally.contact as usize,
             absent_nodes: (nominal - facing) as usize,
             edge_traction: None,
             reaches_edge: false,
-            min_gap: if plastic.is_some() { min_gap.max(0.0) } else { min_gap },
+            min_gap: if plastic.is_some() { carried.least_gap.0.max(0.0) } else { carried.least_gap.0 },
             elastic_energy: padding * (0.5 * self.mean_work() + of_mean),
             adhesive_energy: padding * self.sums.tally.adhesive / nodes,
             range: hints.of_grid.then(|| hints.range.widen()),

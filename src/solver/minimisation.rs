@@ -34,8 +34,9 @@ pub(super) struct Sums {
 }
 
 /// What the start of a solve knows of the solution, in ascending order.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub(super) enum Nearness {
+    #[default]
     Afar,
     /// the contacts of another load, whose stiffness and places are like those of the solution
     Loaded,
@@ -45,7 +46,7 @@ pub(super) enum Nearness {
     Near,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Steps {
     /// the last step, if the next one may use it
     pub(super) momentum: Option<Made>,
@@ -59,12 +60,6 @@ pub(super) struct Steps {
     pub(super) age: usize,
     /// the sum of ⟨c, c⟩/N over these steps, with c their change
     pub(super) updates: f64,
-}
-
-impl Steps {
-    pub(super) fn new(coarse: Option<Coarse>) -> Self {
-        Self { momentum: None, step_length: 1.0, coarse, nearness: Nearness::Afar, norm: None, age: 0, updates: 0.0 }
-    }
 }
 
 #[derive(Debug, Default)]

@@ -73,7 +73,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 Control::MeanGap(held) => separation.min(T::lit(held)),
                 _ => separation,
             };
-            self.fields.gap.mapv_inplace(|gap| gap + lift);
+            self.each_gap(|gap| gap + lift);
         }
         let load = self.posed.flat.load(self.posed.control, self.posed.constraint.wall())?;
         self.adhere(load, Goal::Solution)

@@ -97,14 +97,6 @@ impl<T: Real> Potential<'_, T> {
     }
 }
 
-/// The plastic depth on the operator's grid, and its figures.
-pub(super) struct Depth<T> {
-    pub(super) depth: Array2<T>,
-    pub(super) figures: Plastic,
-    /// The work that the law has done at nodes that yield, below the gap of touching surfaces.
-    pub(super) pulled: f64,
-}
-
 found! {
     /// The sums over the plastic depth.
     struct Deepened {
@@ -127,9 +119,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         yields && self.sums.tally.contact + self.sums.tally.free > self.posed.nodes()
     }
 
-    /// How far the surface has yielded, with the depth that it had before; nothing if the wall does not yield. The
-    /// energy is over all nodes of the operator's grid.
-    pub(super) fn yielded(&mut self) -> Option<Depth<T>> {
+    /// The plastic depth on the operator's grid and its figures, with the depth that the surface had before; nothing if
+    /// the wall does not yield. The energy is over all nodes of the operator's grid. Last the work that the law has done
+    /// at nodes that yield, below the gap of touching surfaces.
+    pub(super) fn yielded(&mut self) -> Option<(Array2<T>, Plastic, f64)> {
         let Self { fields, posed, .. } = self;
         let hardness = posed.wall().hardness()?.mean();
         let before = posed.flat.yielded.as_ref().map(Yielded::depth);
@@ -165,6 +158,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             depth_mean: total.depth / facing,
             energy: posed.flat.padding * total.energy / posed.nodes(),
         };
-        Some(Depth { depth, figures, pulled: total.pulled })
+        Some((depth, figures, total.pulled))
     }
 }

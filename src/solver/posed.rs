@@ -6,10 +6,10 @@ use super::minimisation::Goal;
 use super::operators::Operators;
 use super::potential::Potential;
 use super::tension::Hold;
-use super::{Branch, Method, Settings};
+use super::{Branch, Method, Settings, rey2017};
 use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw};
 use crate::constraint::{ContactConstraint, Projection, Wall};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::problem::{Control, Load, PressedFlat, Window};
 use crate::real::Real;
 
@@ -50,11 +50,9 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         let unknown =
             flat.window.is_some() || self.load.stiffness() > 0.0 || self.constraint.wall().hardness().is_some();
         if self.settings.method == Method::Rey2017 && unknown {
-            return Err(Error::Unsuited {
-                what: "Algorithm 3 of Rey, Anciaux and Molinari (2017)",
-                reason: "it knows neither springs nor absent nodes nor a free boundary nor a hardness: take the \
-                         default method",
-            });
+            return Err(rey2017::refused(
+                "it knows neither springs nor absent nodes nor a free boundary nor a hardness: take the default method",
+            ));
         }
         Ok(())
     }

@@ -54,8 +54,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// The stiffness of the contacts against a change of the mean gap, about λ̄/h_rms for rough surfaces.
     fn contact_stiffness(&self) -> f64 {
-        let external = if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given };
-        (external + self.mean_traction()).abs() / self.posed.flat.rms_height
+        (self.external_pressure() + self.mean_traction()).abs() / self.posed.flat.rms_height
     }
 
     /// The stiffness of the contacts in the preconditioner; from a far start under a pressure, the softest wave's.

@@ -1,11 +1,9 @@
 //! Algorithm 3 of Rey, Anciaux and Molinari (2017), with its misprints corrected.
 
-use super::Criterion;
 use super::driver::{End, Observer};
 use super::passes::Fields;
-use super::report::Status;
 use super::state::State;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::field::{read, write};
 use crate::par::Parts;
 use crate::problem::Load;
@@ -16,7 +14,35 @@ const CERTIFY: usize = 10;
 
 /// Iterations without progress until the direction is dropped, and until the solve has stalled: energy and residual need
 /// not fall.
-const STALL: (usize, usize) = (400, 800);
+const PATIENCE: (usize, usize) = (400, 800);
+
+/// The criterion of convergence: the measure that has to fall below the tolerance.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum Criterion {
+    /// The certified relative error in the energy norm, [`Report::relative_error`](crate::Report::relative_error).
+    #[default]
+    EnergyNorm,
+    /// The criterion ε = Σ|g r'| of the paper, in units of E*·√(Lx·Ly): no bound of an error; its rounding floor grows
+    /// with the number of nodes.
+    Complementarity,
+}
+
+impl Criterion {
+    /// The name that the tool and the report use: `"energy-norm"` or `"complementarity"`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EnergyNorm => "energy-norm",
+            Self::Complementarity => "complementarity",
+        }
+    }
+}
+
+/// The refusal of what the algorithm does not know.
+pub(super) fn refused(reason: &'static str) -> Error {
+    Error::Unsuited { what: "Algorithm 3 of Rey, Anciaux and Molinari (2017)", reason }
+}
 
 /// Minimises the energy that is posed. The criterion ε of the paper measures the progress.
 pub(super) fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
@@ -28,21 +54,14 @@ pub(super) fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: 
         if certifies && state.counters.iterations.is_multiple_of(CERTIFY) {
             state.certify()?;
         }
-        if state.converged() {
-            state.confirm()?;
-        }
-        let converged = state.converged();
-        if observe(&state.iteration()).is_break() {
-            return Ok(End::Cut(Status::Stopped));
-        }
-        if converged {
-            return Ok(End::Converged);
+        if let Some(end) = state.check_end(observe)? {
+            return Ok(end);
         }
         state.note_error(state.scaled_complementarity());
-        if state.counters.progress.idle == STALL.0 {
+        if state.counters.progress.idle == PATIENCE.0 {
             state.steps.norm = None;
         }
-        if let Some(end) = state.verdict(STALL.1) {
+        if let Some(end) = state.verdict(PATIENCE.1) {
             return Ok(end);
         }
         if state.is_adrift() {
@@ -55,6 +74,20 @@ pub(super) fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: 
 }
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
+    /// The measure that has to fall below the tolerance.
+    pub(super) fn measure(&self) -> f64 {
+        match self.posed.settings.criterion {
+            Criterion::EnergyNorm => self.relative_error(),
+            Criterion::Complementarity if self.sums.residual.working > self.sums.tally.free => f64::INFINITY,
+            Criterion::Complementarity => self.scaled_complementarity(),
+        }
+    }
+
+    pub(super) fn scaled_complementarity(&self) -> f64 {
+        let (lx, ly) = self.posed.operators.state().grid().lengths();
+        self.sums.residual.complementarity / (self.posed.operators.state().modulus() * (lx * ly).sqrt())
+    }
+
     /// One pass of the loop: an operator application for the direction, another after clipping or release. `false` if
     /// no step is possible.
     fn step_of_paper(&mut self) -> Result<bool> {
@@ -127,7 +160,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if let Load::Gap(mean) = self.posed.load {
                 self.fields.gap.fill(T::lit(mean));
                 self.refresh()?;
-                self.residual();
                 self.sums.certificate = f64::INFINITY;
             }
             return Ok(false);

@@ -52,7 +52,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             posed,
             fields: Fields::new(&grid, gap, pressure),
             sums: Sums { certificate: f64::INFINITY, ..Sums::default() },
-            steps: Steps::new(coarse),
+            steps: Steps { coarse, step_length: 1.0, ..Steps::default() },
             counters: Counters::default(),
         };
         if uniform
@@ -114,26 +114,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     /// Computes p = K⁻¹g + K⁻¹h and its tally anew.
     fn renew_pressure(&mut self) -> Result<()> {
         if let Load::Gap(mean) = self.posed.load {
-            let (scale, present) =
-                (mean * self.posed.nodes() / self.sums.tally.sum_gap, self.sums.tally.sum_gap / self.posed.nodes());
-            // the rounding summed up in the mean gap, if it is worth a pass
-            if self.posed.projects() && !self.has_yielded() {
-                if scale.is_finite() && (scale - 1.0).abs() > SCALED * T::epsilon().widen() {
-                    let scale = T::lit(scale);
-                    self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
-                        gap.iter_mut().for_each(|gap| *gap *= scale);
-                    });
-                }
-            } else if self.sums.tally.free > 0.0 && present != mean {
-                // gaps of both signs may have hardly any mean; where some yield, nodes that touch stay
-                let (projects, nodes) = (self.posed.projects(), self.posed.nodes());
-                let apart = if projects { nodes - self.sums.tally.contact } else { nodes };
-                let shift = T::lit((mean - present) * nodes / apart);
-                self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
-                    let moves = gap.iter_mut().filter(|gap| !projects || **gap > T::zero());
-                    moves.for_each(|gap| *gap = if projects { (*gap + shift).max(T::zero()) } else { *gap + shift });
-                });
-            }
+            self.restore_mean(mean);
         }
         let Fields { gap, pressure, residual, preconditioned, change, .. } = &mut self.fields;
         match self.steps.momentum {
@@ -141,6 +122,35 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             None => self.posed.operators.pressure(gap, pressure, &mut [preconditioned, change])?,
         }
         self.take_pressure()
+    }
+
+    /// Takes out of the gap the rounding that its mean has summed up, if it is worth a pass.
+    fn restore_mean(&mut self, mean: f64) {
+        let (nodes, sum, projects) = (self.posed.nodes(), self.sums.tally.sum_gap, self.posed.projects());
+        let (scale, present) = (mean * nodes / sum, sum / nodes);
+        if projects && !self.has_yielded() {
+            if scale.is_finite() && (scale - 1.0).abs() > SCALED * T::epsilon().widen() {
+                let scale = T::lit(scale);
+                self.each_gap(|gap| scale * gap);
+            }
+        } else if self.sums.tally.free > 0.0 && present != mean {
+            // gaps of both signs may have hardly any mean; where some yield, nodes that touch stay
+            let apart = if projects { nodes - self.sums.tally.contact } else { nodes };
+            let shift = T::lit((mean - present) * nodes / apart);
+            self.each_gap(|gap| match projects {
+                true if gap > T::zero() => (gap + shift).max(T::zero()),
+                true => gap,
+                false => gap + shift,
+            });
+        }
+    }
+
+    /// Gives every node the gap that follows from its present one.
+    pub(super) fn each_gap(&mut self, next: impl Fn(T) -> T + Sync + Send) {
+        let Fields { reducer, gap, .. } = &mut self.fields;
+        reducer.run(write(gap), |_, gap| {
+            gap.iter_mut().for_each(|gap| *gap = next(*gap));
+        });
     }
 
     /// Takes K⁻¹g as the pressure of the state.
@@ -166,6 +176,11 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         tally.shift(T::lit(self.offset()).widen() - offset.widen());
         self.sums.tally = tally;
         self.summed_work(tally.sum_gp, gap_surface)
+    }
+
+    /// The mean pressure p̄, given or of a given mean gap.
+    pub(super) fn external_pressure(&self) -> f64 {
+        if self.posed.is_gap_controlled() { -self.multiplier() } else { self.sums.given }
     }
 
     /// μ: the mean of r where the surfaces are apart, under gap control.

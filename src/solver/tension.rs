@@ -7,7 +7,7 @@ use super::passes::Fields;
 use super::posed::Posed;
 use super::state::State;
 use crate::error::Result;
-use crate::field::{found, read, write};
+use crate::field::{found, read};
 use crate::problem::Load;
 use crate::real::Real;
 use crate::vector::sums;
@@ -226,10 +226,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let scale = (mean * nodes - near) / apart;
         let possible = scale.is_finite() && scale > 0.0;
         let (scale, mean) = (T::lit(scale), T::lit(mean));
-        reducer.run(write(gap), |_, gap| {
-            for gap in gap.iter_mut().filter(|gap| !possible || **gap > closest) {
-                *gap = if possible { closest + scale * (*gap - closest) } else { mean };
-            }
+        self.each_gap(|gap| match possible {
+            true if gap > closest => closest + scale * (gap - closest),
+            true => gap,
+            false => mean,
         });
     }
 
@@ -249,9 +249,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let mean = self.mean_gap();
         let target = mean.max(far);
         let lift = T::lit(target - mean);
-        self.fields.reducer.run(write(&mut self.fields.gap), |_, gap| {
-            gap.iter_mut().for_each(|gap| *gap += lift);
-        });
+        self.each_gap(|gap| gap + lift);
         self.sums.detached = Some(self.sums.given);
         self.posed.load = self.posed.holding(target);
         self.restart();

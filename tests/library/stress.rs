@@ -432,7 +432,7 @@ const DECIDED: &[Decided] = &[
     ("CERTIFY", End::Converged, &[(1160, 20), (1337, 20), (1691, 20)]),
     ("PROGRESS of the error", End::Floor, &[(2121, 300), (7239, 300), (15099, 400)]),
     ("PROGRESS of a proof", End::Floor, &[(2112, 69), (16446, 52)]),
-    ("STALL_REY2017", End::Converged, &[(1336, 250), (2576, 400)]),
+    ("PATIENCE", End::Converged, &[(1336, 250), (2576, 400)]),
     // the proof of the end that fails
     ("note_refutation", End::Converged, &[(11144, 70)]),
     // the trial at full length after one that failed
