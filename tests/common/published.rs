@@ -85,7 +85,12 @@ impl Run {
         self.solved(surface, Projection, 1e-6)
     }
 
-    fn solved(&self, surface: &Surface, wall: impl ContactConstraint<f64>, tolerance: f64) -> Result<Solution<f64>> {
+    fn solved(
+        &self,
+        surface: &Surface,
+        wall: impl ContactConstraint<f64> + 'static,
+        tolerance: f64,
+    ) -> Result<Solution<f64>> {
         let grid = *surface.grid();
         let body = match self.thickness.is_finite() {
             true => Spectral::of(grid, Layer::new(Material::new(1.0, self.poisson)?, self.thickness, Base::Bonded)?)?,

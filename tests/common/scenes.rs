@@ -214,7 +214,7 @@ impl Law {
 
     fn changed<T: Real, L>(&self, law: L) -> Box<dyn AdhesionLaw<T>>
     where
-        L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
+        L: AdhesionLaw<T> + AdhesionLaw<f64> + Clone + 'static,
     {
         let works = self.shares.as_ref().map(|shares| shares * AdhesionLaw::<f64>::hints(&law).work_of_adhesion);
         match (self.cut_off, works) {
@@ -225,9 +225,6 @@ impl Law {
         }
     }
 }
-
-/// A problem whose body and law are known at run time.
-pub type Boxed<T> = Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
 
 /// An elastic body in layers.
 #[derive(Clone, Copy, Debug)]
@@ -512,7 +509,7 @@ impl Scene {
         }
     }
 
-    pub fn problem<T: Real>(&self) -> Result<Boxed<T>> {
+    pub fn problem<T: Real>(&self) -> Result<Problem<T>> {
         Problem::new(&self.surface(), self.operator(), self.law.boxed())
     }
 

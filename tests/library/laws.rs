@@ -181,9 +181,9 @@ fn soft_walls_agree_with_a_dense_minimiser() {
     let laws: [(Box<dyn AdhesionLaw<f64>>, f64); 2] =
         [(Box::new(Morse::new(2e-3, 0.02).unwrap()), 0.0), (Box::new(LennardJones::new(2e-3, 0.03).unwrap()), 0.03)];
     for (law, rest) in laws {
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
         for load in [0.2, 0.02, 0.0] {
-            let expected = dense_minimiser(&dense, &heights, &*law, load, rest);
-            let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), &*law).unwrap();
+            let expected = dense_minimiser(&dense, &heights, problem.law(), load, rest);
             let solution = without_wall(1e-9).solve(&mut problem, Control::MeanPressure(load)).unwrap();
             let report = &solution.report;
             assert_eq!(report.status, Status::Converged);
@@ -334,8 +334,9 @@ fn nested_grids_take_every_other_node_of_a_law_that_varies() {
     let works = grid.sample(|x, y| if x.hypot(y) < 0.3 { 4e-4 } else { 1e-4 });
     let law = Varying::new(Exponential::new(4e-4, 2e-2).unwrap(), works.view()).unwrap();
     let control = Control::MeanGap(1.0 * surface.rms_height());
-    let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-    let nested = Nested::new(Settings::default()).solve(&surface, half_space, law.clone(), control).unwrap();
+    let half_space = |grid: Grid| Westergaard::<f64>::new(grid, 1.0);
+    let mut solver = Solver::default();
+    let nested = Nested::default().solve(&mut solver, &surface, half_space, law.clone(), control).unwrap();
     assert!(nested.levels.len() > 1);
     let mut problem = Problem::new(&surface, half_space(grid).unwrap(), law).unwrap();
     let single = Solver::default().solve(&mut problem, control).unwrap();
@@ -345,7 +346,7 @@ fn nested_grids_take_every_other_node_of_a_law_that_varies() {
 }
 
 /// Applications to 1e-6 by pressure and by gap, with the one that makes the problem.
-fn applications(n: usize, law: &dyn AdhesionLaw<f64>, wall: bool) -> [usize; 2] {
+fn applications(n: usize, law: Box<dyn AdhesionLaw<f64>>, wall: bool) -> [usize; 2] {
     let (grid, half_space) = unit(n);
     let surface = rough(grid, 32, 1);
     let mut problem = Problem::new(&surface, half_space, law).unwrap();
@@ -379,7 +380,7 @@ fn counts(n: usize) {
         ),
     ];
     for (name, law, wall) in laws {
-        let found = applications(n, &*law, wall);
+        let found = applications(n, law, wall);
         println!("{n}² {name:<24} {found:?}");
         // under a pressure the wall alone comes first
         assert!(found[0] <= 80 && found[1] <= 70, "{name}: {found:?}");
@@ -400,7 +401,7 @@ fn each_law_takes_few_applications_on_512_by_512_nodes() {
 #[test]
 #[ignore = "figures of the guide: cargo test --release --test library laws::walls -- --ignored --nocapture"]
 fn walls_in_figures() {
-    fn solve<C: ContactConstraint<f64>>(law: &dyn AdhesionLaw<f64>, constraint: C) -> Solution<f64> {
+    fn solve(law: impl AdhesionLaw<f64> + 'static, constraint: impl ContactConstraint<f64> + 'static) -> Solution<f64> {
         let (grid, half_space) = unit(128);
         let mut problem = Problem::new(&rough(grid, 16, 1), half_space, law).unwrap();
         let settings = Settings::default();
@@ -416,18 +417,18 @@ fn walls_in_figures() {
     };
     let (work, range) = (2e-4, 4e-3);
     let (lennard_jones, morse) = (LennardJones::new(work, range).unwrap(), Morse::new(work, range).unwrap());
-    let (hard, rigid) = (solve(&lennard_jones.cut(), Projection), solve(&morse, Projection));
+    let (hard, rigid) = (solve(lennard_jones.cut(), Projection), solve(morse, Projection));
     show("Lennard-Jones, wall at z₀", &hard, &hard);
-    show("Lennard-Jones, no wall", &solve(&lennard_jones, NoWall), &hard);
+    show("Lennard-Jones, no wall", &solve(lennard_jones, NoWall), &hard);
     show("Morse, wall", &rigid, &rigid);
-    show("Morse, no wall", &solve(&morse, NoWall), &rigid);
+    show("Morse, no wall", &solve(morse, NoWall), &rigid);
     for k in [1.0, 10.0, 100.0, 1e3, 1e4] {
-        show(&format!("Lennard-Jones, Uzawa, k = {k:e}"), &solve(&lennard_jones.cut(), Uzawa::new(k).unwrap()), &hard);
+        show(&format!("Lennard-Jones, Uzawa, k = {k:e}"), &solve(lennard_jones.cut(), Uzawa::new(k).unwrap()), &hard);
     }
     for k in [100.0, 1e3, 1e4] {
         show(
             &format!("Lennard-Jones, penalty, k = {k:e}"),
-            &solve(&lennard_jones.cut(), Penalty::new(k).unwrap()),
+            &solve(lennard_jones.cut(), Penalty::new(k).unwrap()),
             &hard,
         );
     }

@@ -70,7 +70,7 @@ fn in_precision<T: Real>(scene: &Scene) -> Result<Judged, String> {
     }
 }
 
-fn with<T: Real, C: ContactConstraint<T>>(scene: &Scene, constraint: C) -> Result<Judged, String> {
+fn with<T: Real, C: ContactConstraint<T> + 'static>(scene: &Scene, constraint: C) -> Result<Judged, String> {
     let refused = |error: Error| format!("refused: {error}");
     let (mut problem, start) = (scene.problem::<T>().map_err(refused)?, scene.start_in::<T>());
     let mut solver = Solver { settings: scene.settings, constraint };

@@ -65,8 +65,8 @@ where
     assert!(of_one.report.iterations > 5, "{name}: {:?}", of_one.report);
     same_solutions(&name, &shared, &of_all, &of_one);
     assert!(*of_all.whole() == of_one, "{name}");
-    let statistics = contact::ContactStatistics::of(&of_one, &law)?;
-    assert_eq!(contact::ContactStatistics::of(&of_all, &law)?, statistics, "{name}");
+    let statistics = contact::ContactStatistics::of(&of_one)?;
+    assert_eq!(contact::ContactStatistics::of(&of_all)?, statistics, "{name}");
     say(world, &format!("{name}: {} applications", of_one.report.operator_applications));
     Ok(())
 }
@@ -243,7 +243,7 @@ fn free_half_spaces_are_shared<T: Bits>(world: &World, shape: (usize, usize), co
         let solution = Solver::default().solve(&mut Problem::new(&sphere, body, &law)?, control)?;
         let half_space = |grid| Boussinesq::<T>::new(grid, 1.0);
         let nested = Nested::default().solve(&sphere, half_space, NoAdhesion, control)?;
-        let statistics = contact::ContactStatistics::of(&solution, &law)?;
+        let statistics = contact::ContactStatistics::of(&solution)?;
         Ok::<_, Error>((solution, nested, statistics))
     };
     let alone = Grid::new(shape, (0.4, 0.4))?;
@@ -286,7 +286,7 @@ fn laws_that_vary_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> R
         let law = law(&grid)?;
         let mut problem = Problem::new(&rough(grid)?, Westergaard::<T>::new(grid, 1.0)?, &law)?;
         let solution = Solver::default().solve(&mut problem, control)?;
-        let statistics = contact::ContactStatistics::of(&solution, &law)?;
+        let statistics = contact::ContactStatistics::of(&solution)?;
         assert_eq!(statistics.patches.len(), 2);
         Ok((solution, statistics))
     })?;
@@ -305,7 +305,7 @@ fn laws_that_vary_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> R
         let law = law(&grid)?;
         let mut problem = Problem::new(&rough(grid)?, Boussinesq::<T>::new(grid, 1.0)?, &law)?;
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(5e-3))?;
-        let statistics = contact::ContactStatistics::of(&solution, &law)?;
+        let statistics = contact::ContactStatistics::of(&solution)?;
         Ok((solution, statistics))
     })?;
     Ok(())
@@ -330,7 +330,7 @@ fn absent_nodes_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> Res
         let mut problem = Problem::new(&perforated(grid)?, Westergaard::<T>::new(grid, 1.0)?, NoAdhesion)?;
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.02))?;
         assert!(solution.report.absent_nodes > 1000);
-        let statistics = contact::ContactStatistics::of(&solution, &NoAdhesion)?;
+        let statistics = contact::ContactStatistics::of(&solution)?;
         Ok((solution, statistics))
     })?;
     assert!(slab.absent_nodes() == periodic.report.absent_nodes);
@@ -343,7 +343,7 @@ fn absent_nodes_are_shared<T: Bits>(world: &World, shape: (usize, usize)) -> Res
         let observe = |_: &Iteration| ControlFlow::Continue(());
         let start = Start::From(&gap);
         let solution = Solver::default().solve_with(&mut problem, Control::MeanPressure(0.02), start, observe)?;
-        let statistics = contact::ContactStatistics::of(&solution, &NoAdhesion)?;
+        let statistics = contact::ContactStatistics::of(&solution)?;
         Ok((solution, statistics))
     })?;
     let law = Exponential::new(1e-5, 1e-3)?;
@@ -365,7 +365,7 @@ fn springs_under_free_half_spaces_are_shared(world: &World, shape: (usize, usize
         let mut problem = Problem::new(&perforated(grid)?, Boussinesq::<f64>::new(grid, 1.0)?, NoAdhesion)?;
         let mut solver = Solver { settings: Settings::default().tolerance(1e-3), constraint };
         let mut solution = solver.solve(&mut problem, Control::MeanPressure(0.01))?;
-        let statistics = contact::ContactStatistics::of(&solution, &NoAdhesion)?;
+        let statistics = contact::ContactStatistics::of(&solution)?;
         let test = stability::StabilityTest::under(Control::Force(0.01)).max_iterations(5);
         let stability = test.run_with(&mut problem, &solver.constraint, &solution)?;
         // the mode is compared in the place of the pressure
