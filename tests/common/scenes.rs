@@ -7,9 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::elastic::{
-    self, Abilities, Base, Coating, Foundation, HalfSpace, Layer, Material, Preconditioned, Series,
-};
+use asperity::elastic::{self, Base, Coating, HalfSpace, Layer, Material, Series};
 use asperity::*;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use rand::rngs::ChaCha8Rng;
@@ -590,10 +588,8 @@ impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
     fn grid(&self) -> &Grid {
         self.0.grid()
     }
-    fn abilities(&mut self) -> Abilities<'_, T> {
-        let mut abilities = self.0.abilities();
-        abilities.single = false;
-        abilities
+    fn boundary(&self) -> Boundary {
+        self.0.boundary()
     }
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
         self.0.pressure(displacement, pressure)
@@ -606,14 +602,6 @@ impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
     }
     fn modulus(&self) -> f64 {
         self.0.modulus()
-    }
-    fn precondition(
-        &mut self,
-        residual: ArrayView2<'_, T>,
-        foundation: Foundation<'_>,
-        preconditioned: ArrayViewMut2<'_, T>,
-    ) -> Result<Preconditioned> {
-        self.0.precondition(residual, foundation, preconditioned)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Adhesion laws: those that repel by themselves, those that vary over the surface, and their costs.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Hints, Values, Varying};
 use asperity::stability::{StabilityTest, Verdict};
@@ -325,6 +326,60 @@ fn laws_walls_and_grids_that_do_not_fit_are_refused_by_name() {
         assert!(Varying::new(Exponential::new(1e-4, 1e-2).unwrap(), works.view()).is_err());
     }
     assert!(Varying::new(NoAdhesion, Array2::from_elem((16, 16), 1e-4).view()).is_err());
+}
+
+#[test]
+fn a_problem_with_another_law_is_a_new_problem_with_that_law() {
+    let grid = Grid::square(32, 1.0).unwrap();
+    let surface = rough(grid, 8, 1);
+    let works = grid.sample(|x, _| if x < 0.0 { 1e-4 } else { 3e-4 });
+    let exponential = Exponential::new(3e-4, 5e-3).unwrap();
+    let laws: [Arc<dyn AdhesionLaw<f64>>; 5] = [
+        Arc::new(NoAdhesion),
+        Arc::new(exponential),
+        Arc::new(MaugisDugdale::new(1e-4, 5e-3).unwrap()),
+        Arc::new(Jkr::new(1e-4).unwrap()),
+        Arc::new(Varying::new(exponential, works.view()).unwrap()),
+    ];
+    let solve = |problem: &mut Problem<f64>, control| {
+        let solution = Solver::default().solve(problem, control).unwrap();
+        (problem.mu_rho(), solution)
+    };
+    let bodies: [(Box<dyn ElasticOperator<f64>>, _); 2] = [
+        (Box::new(Westergaard::new(grid, 1.0).unwrap()), Control::MeanGap(0.02)),
+        (Box::new(Boussinesq::new(grid, 1.0).unwrap()), Control::Approach(0.01)),
+    ];
+    for (body, control) in bodies {
+        let mut one = Problem::new(&surface, body, PowerLaw::new(1e-4, 5e-3, 3.0).unwrap()).unwrap();
+        for law in &laws {
+            one.set_law(law.clone()).unwrap();
+            let found = solve(&mut one, control);
+            let mut new = Problem::new(&surface, one.into_operator(), law.clone()).unwrap();
+            assert_eq!(solve(&mut new, control), found);
+            one = new;
+        }
+        // what is refused leaves the law
+        let before = solve(&mut one, control);
+        let elsewhere = Varying::new(exponential, Array2::from_elem((16, 32), 1e-4).view()).unwrap();
+        assert!(matches!(one.set_law(elsewhere), Err(Error::Shape { found: (16, 32), .. })));
+        assert!(one.set_law(Unbounded).is_err());
+        assert_eq!(solve(&mut one, control), before);
+    }
+}
+
+/// A law without a value at a wall.
+struct Unbounded;
+
+impl AdhesionLaw<f64> for Unbounded {
+    fn energy(&self, gap: f64) -> f64 {
+        -1e-6 / gap
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        1e-6 / (gap * gap)
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        -2e-6 / gap.powi(3)
+    }
 }
 
 #[test]
