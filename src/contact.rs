@@ -156,7 +156,7 @@ fn whole<'a, T: Real>(
 /// let law = Exponential::new(1e-5, 2e-3)?;
 /// let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0)?, law)?;
 /// let solution = Solver::default().solve(&mut problem, Control::MeanPressure(0.01))?;
-/// let statistics = ContactStatistics::of(&solution, &law)?;
+/// let statistics = ContactStatistics::of(&solution)?;
 /// assert_eq!(statistics.cluster_sizes.len(), 8);
 /// assert!((statistics.corrected_contact_fraction / statistics.contact_fraction - 1.0).abs() < 0.1);
 /// let all = statistics.contact_fraction + statistics.attractive_fraction + statistics.apart_fraction;

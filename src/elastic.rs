@@ -276,3 +276,6 @@ use delegate;
 impl<T: Real, O: ElasticOperator<T> + ?Sized> ElasticOperator<T> for Box<O> {
     delegate!(this => (**this), (**this).boundary(), (**this).spectral());
 }
+
+#[cfg(test)]
+mod tests;

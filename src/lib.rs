@@ -28,15 +28,13 @@
 //! let grid = Grid::square(64, 1.0)?; // nodes, side length
 //! let sphere = Surface::paraboloid(grid, 2.0)?; // radius of curvature
 //! let half_space = Westergaard::<f64>::new(grid, 1.0)?; // contact modulus
-//! let mut hertz = Problem::new(&sphere, half_space, NoAdhesion)?;
-//! let pressed = Solver::default().solve(&mut hertz, Control::MeanGap(0.0398))?;
+//! let mut problem = Problem::new(&sphere, half_space, NoAdhesion)?;
+//! let pressed = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
 //! assert_eq!(pressed.report.status, Status::Converged);
 //! assert!(pressed.report.relative_error < 1e-6); // a proven bound
 //!
-//! let law = MaugisDugdale::new(1e-4, 2e-3)?; // work of adhesion, range
-//! let (half_space, _) = hertz.into_parts();
-//! let mut sticky = Problem::new(&sphere, half_space, law)?;
-//! let stuck = Solver::default().solve(&mut sticky, Control::MeanGap(0.0398))?;
+//! problem.set_law(MaugisDugdale::new(1e-4, 2e-3)?)?; // work of adhesion, range
+//! let stuck = Solver::default().solve(&mut problem, Control::MeanGap(0.0398))?;
 //! assert!(stuck.report.contact_nodes > pressed.report.contact_nodes);
 //! # Ok::<(), asperity::Error>(())
 //! ```
@@ -77,7 +75,7 @@
 //! |---|---|
 //! | `parallel` (default) | threads, with the same results bit for bit |
 //! | `mpi` | processes, with the same results bit for bit: the type `World` |
-//! | `serde` | settings, reports, statistics and controls as data, with the names of the reports |
+//! | `serde` | settings, controls, reports and statistics as data, with the names of the reports; sweeps, searches and paths, which go on bit for bit |
 //!
 //! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("pages.html")]

@@ -137,12 +137,12 @@ impl Settings {
 /// One loop serves all controls, laws, operators, walls and precisions: conjugate gradients, two operator applications
 /// an iteration. The page [`driver`](crate::guide::driver) derives it.
 ///
-/// In `f64` changes, residuals and transforms are in `f32`, if the operator can be had
-/// [in single precision](crate::elastic::Waves::in_single); gap, pressure, certificate and report are in `f64`.
+/// In `f64` changes, residuals and transforms are in `f32`, if the operator is [spectral](crate::ElasticOperator::spectral)
+/// and its stiffnesses are in the range of `f32`; gap, pressure, certificate and report are in `f64`.
 ///
 /// Memory per node with a [`Westergaard`](crate::Westergaard) half-space, with its problem: five scalars in `f64`,
 /// seven in `f32`; the solution keeps three. With [`Boussinesq`](crate::Boussinesq) the grid has four times the nodes,
-/// or somewhat more. The [`CoarseSpace`](crate::elastic::CoarseSpace) adds up to 13 N^(2/3) numbers in `f64`: a fifth
+/// or somewhat more. The preconditioner of the longest waves adds up to 13 N^(2/3) numbers in `f64`: a fifth
 /// of a field on 512² nodes.
 ///
 /// ```

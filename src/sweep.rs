@@ -126,13 +126,10 @@ impl<T: Real> Sweep<T> {
         }
         problem.yield_to(self.depth.as_ref())?;
         let least = Potential::new(problem.law_on_grid(), &solver.constraint, None).least();
-        let start = self.start.take();
-        let begin = match (&start, self.next_start(problem, least, load)) {
-            (Some(gap), _) => Begin::At(Start::From(gap)),
-            (None, Some(begin)) => begin,
-            (None, None) => Begin::At(Start::Default),
-        };
-        let solved = solver.run(problem.parts(), load, begin, observe)?;
+        let next = self.next_start(problem, least, load);
+        let start = self.start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
+        let solved = solver.run(problem.parts(), load, next.unwrap_or(Begin::At(start)), observe)?;
+        self.start = None;
         self.keep(problem, load, solved)
     }
 

@@ -31,8 +31,8 @@ const LARGEST: usize = 1 << 16;
 ///
 /// in the orthonormal basis 1, √2 cos q·x, √2 sin q·x, by Cholesky.
 ///
-/// An operator makes it ([`Waves::coarse_space`](crate::elastic::Waves::coarse_space)) and
-/// [preconditions](crate::ElasticOperator::precondition) with it; the solver tells it where the contacts are.
+/// A [`Spectral`](super::Spectral) operator makes it and preconditions with it; the solver tells it where the contacts
+/// are.
 #[derive(Clone, Debug)]
 pub struct CoarseSpace {
     /// the mean, and one wave of each pair ±q, sorted by their columns
@@ -231,7 +231,7 @@ mod tests {
     use ndarray::Array2;
 
     use super::*;
-    use crate::elastic::{ElasticOperator, Foundation, Spectral, Waves};
+    use crate::elastic::{ElasticOperator, Foundation, Spectral};
 
     const SHAPES: [(usize, usize); 6] = [(16, 16), (15, 21), (24, 10), (5, 40), (90, 1), (1, 64)];
     const STIFFNESS: f64 = 3.0;
@@ -337,7 +337,7 @@ mod tests {
         for shape in [(256, 256), (16384, 4), (4, 16384), (4096, 16), (65536, 1)] {
             let (long, sides) = (shape.0.max(shape.1) as f64, (shape.0 as f64, shape.1 as f64));
             let grid = Grid::new(shape, (sides.0 / long, sides.1 / long)).unwrap();
-            let mut body = Spectral::<f64>::new(grid, 1.0, |qx, qy| 0.5 * qx.hypot(qy)).unwrap();
+            let body = Spectral::<f64>::new(grid, 1.0, |qx, qy| 0.5 * qx.hypot(qy)).unwrap();
             let found = body.coarse_space(40).unwrap().vector.len();
             assert!((20..=60).contains(&found), "{found} of 40 on {shape:?}");
         }
@@ -347,7 +347,7 @@ mod tests {
     fn blocks_cover_the_grid_and_resolve_the_waves() {
         let mut whole = 0;
         for shape in [(128, 128), (101, 67), (500, 1), (100, 144)] {
-            let mut body = body(shape);
+            let body = body(shape);
             let mut space = body.coarse_space(20).unwrap();
             let [block, blocks] = space.blocks();
             assert!(block.0 * blocks.0 >= shape.0 && block.1 * blocks.1 >= shape.1 && block != (1, 1));

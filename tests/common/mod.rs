@@ -8,8 +8,10 @@ pub mod published;
 pub mod rough;
 pub mod scenes;
 
+use std::iter;
 use std::ops::ControlFlow;
 
+use asperity::path::{Path, PathStep};
 use asperity::*;
 use ndarray::Array2;
 
@@ -49,17 +51,13 @@ pub fn with_holes(grid: Grid, mut heights: Array2<f64>) -> Result<Surface> {
 }
 
 /// Solves from the default start, watching that the energy falls, and checks the solution's invariants.
-pub fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, O, L>,
-    control: Control,
-    tolerance: f64,
-) -> Solution<T> {
+pub fn solve<T: Real>(problem: &mut Problem<T>, control: Control, tolerance: f64) -> Solution<T> {
     solve_from(problem, control, tolerance, None)
 }
 
 /// The same from a given start.
-pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, O, L>,
+pub fn solve_from<T: Real>(
+    problem: &mut Problem<T>,
     control: Control,
     tolerance: f64,
     start: Option<&Array2<T>>,
@@ -73,18 +71,57 @@ pub fn solve_from<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
         })
         .expect("the input is good");
     falls(&history, T::epsilon().widen());
-    check(&solution, problem.law(), control);
+    assert_eq!(solution.report.control, control);
+    check(&solution);
     solution
 }
 
 /// Solves with settings from a start.
-pub fn solve_to<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, O, L>,
+pub fn solve_to<T: Real>(
+    problem: &mut Problem<T>,
     control: Control,
     settings: Settings,
     start: Start<'_, T>,
 ) -> Solution<T> {
     Solver::new(settings).solve_with(problem, control, start, |_| ControlFlow::Continue(())).expect("the input is good")
+}
+
+/// The solutions of a sweep.
+pub fn swept<T: Real>(
+    sweep: &mut Sweep<T>,
+    solver: &mut Solver<dyn ContactConstraint<T>>,
+    problem: &mut Problem<T>,
+    loads: &[Control],
+) -> Vec<Solution<T>> {
+    loads.iter().map(|&load| sweep.next(solver, problem, load).expect("the input is good")).collect()
+}
+
+/// The states of a path up to its end.
+pub fn followed<T: Real>(
+    mut path: Path<T>,
+    solver: &mut Solver<dyn ContactConstraint<T>>,
+    problem: &mut Problem<T>,
+) -> Vec<PathStep<T>> {
+    iter::from_fn(|| path.next(solver, problem).expect("the input is good")).collect()
+}
+
+/// A value that is its own checkpoint: by JSON with the feature `serde`, otherwise by a copy.
+pub trait Kept: Sized {
+    fn read_again(&self) -> Self;
+}
+
+#[cfg(feature = "serde")]
+impl<A: serde::Serialize + serde::de::DeserializeOwned> Kept for A {
+    fn read_again(&self) -> Self {
+        serde_json::from_str(&serde_json::to_string(self).unwrap()).unwrap()
+    }
+}
+
+#[cfg(not(feature = "serde"))]
+impl<A: Clone> Kept for A {
+    fn read_again(&self) -> Self {
+        self.clone()
+    }
 }
 
 /// The energy never rises by more than the rounding of its own sum, which in `f64` is that of changes in `f32`.
@@ -98,7 +135,7 @@ pub fn falls(history: &[Iteration], epsilon: f64) {
 }
 
 /// Checks the invariants of every state that the solver returns, converged or not.
-pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control: Control) {
+pub fn check<T: Real>(solution: &Solution<T>) {
     let Solution { gap, pressure, contact_pressure, report, .. } = solution;
     let (nodes, epsilon) = (gap.len() as f64, T::epsilon().widen());
     let mut contact = 0;
@@ -114,7 +151,7 @@ pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control
     let mean = |field: &Array2<T>| sum(&values(field)) / nodes;
     assert!((report.mean_gap - mean(gap)).abs() <= 64.0 * epsilon * mean(gap));
     assert!((report.mean_contact_pressure - mean(contact_pressure)).abs() <= 64.0 * epsilon * mean(contact_pressure));
-    match control {
+    match report.control {
         // a step of ten times the trial length carries ten times the rounding of the mean
         Control::MeanGap(given) => assert!((mean(gap) - given).abs() <= 1e3 * epsilon * given),
         Control::MeanPressure(given) => assert_eq!(report.mean_pressure, given),
@@ -122,7 +159,7 @@ pub fn check<T: Real>(solution: &Solution<T>, law: &impl AdhesionLaw<T>, control
     }
     if report.status == Status::Converged && contact > 0 {
         // the balance of forces, of which the residual is what the criterion leaves
-        let traction = gap.iter().map(|&g| law.traction(g).widen()).sum::<f64>() / nodes;
+        let traction = gap.iter().map(|&g| solution.law().traction(g).widen()).sum::<f64>() / nodes;
         let size = mean(&pressure.mapv(|p| p.abs())).max(traction);
         let balance = report.mean_contact_pressure - traction - report.mean_pressure;
         let allowed = 10.0 * report.relative_error.max(report.load_error) + 1e3 * epsilon;
@@ -143,13 +180,13 @@ fn sum(values: &[f64]) -> f64 {
 }
 
 /// A sphere of radius 2 on the unit square of a half-space of unit modulus, as in the paper.
-pub fn sphere<T: Real, L: AdhesionLaw<T>>(n: usize, law: L) -> Problem<T, Westergaard<T>, L> {
+pub fn sphere<T: Real>(n: usize, law: impl AdhesionLaw<T> + 'static) -> Problem<T> {
     let grid = Grid::square(n, 1.0).unwrap();
     Problem::new(&Surface::paraboloid(grid, 2.0).unwrap(), Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
 /// A rough surface of unit rms slope on the unit square of a half-space of unit modulus.
-pub fn rough<T: Real, L: AdhesionLaw<T>>(n: usize, shortest: i32, law: L) -> Problem<T, Westergaard<T>, L> {
+pub fn rough<T: Real>(n: usize, shortest: i32, law: impl AdhesionLaw<T> + 'static) -> Problem<T> {
     let grid = Grid::square(n, 1.0).unwrap();
     Problem::new(&rough::rough(grid, shortest, 1), Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
 }

@@ -7,9 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::elastic::{
-    self, Abilities, Base, Coating, Foundation, HalfSpace, Layer, Material, Preconditioned, Series,
-};
+use asperity::elastic::{self, Base, Coating, HalfSpace, Layer, Material, Series};
 use asperity::*;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use rand::rngs::ChaCha8Rng;
@@ -214,7 +212,7 @@ impl Law {
 
     fn changed<T: Real, L>(&self, law: L) -> Box<dyn AdhesionLaw<T>>
     where
-        L: AdhesionLaw<T> + AdhesionLaw<f64> + 'static,
+        L: AdhesionLaw<T> + AdhesionLaw<f64> + Clone + 'static,
     {
         let works = self.shares.as_ref().map(|shares| shares * AdhesionLaw::<f64>::hints(&law).work_of_adhesion);
         match (self.cut_off, works) {
@@ -225,9 +223,6 @@ impl Law {
         }
     }
 }
-
-/// A problem whose body and law are known at run time.
-pub type Boxed<T> = Problem<T, Box<dyn ElasticOperator<T>>, Box<dyn AdhesionLaw<T>>>;
 
 /// An elastic body in layers.
 #[derive(Clone, Copy, Debug)]
@@ -512,7 +507,7 @@ impl Scene {
         }
     }
 
-    pub fn problem<T: Real>(&self) -> Result<Boxed<T>> {
+    pub fn problem<T: Real>(&self) -> Result<Problem<T>> {
         Problem::new(&self.surface(), self.operator(), self.law.boxed())
     }
 
@@ -593,10 +588,8 @@ impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
     fn grid(&self) -> &Grid {
         self.0.grid()
     }
-    fn abilities(&mut self) -> Abilities<'_, T> {
-        let mut abilities = self.0.abilities();
-        abilities.single = false;
-        abilities
+    fn boundary(&self) -> Boundary {
+        self.0.boundary()
     }
     fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
         self.0.pressure(displacement, pressure)
@@ -609,14 +602,6 @@ impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
     }
     fn modulus(&self) -> f64 {
         self.0.modulus()
-    }
-    fn precondition(
-        &mut self,
-        residual: ArrayView2<'_, T>,
-        foundation: Foundation<'_>,
-        preconditioned: ArrayViewMut2<'_, T>,
-    ) -> Result<Preconditioned> {
-        self.0.precondition(residual, foundation, preconditioned)
     }
 }
 

@@ -28,10 +28,25 @@ fn surface(n: usize, seed: u64) -> Surface {
 
 const PRESSED: Control = Control::MeanPressure(5e-3);
 
+fn levels_of(nested: Nested, surface: &Surface, control: Control) -> Vec<Level> {
+    nested.solve(&mut Solver::default(), surface, half_space, NoAdhesion, control).unwrap().levels
+}
+
+fn solve(wanted: Accuracy, surface: &Surface, control: Control) -> AccurateSolution<f64> {
+    solve_to(Settings::default(), wanted, surface, control).unwrap()
+}
+
+fn solve_to(
+    settings: Settings,
+    wanted: Accuracy,
+    surface: &Surface,
+    control: Control,
+) -> Result<AccurateSolution<f64>> {
+    wanted.solve(&mut Solver::new(settings), surface, half_space, NoAdhesion, control)
+}
+
 fn truth(seed: u64, control: Control) -> Level {
-    let mut nested = Nested::default().stiffness(1e-5);
-    let found = nested.solve(surface(512, seed), half_space, NoAdhesion, control).unwrap();
-    found.levels.last().unwrap().clone()
+    levels_of(Nested::default().stiffness(1e-5), &surface(512, seed), control).pop().unwrap()
 }
 
 #[test]
@@ -43,8 +58,7 @@ fn an_accuracy_of_each_quantity_is_reached_and_true() {
             (Quantity::Stiffness, PRESSED),
             (Quantity::Pressure, Control::MeanGap(0.01)),
         ] {
-            let found =
-                Accuracy::new(target, quantity).solve(&surface(32, seed), half_space, NoAdhesion, control).unwrap();
+            let found = solve(Accuracy::new(target, quantity), &surface(32, seed), control);
             let error = found.error.unwrap();
             assert!(found.reached && error.relative < target && found.unaffordable.is_none(), "{quantity}: {error:?}");
             // a finer grid, twice as fine each time, and the answer on it
@@ -68,8 +82,7 @@ fn an_accuracy_of_each_quantity_is_reached_and_true() {
 fn nearly_closed_contacts_have_an_estimate_on_their_own_grid() {
     for (seed, pressure) in [(1, 0.09), (2, 0.09), (2, 0.12)] {
         let control = Control::MeanPressure(pressure);
-        let found =
-            Accuracy::new(0.01, Quantity::Area).solve(&surface(128, seed), half_space, NoAdhesion, control).unwrap();
+        let found = solve(Accuracy::new(0.01, Quantity::Area), &surface(128, seed), control);
         let (finest, truth) = (found.levels.last().unwrap().area, truth(seed, control).area);
         assert!(truth.contact_fraction > 0.8 && truth.contact_fraction < 1.0, "{truth:?}");
         // no finer grid was needed to tell the error
@@ -129,9 +142,8 @@ fn estimates_cover_95_of_100_errors_of_strips_white_noise_and_smooth_maps() {
 
 /// All grids of a map, up to one of 256² nodes or as many, with their stiffnesses.
 fn truth_of(surface: &Surface, control: Control) -> Vec<Level> {
-    let mut wanted = Accuracy::new(1e-5, Quantity::Stiffness).memory(7e6);
-    wanted.nested.solver = Solver::new(Settings::default().tolerance(2e-7));
-    wanted.solve(surface, half_space, NoAdhesion, control).unwrap().levels
+    let (wanted, settings) = (Accuracy::new(1e-5, Quantity::Stiffness), Settings::default().tolerance(2e-7));
+    solve_to(settings, wanted.memory(7e6), surface, control).unwrap().levels
 }
 
 #[test]
@@ -145,18 +157,17 @@ fn the_edge_of_the_contact_tells_the_error_of_a_single_grid() {
         ] {
             let truth = truth(seed, control);
             for n in [64, 128] {
-                let mut nested = Nested::default().coarsest(n).stiffness(1e-4);
-                let found = nested.solve(surface(n, seed), half_space, NoAdhesion, control).unwrap();
-                assert_eq!(found.levels.len(), 1);
+                let levels = levels_of(Nested::default().coarsest(n).stiffness(1e-4), &surface(n, seed), control);
+                assert_eq!(levels.len(), 1);
                 let waves = surface(n, seed).nodes_per_wave(Boundary::Periodic);
-                let estimate = GridError::of(&found.levels, quantity, waves, 0.0).unwrap();
+                let estimate = GridError::of(&levels, quantity, waves, 0.0).unwrap();
                 assert_eq!(estimate.rough, quantity == Quantity::Stiffness && n == 64);
                 let of = |level: &Level| match quantity {
                     Quantity::Gap => level.mean_gap,
                     Quantity::Pressure => level.mean_pressure,
                     _ => level.stiffness.unwrap().pressure_per_length,
                 };
-                let ratio = estimate.relative / (of(&found.levels[0]) / of(&truth) - 1.0).abs();
+                let ratio = estimate.relative / (of(&levels[0]) / of(&truth) - 1.0).abs();
                 assert!(ratio > 0.5, "{quantity} {seed} {n}: {ratio}");
                 (all, close) = (all + 1, close + usize::from((1.0..8.0).contains(&ratio)));
             }
@@ -228,8 +239,7 @@ fn strips_diagonals_and_lattices_are_as_right_as_is_asked() {
         let of_cell = |n| {
             let cell = strips((n, n), [1.0, 0.0], true);
             let scaled = Control::MeanPressure(pressure * TAU * HIGH);
-            let found = Nested::default().solve(&cell, half_space, NoAdhesion, scaled).unwrap();
-            found.levels.last().unwrap().area.corrected_contact_fraction
+            levels_of(Nested::default(), &cell, scaled).pop().unwrap().area.corrected_contact_fraction
         };
         let [coarse, fine] = [of_cell(64), of_cell(128)];
         scenes.push((strips((32, 32), vector, true), control, fine + (fine - coarse) / 3.0));
@@ -237,8 +247,7 @@ fn strips_diagonals_and_lattices_are_as_right_as_is_asked() {
     for target in [0.05, 0.03, 0.02, 0.01] {
         let mut reached = Vec::new();
         for (surface, control, exact) in &scenes {
-            let mut wanted = Accuracy::new(target, Quantity::Area).memory(7e6);
-            let found = wanted.solve(surface, half_space, NoAdhesion, *control).unwrap();
+            let found = solve(Accuracy::new(target, Quantity::Area).memory(7e6), surface, *control);
             let area = found.levels.last().unwrap().area.corrected_contact_fraction;
             reached.extend(found.reached.then_some((area / exact - 1.0).abs()));
         }
@@ -253,7 +262,7 @@ fn strips_diagonals_and_lattices_are_as_right_as_is_asked() {
 
 #[test]
 fn the_refined_surface_is_the_same_one() {
-    let found = Accuracy::new(0.02, Quantity::Area).solve(&surface(32, 1), half_space, NoAdhesion, PRESSED).unwrap();
+    let found = solve(Accuracy::new(0.02, Quantity::Area), &surface(32, 1), PRESSED);
     let n = found.surface.grid().shape().0;
     let same = surface(n, 1);
     assert!(n > 32);
@@ -265,10 +274,8 @@ fn the_refined_surface_is_the_same_one() {
 #[test]
 fn an_accuracy_that_the_given_grid_has_ends_there() {
     for seed in 1..5 {
-        let wanted = &mut Accuracy::new(0.1, Quantity::Area);
-        let found = wanted.solve(&surface(32, seed), half_space, NoAdhesion, PRESSED).unwrap();
-        let truth =
-            Accuracy::new(2e-3, Quantity::Area).solve(&surface(32, seed), half_space, NoAdhesion, PRESSED).unwrap();
+        let found = solve(Accuracy::new(0.1, Quantity::Area), &surface(32, seed), PRESSED);
+        let truth = solve(Accuracy::new(2e-3, Quantity::Area), &surface(32, seed), PRESSED);
         let area = |found: &AccurateSolution<f64>| found.levels.last().unwrap().area.corrected_contact_fraction;
         let (error, estimate) = (area(&found) / area(&truth) - 1.0, found.error.unwrap());
         assert!(found.reached && estimate.rough && found.surface.grid().shape() == (32, 32), "{seed}: {estimate:?}");
@@ -280,9 +287,8 @@ fn an_accuracy_that_the_given_grid_has_ends_there() {
 #[test]
 fn grids_that_say_nothing_leave_the_error_unknown() {
     let estimate = |n, quantity, nodes_per_wave, mu_rho, coarse_tolerance| {
-        let mut nested = Nested::default().coarsest(32).coarse_tolerance(coarse_tolerance);
-        let found = nested.solve(surface(n, 1), half_space, NoAdhesion, PRESSED).unwrap();
-        GridError::of(&found.levels, quantity, nodes_per_wave, mu_rho)
+        let nested = Nested::default().coarsest(32).coarse_tolerance(coarse_tolerance);
+        GridError::of(&levels_of(nested, &surface(n, 1), PRESSED), quantity, nodes_per_wave, mu_rho)
     };
     let waves = surface(128, 1).nodes_per_wave(Boundary::Periodic);
     assert!((15.0..19.0).contains(&waves), "{waves}");
@@ -309,43 +315,41 @@ fn grids_that_say_nothing_leave_the_error_unknown() {
 #[test]
 fn what_cannot_be_had_is_refused_by_name() {
     let (surface, control) = (surface(32, 1), PRESSED);
-    let solve = |wanted: &mut Accuracy| wanted.solve(&surface, half_space, NoAdhesion, control).map(|_| ());
+    let refused = |settings, wanted| solve_to(settings, wanted, &surface, control).unwrap_err();
     for target in [0.0, -0.01, 1.0, f64::NAN, f64::INFINITY] {
-        let error = solve(&mut Accuracy::new(target, Quantity::Area)).unwrap_err();
+        let error = refused(Settings::default(), Accuracy::new(target, Quantity::Area));
         assert!(matches!(error, Error::Value { name: "accuracy", .. }), "{error}");
     }
-    let error = solve(&mut Accuracy::new(0.01, Quantity::Pressure)).unwrap_err();
+    let error = refused(Settings::default(), Accuracy::new(0.01, Quantity::Pressure));
     assert!(matches!(error, Error::Unsuited { what: "accuracy of the pressure", .. }), "{error}");
     assert!(
         Quantity::Gap.check(Control::MeanGap(0.1)).is_err() && Quantity::Gap.check(Control::Approach(0.1)).is_err()
     );
     assert!(Quantity::Pressure.check(Control::Force(0.1)).is_err());
     // a tolerance that contradicts it, and one that does not
-    let mut wanted = Accuracy::new(0.05, Quantity::Area);
-    wanted.nested.solver.settings.tolerance = Some(1e-2);
-    let error = solve(&mut wanted).unwrap_err();
+    let wanted = Accuracy::new(0.05, Quantity::Area);
+    let error = refused(Settings::default().tolerance(1e-2), wanted);
     assert!(matches!(error, Error::Value { name: "tolerance", value: 1e-2, .. }), "{error}");
-    wanted.nested.solver.settings.tolerance = Some(1e-5);
-    let found = wanted.solve(&surface, half_space, NoAdhesion, control).unwrap();
+    let mut solver = Solver::new(Settings::default().tolerance(1e-5));
+    let found = wanted.solve(&mut solver, &surface, half_space, NoAdhesion, control).unwrap();
     assert!(found.solution.report.tolerance == 1e-5 && found.levels[0].relative_error <= 1e-5);
-    assert_eq!(wanted.nested.solver.settings.tolerance, Some(1e-5));
+    assert_eq!(solver.settings.tolerance, Some(1e-5));
 
     // no grid that fits, told before: which would, and its memory
     let small = Accuracy::new(1e-6, Quantity::Area).memory(1e6);
     let mut operator = half_space(*surface.grid()).unwrap();
-    let error = small.plan(&surface, &mut operator, &NoAdhesion, control).unwrap_err();
+    let error = small.plan(&Solver::default(), &surface, &mut operator, &NoAdhesion, control).unwrap_err();
     let Error::Unaffordable { shape, bytes, available, affordable, .. } = error else { panic!("{error}") };
     assert!(shape.0 >= 4096 && bytes > 1e9 && available == 1e6 && affordable > 1e-3, "{shape:?} {bytes} {affordable}");
     let text = error_text(&small, &surface);
     assert!(text.contains("an accuracy of 1e-6 of the area takes about") && text.contains("GiB"), "{text}");
     // and on the way
-    let mut small = Accuracy::new(2e-3, Quantity::Area).memory(1e6);
-    let mut made = 0;
+    let (small, mut made) = (Accuracy::new(2e-3, Quantity::Area).memory(1e6), 0);
     let operator = |grid: Grid| {
         made = made.max(grid.shape().0);
         half_space(grid)
     };
-    let found = small.solve(&surface, operator, NoAdhesion, control).unwrap();
+    let found = small.solve(&mut Solver::default(), &surface, operator, NoAdhesion, control).unwrap();
     let (shape, bytes) = found.unaffordable.unwrap();
     assert_eq!(made, found.surface.grid().shape().0);
     assert!(!found.reached && shape.0 == 2 * found.surface.grid().shape().0 && bytes > 1e6);
@@ -354,20 +358,20 @@ fn what_cannot_be_had_is_refused_by_name() {
 
 fn error_text(wanted: &Accuracy, surface: &Surface) -> String {
     let mut operator = half_space(*surface.grid()).unwrap();
-    wanted.plan(surface, &mut operator, &NoAdhesion, PRESSED).unwrap_err().to_string()
+    wanted.plan(&Solver::default(), surface, &mut operator, &NoAdhesion, PRESSED).unwrap_err().to_string()
 }
 
 #[test]
 fn a_plan_says_the_grid_that_is_taken() {
     let (surface, wanted) = (surface(32, 1), Accuracy::new(0.02, Quantity::Area));
     let mut operator = half_space(*surface.grid()).unwrap();
-    let plan = wanted.plan(&surface, &mut operator, &NoAdhesion, PRESSED).unwrap();
+    let plan = wanted.plan(&Solver::default(), &surface, &mut operator, &NoAdhesion, PRESSED).unwrap();
     assert!((3.9..5.0).contains(&plan.nodes_per_wave) && plan.tolerance == 1e-3, "{plan:?}");
     assert!([64, 128].contains(&plan.shape.0) && plan.bytes > 0.0 && plan.applications >= 40.0, "{plan:?}");
     // an adhesion that the grid does not resolve takes a finer one: μ_ρ is to be halved twice, which is 16 times as fine
     let mut with = |mu_rho: f64| {
         let law = Exponential::new(32.0 * (1e-3 * mu_rho).powi(2), 1e-3).unwrap();
-        wanted.plan(&surface, &mut operator, &law, PRESSED)
+        wanted.plan(&Solver::default(), &surface, &mut operator, &law, PRESSED)
     };
     assert_eq!(with(2.0).unwrap().shape, (512, 512));
     let error = with(1e3).unwrap_err();
@@ -378,19 +382,26 @@ fn a_plan_says_the_grid_that_is_taken() {
 #[test]
 fn a_free_sphere_an_adhesive_one_and_a_line_have_accuracies_too() {
     let sphere = Surface::paraboloid(Grid::square(48, 0.8).unwrap(), 1.0).unwrap();
-    let found = Accuracy::new(0.03, Quantity::Area).solve(&sphere, free, NoAdhesion, Control::Approach(0.04)).unwrap();
+    let found = Accuracy::new(0.03, Quantity::Area)
+        .solve(&mut Solver::default(), &sphere, free, NoAdhesion, Control::Approach(0.04))
+        .unwrap();
     let exact = std::f64::consts::PI * 0.04 / 0.64; // πRδ
     let area = found.levels.last().unwrap().area.corrected_contact_fraction;
     assert!(found.reached && (area / exact - 1.0).abs() < 0.03, "{area} {exact}");
 
     let law = || Exponential::new(4e-5, 3e-3).unwrap();
-    let found =
-        Accuracy::new(0.03, Quantity::Pressure).solve(&surface(32, 2), half_space, law(), Control::MeanGap(0.01));
+    let found = Accuracy::new(0.03, Quantity::Pressure).solve(
+        &mut Solver::default(),
+        &surface(32, 2),
+        half_space,
+        law(),
+        Control::MeanGap(0.01),
+    );
     assert!(found.unwrap().reached);
 
     let wave = Surface::wave(Grid::line(32, 1.0).unwrap(), 0.02, 1).unwrap();
     let control = Control::MeanPressure(0.02);
-    let found = Accuracy::new(5e-3, Quantity::Gap).solve(&wave, half_space, NoAdhesion, control).unwrap();
+    let found = solve(Accuracy::new(5e-3, Quantity::Gap), &wave, control);
     let s: f64 = 0.02 / (std::f64::consts::PI * 0.02);
     let exact = 0.02 * (1.0 - s + s * s.ln());
     let error = found.solution.report.mean_gap / exact - 1.0;
@@ -401,14 +412,16 @@ fn a_free_sphere_an_adhesive_one_and_a_line_have_accuracies_too() {
 fn what_is_known_on_one_grid_alone_is_not_refined() {
     let grid = Grid::square(32, 1.0).unwrap();
     let punch = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
-    let found =
-        Accuracy::new(0.01, Quantity::Stiffness).solve(&punch, free, NoAdhesion, Control::Approach(0.01)).unwrap();
+    let found = Accuracy::new(0.01, Quantity::Stiffness)
+        .solve(&mut Solver::default(), &punch, free, NoAdhesion, Control::Approach(0.01))
+        .unwrap();
     assert!(!found.reached && found.unaffordable.is_none());
     assert_eq!(found.surface.grid().shape(), (32, 32));
     // an observer that stops it leaves no finer grid either
-    let mut wanted = Accuracy::new(0.01, Quantity::Area);
+    let wanted = Accuracy::new(0.01, Quantity::Area);
     let stop = |_: &Grid, _: &Iteration| std::ops::ControlFlow::Break(());
-    let found = wanted.solve_observed(&surface(32, 1), half_space, NoAdhesion, PRESSED, stop).unwrap();
+    let found =
+        wanted.solve_observed(&mut Solver::default(), &surface(32, 1), half_space, NoAdhesion, PRESSED, stop).unwrap();
     assert_eq!((found.reached, found.solution.report.status), (false, Status::Stopped));
 }
 
@@ -416,7 +429,7 @@ fn what_is_known_on_one_grid_alone_is_not_refined() {
 fn a_flat_surface_needs_no_fine_grid() {
     for shape in [(1, 1), (5, 1), (1, 5), (8, 8)] {
         let flat = Surface::from_fn(Grid::new(shape, (1.0, 1.0)).unwrap(), |_, _| 0.3).unwrap();
-        let found = Accuracy::new(0.01, Quantity::Area).solve(&flat, half_space, NoAdhesion, PRESSED).unwrap();
+        let found = solve(Accuracy::new(0.01, Quantity::Area), &flat, PRESSED);
         assert!(found.levels.len() <= 2, "{shape:?}");
         assert_eq!(found.reached, shape != (1, 1), "{shape:?}");
         assert_eq!(found.solution.report.contact_fraction, 1.0);

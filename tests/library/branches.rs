@@ -55,7 +55,7 @@ fn by_held_tractions(
 }
 
 /// The solutions on both branches under a load.
-fn both(surface: &Surface, law: impl AdhesionLaw<f64>, control: Control) -> [Solution<f64>; 2] {
+fn both(surface: &Surface, law: impl AdhesionLaw<f64> + 'static, control: Control) -> [Solution<f64>; 2] {
     let half_space = Westergaard::new(*surface.grid(), 1.0).unwrap();
     let mut problem = Problem::new(surface, half_space, law).unwrap();
     [Branch::Loading, Branch::Unloading].map(|branch| {
@@ -117,12 +117,12 @@ fn pressing_from_afar_in_small_steps_ends_on_the_branch_of_loading() {
     let law = Exponential::new(4e-4, 4e-3).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::new(*surface.grid(), 1.0).unwrap(), law).unwrap();
     let mut solver = Solver::new(Settings::default().tolerance(1e-7));
-    let rising: Vec<_> = (1..=12).map(|step| Control::MeanPressure(2e-4 * f64::from(step))).collect();
+    let rising = (1..=12).map(|step| Control::MeanPressure(2e-4 * f64::from(step)));
     let far = 0.1 - surface.heights();
     let mut last = None;
-    for step in Sweep::new(&mut solver, &mut problem, rising).starting_from(far) {
-        let along = step.unwrap();
-        let control = along.report.control;
+    let mut sweep = Sweep::starting_from(far);
+    for control in rising {
+        let along = sweep.next(&mut solver, &mut problem, control).unwrap();
         let [loading, unloading] = both(&surface, law, control);
         assert!(apart(&along.gap, &loading.gap, 4e-3) < 1e-3, "{control:?}");
         last = Some((loading, unloading));
@@ -174,12 +174,12 @@ fn the_branch_follows_the_load_unless_it_is_given() {
     assert_eq!(paper.solve(&mut problem, pressure(0.01)).unwrap().report.branch, None);
     paper.settings.branch = loading;
     assert!(matches!(paper.solve(&mut problem, pressure(0.01)), Err(Error::Unsuited { .. })));
-    let found = ContactSearch::new(&mut Solver::default(), &mut problem).unwrap().at(0.2).unwrap();
+    let found = ContactSearch::default().at(&mut Solver::default(), &mut problem, 0.2).unwrap();
     assert_eq!(found.solution.report.branch, loading);
+    let half_space = |grid: Grid| Westergaard::<f64>::new(grid, 1.0);
     let nested = Nested::default().coarsest(16);
-    let found =
-        { nested }.solve(&surface, |grid| Westergaard::<f64>::new(grid, 1.0), law, pressure(0.01)).unwrap().solution;
-    assert_eq!(found.report.branch, loading);
+    let found = nested.solve(&mut Solver::default(), &surface, half_space, law, pressure(0.01)).unwrap();
+    assert_eq!(found.solution.report.branch, loading);
 }
 
 #[test]
@@ -219,7 +219,7 @@ fn tips_under_next_to_no_load_find_the_force_that_holds_them() {
                     Box::new(Tabulated::new(&[0.0, range, 2.0 * range], &[w / range, 0.5 * w / range, 0.0]).unwrap()),
                 ];
                 let pull_off = 3.0 * std::f64::consts::PI * w;
-                for law in &laws {
+                for law in laws {
                     let mut problem = Problem::new(tip, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
                     for share in [0.0, 1e-4, 1e-6, -1e-6, -1e-4, -1e-2] {
                         let report =

@@ -161,18 +161,18 @@ fn cut_off_and_varying_are_one_law_in_either_order_and_for_one_number() {
     let grid = Grid::square(64, 1.0).unwrap();
     let surface = Surface::wave_2d(grid, 0.02, 2).unwrap();
     let (w, range, end) = (2e-5, 8e-3, 0.02);
-    let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+    let half_space = |grid: Grid| Westergaard::<f64>::new(grid, 1.0);
     let (control, settings) = (Control::MeanPressure(1e-3), Settings::default().tolerance(1e-8));
-    let solve = |law: &dyn AdhesionLaw<f64>| {
+    let solve = |law: Box<dyn AdhesionLaw<f64>>| {
         let mut problem = Problem::new(&surface, half_space(grid).unwrap(), law).unwrap();
         let found = Solver::new(settings).solve(&mut problem, control).unwrap().report;
         assert_eq!(found.status, Status::Converged);
         found
     };
     // on coarser grids a map has fewer nodes
-    let nested = |law: &dyn AdhesionLaw<f64>| {
-        let mut nested = Nested::new(settings).coarsest(16);
-        let found = nested.solve(&surface, half_space, law, control).unwrap();
+    let nested = |law| {
+        let nested = Nested::default().coarsest(16);
+        let found = nested.solve(&mut Solver::new(settings), &surface, half_space, law, control).unwrap();
         assert!(found.levels.len() > 1);
         found.solution.report
     };
@@ -185,11 +185,11 @@ fn cut_off_and_varying_are_one_law_in_either_order_and_for_one_number() {
     for (number, works) in maps.iter().enumerate() {
         let cut_first = Varying::new(CutOff::new(law, end).unwrap(), works.view()).unwrap();
         let cut_last = CutOff::new(Varying::new(law, works.view()).unwrap(), end).unwrap();
-        let found = solve(&cut_first);
-        close(&found, &solve(&cut_last));
-        close(&found, &nested(&cut_last));
+        let found = solve(Box::new(cut_first));
+        close(&found, &solve(Box::new(cut_last.clone())));
+        close(&found, &nested(cut_last));
         if number == 0 {
-            close(&found, &solve(&CutOff::new(Exponential::new(w, range).unwrap(), end).unwrap()));
+            close(&found, &solve(Box::new(CutOff::new(Exponential::new(w, range).unwrap(), end).unwrap())));
         }
     }
 }

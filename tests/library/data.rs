@@ -31,7 +31,7 @@ fn reports_and_statistics_come_back() {
     );
     assert_eq!(report["boundary"]["free"]["window"], json!({ "shape": [24, 16], "lengths": [1.0, 0.7] }));
     assert_eq!(report["control"], json!({ "approach": 0.005 }));
-    comes_back(&ContactStatistics::of(&solution, &law).unwrap());
+    comes_back(&ContactStatistics::of(&solution).unwrap());
     let other = |name: &str, value: Value| {
         let mut other = report.clone();
         other[name] = value;

@@ -5,8 +5,6 @@ use asperity::*;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-type Boxed = Problem<f64, Box<dyn ElasticOperator<f64>>, Box<dyn AdhesionLaw<f64>>>;
-
 fn power(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     10_f64.powf(random.random_range(low..high))
 }
@@ -15,7 +13,7 @@ fn scenes(default: u64) -> std::ops::Range<u64> {
     0..std::env::var("SCENES").map_or(default, |count| count.parse().expect("a number"))
 }
 
-fn boxed(surface: &Surface, free: bool, law: Box<dyn AdhesionLaw<f64>>) -> Boxed {
+fn boxed(surface: &Surface, free: bool, law: Box<dyn AdhesionLaw<f64>>) -> Problem<f64> {
     let grid = *surface.grid();
     let operator: Box<dyn ElasticOperator<f64>> = if free {
         Box::new(Boussinesq::new(grid, 1.0).unwrap())
@@ -33,7 +31,7 @@ fn rough(grid: Grid, rms: f64, k_s: usize, seed: u64) -> Surface {
 
 /// A tip on a free half-space or a rough surface in a periodic cell, with a law that ends, of Tabor parameters down to
 /// 0.05.
-fn ending(seed: u64) -> Boxed {
+fn ending(seed: u64) -> Problem<f64> {
     let random = &mut ChaCha8Rng::seed_from_u64(seed);
     let (tip, n) = (seed.is_multiple_of(2), random.random_range(16..33_usize));
     let grid = Grid::square(n, 1.0).unwrap();
@@ -191,7 +189,7 @@ fn a_law_without_a_range_holds_and_lets_go() {
     let found = PullOff::default().find(&mut Solver::default(), &mut problem).unwrap();
     let borne = -found.solution.report.mean_pressure;
     assert!(found.reached && borne > 0.5 * 1e-5 / 4e-3 * (-1.0_f64).exp(), "{borne:e}");
-    let status = |share: f64, problem: &mut Boxed| {
+    let status = |share: f64, problem: &mut Problem<f64>| {
         Solver::default().solve(problem, Control::MeanPressure(-share * borne)).unwrap().report.status
     };
     assert_eq!([0.5, 1.2].map(|share| status(share, &mut problem)), [Status::Converged, Status::Detached]);

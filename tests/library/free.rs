@@ -2,20 +2,21 @@
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use asperity::contact::{ContactStatistics, PressureDistribution};
 use asperity::elastic::check_operator;
 use asperity::exact::{self, Cone, EllipticHertz, FlatPunch, Hertz, Sphere};
-use asperity::path::{Event, Path, PathSettings};
+use asperity::path::{Event, Path, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
 use crate::common::dense::{Dense, Held};
-use crate::common::with_holes;
+use crate::common::{followed, with_holes};
 
 /// A free half-space of unit modulus against a surface.
-fn problem<L: AdhesionLaw<f64>>(surface: &Surface, law: L) -> Problem<f64, Boussinesq<f64>, L> {
+fn problem(surface: &Surface, law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     Problem::new(surface, Boussinesq::new(*surface.grid(), 1.0).unwrap(), law).unwrap()
 }
 
@@ -26,11 +27,7 @@ fn sphere(n: usize, side: f64) -> Surface {
 
 /// Solves and watches that the energy falls, but for the rounding of its sums: in the terms that cancel there the
 /// surface is pressed flat.
-fn solve<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, O, L>,
-    control: Control,
-    tolerance: f64,
-) -> Solution<T> {
+fn solve<T: Real>(problem: &mut Problem<T>, control: Control, tolerance: f64) -> Solution<T> {
     let mut history: Vec<Iteration> = Vec::new();
     let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let solution = solver
@@ -180,7 +177,7 @@ fn contact_without_adhesion_is_that_of_the_dense_matrix_under_every_control() {
 /// With adhesion there may be several equilibria: what is found is one of them, by the dense matrix.
 #[test]
 fn contact_with_adhesion_is_an_equilibrium_of_the_dense_matrix_under_every_control() {
-    fn check(surface: &Surface, law: impl AdhesionLaw<f64> + Copy, traction: f64) {
+    fn check(surface: &Surface, law: impl AdhesionLaw<f64> + Copy + 'static, traction: f64) {
         let (love, faces) = (Dense::free(surface.grid(), 1.0), faces(surface));
         let heights = surface.heights();
         let top = heights.iter().zip(&faces).filter(|(_, faces)| **faces).fold(f64::MIN, |top, (h, _)| top.max(*h));
@@ -240,7 +237,7 @@ fn hertz_is_met_to_half_a_node_in_any_window() {
     for (n, side) in [(64, 0.4), (65, 0.4), (128, 0.4), (128, 0.8), (96, 0.3)] {
         let found = solve(&mut problem(&sphere(n, side), NoAdhesion), Control::Force(1e-3), 1e-6);
         let (report, spacing) = (&found.report, side / n as f64);
-        let statistics = ContactStatistics::of(&found, &NoAdhesion).unwrap();
+        let statistics = ContactStatistics::of(&found).unwrap();
         let radius = (statistics.corrected_contact_fraction * side * side / PI).sqrt();
         assert!((radius - exact.contact_radius()).abs() < 0.5 * spacing, "{n} {side}: {radius}");
         // of second order in the spacing
@@ -268,7 +265,7 @@ fn a_cone_and_a_flat_punch_are_met() {
     let body = Surface::from_fn(grid, |x, y| -0.1 * x.hypot(y)).unwrap();
     let found = solve(&mut problem(&body, NoAdhesion), Control::Force(1e-2), 1e-6);
     let a = cone.contact_radius(1e-2).unwrap();
-    let statistics = ContactStatistics::of(&found, &NoAdhesion).unwrap();
+    let statistics = ContactStatistics::of(&found).unwrap();
     assert!(((statistics.corrected_contact_fraction / PI).sqrt() - a).abs() < 0.5 / 129.0);
     assert!((found.report.approach.unwrap() / cone.approach(a) - 1.0).abs() < 0.01);
 
@@ -300,9 +297,9 @@ fn the_pull_off_of_an_adhesive_sphere_is_that_of_maugis() {
         let pull_off = -exact.pull_off().load();
         let approaches = [0.002, -0.012].map(Control::Approach);
         let mut strongest = 0.0_f64;
-        for step in Path::new(&mut Solver::default(), &mut problem, approaches, PathSettings::default()).unwrap() {
-            let report = step.unwrap().solution.report;
-            strongest = strongest.max(-report.normal_force);
+        let path = Path::new(approaches, PathSettings::default()).unwrap();
+        for step in followed(path, &mut Solver::default(), &mut problem) {
+            strongest = strongest.max(-step.solution.report.normal_force);
         }
         assert!((strongest / pull_off - 1.0).abs() < 0.01, "{} {}", strongest / pull_off, exact.tabor_parameter());
     }
@@ -322,8 +319,8 @@ fn pull_offs_at_256_are_those_of_maugis_to_one_per_cent() {
         let legs = [0.0, 2.0 * exact.pull_off().approach() - 1e-3].map(Control::Approach);
         let settings = PathSettings::default().steps(20).smallest_step(1e-2);
         let (mut strongest, mut edge) = (0.0_f64, 0.0_f64);
-        for step in Path::new(&mut Solver::default(), &mut problem, legs, settings).unwrap() {
-            let report = step.unwrap().solution.report;
+        let path = Path::new(legs, settings).unwrap();
+        for PathStep { solution: Solution { report, .. }, .. } in followed(path, &mut Solver::default(), &mut problem) {
             strongest = strongest.max(-report.normal_force);
             edge = edge.max(if report.contact_nodes > 0 { report.edge_traction.unwrap() } else { 0.0 });
         }
@@ -347,8 +344,8 @@ fn a_soft_spring_jumps_and_a_stiff_one_does_not() {
         let legs = [-0.02, 0.004, -0.03].map(|rest| Control::Spring { stiffness, rest });
         let far = Array2::from_shape_fn((32, 32), |node| 0.02 - surface.heights()[node]);
         let settings = PathSettings::default().steps(20).smallest_step(1e-3);
-        let path = Path::new(&mut solver, &mut problem, legs, settings).unwrap().starting_from(far);
-        let steps: Vec<_> = path.map(Result::unwrap).collect();
+        let path = Path::new(legs, settings).unwrap().starting_from(far);
+        let steps = followed(path, &mut solver, &mut problem);
         for step in &steps {
             let (report, Control::Spring { rest, .. }) = (&step.solution.report, step.solution.report.control) else {
                 panic!("a spring")
@@ -425,8 +422,9 @@ fn single_precision_and_nested_grids_come_to_the_same_state() {
         assert!((single.report.normal_force / 1e-3 - 1.0).abs() < 1e-3, "{}", single.report.normal_force);
     }
     for control in [control, Control::Approach(one.report.approach.unwrap())] {
-        let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
-        let nested = Nested::default().solve(&surface, half_space, NoAdhesion, control).unwrap();
+        let half_space = |grid: Grid| Boussinesq::<f64>::new(grid, 1.0);
+        let mut solver = Solver::default();
+        let nested = Nested::default().solve(&mut solver, &surface, half_space, NoAdhesion, control).unwrap();
         assert_eq!((nested.levels.len(), nested.solution.report.status), (2, Status::Converged));
         assert!((nested.solution.report.approach.unwrap() / one.report.approach.unwrap() - 1.0).abs() < 1e-5);
         assert!((nested.solution.report.normal_force / 1e-3 - 1.0).abs() < 1e-5);
@@ -443,7 +441,7 @@ fn nested_grids_take_few_applications_under_every_control() {
     let tip = Surface::new(grid, tip).unwrap();
     let adhesion = Exponential::new(1e-4, 2e-3).unwrap();
     let spring = Control::Spring { stiffness: 0.1, rest: 0.02 };
-    let free = |grid| Boussinesq::<f64>::new(grid, 1.0);
+    let free = |grid: Grid| Boussinesq::<f64>::new(grid, 1.0);
     for (law, control, counted) in [
         (None, Control::Force(3e-4), 9.1),
         (None, Control::Approach(0.01), 8.9),
@@ -453,9 +451,9 @@ fn nested_grids_take_few_applications_under_every_control() {
         (Some(adhesion), Control::Approach(0.01), 34.5),
         (Some(adhesion), Control::Force(0.02), 32.0),
     ] {
-        let law: Box<dyn AdhesionLaw<f64>> = law.map_or(Box::new(NoAdhesion), |law| Box::new(law));
-        let one = solve(&mut problem(&tip, &*law), control, 1e-6);
-        let nested = Nested::default().solve(&tip, free, &*law, control).unwrap();
+        let law: Arc<dyn AdhesionLaw<f64>> = law.map_or(Arc::new(NoAdhesion), |law| Arc::new(law));
+        let one = solve(&mut problem(&tip, law.clone()), control, 1e-6);
+        let nested = Nested::default().solve(&mut Solver::default(), &tip, free, law, control).unwrap();
         let (taken, alone) = (nested.equivalent_applications(), one.report.operator_applications + 1);
         println!("{control:?}: {taken:.1} of {counted}, {alone}");
         assert!(taken <= counted + 2.05, "{control:?}: {taken} and not {counted}, {alone} on one grid");
@@ -544,7 +542,7 @@ fn statistics_do_not_wrap_and_leave_absent_nodes_out() {
     let heights = grid.sample(|x, y| if y.abs() > 0.2 { f64::NAN } else { -0.1 * ((x.abs() - 0.5).powi(2) + y * y) });
     let surface = with_holes(grid, heights).unwrap();
     let found = solve(&mut problem(&surface, NoAdhesion), Control::Force(1e-4), 1e-6);
-    let statistics = ContactStatistics::of(&found, &NoAdhesion).unwrap();
+    let statistics = ContactStatistics::of(&found).unwrap();
     assert_eq!(statistics.cluster_sizes.len(), 2);
     assert_eq!(statistics.contact_fraction, found.report.contact_fraction);
     assert!((statistics.contact_fraction + statistics.apart_fraction - 1.0).abs() < 1e-15);
@@ -563,16 +561,16 @@ fn a_sweep_goes_on_from_solution_to_solution() {
         let mut solver = Solver::default();
         let mut problem = problem(&surface, NoAdhesion);
         let mut approaches = Vec::new();
-        for step in Sweep::new(&mut solver, &mut problem, [1e-3, 2e-3, 4e-3, 8e-3].map(Control::Force)) {
-            let report = step.unwrap().report;
+        let mut sweep = Sweep::default();
+        for force in [1e-3, 2e-3, 4e-3, 8e-3] {
+            let report = sweep.next(&mut solver, &mut problem, Control::Force(force)).unwrap().report;
             assert_eq!(report.status, Status::Converged);
             approaches.push(report.approach.unwrap());
         }
-        for (step, approach) in
-            Sweep::new(&mut solver, &mut problem, approaches.clone().into_iter().map(Control::Approach))
-                .zip(&approaches)
-        {
-            assert!((step.unwrap().report.approach.unwrap() - approach).abs() < 1e-6);
+        let mut sweep = Sweep::default();
+        for approach in approaches {
+            let step = sweep.next(&mut solver, &mut problem, Control::Approach(approach)).unwrap();
+            assert!((step.report.approach.unwrap() - approach).abs() < 1e-6);
         }
     }
 }
@@ -606,7 +604,7 @@ fn a_wavy_sphere_sticks_as_guduru_says() {
     let mut problem = problem(&surface, MaugisDugdale::new(1e-3, 2e-2).unwrap());
     for radius in [1.1_f64, 2.2] {
         let found = solve(&mut problem, Control::Approach(exact.approach(radius)), 1e-5);
-        let statistics = ContactStatistics::of(&found, problem.law()).unwrap();
+        let statistics = ContactStatistics::of(&found).unwrap();
         let a = (statistics.corrected_contact_fraction * 36.0 / PI).sqrt();
         // Dugdale's zone, πE*ρ²/4w, is five nodes wide
         assert!((a - radius).abs() < 2.0 * 6.0 / 96.0, "{a} {radius}");
@@ -629,8 +627,8 @@ fn a_wavy_sphere_jumps_where_guduru_says() {
     let mut solver = Solver::new(Settings::default().tolerance(1e-5));
     let legs = [far, near, far].map(Control::Approach);
     let mut jumps = [Vec::new(), Vec::new(), Vec::new()];
-    for step in Path::new(&mut solver, &mut problem, legs, settings).unwrap().starting_from(start) {
-        let step = step.unwrap();
+    let path = Path::new(legs, settings).unwrap().starting_from(start);
+    for step in followed(path, &mut solver, &mut problem) {
         if let Some(Event::Jump(jump)) = step.event {
             jumps[step.leg]
                 .push((jump.approach.unwrap().0, [jump.mean_pressure.0, jump.mean_pressure.1].map(|p| 64.0 * p)));
@@ -677,12 +675,11 @@ fn a_leg_can_be_ended_on_the_way() {
     let surface = sphere(32, 0.4);
     let (mut solver, mut problem) = (Solver::default(), problem(&surface, NoAdhesion));
     let legs = [0.002, -0.02, 0.001].map(Control::Approach);
-    let mut path = Path::new(&mut solver, &mut problem, legs, PathSettings::default()).unwrap();
+    let mut path = Path::new(legs, PathSettings::default()).unwrap();
     let mut last = (0, 0.0);
-    while let Some(step) = path.next() {
-        let report = step.unwrap();
-        last = (report.leg, report.solution.report.approach.unwrap());
-        if report.leg == 1 && report.solution.report.contact_nodes == 0 {
+    while let Some(step) = path.next(&mut solver, &mut problem).unwrap() {
+        last = (step.leg, step.solution.report.approach.unwrap());
+        if step.leg == 1 && step.solution.report.contact_nodes == 0 {
             // before half of the way
             assert!(last.1 > -0.01, "{last:?}");
             path.end_leg();
@@ -853,10 +850,8 @@ fn what_a_boundary_does_not_have_is_refused_by_name() {
     assert!(matches!(paper.solve(&mut free, Control::Force(1.0)), Err(Error::Unsuited { .. })));
     assert!(matches!(paper.solve(&mut periodic, spring(1.0, 0.0)), Err(Error::Unsuited { .. })));
     let legs = [Control::MeanPressure(0.0)];
-    assert!(matches!(
-        Path::new(&mut solver, &mut absent, legs, PathSettings::default()).err(),
-        Some(Error::Unsuited { what: "path", .. })
-    ));
+    let refused = Path::new(legs, PathSettings::default()).unwrap().check(&solver, &absent);
+    assert!(matches!(refused, Err(Error::Unsuited { what: "path", .. })));
     // surfaces and half-spaces
     let nothing = with_holes(grid, Array2::from_elem((16, 16), f64::NAN));
     assert!(matches!(nothing, Err(Error::Value { name: "number of nodes with a surface", .. })));

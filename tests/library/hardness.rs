@@ -7,7 +7,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow::{Break, Continue};
 
 use crate::common::dense::Dense;
-use crate::common::{rough, sphere, with_holes};
+use crate::common::rough::rough as rough_surface;
+use crate::common::{Kept, followed, rough, sphere, swept, with_holes};
 use approx::assert_relative_eq;
 use asperity::path::{Path, PathSettings};
 use asperity::*;
@@ -24,10 +25,7 @@ fn greatest<T: Real>(solution: &Solution<T>) -> f64 {
 }
 
 /// Solves with a rigid wall and with a hardness ten times the greatest pressure, and compares all bits.
-fn has_the_bits_of_no_cap<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, O, L>,
-    control: Control,
-) {
+fn has_the_bits_of_no_cap<T: Real>(problem: &mut Problem<T>, control: Control) {
     let rigid = Solver::default().solve(problem, control).unwrap();
     let constraint = Hardness::new(1e3 * greatest(&rigid)).unwrap();
     let hard = Solver { settings: Settings::default(), constraint }.solve(problem, control).unwrap();
@@ -46,13 +44,13 @@ fn has_the_bits_of_no_cap<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
 #[test]
 fn a_hardness_above_all_pressures_has_the_bits_of_none() {
     for control in [Control::MeanPressure(2e-4), Control::MeanGap(0.0398)] {
-        has_the_bits_of_no_cap(&mut sphere::<f64, _>(64, NoAdhesion), control);
-        has_the_bits_of_no_cap(&mut sphere::<f32, _>(64, NoAdhesion), control);
+        has_the_bits_of_no_cap(&mut sphere::<f64>(64, NoAdhesion), control);
+        has_the_bits_of_no_cap(&mut sphere::<f32>(64, NoAdhesion), control);
     }
     for control in [Control::MeanPressure(0.02), Control::MeanGap(0.03)] {
-        has_the_bits_of_no_cap(&mut rough::<f64, _>(96, 8, NoAdhesion), control);
-        has_the_bits_of_no_cap(&mut rough::<f64, _>(96, 8, Exponential::new(1e-5, 1e-2).unwrap()), control);
-        has_the_bits_of_no_cap(&mut rough::<f32, _>(96, 8, MaugisDugdale::new(1e-5, 1e-2).unwrap()), control);
+        has_the_bits_of_no_cap(&mut rough::<f64>(96, 8, NoAdhesion), control);
+        has_the_bits_of_no_cap(&mut rough::<f64>(96, 8, Exponential::new(1e-5, 1e-2).unwrap()), control);
+        has_the_bits_of_no_cap(&mut rough::<f32>(96, 8, MaugisDugdale::new(1e-5, 1e-2).unwrap()), control);
     }
     let grid = Grid::square(48, 1.0).unwrap();
     let surface = Surface::paraboloid(grid, 2.0).unwrap();
@@ -65,7 +63,7 @@ fn a_hardness_above_all_pressures_has_the_bits_of_none() {
 #[test]
 fn pressures_are_at_most_the_hardness_and_depths_only_where_it_is_reached() {
     for (share, control) in [0.5, 0.2].into_iter().zip([Control::MeanPressure(0.02), Control::MeanGap(0.04)]) {
-        let mut problem = rough::<f64, _>(96, 8, NoAdhesion);
+        let mut problem = rough::<f64>(96, 8, NoAdhesion);
         let rigid = Solver::default().solve(&mut problem, control).unwrap();
         let hardness = share * greatest(&rigid);
         let solution = capped(hardness, 1e-7).solve(&mut problem, control).unwrap();
@@ -241,7 +239,7 @@ fn a_sphere_first_yields_where_hertz_says_and_its_depth_grows() {
 #[test]
 fn a_soft_surface_carries_its_hardness_everywhere() {
     // H → 0: each node in contact has yielded, A/A₀ = p̄/H
-    let mut problem = rough::<f64, _>(64, 8, NoAdhesion);
+    let mut problem = rough::<f64>(64, 8, NoAdhesion);
     for (hardness, share) in [(1e-4, 0.3), (1e-5, 0.1)] {
         let solution = capped(hardness, 1e-7).solve(&mut problem, Control::MeanPressure(share * hardness)).unwrap();
         assert_eq!(solution.report.status, Status::Converged);
@@ -253,7 +251,7 @@ fn a_soft_surface_carries_its_hardness_everywhere() {
 
 #[test]
 fn loads_close_to_the_hardness_close_the_contact_and_one_beyond_it_is_refused() {
-    let mut problem = rough::<f64, _>(64, 8, NoAdhesion);
+    let mut problem = rough::<f64>(64, 8, NoAdhesion);
     for hardness in [0.02, 0.5] {
         let mut last = 0.0;
         for share in [0.9, 0.99, 0.999] {
@@ -273,11 +271,11 @@ fn loads_close_to_the_hardness_close_the_contact_and_one_beyond_it_is_refused() 
 
 #[test]
 fn reloading_repeats_the_state_and_dissipates_nothing_more() {
-    let mut problem = rough::<f64, _>(64, 8, NoAdhesion);
+    let mut problem = rough::<f64>(64, 8, NoAdhesion);
     let hardness = 0.2;
     let mut solver = capped(hardness, 1e-9);
     let loads = [0.02, 0.01, 0.004, 0.01, 0.02, 0.03].map(Control::MeanPressure);
-    let states: Vec<_> = Sweep::new(&mut solver, &mut problem, loads).collect::<Result<_>>().unwrap();
+    let states = swept(&mut Sweep::default(), &mut solver, &mut problem, &loads);
     let energy = |k: usize| states[k].report.plastic.unwrap().energy;
     assert!(energy(0) > 0.0);
     for k in 1..5 {
@@ -290,7 +288,7 @@ fn reloading_repeats_the_state_and_dissipates_nothing_more() {
     assert!(states[4].report.contact_nodes.abs_diff(states[0].report.contact_nodes) <= 1);
     // elastic unloading on the flattened surface leaves more contact than loading did
     let virgin =
-        capped(hardness, 1e-9).solve(&mut rough::<f64, _>(64, 8, NoAdhesion), Control::MeanPressure(0.01)).unwrap();
+        capped(hardness, 1e-9).solve(&mut rough::<f64>(64, 8, NoAdhesion), Control::MeanPressure(0.01)).unwrap();
     assert!(states[1].report.contact_fraction > 1.05 * virgin.report.contact_fraction);
     let reverse = states[3].distance(&states[1]);
     assert!(reverse < 1e-7, "{reverse:e}");
@@ -298,11 +296,11 @@ fn reloading_repeats_the_state_and_dissipates_nothing_more() {
 
 #[test]
 fn the_energy_of_a_cycle_is_balanced_with_the_plastic_work() {
-    let mut problem = rough::<f64, _>(48, 6, NoAdhesion);
+    let mut problem = rough::<f64>(48, 6, NoAdhesion);
     let mut solver = capped(0.2, 1e-9);
     let legs = [1e-4, 0.03, 1e-4, 0.03, 1e-4].map(Control::MeanPressure);
     let settings = PathSettings::default().steps(20);
-    let steps = Path::new(&mut solver, &mut problem, legs, settings).unwrap().collect::<Result<Vec<_>>>().unwrap();
+    let steps = followed(Path::new(legs, settings).unwrap(), &mut solver, &mut problem);
     let ends: Vec<_> = (1..5).map(|leg| steps.iter().rfind(|step| step.leg == leg).unwrap()).collect();
     let plastic = |k: usize| ends[k].solution.report.plastic.unwrap().energy;
     assert!(plastic(0) > 0.0);
@@ -318,10 +316,8 @@ fn the_energy_of_a_cycle_is_balanced_with_the_plastic_work() {
     assert!(ends[3].imbalance.abs() < 3e-3 * range);
 }
 
-type Varied = Problem<f64, Westergaard<f64>, adhesion::Varying<Exponential>>;
-
 /// Adhesion that differs from node to node, with its tractions at contact, and a hardness that does.
-fn both_vary(n: usize) -> (Varied, Array2<f64>, Array2<f64>) {
+fn both_vary(n: usize) -> (Problem<f64>, Array2<f64>, Array2<f64>) {
     let (grid, rho) = (Grid::square(n, 1.0).unwrap(), 2e-3);
     let works = Array2::from_shape_fn((n, n), |(i, j)| 2e-5 * (1 + (i + 3 * j) % 4) as f64 / 4.0);
     let caps = Array2::from_shape_fn((n, n), |(i, j)| 0.08 + 0.01 * ((2 * i + j) % 5) as f64);
@@ -337,8 +333,7 @@ fn yielding_dissipates_the_hardness_less_the_traction_of_the_law() {
     let constraint = Hardness::varying(caps.clone()).unwrap();
     let mut solver = Solver { settings: Settings::default(), constraint };
     let loads = [0.02, 0.03, 0.01].map(Control::MeanPressure);
-    for solution in Sweep::new(&mut solver, &mut problem, loads) {
-        let solution = solution.unwrap();
+    for solution in swept(&mut Sweep::default(), &mut solver, &mut problem, &loads) {
         let (plastic, depth) = (solution.report.plastic.unwrap(), solution.plastic_depth.unwrap());
         assert!(plastic.fraction > 0.0);
         assert_relative_eq!(plastic.energy, ((&caps - &pulls) * depth).mean().unwrap(), max_relative = 1e-12);
@@ -355,8 +350,7 @@ fn the_energy_of_a_cycle_with_adhesion_is_balanced_without_jumps() {
     let mut steps = |caps| {
         let mut solver = Solver { settings: Settings::default().tolerance(1e-8), constraint: caps };
         problem.flatten(Array2::zeros((32, 32)).view()).unwrap();
-        let path = Path::new(&mut solver, &mut problem, legs, PathSettings::default().steps(12)).unwrap();
-        path.collect::<Result<Vec<_>>>().unwrap()
+        followed(Path::new(legs, PathSettings::default().steps(12)).unwrap(), &mut solver, &mut problem)
     };
     let elastic = steps(Hardness::new(1e3).unwrap());
     for caps in [Hardness::varying(caps).unwrap(), Hardness::new(0.1).unwrap()] {
@@ -376,39 +370,39 @@ fn the_energy_of_a_cycle_with_adhesion_is_balanced_without_jumps() {
 fn a_load_that_has_not_converged_leaves_no_depth() {
     let mut solver = capped(0.05, 1e-9);
     let [low, high] = [1e-3, 0.02].map(Control::MeanPressure);
-    let mut problem = rough::<f64, _>(48, 6, NoAdhesion);
-    let alone: Vec<_> = Sweep::new(&mut solver, &mut problem, [low, low]).collect::<Result<_>>().unwrap();
+    let mut problem = rough::<f64>(48, 6, NoAdhesion);
+    let alone = swept(&mut Sweep::default(), &mut solver, &mut problem, &[low, low]);
     problem.flatten(Array2::zeros((48, 48)).view()).unwrap();
-    let mut sweep = Sweep::new(&mut solver, &mut problem, [low, high, low]);
-    let first = sweep.next().unwrap().unwrap();
+    let mut sweep = Sweep::default();
+    let first = sweep.next(&mut solver, &mut problem, low).unwrap();
     let stopped = |state: &Iteration| if state.iteration < 8 { Continue(()) } else { Break(()) };
-    let second = sweep.next_observed(stopped).unwrap().unwrap();
+    let second = sweep.next_observed(&mut solver, &mut problem, high, stopped).unwrap();
     assert!(
         second.report.status == Status::Stopped
             && second.plastic_depth.unwrap() != *first.plastic_depth.as_ref().unwrap()
     );
-    assert_eq!(sweep.problem().plastic_depth(), first.plastic_depth);
-    let third = sweep.next().unwrap().unwrap();
+    assert_eq!(problem.plastic_depth(), first.plastic_depth);
+    let third = sweep.next(&mut solver, &mut problem, low).unwrap();
     assert!(third.distance(&alone[1]) < 1e-8);
     // a path takes a state that cannot be reached by shorter steps as it is
     problem.flatten(Array2::zeros((48, 48)).view()).unwrap();
     solver.settings = solver.settings.max_iterations(8);
-    let mut path = Path::new(&mut solver, &mut problem, [high], PathSettings::default()).unwrap();
-    let begun = path.next().unwrap().unwrap();
+    let mut path = Path::new([high], PathSettings::default()).unwrap();
+    let begun = path.next(&mut solver, &mut problem).unwrap().unwrap();
     assert!(
         begun.solution.report.status == Status::IterationLimit && begun.solution.plastic_depth.unwrap().sum() > 0.0
     );
-    assert_eq!(path.checkpoint().fields[1].sum(), 0.0);
+    assert_eq!(problem.plastic_depth().unwrap().sum(), 0.0);
 }
 
 #[test]
 fn any_share_of_contact_is_found_at_any_hardness() {
     let grid = Grid::square(32, 1.0).unwrap();
     let surface = SelfAffine::default().k_s(8.0).amplitude(Amplitude::RmsSlope(0.2)).surface(grid).unwrap();
-    fn finds<O: ElasticOperator<f64>>(mut problem: Problem<f64, O, NoAdhesion>, constraint: Hardness) {
+    fn finds(mut problem: Problem<f64>, constraint: Hardness) {
         for fraction in [0.03, 0.3, 0.7, 0.97] {
             let mut solver = Solver { settings: Settings::default(), constraint: constraint.clone() };
-            let found = ContactSearch::new(&mut solver, &mut problem).unwrap().at(fraction).unwrap();
+            let found = ContactSearch::default().at(&mut solver, &mut problem, fraction).unwrap();
             let report = &found.solution.report;
             assert!(found.reached, "{fraction} at {}: {report:?}", constraint.mean());
             // to a node or 1 %
@@ -428,21 +422,41 @@ fn any_share_of_contact_is_found_at_any_hardness() {
 }
 
 #[test]
-fn a_path_with_depth_goes_on_bit_for_bit() {
-    let legs = [1e-3, 0.03, 1e-3].map(Control::MeanPressure);
-    let settings = PathSettings::default().steps(4);
-    let whole = Path::new(&mut capped(0.2, 1e-6), &mut rough::<f64, _>(32, 4, NoAdhesion), legs, settings)
-        .unwrap()
-        .collect::<Result<Vec<_>>>()
-        .unwrap();
-    for at in [2, whole.len() - 3] {
-        let (mut solver, mut problem) = (capped(0.2, 1e-6), rough::<f64, _>(32, 4, NoAdhesion));
-        let mut first = Path::new(&mut solver, &mut problem, legs, settings).unwrap();
-        first.by_ref().take(at).for_each(|step| assert!(step.is_ok()));
-        let kept = first.checkpoint();
-        let (mut solver, mut problem) = (capped(0.2, 1e-6), rough::<f64, _>(32, 4, NoAdhesion));
-        let path = Path::new(&mut solver, &mut problem, legs, settings).unwrap().continuing(kept).unwrap();
-        assert_eq!(path.collect::<Result<Vec<_>>>().unwrap(), whole[at..]);
+fn a_path_and_a_sweep_with_depth_go_on_bit_for_bit() {
+    let loads = [1e-3, 0.03, 1e-3, 0.04].map(Control::MeanPressure);
+    let solver = || capped(0.2, 1e-6);
+    let grid = Grid::square(24, 1.0).unwrap();
+    let bodies: [fn(Grid) -> Box<dyn ElasticOperator<f64>>; 2] = [
+        |grid| Box::new(Westergaard::<f64>::new(grid, 1.0).unwrap()),
+        |grid| Box::new(Boussinesq::<f64>::new(grid, 1.0).unwrap()),
+    ];
+    for body in bodies {
+        let new = || Problem::new(&rough_surface(grid, 4, 1), body(grid), NoAdhesion).unwrap();
+        let (mut one, mut problem) = (solver(), new());
+        let mut path = Path::new(loads, PathSettings::default().steps(4)).unwrap();
+        let whole = followed(path.clone(), &mut solver(), &mut new());
+        for (k, expected) in whole.iter().enumerate() {
+            if k % 3 == 2 {
+                let rest = followed(path.read_again(), &mut solver(), &mut new());
+                assert!(rest == whole[k..], "{k}");
+            }
+            assert_eq!(path.next(&mut one, &mut problem).unwrap().as_ref(), Some(expected));
+        }
+        assert!(whole.iter().any(|step| step.solution.report.plastic.unwrap().fraction > 0.0));
+
+        let (mut sweep, mut problem) = (Sweep::default(), new());
+        let whole = swept(&mut sweep.clone(), &mut solver(), &mut new(), &loads);
+        for (k, &load) in loads.iter().enumerate() {
+            assert!(swept(&mut sweep.read_again(), &mut solver(), &mut new(), &loads[k..]) == whole[k..], "{k}");
+            sweep.next(&mut one, &mut problem, load).unwrap();
+        }
+
+        let (mut search, mut problem) = (ContactSearch::default(), new());
+        for fraction in [0.05, 0.2, 0.4] {
+            let again = search.read_again().at(&mut solver(), &mut new(), fraction).unwrap();
+            let expected = search.at(&mut one, &mut problem, fraction).unwrap();
+            assert!(again.solution == expected.solution && again.solves == expected.solves, "{fraction}");
+        }
     }
 }
 
@@ -450,8 +464,8 @@ fn a_path_with_depth_goes_on_bit_for_bit() {
 fn every_law_control_body_and_precision_works_with_it() {
     let law = Exponential::new(1e-5, 1e-2).unwrap();
     for control in [Control::MeanPressure(0.02), Control::MeanGap(0.04)] {
-        let double = capped(0.3, 1e-6).solve(&mut rough::<f64, _>(64, 8, law), control).unwrap();
-        let single = capped(0.3, 1e-4).solve(&mut rough::<f32, _>(64, 8, law), control).unwrap();
+        let double = capped(0.3, 1e-6).solve(&mut rough::<f64>(64, 8, law), control).unwrap();
+        let single = capped(0.3, 1e-4).solve(&mut rough::<f32>(64, 8, law), control).unwrap();
         assert_eq!((double.report.status, single.report.status), (Status::Converged, Status::Converged), "{control:?}");
         let [a, b] = [double.report.plastic.unwrap(), single.report.plastic.unwrap()];
         assert_relative_eq!(a.energy, b.energy, max_relative = 2e-2, epsilon = 1e-12);
@@ -483,12 +497,13 @@ fn nested_grids_find_the_same() {
     let grid = Grid::square(256, 1.0).unwrap();
     let surface = SelfAffine::default().k_s(32.0).surface(grid).unwrap();
     let control = Control::MeanPressure(0.01);
-    let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
+    let half_space = |grid: Grid| Westergaard::<f64>::new(grid, 1.0);
     let mut problem = Problem::new(&surface, half_space(grid).unwrap(), NoAdhesion).unwrap();
     let rigid = Solver::default().solve(&mut problem, control).unwrap();
     let hardness = 0.3 * greatest(&rigid);
     let alone = capped(hardness, 1e-7).solve(&mut problem, control).unwrap();
-    let nested = Nested::with_solver(capped(hardness, 1e-7)).solve(&surface, half_space, NoAdhesion, control).unwrap();
+    let mut solver = capped(hardness, 1e-7);
+    let nested = Nested::default().solve(&mut solver, &surface, half_space, NoAdhesion, control).unwrap();
     assert_eq!((nested.levels.len(), nested.solution.report.status), (3, Status::Converged));
     let error = nested.solution.distance(&alone);
     assert!(error <= 3e-7, "{error:e}");
@@ -497,7 +512,7 @@ fn nested_grids_find_the_same() {
 
 #[test]
 fn the_certificate_is_between_the_error_and_some_twice_of_it() {
-    let mut problem = rough::<f64, _>(96, 8, NoAdhesion);
+    let mut problem = rough::<f64>(96, 8, NoAdhesion);
     let gaps = [0.02, 0.04].map(Control::MeanGap);
     for (hardness, control) in [0.2, 0.1, 0.05].into_iter().flat_map(|hardness| gaps.map(|gap| (hardness, gap))) {
         let exact = capped(hardness, 1e-11).solve(&mut problem, control).unwrap();
@@ -514,10 +529,10 @@ fn the_certificate_is_between_the_error_and_some_twice_of_it() {
 fn nested_grids_help_where_all_but_a_little_yields() {
     let grid = Grid::square(256, 1.0).unwrap();
     let surface = SelfAffine::default().k_s(32.0).surface(grid).unwrap();
-    let (half_space, control) = (|grid| Westergaard::<f64>::new(grid, 1.0), Control::MeanPressure(0.001));
+    let (half_space, control) = (|grid: Grid| Westergaard::<f64>::new(grid, 1.0), Control::MeanPressure(0.001));
     for hardness in [0.0012, 0.001001] {
-        let solver = capped(hardness, 1e-6);
-        let nested = Nested::with_solver(solver).solve(&surface, half_space, NoAdhesion, control).unwrap();
+        let mut solver = capped(hardness, 1e-6);
+        let nested = Nested::default().solve(&mut solver, &surface, half_space, NoAdhesion, control).unwrap();
         assert_eq!((nested.levels.len(), nested.solution.report.status), (3, Status::Converged));
         let applications = nested.equivalent_applications();
         println!("hardness {hardness}: {applications:.1}");
@@ -531,16 +546,16 @@ fn nested_grids_take_a_hardness_that_varies_also_with_a_free_boundary() {
     let surface = Surface::paraboloid(grid, 2.0).unwrap();
     let field = Array2::from_shape_fn((128, 128), |(i, _)| if i < 64 { 0.03 } else { 0.06 });
     let constraint = Hardness::varying(field).unwrap();
-    let solver = Solver { settings: Settings::default().tolerance(1e-7), constraint };
-    let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
+    let mut solver = Solver { settings: Settings::default().tolerance(1e-7), constraint };
+    let half_space = |grid: Grid| Boussinesq::<f64>::new(grid, 1.0);
     let control = Control::Force(4e-3);
     let mut problem = Problem::new(&surface, half_space(grid).unwrap(), NoAdhesion).unwrap();
-    let alone = solver.clone().solve(&mut problem, control).unwrap();
+    let alone = solver.solve(&mut problem, control).unwrap();
     assert!(alone.report.plastic.unwrap().fraction > 0.0);
     // the contact is on a small part of the window
     assert!(alone.report.contact_fraction < 0.25);
-    let mut nested = Nested::with_solver(solver).coarsest(32);
-    let found = nested.solve(&surface, half_space, NoAdhesion, control).unwrap();
+    let nested = Nested::default().coarsest(32);
+    let found = nested.solve(&mut solver, &surface, half_space, NoAdhesion, control).unwrap();
     assert!(found.levels.len() > 1 && found.solution.report.status == Status::Converged);
     let error = found.solution.distance(&alone);
     assert!(error <= 3e-7, "{error:e}");
@@ -554,7 +569,7 @@ fn what_has_no_meaning_is_refused_by_name() {
     let mut field = Array2::from_elem((32, 32), 0.2);
     field[[3, 4]] = -1.0;
     assert!(matches!(Hardness::varying(field), Err(Error::Value { name: "hardness", value, .. }) if value == -1.0));
-    let mut problem = sphere::<f64, _>(64, NoAdhesion);
+    let mut problem = sphere::<f64>(64, NoAdhesion);
     let control = Control::MeanPressure(1e-4);
     let constraint = Hardness::varying(Array2::from_elem((48, 48), 0.2)).unwrap();
     let other = Solver { settings: Settings::default(), constraint }.solve(&mut problem, control);
@@ -563,7 +578,7 @@ fn what_has_no_meaning_is_refused_by_name() {
     assert!(matches!({ paper }.solve(&mut problem, control), Err(Error::Unsuited { .. })));
     // attraction that crushes each contact
     let law = Exponential::new(1e-3, 1e-3).unwrap();
-    let crushed = capped(0.5, 1e-6).solve(&mut sphere::<f64, _>(64, law), control);
+    let crushed = capped(0.5, 1e-6).solve(&mut sphere::<f64>(64, law), control);
     assert!(matches!(crushed, Err(Error::Value { name: "adhesive traction at contact", value, .. }) if value == 1.0));
     // an equilibrium that is not one of an energy
     let solution = capped(0.02, 1e-6).solve(&mut problem, Control::MeanPressure(3e-4)).unwrap();

@@ -27,13 +27,13 @@ fn law(wavelength: f64) -> Jkr {
 const WORK: f64 = 2e-3;
 const SIDE: f64 = 1.6;
 
-fn sphere(n: usize) -> Problem<f64, Boussinesq<f64>, Jkr> {
+fn sphere(n: usize) -> Problem<f64> {
     let grid = Grid::square(n, SIDE).unwrap();
     let surface = Surface::paraboloid(grid, 1.0).unwrap();
     Problem::new(&surface, Boussinesq::new(grid, 1.0).unwrap(), Jkr::new(WORK).unwrap()).unwrap()
 }
 
-fn pull_off<O: ElasticOperator<f64>, L: AdhesionLaw<f64>>(problem: &mut Problem<f64, O, L>, tolerance: f64) -> Report {
+fn pull_off(problem: &mut Problem<f64>, tolerance: f64) -> Report {
     let found = PullOff::default().tolerance(tolerance).find(&mut Solver::default(), problem).unwrap();
     assert!(found.reached);
     found.solution.report
@@ -47,7 +47,7 @@ fn extrapolated(coarse: f64, fine: f64) -> f64 {
 #[test]
 fn the_range_is_as_short_as_the_nodes_can_follow() {
     let law = Jkr::new(1e-4).unwrap();
-    let steepest = |problem: &Problem<f64, Box<dyn ElasticOperator<f64>>, Jkr>| {
+    let steepest = |problem: &Problem<f64>| {
         let law = problem.law_on_grid();
         let range = law.hints().range;
         (0..=1000).map(|i| -law.slope(1e-3 * f64::from(i) * range)).fold(0.0, f64::max)
@@ -71,7 +71,6 @@ fn the_range_is_as_short_as_the_nodes_can_follow() {
             let problem = Problem::new(&surface, body, law).unwrap();
             assert!((steepest(&problem) * spacing / modulus - 3.75 / 13.0).abs() < 1e-5, "{shape:?} {modulus}");
             assert!((problem.mu_rho() - 13.0_f64.sqrt().recip()).abs() < 1e-12);
-            assert_eq!(problem.law(), &law);
         }
     }
     // nothing attracts without a work of adhesion
@@ -123,11 +122,9 @@ fn a_sphere_that_is_held_comes_off_where_jkr_says() {
         let mut problem = sphere(n);
         let loads = (0..=80).map(|i| Control::Approach((0.6 + 0.01 * f64::from(i)) * last));
         let mut solver = Solver::new(Settings::default().branch(Branch::Unloading));
-        let held = Sweep::new(&mut solver, &mut problem, loads)
-            .map(|step| step.unwrap().report)
-            .take_while(|report| report.contact_nodes > 0)
-            .last()
-            .unwrap();
+        let mut sweep = Sweep::default();
+        let reports = loads.map(|load| sweep.next(&mut solver, &mut problem, load).unwrap().report);
+        let held = reports.take_while(|report| report.contact_nodes > 0).last().unwrap();
         held.approach.unwrap() / last
     });
     let limit = extrapolated(found[0], found[1]);
@@ -145,9 +142,10 @@ fn a_wave_follows_johnson_up_and_down_and_comes_off_at_his_pressure() {
         let loads = [0.1, 0.2, 0.3, 0.35, 0.3, 0.2, 0.1, 0.0, -0.05];
         let pressures = loads.map(|load| load * exact.closing_pressure());
         let mut solver = Solver::new(Settings::default().branch(Branch::Loading));
-        let steps = Sweep::new(&mut solver, &mut problem, pressures.map(Control::MeanPressure));
-        for (step, pressure) in steps.zip(pressures) {
-            let area = step.unwrap().report.adhesive_contact_fraction.unwrap();
+        let mut sweep = Sweep::default();
+        for pressure in pressures {
+            let step = sweep.next(&mut solver, &mut problem, Control::MeanPressure(pressure)).unwrap();
+            let area = step.report.adhesive_contact_fraction.unwrap();
             let expected = 2.0 * exact.at_mean_pressure(pressure).unwrap().half_width();
             let of_load = if pressure > 0.0 { bound } else { 3.0 * bound };
             assert!((area / expected - 1.0).abs() < of_load, "{n} {pressure}: {area} {expected}");
@@ -276,10 +274,10 @@ fn each_of_nested_grids_has_a_range_of_its_own() {
     let law = Jkr::new(2e-6).unwrap();
     let control = Control::MeanPressure(0.005);
     let nested = Nested::default();
-    assert!(nested.pays::<f64>(&surface, &law, control));
-    assert!(!nested.pays::<f64>(&surface, &law, Control::MeanPressure(0.0)));
-    let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-    let found = Nested::default().solve(&surface, half_space, law, control).unwrap();
+    assert!(nested.pays::<f64>(&Settings::default(), &surface, &law, control));
+    assert!(!nested.pays::<f64>(&Settings::default(), &surface, &law, Control::MeanPressure(0.0)));
+    let half_space = |grid: Grid| Westergaard::<f64>::new(grid, 1.0);
+    let found = nested.solve(&mut Solver::default(), &surface, half_space, law, control).unwrap();
     assert_eq!(found.levels.len(), 3);
     let mut problem = Problem::new(&surface, half_space(*surface.grid()).unwrap(), law).unwrap();
     let alone = Solver::default().solve(&mut problem, control).unwrap();

@@ -1,6 +1,7 @@
 //! Adhesion laws: those that repel by themselves, those that vary over the surface, and their costs.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Hints, Values, Varying};
 use asperity::stability::{StabilityTest, Verdict};
@@ -181,9 +182,9 @@ fn soft_walls_agree_with_a_dense_minimiser() {
     let laws: [(Box<dyn AdhesionLaw<f64>>, f64); 2] =
         [(Box::new(Morse::new(2e-3, 0.02).unwrap()), 0.0), (Box::new(LennardJones::new(2e-3, 0.03).unwrap()), 0.03)];
     for (law, rest) in laws {
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
         for load in [0.2, 0.02, 0.0] {
-            let expected = dense_minimiser(&dense, &heights, &*law, load, rest);
-            let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), &*law).unwrap();
+            let expected = dense_minimiser(&dense, &heights, problem.law(), load, rest);
             let solution = without_wall(1e-9).solve(&mut problem, Control::MeanPressure(load)).unwrap();
             let report = &solution.report;
             assert_eq!(report.status, Status::Converged);
@@ -328,14 +329,69 @@ fn laws_walls_and_grids_that_do_not_fit_are_refused_by_name() {
 }
 
 #[test]
+fn a_problem_with_another_law_is_a_new_problem_with_that_law() {
+    let grid = Grid::square(32, 1.0).unwrap();
+    let surface = rough(grid, 8, 1);
+    let works = grid.sample(|x, _| if x < 0.0 { 1e-4 } else { 3e-4 });
+    let exponential = Exponential::new(3e-4, 5e-3).unwrap();
+    let laws: [Arc<dyn AdhesionLaw<f64>>; 5] = [
+        Arc::new(NoAdhesion),
+        Arc::new(exponential),
+        Arc::new(MaugisDugdale::new(1e-4, 5e-3).unwrap()),
+        Arc::new(Jkr::new(1e-4).unwrap()),
+        Arc::new(Varying::new(exponential, works.view()).unwrap()),
+    ];
+    let solve = |problem: &mut Problem<f64>, control| {
+        let solution = Solver::default().solve(problem, control).unwrap();
+        (problem.mu_rho(), solution)
+    };
+    let bodies: [(Box<dyn ElasticOperator<f64>>, _); 2] = [
+        (Box::new(Westergaard::new(grid, 1.0).unwrap()), Control::MeanGap(0.02)),
+        (Box::new(Boussinesq::new(grid, 1.0).unwrap()), Control::Approach(0.01)),
+    ];
+    for (body, control) in bodies {
+        let mut one = Problem::new(&surface, body, PowerLaw::new(1e-4, 5e-3, 3.0).unwrap()).unwrap();
+        for law in &laws {
+            one.set_law(law.clone()).unwrap();
+            let found = solve(&mut one, control);
+            let mut new = Problem::new(&surface, one.into_operator(), law.clone()).unwrap();
+            assert_eq!(solve(&mut new, control), found);
+            one = new;
+        }
+        // what is refused leaves the law
+        let before = solve(&mut one, control);
+        let elsewhere = Varying::new(exponential, Array2::from_elem((16, 32), 1e-4).view()).unwrap();
+        assert!(matches!(one.set_law(elsewhere), Err(Error::Shape { found: (16, 32), .. })));
+        assert!(one.set_law(Unbounded).is_err());
+        assert_eq!(solve(&mut one, control), before);
+    }
+}
+
+/// A law without a value at a wall.
+struct Unbounded;
+
+impl AdhesionLaw<f64> for Unbounded {
+    fn energy(&self, gap: f64) -> f64 {
+        -1e-6 / gap
+    }
+    fn traction(&self, gap: f64) -> f64 {
+        1e-6 / (gap * gap)
+    }
+    fn slope(&self, gap: f64) -> f64 {
+        -2e-6 / gap.powi(3)
+    }
+}
+
+#[test]
 fn nested_grids_take_every_other_node_of_a_law_that_varies() {
     let (grid, _) = unit(128);
     let surface = rough(grid, 16, 1);
     let works = grid.sample(|x, y| if x.hypot(y) < 0.3 { 4e-4 } else { 1e-4 });
     let law = Varying::new(Exponential::new(4e-4, 2e-2).unwrap(), works.view()).unwrap();
     let control = Control::MeanGap(1.0 * surface.rms_height());
-    let half_space = |grid| Westergaard::<f64>::new(grid, 1.0);
-    let nested = Nested::new(Settings::default()).solve(&surface, half_space, law.clone(), control).unwrap();
+    let half_space = |grid: Grid| Westergaard::<f64>::new(grid, 1.0);
+    let mut solver = Solver::default();
+    let nested = Nested::default().solve(&mut solver, &surface, half_space, law.clone(), control).unwrap();
     assert!(nested.levels.len() > 1);
     let mut problem = Problem::new(&surface, half_space(grid).unwrap(), law).unwrap();
     let single = Solver::default().solve(&mut problem, control).unwrap();
@@ -345,7 +401,7 @@ fn nested_grids_take_every_other_node_of_a_law_that_varies() {
 }
 
 /// Applications to 1e-6 by pressure and by gap, with the one that makes the problem.
-fn applications(n: usize, law: &dyn AdhesionLaw<f64>, wall: bool) -> [usize; 2] {
+fn applications(n: usize, law: Box<dyn AdhesionLaw<f64>>, wall: bool) -> [usize; 2] {
     let (grid, half_space) = unit(n);
     let surface = rough(grid, 32, 1);
     let mut problem = Problem::new(&surface, half_space, law).unwrap();
@@ -379,7 +435,7 @@ fn counts(n: usize) {
         ),
     ];
     for (name, law, wall) in laws {
-        let found = applications(n, &*law, wall);
+        let found = applications(n, law, wall);
         println!("{n}² {name:<24} {found:?}");
         // under a pressure the wall alone comes first
         assert!(found[0] <= 80 && found[1] <= 70, "{name}: {found:?}");
@@ -400,7 +456,7 @@ fn each_law_takes_few_applications_on_512_by_512_nodes() {
 #[test]
 #[ignore = "figures of the guide: cargo test --release --test library laws::walls -- --ignored --nocapture"]
 fn walls_in_figures() {
-    fn solve<C: ContactConstraint<f64>>(law: &dyn AdhesionLaw<f64>, constraint: C) -> Solution<f64> {
+    fn solve(law: impl AdhesionLaw<f64> + 'static, constraint: impl ContactConstraint<f64> + 'static) -> Solution<f64> {
         let (grid, half_space) = unit(128);
         let mut problem = Problem::new(&rough(grid, 16, 1), half_space, law).unwrap();
         let settings = Settings::default();
@@ -416,18 +472,18 @@ fn walls_in_figures() {
     };
     let (work, range) = (2e-4, 4e-3);
     let (lennard_jones, morse) = (LennardJones::new(work, range).unwrap(), Morse::new(work, range).unwrap());
-    let (hard, rigid) = (solve(&lennard_jones.cut(), Projection), solve(&morse, Projection));
+    let (hard, rigid) = (solve(lennard_jones.cut(), Projection), solve(morse, Projection));
     show("Lennard-Jones, wall at z₀", &hard, &hard);
-    show("Lennard-Jones, no wall", &solve(&lennard_jones, NoWall), &hard);
+    show("Lennard-Jones, no wall", &solve(lennard_jones, NoWall), &hard);
     show("Morse, wall", &rigid, &rigid);
-    show("Morse, no wall", &solve(&morse, NoWall), &rigid);
+    show("Morse, no wall", &solve(morse, NoWall), &rigid);
     for k in [1.0, 10.0, 100.0, 1e3, 1e4] {
-        show(&format!("Lennard-Jones, Uzawa, k = {k:e}"), &solve(&lennard_jones.cut(), Uzawa::new(k).unwrap()), &hard);
+        show(&format!("Lennard-Jones, Uzawa, k = {k:e}"), &solve(lennard_jones.cut(), Uzawa::new(k).unwrap()), &hard);
     }
     for k in [100.0, 1e3, 1e4] {
         show(
             &format!("Lennard-Jones, penalty, k = {k:e}"),
-            &solve(&lennard_jones.cut(), Penalty::new(k).unwrap()),
+            &solve(lennard_jones.cut(), Penalty::new(k).unwrap()),
             &hard,
         );
     }

@@ -145,20 +145,6 @@ fn the_status_is_that_of_the_figures() {
     }
 }
 
-/// A law behind a reference has its jumps smoothed on the way to the start, as the law itself has.
-#[test]
-fn a_law_behind_a_reference_is_the_law() {
-    let grid = Grid::square(64, 1.0).unwrap();
-    let sphere = Surface::paraboloid(grid, 2.0).unwrap();
-    let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
-    let half_space = || Westergaard::<f64>::new(grid, 1.0).unwrap();
-    let control = Control::MeanGap(0.0429);
-    let by_value = Solver::default().solve(&mut Problem::new(&sphere, half_space(), law).unwrap(), control).unwrap();
-    let by_reference =
-        Solver::default().solve(&mut Problem::new(&sphere, half_space(), &law).unwrap(), control).unwrap();
-    assert_eq!(by_value, by_reference);
-}
-
 /// Errors that are reached, claimed and as they are when the gap is looked at in `f64`, for the page `choosing`.
 #[test]
 #[ignore = "prints figures: cargo test --release --test library light_loads::floors -- --ignored --nocapture"]

@@ -24,8 +24,8 @@ fn exponential<T: Real>() -> Law<T> {
 }
 
 fn solve<T: Real>(surface: &Surface, law: Law<T>, control: Control, tolerance: f64) -> NestedSolution<T> {
-    let mut nested = Nested::new(Settings::default().tolerance(tolerance));
-    let found = nested.solve(surface, half_space::<T>, law, control).unwrap();
+    let mut solver = Solver::new(Settings::default().tolerance(tolerance));
+    let found = Nested::default().solve(&mut solver, surface, half_space::<T>, law, control).unwrap();
     let report = &found.solution.report;
     assert_eq!(report.status, Status::Converged);
     assert!(report.relative_error <= tolerance && report.load_error <= tolerance);
@@ -37,7 +37,7 @@ fn single<T: Real>(surface: &Surface, law: Law<T>, control: Control, tolerance: 
     Solver::new(Settings::default().tolerance(tolerance)).solve(&mut problem, control).unwrap()
 }
 
-fn shapes<T>(found: &NestedSolution<T>) -> Vec<(usize, usize)> {
+fn shapes<T: Real>(found: &NestedSolution<T>) -> Vec<(usize, usize)> {
     found.levels.iter().map(|level| level.shape).collect()
 }
 
@@ -49,7 +49,7 @@ const CLOSE: Control = Control::MeanGap(0.0044);
 /// No more than what was counted, to one decimal, and what rounding, which differs between processors, may add. The
 /// counts are printed by `cargo test --release --test library nested:: -- --nocapture`.
 #[track_caller]
-fn takes<T>(found: &NestedSolution<T>, counted: f64) {
+fn takes<T: Real>(found: &NestedSolution<T>, counted: f64) {
     let taken = found.equivalent_applications();
     println!("{taken:.1} of {counted}");
     assert!(taken <= counted + 2.05, "{taken} and not {counted}");

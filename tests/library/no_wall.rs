@@ -2,27 +2,24 @@
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
-use asperity::path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
+use asperity::path::{Event, Jump, Path, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
 use crate::common::dense::{Dense, Held};
+use crate::common::{Kept, followed, swept};
 
 fn without_wall(tolerance: f64) -> Solver<NoWall> {
     Solver { settings: Settings::default().tolerance(tolerance), constraint: NoWall }
 }
 
 #[track_caller]
-fn follow<L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, Westergaard<f64>, L>,
-    loads: impl IntoIterator<Item = Control>,
-    tolerance: f64,
-) -> Vec<PathStep<f64>> {
+fn follow(problem: &mut Problem<f64>, loads: impl IntoIterator<Item = Control>, tolerance: f64) -> Vec<PathStep<f64>> {
     let mut solver = without_wall(tolerance);
-    let path = Path::new(&mut solver, problem, loads, PathSettings::default()).unwrap();
-    let steps: Vec<_> = path.map(Result::unwrap).collect();
+    let steps = followed(Path::new(loads, PathSettings::default()).unwrap(), &mut solver, problem);
     for step in &steps {
         assert_eq!(step.solution.report.status, Status::Converged, "{:?} {:?}", step.solution.report, step.event);
     }
@@ -33,7 +30,7 @@ fn jump(step: &PathStep<f64>) -> Option<Jump> {
     step.event.as_ref().and_then(Event::jump).copied()
 }
 
-fn flats<L: AdhesionLaw<f64>>(law: L) -> Problem<f64, Westergaard<f64>, L> {
+fn flats(law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     let grid = Grid::square(8, 1.0).unwrap();
     let flat = Surface::from_fn(grid, |_, _| 0.0).unwrap();
     Problem::new(&flat, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
@@ -132,14 +129,12 @@ fn states_between_jumps_are_minima_of_the_dense_energy_and_jumps_are_where_they_
 
     // interrupted and continued, it is the same path
     let mut solver = without_wall(1e-8);
-    let loads = || [0.12, 0.02, 0.12].map(Control::MeanGap);
-    let mut path = Path::new(&mut solver, &mut problem, loads(), PathSettings::default()).unwrap();
-    assert_eq!(path.by_ref().take(20).count(), 20);
-    let kept: PathCheckpoint<f64> = path.checkpoint();
-    let mut solver = without_wall(1e-8);
-    let path = Path::new(&mut solver, &mut problem, loads(), PathSettings::default()).unwrap();
-    let next = path.continuing(kept).unwrap().next().unwrap().unwrap();
-    assert_eq!(next.solution.gap, steps[20].solution.gap);
+    let mut path = Path::new([0.12, 0.02, 0.12].map(Control::MeanGap), PathSettings::default()).unwrap();
+    for step in &steps[..20] {
+        assert_eq!(path.next(&mut solver, &mut problem).unwrap().as_ref(), Some(step));
+    }
+    let next = path.read_again().next(&mut without_wall(1e-8), &mut problem).unwrap();
+    assert_eq!(next.as_ref(), Some(&steps[20]));
 }
 
 #[test]
@@ -151,7 +146,7 @@ fn a_pressure_presses_surfaces_together_past_the_limit_point() {
     let laws: [Box<dyn AdhesionLaw<f64>>; 2] =
         [Box::new(Morse::new(work, 1e-3).unwrap()), Box::new(LennardJones::new(work, 3e-3).unwrap())];
     for law in laws {
-        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), &*law).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
         let steps = follow(&mut problem, [6e-3, 0.12].map(Control::MeanPressure), 1e-8);
         assert_eq!(steps.iter().find_map(|step| step.event).unwrap().name(), "limit-point");
         let last = &steps[steps.len() - 1].solution.report;
@@ -189,13 +184,12 @@ fn springs_and_laws_that_do_not_repel_are_refused_on_a_path() {
     let grid = Grid::line(16, 1.0).unwrap();
     let surface = Surface::wave(grid, 0.02, 1).unwrap();
     let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
-    let mut problem = Problem::new(&surface, half_space, Exponential::new(1e-4, 1e-2).unwrap()).unwrap();
-    let loads = || [0.05, 0.02].map(Control::MeanGap);
-    let mut springs = Solver { settings: Settings::default(), constraint: Penalty::new(10.0).unwrap() };
-    let refused = Path::new(&mut springs, &mut problem, loads(), PathSettings::default());
+    let problem = Problem::new(&surface, half_space, Exponential::new(1e-4, 1e-2).unwrap()).unwrap();
+    let path = Path::new([0.05, 0.02].map(Control::MeanGap), PathSettings::default()).unwrap();
+    let springs = Solver { settings: Settings::default(), constraint: Penalty::new(10.0).unwrap() };
+    let refused = path.check(&springs, &problem);
     assert!(matches!(refused, Err(Error::Unsuited { what: "springs", .. })), "{refused:?}");
-    let mut nothing = without_wall(1e-6);
-    let refused = Path::new(&mut nothing, &mut problem, loads(), PathSettings::default());
+    let refused = path.check(&without_wall(1e-6), &problem);
     assert!(matches!(refused, Err(Error::Unsuited { what: "no wall", .. })), "{refused:?}");
 }
 
@@ -213,8 +207,9 @@ fn pull_off(tabor: f64, n: usize) -> f64 {
     let settings = PathSettings::default().smallest_step(1e-2);
     let mut solver = without_wall(1e-5);
     let mut strongest = 0.0_f64;
-    for step in Path::new(&mut solver, &mut problem, loads, settings).unwrap() {
-        let report = step.unwrap().solution.report;
+    let mut path = Path::new(loads, settings).unwrap();
+    while let Some(step) = path.next(&mut solver, &mut problem).unwrap() {
+        let report = step.solution.report;
         assert_eq!(report.status, Status::Converged);
         let tension = -report.normal_force / (std::f64::consts::PI * work);
         if tension < 0.95 * strongest {
@@ -255,14 +250,10 @@ fn a_mean_gap_below_the_separation_of_the_law_is_held_on_either_branch() {
 }
 
 /// The largest tension that surfaces hold from contact on, at mean gaps or at approaches one after the other.
-fn most_tension(
-    problem: &mut Problem<f64, impl ElasticOperator<f64>, &dyn AdhesionLaw<f64>>,
-    loads: &[Control],
-) -> f64 {
+fn most_tension(problem: &mut Problem<f64>, loads: &[Control]) -> f64 {
     let mut solver = without_wall(1e-5);
-    let steps = Sweep::new(&mut solver, problem, loads.iter().copied());
-    let tensions = steps.map(|step| -step.unwrap().report.mean_pressure);
-    tensions.fold(0.0, f64::max)
+    let steps = swept(&mut Sweep::default(), &mut solver, problem, loads);
+    steps.iter().map(|step| -step.report.mean_pressure).fold(0.0, f64::max)
 }
 
 #[test]
@@ -272,38 +263,35 @@ fn a_tension_is_held_without_a_wall_as_it_is_beside_one() {
     let rough = rough.surface(Grid::square(32, 1.0).unwrap()).unwrap();
     let sphere = Surface::paraboloid(Grid::square(32, 0.4).unwrap(), 2.0).unwrap();
     let (lennard_jones, morse) = (LennardJones::new(1e-4, 4e-3).unwrap(), Morse::new(1e-4, 2e-3).unwrap());
-    let laws: [(&dyn AdhesionLaw<f64>, f64); 2] = [(&lennard_jones, 4e-3), (&morse, 0.0)];
+    let laws: [(Arc<dyn AdhesionLaw<f64>>, f64); 2] = [(Arc::new(lennard_jones), 4e-3), (Arc::new(morse), 0.0)];
     let (mut held, mut lost) = (0, Vec::new());
     for (surface, free) in [(&line, false), (&rough, false), (&sphere, false), (&sphere, true)] {
-        for (law, rest) in laws {
+        for (law, rest) in laws.clone() {
             let grid = *surface.grid();
             let peak = surface.heights().fold(f64::NEG_INFINITY, |high, &h| high.max(h)) - surface.mean();
             let steps = (0..40).map(|k| 0.05 * f64::from(k));
-            let mut check = |most: f64, solve: &mut dyn FnMut(Control) -> Report| {
-                assert!(most > 0.0);
-                for share in [0.01, 0.1, 0.3, 0.6, 0.9, 0.95] {
-                    let report = solve(Control::MeanPressure(-share * most));
-                    let name = format!("{share} of {most:e} on {:?}, free {free}, rest {rest}", grid.shape());
-                    if report.status == Status::Detached {
-                        lost.push(name);
-                        continue;
-                    }
-                    assert_eq!(report.status, Status::Converged, "{name}: {report:?}");
-                    assert!(report.min_gap < rest + 2e-3 && report.load_error <= 1e-6, "{name}: {report:?}");
-                    held += 1;
-                }
-            };
-            if free {
-                let mut problem = Problem::new(surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
-                let loads: Vec<_> =
-                    steps.map(|step| Control::Approach(0.1 * peak - rest - 0.2 * peak * step)).collect();
-                let most = most_tension(&mut problem, &loads);
-                check(most, &mut |control| without_wall(1e-6).solve(&mut problem, control).unwrap().report);
+            let (mut problem, loads): (_, Vec<_>) = if free {
+                let approach = |step| Control::Approach(0.1 * peak - rest - 0.2 * peak * step);
+                let half_space = Boussinesq::<f64>::new(grid, 1.0).unwrap();
+                (Problem::new(surface, half_space, law).unwrap(), steps.map(approach).collect())
             } else {
-                let mut problem = Problem::new(surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
-                let loads: Vec<_> = steps.map(|step| Control::MeanGap(rest + 0.8 * peak * (0.5 + step))).collect();
-                let most = most_tension(&mut problem, &loads);
-                check(most, &mut |control| without_wall(1e-6).solve(&mut problem, control).unwrap().report);
+                let gap = |step| Control::MeanGap(rest + 0.8 * peak * (0.5 + step));
+                let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
+                (Problem::new(surface, half_space, law).unwrap(), steps.map(gap).collect())
+            };
+            let most = most_tension(&mut problem, &loads);
+            assert!(most > 0.0);
+            for share in [0.01, 0.1, 0.3, 0.6, 0.9, 0.95] {
+                let control = Control::MeanPressure(-share * most);
+                let report = without_wall(1e-6).solve(&mut problem, control).unwrap().report;
+                let name = format!("{share} of {most:e} on {:?}, free {free}, rest {rest}", grid.shape());
+                if report.status == Status::Detached {
+                    lost.push(name);
+                    continue;
+                }
+                assert_eq!(report.status, Status::Converged, "{name}: {report:?}");
+                assert!(report.min_gap < rest + 2e-3 && report.load_error <= 1e-6, "{name}: {report:?}");
+                held += 1;
             }
         }
     }

@@ -3,9 +3,7 @@
 use crate::common::authors;
 use asperity::*;
 
-type Hertz = Problem<f64, Westergaard<f64>, NoAdhesion>;
-
-fn problem(n: usize) -> (Surface, Hertz) {
+fn problem(n: usize) -> (Surface, Problem<f64>) {
     let surface = authors::surface(n).unwrap();
     let operator = Westergaard::new(*surface.grid(), 1.0).unwrap();
     let problem = Problem::new(&surface, operator, NoAdhesion).unwrap();

@@ -2,15 +2,15 @@
 
 use std::ops::ControlFlow;
 
-use crate::common::{check, rough, sphere};
-use asperity::path::{Event, Jump, Path, PathCheckpoint, PathSettings, PathStep};
+use crate::common::{Kept, check, followed, rough, sphere};
+use asperity::path::{Event, Jump, Path, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 
 /// One wave of a line, with Johnson's α = 0.2.
 const AMPLITUDE: f64 = 0.02;
 
-fn wave(n: usize, range: f64) -> Problem<f64, Westergaard<f64>, Exponential> {
+fn wave(n: usize, range: f64) -> Problem<f64> {
     let grid = Grid::line(n, 1.0).unwrap();
     let surface = Surface::wave(grid, AMPLITUDE, 1).unwrap();
     let law = Exponential::new(0.5 * (0.2 * std::f64::consts::PI * AMPLITUDE).powi(2), range).unwrap();
@@ -26,18 +26,17 @@ fn pressures(values: &[f64]) -> Vec<Control> {
 }
 
 #[track_caller]
-fn follow<L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, Westergaard<f64>, L>,
+fn follow(
+    problem: &mut Problem<f64>,
     loads: Vec<Control>,
     settings: PathSettings,
     tolerance: f64,
 ) -> Vec<PathStep<f64>> {
     let mut solver = Solver::new(Settings::default().tolerance(tolerance));
-    let path = Path::new(&mut solver, problem, loads, settings).unwrap();
-    let steps: Vec<_> = path.map(Result::unwrap).collect();
+    let steps = followed(Path::new(loads, settings).unwrap(), &mut solver, problem);
     for step in &steps {
         assert_eq!(step.solution.report.status, Status::Converged, "{:?} {:?}", step.solution.report, step.event);
-        check(&step.solution, problem.law(), step.solution.report.control);
+        check(&step.solution);
     }
     steps
 }
@@ -50,7 +49,7 @@ fn jumps(steps: &[PathStep<f64>]) -> Vec<Jump> {
     steps.iter().filter_map(jump).collect()
 }
 
-fn names<T>(steps: &[PathStep<T>]) -> Vec<&'static str> {
+fn names<T: Real>(steps: &[PathStep<T>]) -> Vec<&'static str> {
     steps.iter().filter_map(|step| step.event.as_ref().map(Event::name)).collect()
 }
 
@@ -103,10 +102,9 @@ fn energy_is_balanced_over_a_cycle() {
 fn the_share_of_the_way_grows_from_nothing_to_all() {
     for (loads, grows) in [(gaps(&[0.03, 0.015, 0.03]), true), (pressures(&[6e-3, -0.1]), false)] {
         let (mut solver, mut problem) = (Solver::default(), wave(128, 2e-3));
-        let mut path = Path::new(&mut solver, &mut problem, loads, PathSettings::default().steps(20)).unwrap();
+        let mut path = Path::new(loads, PathSettings::default().steps(20)).unwrap();
         let mut shares = vec![path.share()];
-        while let Some(step) = path.next() {
-            step.unwrap();
+        while path.next(&mut solver, &mut problem).unwrap().is_some() {
             shares.push(path.share());
         }
         assert_eq!((&shares[..2], shares.last()), (&[0.0; 2][..], Some(&1.0)));
@@ -172,7 +170,7 @@ fn stability_is_lost_at_a_limit_point() {
 }
 
 /// Two equal waves, or nearly so.
-fn two_waves(n: usize, asymmetry: f64) -> Problem<f64, Westergaard<f64>, Exponential> {
+fn two_waves(n: usize, asymmetry: f64) -> Problem<f64> {
     let grid = Grid::line(n, 1.0).unwrap();
     let turn = 2.0 * std::f64::consts::PI;
     let height = |x: f64, _| 0.01 * ((2.0 * turn * x).cos() + asymmetry * (turn * x).cos());
@@ -285,9 +283,9 @@ fn a_symmetry_breaks_where_the_law_is_smoothed_and_where_the_pressure_is_given()
     let law = MaugisDugdale::new(1e-4, 2.5e-3).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
     let mut solver = Solver::default();
-    let path = Path::new(&mut solver, &mut problem, gaps(&[0.03, 0.008, 0.03]), PathSettings::default()).unwrap();
-    let steps: Vec<_> = path.map(Result::unwrap).collect();
-    assert!(names(&steps).contains(&"bifurcation") && *problem.law() == law);
+    let path = Path::new(gaps(&[0.03, 0.008, 0.03]), PathSettings::default()).unwrap();
+    let steps = followed(path, &mut solver, &mut problem);
+    assert!(names(&steps).contains(&"bifurcation"));
 
     // to where the pressure is reached beyond the bifurcation
     let loads = [gaps(&[0.03]), pressures(&[0.01])].concat();
@@ -315,31 +313,31 @@ fn no_symmetry_breaks_where_there_is_none() {
     assert!(!names(&steps).contains(&"bifurcation") && drops(&steps, 1.5e-7).len() == 4, "{:?}", names(&steps));
 }
 
-/// A path that is interrupted goes on as the whole one, from every so many states.
-fn resumes<L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, Westergaard<f64>, L>,
+/// A path that is kept goes on at a problem that is made anew as it does otherwise, from every so many states.
+fn resumes(
+    new: impl Fn() -> Problem<f64>,
     loads: &[Control],
     settings: PathSettings,
-    whole: &[PathStep<f64>],
     every: usize,
-) {
-    for kept in (0..whole.len()).step_by(every) {
-        let mut solver = Solver::default();
-        let mut path = Path::new(&mut solver, problem, loads.to_vec(), settings).unwrap();
-        assert!(path.by_ref().take(kept).all(|step| step.is_ok()));
-        let checkpoint = path.checkpoint();
-        let path = Path::new(&mut solver, problem, loads.to_vec(), settings).unwrap();
-        assert!(path.continuing(checkpoint).unwrap().map(Result::unwrap).eq(whole[kept..].iter().cloned()), "{kept}");
+) -> Vec<PathStep<f64>> {
+    let mut path = Path::new(loads.to_vec(), settings).unwrap();
+    let whole = followed(path.clone(), &mut Solver::default(), &mut new());
+    let (mut solver, mut problem) = (Solver::default(), new());
+    for (k, expected) in whole.iter().enumerate() {
+        if k % every == 0 {
+            let rest = followed(path.read_again(), &mut Solver::default(), &mut new());
+            assert!(rest == whole[k..], "{k}");
+        }
+        assert_eq!(path.next(&mut solver, &mut problem).unwrap().as_ref(), Some(expected));
     }
+    whole
 }
 
 #[test]
 fn a_path_goes_on_through_a_bifurcation_bit_for_bit() {
     let (loads, settings) = (gaps(&[0.03, 0.012]), PathSettings::default().steps(12));
-    let mut problem = two_waves(64, 0.0);
-    let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
+    let whole = resumes(|| two_waves(64, 0.0), &loads, settings, 3);
     assert!(names(&whole).contains(&"bifurcation"));
-    resumes(&mut problem, &loads, settings, &whole, 3);
 }
 
 #[test]
@@ -349,46 +347,19 @@ fn a_path_on_a_free_half_space_goes_on_bit_for_bit() {
         Surface::paraboloid(grid, 2.0).unwrap().heights() + &(0.01 * crate::common::rough::rough(grid, 8, 1).heights());
     let surface = Surface::new(grid, heights).unwrap();
     let law = Exponential::new(2e-3, 8e-3).unwrap();
-    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+    let new = || Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
     let (loads, settings) = ([0.0, 0.005].map(Control::Approach), PathSettings::default().steps(8));
-    let (mut solver, mut most) = (Solver::default(), 0);
-    let mut path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
-    let mut whole = Vec::new();
+    let (mut solver, mut problem) = (Solver::default(), new());
+    let mut path = Path::new(loads, settings).unwrap();
     for _ in 0..6 {
-        let step = path.next().unwrap().unwrap();
-        let checkpoint = path.checkpoint();
-        most = most.max(checkpoint.fields.len());
-        whole.push((step, checkpoint));
+        let next = path.read_again().next(&mut solver, &mut new()).unwrap();
+        assert!(next.is_some() && next == path.next(&mut solver, &mut problem).unwrap());
     }
-    // two gaps, and the mode where it was needed
-    assert_eq!(most, 3);
-    for pair in whole.windows(2) {
-        let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
-        let next = path.continuing(pair[0].1.clone()).unwrap().next().unwrap().unwrap();
-        assert_eq!(next, pair[1].0);
-    }
-}
-
-#[test]
-fn the_fields_of_a_checkpoint_may_be_in_any_memory_layout() {
-    let mut problem = rough::<f64, _>(16, 6, Exponential::new(4e-4, 4e-3).unwrap());
-    let (loads, settings) = (gaps(&[0.03, 0.02]), PathSettings::default().steps(4));
-    let mut solver = Solver::default();
-    let mut path = Path::new(&mut solver, &mut problem, loads.clone(), settings).unwrap();
-    assert!(path.by_ref().take(3).all(|step| step.is_ok()));
-    let (checkpoint, next) = (path.checkpoint(), path.next().unwrap().unwrap());
-    let mut columns = checkpoint.clone();
-    for field in &mut columns.fields {
-        *field = field.t().as_standard_layout().into_owned().reversed_axes();
-    }
-    assert!(columns == checkpoint && columns.fields.len() == 3 && !columns.fields[2].is_standard_layout());
-    let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
-    assert_eq!(path.continuing(columns).unwrap().next().unwrap().unwrap(), next);
 }
 
 #[test]
 fn without_adhesion_a_path_is_there_and_back() {
-    let mut problem = rough::<f64, _>(48, 12, NoAdhesion);
+    let mut problem = rough::<f64>(48, 12, NoAdhesion);
     for loads in [gaps(&[0.03, 0.01, 0.03]), pressures(&[0.01, 0.1, 0.01])] {
         let steps = follow(&mut problem, loads, PathSettings::default(), 1e-7);
         assert!(names(&steps).is_empty());
@@ -402,7 +373,7 @@ fn without_adhesion_a_path_is_there_and_back() {
 
 #[test]
 fn without_adhesion_a_path_strides_to_first_contact() {
-    let (mut problem, peak) = (rough::<f64, _>(48, 12, NoAdhesion), 0.05);
+    let (mut problem, peak) = (rough::<f64>(48, 12, NoAdhesion), 0.05);
     let settings = PathSettings::default();
     let steps = follow(&mut problem, gaps(&[20.0 * peak, 0.5 * peak]), settings, 1e-6);
     let touches = |step: &&PathStep<f64>| step.solution.report.contact_nodes > 0;
@@ -414,10 +385,10 @@ fn without_adhesion_a_path_strides_to_first_contact() {
 
 /// The numbers of states on a path into contact and out of it, in which nothing happens, and of those that have stalled.
 fn there_and_back<T: Real>(n: usize, w: f64) -> (usize, usize) {
-    let mut problem = rough::<T, _>(n, n as i32 / 4, Exponential::new(w, 4e-3).unwrap());
+    let mut problem = rough::<T>(n, n as i32 / 4, Exponential::new(w, 4e-3).unwrap());
     let mut solver = Solver::default();
-    let path = Path::new(&mut solver, &mut problem, gaps(&[0.2, 0.02, 0.2]), PathSettings::default()).unwrap();
-    let steps: Vec<_> = path.map(Result::unwrap).collect();
+    let path = Path::new(gaps(&[0.2, 0.02, 0.2]), PathSettings::default()).unwrap();
+    let steps = followed(path, &mut solver, &mut problem);
     assert!(names(&steps).is_empty());
     let count = |status| steps.iter().filter(|step| step.solution.report.status == status).count();
     assert_eq!(count(Status::Converged) + count(Status::Stalled), steps.len());
@@ -436,45 +407,43 @@ fn a_path_does_not_creep_where_its_states_are_at_the_floor_of_rounding() {
 }
 
 #[test]
-fn a_path_goes_on_from_a_checkpoint_bit_for_bit() {
+fn a_path_that_is_kept_goes_on_bit_for_bit() {
     let loads = [gaps(&[0.03, 0.018]), pressures(&[2e-3, -0.05])].concat();
     let settings = PathSettings::default().steps(12);
-    let mut problem = wave(48, 2e-3);
-    let whole = follow(&mut problem, loads.clone(), settings, 1e-6);
+    let whole = resumes(|| wave(48, 2e-3), &loads, settings, 6);
     assert!(names(&whole).len() > 1);
-    resumes(&mut problem, &loads, settings, &whole, 6);
 }
 
 #[test]
-fn bad_settings_and_checkpoints_are_refused() {
+fn bad_settings_loads_and_grids_are_refused() {
     let (mut solver, mut problem) = (Solver::default(), wave(16, 4e-3));
     let good = PathSettings::default();
-    let mut refused = |loads: Vec<Control>, settings| match Path::new(&mut solver, &mut problem, loads, settings) {
+    let name = |result: Result<_>| match result {
         Err(Error::Value { name, .. }) => name,
         other => panic!("{other:?}"),
     };
-    assert_eq!(refused(gaps(&[0.03, -1.0]), good), "mean gap");
-    assert_eq!(refused(pressures(&[f64::NAN]), good), "mean pressure");
     let load = gaps(&[0.03]);
-    assert_eq!(refused(load.clone(), good.steps(0)), "number of steps");
-    assert_eq!(refused(load.clone(), good.imbalance(-1.0)), "imbalance");
-    assert_eq!(refused(load.clone(), good.smallest_step(1.0)), "smallest step");
-    assert!(Path::new(&mut solver, &mut problem, [], good).unwrap().next().is_none());
-    let mut path = Path::new(&mut solver, &mut problem, load.clone(), good).unwrap();
-    assert!(path.next().unwrap().is_ok() && path.next().is_none());
-    let checkpoint = path.checkpoint();
-    let mut short = checkpoint.clone();
-    short.values.remove("step");
-    let other = PathCheckpoint { values: checkpoint.values, fields: vec![ndarray::Array2::zeros((2, 2))] };
-    let mut open =
-        |from| Path::new(&mut solver, &mut problem, load.clone(), good).unwrap().continuing(from).map(|_| ());
-    assert!(matches!(open(short), Err(Error::Value { .. })));
-    assert!(matches!(open(other), Err(Error::Shape { .. })));
+    let refused = |settings| name(Path::<f64>::new(load.clone(), settings).map(|_| ()));
+    assert_eq!(refused(good.steps(0)), "number of steps");
+    assert_eq!(refused(good.imbalance(-1.0)), "imbalance");
+    assert_eq!(refused(good.smallest_step(1.0)), "smallest step");
+    for (loads, expected) in [(gaps(&[0.03, -1.0]), "mean gap"), (pressures(&[f64::NAN]), "mean pressure")] {
+        let mut path = Path::new(loads, good).unwrap();
+        assert_eq!(name(path.check(&solver, &problem)), expected);
+        assert_eq!(name(path.next(&mut solver, &mut problem).map(|_| ())), expected);
+        assert_eq!(path.next(&mut solver, &mut problem).unwrap(), None);
+    }
+    assert_eq!(Path::new([], good).unwrap().next(&mut solver, &mut problem).unwrap(), None);
+    let mut path = Path::new(load.clone(), good).unwrap();
+    assert!(path.next(&mut solver, &mut problem).unwrap().is_some());
+    assert_eq!(path.next(&mut solver, &mut problem).unwrap(), None);
+    let refused = path.next(&mut solver, &mut wave(32, 4e-3));
+    assert!(matches!(refused, Err(Error::Shape { name: "field of the path", .. })), "{refused:?}");
 }
 
 /// The pull-off force over πwR of a sphere under the law of Maugis and Dugdale, found and exact.
 fn pull_off(n: usize, work: f64, range: f64, smooth: bool) -> (f64, f64) {
-    let mut problem = sphere::<f64, _>(n, MaugisDugdale::new(work, range).unwrap());
+    let mut problem = sphere::<f64>(n, MaugisDugdale::new(work, range).unwrap());
     let grid = *problem.grid();
     let exact = exact::MaugisDugdale::new(2.0, 1.0, work, range).unwrap();
     let mean = Surface::paraboloid(grid, 2.0).unwrap().mean();
@@ -484,8 +453,7 @@ fn pull_off(n: usize, work: f64, range: f64, smooth: bool) -> (f64, f64) {
     let settings = PathSettings::default().steps(40).smallest_step(1e-2).smooth(smooth);
     let loads = gaps(&[at - 0.3 * range, at + 0.5 * range]);
     let mut solver = Solver::new(Settings::default().tolerance(1e-5));
-    let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
-    let steps: Vec<_> = path.map(Result::unwrap).collect();
+    let steps = followed(Path::new(loads, settings).unwrap(), &mut solver, &mut problem);
     let least = steps.iter().map(|step| step.solution.report.mean_pressure).fold(f64::INFINITY, f64::min);
     let unit = std::f64::consts::PI * work * 2.0;
     (-least / unit, -state.mean_pressure() / unit)

@@ -9,8 +9,8 @@ use ndarray::Array2;
 
 #[test]
 fn f32_reaches_what_it_certifies() {
-    let single = solve(&mut rough::<f32, _>(128, 31, NoAdhesion), Control::MeanPressure(0.2), 1e-6);
-    let double = solve(&mut rough::<f64, _>(128, 31, NoAdhesion), Control::MeanPressure(0.2), 1e-6);
+    let single = solve(&mut rough::<f32>(128, 31, NoAdhesion), Control::MeanPressure(0.2), 1e-6);
+    let double = solve(&mut rough::<f64>(128, 31, NoAdhesion), Control::MeanPressure(0.2), 1e-6);
     assert_eq!((single.report.precision, double.report.precision), ("f32", "f64"));
     assert_eq!((single.report.status, double.report.status), (Status::Converged, Status::Converged));
     assert!(single.report.relative_error <= 1e-6);
@@ -20,7 +20,7 @@ fn f32_reaches_what_it_certifies() {
 #[test]
 fn the_default_tolerance_is_that_of_the_precision() {
     fn held_to<T: Real>(settings: Settings) -> f64 {
-        let mut problem = rough::<T, _>(64, 16, NoAdhesion);
+        let mut problem = rough::<T>(64, 16, NoAdhesion);
         let report = Solver::new(settings).solve(&mut problem, Control::MeanPressure(0.1)).unwrap().report;
         let measure = match report.criterion {
             Criterion::EnergyNorm => report.relative_error,
@@ -43,8 +43,8 @@ fn the_default_tolerance_is_that_of_the_precision() {
 fn f32_converges_or_says_where_it_stalled() {
     let mut stalled = 0;
     for pressure in [1e-3, 1e-2, 0.1, 0.5] {
-        let single = solve(&mut rough::<f32, _>(128, 32, NoAdhesion), Control::MeanPressure(pressure), 1e-5);
-        let double = solve(&mut rough::<f64, _>(128, 32, NoAdhesion), Control::MeanPressure(pressure), 1e-10);
+        let single = solve(&mut rough::<f32>(128, 32, NoAdhesion), Control::MeanPressure(pressure), 1e-5);
+        let double = solve(&mut rough::<f64>(128, 32, NoAdhesion), Control::MeanPressure(pressure), 1e-10);
         let report = &single.report;
         match report.status {
             Status::Converged => assert!(report.relative_error <= 1e-5),
@@ -59,7 +59,7 @@ fn f32_converges_or_says_where_it_stalled() {
     }
     assert!(stalled < 3);
     // what no f32 can reach is not called converged, and is given up quickly
-    let report = solve(&mut rough::<f32, _>(128, 32, NoAdhesion), Control::MeanPressure(0.1), 1e-10).report;
+    let report = solve(&mut rough::<f32>(128, 32, NoAdhesion), Control::MeanPressure(0.1), 1e-10).report;
     assert_eq!(report.status, Status::Stalled);
     assert!(report.iterations < 100 && report.relative_error > 1e-10);
 }
@@ -86,8 +86,8 @@ fn any_number_of_threads_gives_the_same_bits() {
     let run = |threads: usize| {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
             let law = Exponential::new(1e-5, 1e-3).unwrap();
-            let rough = solve(&mut rough::<f64, _>(150, 32, law), Control::MeanPressure(0.01), 1e-8);
-            let single = solve(&mut sphere::<f32, _>(128, NoAdhesion), Control::MeanGap(0.0398), 1e-5);
+            let rough = solve(&mut rough::<f64>(150, 32, law), Control::MeanPressure(0.01), 1e-8);
+            let single = solve(&mut sphere::<f32>(128, NoAdhesion), Control::MeanGap(0.0398), 1e-5);
             let grid = Grid::line(6000, 1.0).unwrap();
             let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
             let mut line = Problem::new(&crate::common::rough::rough(grid, 32, 1), half_space, law).unwrap();
@@ -104,7 +104,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 
 /// The least certified error that a solve reaches, in how many iterations it gives up, and the gap.
 fn floor<T: Real>(n: usize, pressure: f64) -> (f64, usize, Array2<f64>) {
-    let solution = solve(&mut rough::<T, _>(n, n as i32 / 4, NoAdhesion), Control::MeanPressure(pressure), 1e-30);
+    let solution = solve(&mut rough::<T>(n, n as i32 / 4, NoAdhesion), Control::MeanPressure(pressure), 1e-30);
     let report = &solution.report;
     assert_eq!(report.status, Status::Stalled, "{n} {pressure}");
     (report.relative_error, report.iterations, solution.gap.mapv(|g| g.widen()))
@@ -112,7 +112,7 @@ fn floor<T: Real>(n: usize, pressure: f64) -> (f64, usize, Array2<f64>) {
 
 #[test]
 fn a_tolerance_at_the_floor_ends_as_soon_as_one_below_it() {
-    let solve = |tolerance| solve(&mut rough::<f32, _>(512, 16, NoAdhesion), Control::MeanPressure(0.02), tolerance);
+    let solve = |tolerance| solve(&mut rough::<f32>(512, 16, NoAdhesion), Control::MeanPressure(0.02), tolerance);
     let below = solve(1e-7).report;
     assert_eq!(below.status, Status::Stalled);
     // the updated pressure meets some of these, and the pressure of the gap does not
@@ -127,7 +127,7 @@ fn a_tolerance_at_the_floor_ends_as_soon_as_one_below_it() {
 
 /// The certified error of a gap as it is, in `f64`.
 fn certified(n: usize, gap: &Array2<f64>) -> f64 {
-    let mut problem = rough::<f64, _>(n, n as i32 / 4, NoAdhesion);
+    let mut problem = rough::<f64>(n, n as i32 / 4, NoAdhesion);
     let mut solver = Solver::new(Settings::default().max_iterations(0).tolerance(1e-30));
     let go_on = |_: &Iteration| std::ops::ControlFlow::Continue(());
     let control = Control::MeanGap(gap.mean().unwrap());

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use crate::common::followed;
 use asperity::exact::Sphere;
 use asperity::path::{Path, PathSettings};
 use asperity::{
@@ -10,20 +11,20 @@ use asperity::{
     PullOff, SelfAffine, Settings, Solver, Start, Status, Surface, Westergaard, exact,
 };
 
-fn sphere<L: AdhesionLaw<f64>>(nodes: usize, side: f64, radius: f64, law: L) -> Problem<f64, Boussinesq<f64>, L> {
+fn sphere(nodes: usize, side: f64, radius: f64, law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     let grid = Grid::square(nodes, side).unwrap();
     let surface = Surface::paraboloid(grid, radius).unwrap();
     Problem::new(&surface, Boussinesq::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
-fn rough<L: AdhesionLaw<f64>>(law: L) -> Problem<f64, Westergaard<f64>, L> {
+fn rough(law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     let grid = Grid::square(64, 1.0).unwrap();
     let surface = SelfAffine::default().k_l(2.0).k_s(8.0).surface(grid).unwrap();
     Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
 /// The force of a sphere to 0.2 %.
-fn force<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Boussinesq<f64>, L>) -> f64 {
+fn force(problem: &mut Problem<f64>) -> f64 {
     let found = PullOff::default().tolerance(2e-3).find(&mut Solver::default(), problem).unwrap();
     assert!(found.reached && found.branch == Some(Branch::Unloading) && !found.solution.report.reaches_edge);
     -found.solution.report.normal_force
@@ -60,8 +61,8 @@ fn a_path_bears_no_more_and_hardly_less() {
     let mut solver = Solver::new(Settings::default().branch(Branch::Unloading));
     let (mut problem, loads) = (rough(law), [5e-4, 0.03].map(Control::MeanGap));
     let settings = PathSettings::default().steps(100);
-    let path = Path::new(&mut solver, &mut problem, loads, settings).unwrap();
-    let greatest = path.map(|step| -step.unwrap().solution.report.mean_pressure).fold(0.0, f64::max);
+    let steps = followed(Path::new(loads, settings).unwrap(), &mut solver, &mut problem);
+    let greatest = steps.iter().map(|step| -step.solution.report.mean_pressure).fold(0.0, f64::max);
     assert!(greatest <= lost && greatest >= borne * (1.0 - 2e-3), "{greatest}: {borne} to {lost}");
     assert!(found.operator_applications < 1000, "{}", found.operator_applications);
 }

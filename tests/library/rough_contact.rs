@@ -12,23 +12,18 @@ use ndarray::Array2;
 /// The load of Figures 6 and 7.
 const LOAD: f64 = 0.003;
 
-fn press<L: AdhesionLaw<f64>>(n: usize, seed: u64, law: L) -> Problem<f64, Westergaard<f64>, L> {
+fn press(n: usize, seed: u64, law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     let grid = Grid::square(n, 1.0).unwrap();
     let surface = SelfAffine::default().seed(seed).surface(grid).unwrap();
     Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
-fn solve<L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, Westergaard<f64>, L>,
-    control: Control,
-    tolerance: f64,
-    start: Option<&Array2<f64>>,
-) -> Solution<f64> {
+fn solve(problem: &mut Problem<f64>, control: Control, tolerance: f64, start: Option<&Array2<f64>>) -> Solution<f64> {
     let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let start = start.map_or(Start::Default, |gap| Start::From(gap));
     let solution = solver.solve_with(problem, control, start, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(solution.report.status, Status::Converged);
-    check(&solution, problem.law(), control);
+    check(&solution);
     solution
 }
 
@@ -36,11 +31,13 @@ fn solve<L: AdhesionLaw<f64>>(
 fn areas(n: usize, seed: u64, loads: &[f64]) -> Vec<[f64; 2]> {
     let mut problem = press(n, seed, NoAdhesion);
     let mut solver = Solver::default();
-    Sweep::new(&mut solver, &mut problem, loads.iter().copied().map(Control::MeanPressure))
-        .map(|step| {
-            let solution = step.unwrap();
+    let mut sweep = Sweep::default();
+    loads
+        .iter()
+        .map(|&load| {
+            let solution = sweep.next(&mut solver, &mut problem, Control::MeanPressure(load)).unwrap();
             assert_eq!(solution.report.status, Status::Converged);
-            let found = ContactStatistics::of(&solution, &NoAdhesion).unwrap();
+            let found = ContactStatistics::of(&solution).unwrap();
             [found.contact_fraction, found.corrected_contact_fraction]
         })
         .collect()

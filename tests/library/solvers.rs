@@ -1,6 +1,7 @@
 //! The driver: what its certificate promises, how many applications it takes, how it starts and ends.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::{rough, solve, solve_from, sphere};
@@ -27,7 +28,7 @@ fn the_certificate_is_never_below_the_true_error() {
         let mut sharpest = f64::INFINITY;
         for iterations in 0..24 {
             let state = limited(iterations, 1e-14).solve(&mut problem, control).unwrap();
-            crate::common::check(&state, &NoAdhesion, control);
+            crate::common::check(&state);
             // a state under pressure control is certified at its own mean gap
             let exact = solve(&mut problem, Control::MeanGap(state.report.mean_gap), 1e-12);
             assert_eq!(exact.report.status, Status::Converged);
@@ -53,7 +54,7 @@ fn the_certificate_of_springs_is_never_below_the_true_error() {
     for (stiffness, control) in
         [(3.0, Control::MeanGap(0.03)), (100.0, Control::MeanPressure(0.05)), (3000.0, Control::MeanGap(0.05))]
     {
-        let solve = |problem: &mut Problem<_, _, _>, control, iterations, tolerance| {
+        let solve = |problem: &mut Problem<_>, control, iterations, tolerance| {
             let settings = Settings::default().max_iterations(iterations).tolerance(tolerance);
             Solver { settings, constraint: Penalty::new(stiffness).unwrap() }.solve(problem, control).unwrap()
         };
@@ -69,7 +70,7 @@ fn the_certificate_of_springs_is_never_below_the_true_error() {
 }
 
 /// Operator applications to 1e-6, with the one that the problem itself takes.
-fn applications<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>, control: Control) -> usize {
+fn applications(problem: &mut Problem<f64>, control: Control) -> usize {
     let report = solve(problem, control, 1e-6).report;
     assert_eq!(report.status, Status::Converged);
     report.operator_applications + 1
@@ -85,13 +86,13 @@ fn counts(n: usize) -> Vec<(&'static str, usize)> {
     for (names, pressure, share) in
         [(["3 %, pressure", "3 %, gap"], 0.0125, 0.03), (["40 %, pressure", "40 %, gap"], 0.205, 0.4)]
     {
-        let mut problem = rough::<f64, _>(n, shortest, NoAdhesion);
+        let mut problem = rough::<f64>(n, shortest, NoAdhesion);
         let report = solve(&mut problem, Control::MeanPressure(pressure), 1e-6).report;
         assert!(n < 512 || (report.contact_fraction / share - 1.0).abs() < 0.1);
         counts.push((names[0], report.operator_applications + 1));
         counts.push((names[1], applications(&mut problem, Control::MeanGap(report.mean_gap))));
     }
-    let mut problem = rough::<f64, _>(n, shortest, Exponential::new(1.42e-4, 2.9e-3).unwrap());
+    let mut problem = rough::<f64>(n, shortest, Exponential::new(1.42e-4, 2.9e-3).unwrap());
     counts.push(("exponential, gap", applications(&mut problem, Control::MeanGap(0.022))));
     counts.push(("exponential, loading", applications(&mut problem, Control::MeanPressure(0.0125))));
     counts
@@ -132,7 +133,7 @@ fn sixteen_times_finer_grids_take_hardly_more_applications() {
 fn springs_take_about_as_many_applications_as_a_wall() {
     let (mut wall, mut springs, mut rounds) = (0, 0, 0);
     for pressure in [2e-3, 1e-2, 3e-2] {
-        let mut problem = rough::<f64, _>(256, 32, NoAdhesion);
+        let mut problem = rough::<f64>(256, 32, NoAdhesion);
         let control = Control::MeanPressure(pressure);
         wall += applications(&mut problem, control);
         // a tenth of the stiffness of the stiffest wave, and all of it
@@ -161,7 +162,7 @@ fn maugis_dugdale_takes_few_applications_and_hardly_more_on_finer_grids() {
 
 #[test]
 fn pressure_control_needs_no_more_from_a_touch_to_full_contact() {
-    let mut problem = rough::<f64, _>(128, 32, NoAdhesion);
+    let mut problem = rough::<f64>(128, 32, NoAdhesion);
     let mut last = 0.0;
     for pressure in [1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6, 1.0, 4.0] {
         let report = solve(&mut problem, Control::MeanPressure(pressure), 1e-6).report;
@@ -175,7 +176,7 @@ fn pressure_control_needs_no_more_from_a_touch_to_full_contact() {
 
 #[test]
 fn both_controls_find_the_same_state() {
-    let mut problem = rough::<f64, _>(96, 24, NoAdhesion);
+    let mut problem = rough::<f64>(96, 24, NoAdhesion);
     let pressed = solve(&mut problem, Control::MeanPressure(0.08), 1e-10);
     let held = solve(&mut problem, Control::MeanGap(pressed.report.mean_gap), 1e-10);
     assert_relative_eq!(held.report.mean_pressure, 0.08, max_relative = 1e-8);
@@ -185,11 +186,11 @@ fn both_controls_find_the_same_state() {
 #[test]
 fn both_methods_find_the_same_state() {
     for control in [Control::MeanGap(0.03), Control::MeanPressure(0.05)] {
-        let mut problem = rough::<f64, _>(64, 16, NoAdhesion);
+        let mut problem = rough::<f64>(64, 16, NoAdhesion);
         let ours = solve(&mut problem, control, 1e-9);
         let mut paper = Solver::new(Settings::rey2017().criterion(Criterion::Complementarity).tolerance(1e-11));
         let paper = paper.solve(&mut problem, control).unwrap();
-        crate::common::check(&paper, &NoAdhesion, control);
+        crate::common::check(&paper);
         assert_eq!((paper.report.status, paper.report.method), (Status::Converged, Method::Rey2017));
         assert!(paper.report.complementarity <= 1e-11 && paper.report.relative_error < 1e-5);
         assert_eq!(ours.report.contact_nodes, paper.report.contact_nodes);
@@ -201,8 +202,7 @@ fn both_methods_find_the_same_state() {
 #[test]
 fn the_papers_method_can_be_held_to_the_certified_error() {
     let settings = Settings::rey2017().tolerance(1e-7);
-    let solution =
-        Solver::new(settings).solve(&mut sphere::<f64, _>(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
+    let solution = Solver::new(settings).solve(&mut sphere::<f64>(64, NoAdhesion), Control::MeanGap(0.0398)).unwrap();
     let (points, _) = crate::algorithm3::of_sphere(64, 0.0398);
     assert_eq!((solution.report.status, solution.report.contact_nodes), (Status::Converged, points));
     assert!(solution.report.relative_error <= 1e-7);
@@ -212,9 +212,9 @@ fn the_papers_method_can_be_held_to_the_certified_error() {
 fn adhesion_raises_the_contact_and_satisfies_the_envelope_theorem() {
     let rms = 0.0085;
     let law = Exponential::new(2e-4, 0.3 * rms).unwrap();
-    let mut problem = rough::<f64, _>(128, 24, law);
+    let mut problem = rough::<f64>(128, 24, law);
     assert!(problem.mu_rho() < 0.51);
-    let mut bare = rough::<f64, _>(128, 24, NoAdhesion);
+    let mut bare = rough::<f64>(128, 24, NoAdhesion);
     let (stuck, pressed) =
         (solve(&mut problem, Control::MeanGap(0.015), 1e-10), solve(&mut bare, Control::MeanGap(0.015), 1e-10));
     assert_eq!(stuck.report.status, Status::Converged);
@@ -234,7 +234,7 @@ fn adhesion_raises_the_contact_and_satisfies_the_envelope_theorem() {
 #[test]
 fn strong_and_unresolved_adhesion_ends_and_says_so() {
     for (range, work) in [(2e-4, 1e-4), (2e-5, 2e-5), (5e-4, 5e-3)] {
-        let mut problem = rough::<f64, _>(64, 16, Exponential::new(work, range).unwrap());
+        let mut problem = rough::<f64>(64, 16, Exponential::new(work, range).unwrap());
         let solution = solve(&mut problem, Control::MeanGap(0.02), 1e-6);
         let report = &solution.report;
         assert!(report.under_resolved && report.mu_rho > 0.5);
@@ -245,8 +245,8 @@ fn strong_and_unresolved_adhesion_ends_and_says_so() {
 
 #[test]
 fn a_zero_law_is_no_law() {
-    let mut none = rough::<f64, _>(64, 16, NoAdhesion);
-    let mut zero = rough::<f64, _>(64, 16, Exponential::new(0.0, 1e-3).unwrap());
+    let mut none = rough::<f64>(64, 16, NoAdhesion);
+    let mut zero = rough::<f64>(64, 16, Exponential::new(0.0, 1e-3).unwrap());
     let control = Control::MeanPressure(0.02);
     assert_eq!(solve(&mut none, control, 1e-6), solve(&mut zero, control, 1e-6));
 }
@@ -278,7 +278,7 @@ impl AdhesionLaw<f64> for Untouched {
 #[test]
 fn no_adhesion_is_not_evaluated() {
     for control in [Control::MeanPressure(0.02), Control::MeanGap(0.02)] {
-        let mut problem = rough::<f64, _>(64, 16, Untouched);
+        let mut problem = rough::<f64>(64, 16, Untouched);
         for settings in [Settings::default().tolerance(1e-8), Settings::rey2017().criterion(Criterion::Complementarity)]
         {
             let report = Solver::new(settings).solve(&mut problem, control).unwrap().report;
@@ -293,7 +293,7 @@ fn a_warm_start_from_the_solution_is_the_solution() {
     let dugdale: Box<dyn AdhesionLaw<f64>> = Box::new(MaugisDugdale::new(1e-4, 2e-3).unwrap());
     let exponential: Box<dyn AdhesionLaw<f64>> = Box::new(Exponential::new(1e-4, 2e-3).unwrap());
     for (law, most) in [(dugdale, 20), (exponential, 1)] {
-        let mut problem = sphere::<f64, _>(64, law);
+        let mut problem = sphere::<f64>(64, law);
         for control in [Control::MeanGap(0.0429), Control::MeanPressure(-5e-4)] {
             let first = solve(&mut problem, control, 1e-9);
             let again = solve_from(&mut problem, control, 1e-8, Some(&first.gap));
@@ -307,7 +307,7 @@ fn a_warm_start_from_the_solution_is_the_solution() {
 #[test]
 fn tension_is_held_by_adhesion_up_to_pull_off_and_detaches_beyond() {
     // pull-off of this state is near −9.76e-4 in the paper's units
-    let mut problem = sphere::<f64, _>(128, MaugisDugdale::new(1e-4, 2e-3).unwrap());
+    let mut problem = sphere::<f64>(128, MaugisDugdale::new(1e-4, 2e-3).unwrap());
     let held = solve(&mut problem, Control::MeanPressure(-7e-4), 1e-7);
     assert_eq!(held.report.status, Status::Converged);
     assert!(held.report.contact_nodes > 100 && held.report.mean_contact_pressure > 0.0);
@@ -315,7 +315,7 @@ fn tension_is_held_by_adhesion_up_to_pull_off_and_detaches_beyond() {
     assert_eq!((lost.report.status, lost.report.contact_nodes), (Status::Detached, 0));
     // some of them to look for a hold, at a dozen mean gaps
     assert!(lost.report.iterations < 400 && lost.gap.iter().all(|g| g.is_finite()));
-    let mut bare = sphere::<f64, _>(128, NoAdhesion);
+    let mut bare = sphere::<f64>(128, NoAdhesion);
     let lost = solve(&mut bare, Control::MeanPressure(-1e-9), 1e-7);
     assert_eq!(lost.report.status, Status::Detached);
     assert!(lost.report.iterations < 100 && lost.report.mean_gap.is_finite());
@@ -323,7 +323,7 @@ fn tension_is_held_by_adhesion_up_to_pull_off_and_detaches_beyond() {
 
 #[test]
 fn an_observer_can_stop_and_the_limit_is_kept() {
-    let mut problem = sphere::<f64, _>(64, NoAdhesion);
+    let mut problem = sphere::<f64>(64, NoAdhesion);
     let control = Control::MeanGap(0.0398);
     let mut seen = Vec::new();
     let stopped = Solver::default()
@@ -333,7 +333,7 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
         })
         .unwrap();
     assert_eq!((seen, stopped.report.status), (vec![0, 1, 2, 3], Status::Stopped));
-    crate::common::check(&stopped, &NoAdhesion, control);
+    crate::common::check(&stopped);
     // from every start, and from a gap in any layout
     let by_columns = stopped.gap.t().as_standard_layout().into_owned().reversed_axes();
     assert!(!by_columns.is_standard_layout() && by_columns == stopped.gap);
@@ -352,7 +352,7 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
 
 #[test]
 fn impossible_inputs_are_refused_by_name() {
-    let mut problem = sphere::<f64, _>(16, NoAdhesion);
+    let mut problem = sphere::<f64>(16, NoAdhesion);
     let mut refuse = |control, start: Option<Array2<f64>>, tolerance, text: &str| {
         let settings = Settings::default().tolerance(tolerance);
         let start = start.as_ref().map_or(Start::Default, |s| Start::From(s));
@@ -401,7 +401,7 @@ fn impossible_inputs_are_refused_by_name() {
 #[test]
 fn an_iteration_allocates_nothing() {
     use std::cell::RefCell;
-    let mut problem = rough::<f64, _>(64, 16, Exponential::new(1e-5, 1e-3).unwrap());
+    let mut problem = rough::<f64>(64, 16, Exponential::new(1e-5, 1e-3).unwrap());
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
         let count = |iterations: usize| {
             let problem = RefCell::new(&mut problem);
@@ -425,7 +425,7 @@ fn an_iteration_allocates_nothing() {
 
 #[test]
 fn a_solve_in_f32_allocates_its_five_fields_the_spectrum_and_one_for_the_answer() {
-    let mut problem = rough::<f32, _>(256, 16, NoAdhesion);
+    let mut problem = rough::<f32>(256, 16, NoAdhesion);
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
         let problem = std::cell::RefCell::new(&mut problem);
         let info = allocation_counter::measure(|| {
@@ -450,7 +450,7 @@ type Law<T> = fn() -> Box<dyn AdhesionLaw<T>>;
 
 /// The most bytes at any time, in units of one field of precision T: of making the operator and the problem, and of
 /// that and the solve.
-fn peak<T: Real, O: ElasticOperator<T>>(
+fn peak<T: Real, O: ElasticOperator<T> + 'static>(
     grid: Grid,
     operator: impl Fn(Grid) -> Result<O> + Sync,
     law: Law<T>,
@@ -528,13 +528,13 @@ impl AdhesionLaw<f64> for ByNode {
 }
 
 /// A law that counts the evaluations of its energy alone, and says that this is concave or does not.
-struct Counting<'a> {
-    law: Box<dyn AdhesionLaw<f64> + 'a>,
+struct Counting {
+    law: Arc<dyn AdhesionLaw<f64>>,
     concave: bool,
     energies: AtomicUsize,
 }
 
-impl AdhesionLaw<f64> for Counting<'_> {
+impl AdhesionLaw<f64> for Counting {
     fn energy(&self, gap: f64) -> f64 {
         self.law.energy(gap)
     }
@@ -550,7 +550,7 @@ impl AdhesionLaw<f64> for Counting<'_> {
         hints
     }
     fn adapted(&self, to: Discretisation<f64>) -> Option<Arc<dyn AdhesionLaw<f64>>> {
-        Some(Box::new(Counting { law: self.law.adapted(to)?, concave: self.concave, energies: AtomicUsize::new(0) }))
+        Some(Arc::new(Counting { law: self.law.adapted(to)?, concave: self.concave, energies: AtomicUsize::new(0) }))
     }
     fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
         if values.tractions.is_none() && values.energies.is_some() {
@@ -566,14 +566,13 @@ impl AdhesionLaw<f64> for Counting<'_> {
 #[test]
 fn a_concave_energy_is_not_searched_for_a_descent() {
     let (exponential, dugdale) = (Exponential::new(1e-4, 5e-3).unwrap(), MaugisDugdale::new(1e-4, 5e-3).unwrap());
-    let laws: [&dyn AdhesionLaw<f64>; 2] = [&exponential, &dugdale];
+    let laws: [Arc<dyn AdhesionLaw<f64>>; 2] = [Arc::new(exponential), Arc::new(dugdale)];
     for law in laws {
         for control in [Control::MeanPressure(0.01), Control::MeanGap(0.02)] {
             let solved = |concave| {
-                let mut problem =
-                    rough::<f64, _>(64, 8, Counting { law: Box::new(law), concave, energies: AtomicUsize::new(0) });
-                let solution = Solver::default().solve(&mut problem, control).unwrap();
-                (solution, problem.law().energies.load(Ordering::Relaxed) / 64 / 64)
+                let law = Arc::new(Counting { law: law.clone(), concave, energies: AtomicUsize::new(0) });
+                let solution = Solver::default().solve(&mut rough::<f64>(64, 8, law.clone()), control).unwrap();
+                (solution, law.energies.load(Ordering::Relaxed) / 64 / 64)
             };
             let ((bounded, few), (searched, many)) = (solved(true), solved(false));
             assert_eq!(bounded, searched);
@@ -617,13 +616,13 @@ fn a_law_may_differ_from_node_to_node() {
         assert!((p - expected.max(0.0)).abs() < 1e-12);
     }
 
-    let solve = |law: &dyn AdhesionLaw<f64>| {
+    let solve = |law: Box<dyn AdhesionLaw<f64>>| {
         let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
         let mut problem = Problem::new(&waves, half_space, law).unwrap();
         Solver::default().solve(&mut problem, Control::MeanGap(4e-3)).unwrap()
     };
-    let half = solve(&ByNode(law, vec![0.5; N * N]));
-    let weaker = solve(&Exponential::new(2e-5, 3e-3).unwrap());
+    let half = solve(Box::new(ByNode(law, vec![0.5; N * N])));
+    let weaker = solve(Box::new(Exponential::new(2e-5, 3e-3).unwrap()));
     // the one law by single nodes, the other by many at once: last digits of the exponential, which differ by processor
     assert!(half.report.operator_applications.abs_diff(weaker.report.operator_applications) <= SLACK);
     assert!((half.report.mean_pressure - weaker.report.mean_pressure).abs() < 1e-9);

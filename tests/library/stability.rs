@@ -14,7 +14,7 @@ fn tight() -> StabilityTest {
     StabilityTest::default().tolerance(1e-6)
 }
 
-fn flat<T: Real>(shape: (usize, usize), law: Exponential) -> Problem<T, Westergaard<T>, Exponential> {
+fn flat<T: Real>(shape: (usize, usize), law: Exponential) -> Problem<T> {
     let grid = Grid::new(shape, (1.0, if shape.1 == 1 { 1.0 } else { 0.7 })).unwrap();
     let surface = Surface::from_fn(grid, |_, _| 0.0).unwrap();
     Problem::new(&surface, Westergaard::new(grid, 2.0).unwrap(), law).unwrap()
@@ -50,12 +50,7 @@ fn flats_at_a_uniform_gap() {
 }
 
 /// How many eigenvalues of the second derivative are below a number: the negative pivots of the dense matrix.
-fn below(
-    problem: &Problem<f64, Westergaard<f64>, Exponential>,
-    gap: &Array2<f64>,
-    centred: bool,
-    number: f64,
-) -> usize {
+fn below(problem: &Problem<f64>, gap: &Array2<f64>, centred: bool, number: f64) -> usize {
     let dense = Dense::new(problem.grid().shape(), problem.grid().lengths(), 1.0);
     let slopes: Vec<f64> = gap.iter().map(|&gap| problem.law().slope(gap)).collect();
     let free: Vec<usize> = (0..gap.len()).filter(|&i| gap.as_slice().unwrap()[i] > 0.0).collect();
@@ -66,7 +61,7 @@ fn below(
 fn eigenvalues_and_bounds_agree_with_dense_matrices() {
     let mut seen = [0; 2];
     for (range, w, gaps) in [(4e-3, 4e-4, [0.012, 0.02, 0.03]), (1e-2, 2e-3, [0.03, 0.11, 0.115])] {
-        let mut problem = rough::<f64, _>(24, 6, Exponential::new(w, range).unwrap());
+        let mut problem = rough::<f64>(24, 6, Exponential::new(w, range).unwrap());
         for gap in gaps {
             let given = Control::MeanGap(gap);
             let solution = solve(&mut problem, given, 1e-8);
@@ -96,8 +91,8 @@ fn eigenvalues_and_bounds_agree_with_dense_matrices() {
 fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
     let mut sums = [0; 3];
     let law = |w, range| Exponential::new(w, range).unwrap();
-    let sphere = |w| sphere::<f64, _>(256, law(w, 2e-3));
-    let rough = |w, range| rough::<f64, _>(256, 32, law(w, range));
+    let sphere = |w| sphere::<f64>(256, law(w, 2e-3));
+    let rough = |w, range| rough::<f64>(256, 32, law(w, range));
     for (mut problem, gap) in [(sphere(2e-4), 0.0429), (rough(4e-4, 2e-3), 0.01), (rough(4e-4, 2e-3), 0.03)] {
         let control = Control::MeanGap(gap);
         let solution = Solver::default().solve(&mut problem, control).unwrap();
@@ -119,9 +114,9 @@ fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
 
 #[test]
 fn the_certificate_bounds_the_error_of_a_stable_equilibrium() {
-    let mut problem = rough::<f64, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
+    let mut problem = rough::<f64>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
     let surface = crate::common::rough::rough(*problem.grid(), 16, 1);
-    let mut operator = problem.operator().clone();
+    let mut operator = Westergaard::<f64>::new(*problem.grid(), 1.0).unwrap();
     let mut larger = 0;
     for control in [Control::MeanGap(0.012), Control::MeanGap(0.03)] {
         let Control::MeanGap(gap) = control else { unreachable!() };
@@ -143,7 +138,7 @@ fn the_certificate_bounds_the_error_of_a_stable_equilibrium() {
 
 #[test]
 fn the_memory_layout_of_the_gap_does_not_matter() {
-    let mut problem = rough::<f64, _>(24, 6, Exponential::new(4e-4, 4e-3).unwrap());
+    let mut problem = rough::<f64>(24, 6, Exponential::new(4e-4, 4e-3).unwrap());
     for control in [Control::MeanGap(0.012), Control::MeanGap(0.03)] {
         let solution = solve(&mut problem, control, 1e-8);
         let mut columns = solution.clone();
@@ -158,9 +153,8 @@ fn the_memory_layout_of_the_gap_does_not_matter() {
         assert_eq!(leave(&columns).solution, leave(&solution).solution);
         let start = |gap: &Array2<f64>| gap.mapv(|gap| 1.1 * gap);
         let mut from = |gap: &Array2<f64>| {
-            let mut solver = Solver::default();
-            let path = Path::new(&mut solver, &mut problem, [control], PathSettings::default()).unwrap();
-            path.starting_from(start(gap)).next().unwrap().unwrap()
+            let path = Path::new([control], PathSettings::default()).unwrap();
+            path.starting_from(start(gap)).next(&mut Solver::default(), &mut problem).unwrap()
         };
         assert_eq!(from(&columns.gap), from(&solution.gap));
     }
@@ -186,21 +180,20 @@ fn an_observer_ends_a_departure() {
 #[test]
 fn a_law_that_jumps_is_smoothed_for_the_verdict() {
     let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
-    let mut problem = sphere::<f64, _>(128, law);
+    let mut problem = sphere::<f64>(128, law);
     let control = Control::MeanGap(0.0415);
     let solution = solve(&mut problem, control, 1e-6);
     let stability = StabilityTest::default().run(&mut problem, &solution).unwrap();
     assert!(stability.smoothed && stability.verdict == Verdict::Stable);
-    assert_eq!(*problem.law(), law);
 }
 
 #[test]
 fn single_precision_comes_to_the_same() {
     let control = Control::MeanGap(0.03);
-    let mut problem = rough::<f32, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
+    let mut problem = rough::<f32>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
     let solution = solve(&mut problem, control, 1e-5);
     let single = StabilityTest::default().run(&mut problem, &solution).unwrap();
-    let mut problem = rough::<f64, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
+    let mut problem = rough::<f64>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
     let solution = solve(&mut problem, control, 1e-5);
     let double = StabilityTest::default().run(&mut problem, &solution).unwrap();
     assert_eq!((single.verdict, double.verdict), (Verdict::Stable, Verdict::Stable));
@@ -209,7 +202,7 @@ fn single_precision_comes_to_the_same() {
 
 #[test]
 fn nothing_can_move_in_full_contact_and_bad_input_is_refused() {
-    let mut problem = rough::<f64, _>(16, 4, Exponential::new(4e-3, 4e-3).unwrap());
+    let mut problem = rough::<f64>(16, 4, Exponential::new(4e-3, 4e-3).unwrap());
     let control = Control::MeanPressure(10.0);
     let solution = solve(&mut problem, control, 1e-6);
     assert_eq!(solution.report.contact_fraction, 1.0);
@@ -218,7 +211,7 @@ fn nothing_can_move_in_full_contact_and_bad_input_is_refused() {
     let left = stability.leave(&mut Solver::default(), &mut problem, &solution, |_| ControlFlow::Continue(()));
     assert!(left.unwrap().is_none());
 
-    let mut other = rough::<f64, _>(12, 4, NoAdhesion);
+    let mut other = rough::<f64>(12, 4, NoAdhesion);
     let refused = StabilityTest::default().run(&mut other, &solution);
     assert!(matches!(refused, Err(Error::Shape { name: "solution", .. })));
     let test = StabilityTest::default().tolerance(0.0);

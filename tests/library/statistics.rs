@@ -3,18 +3,15 @@
 use std::f64::consts::PI;
 
 use crate::common::{rough, sphere, with_holes};
-use asperity::adhesion::{CutOff, Varying};
+use asperity::adhesion::Varying;
 use asperity::contact::{ContactArea, ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;
 use ndarray::Array2;
 
-fn statistics<T: Real, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, Westergaard<T>, L>,
-    control: Control,
-) -> (Solution<T>, ContactStatistics) {
+fn statistics<T: Real>(problem: &mut Problem<T>, control: Control) -> (Solution<T>, ContactStatistics) {
     let solution = Solver::default().solve(problem, control).unwrap();
-    let statistics = ContactStatistics::of(&solution, problem.law()).unwrap();
+    let statistics = ContactStatistics::of(&solution).unwrap();
     (solution, statistics)
 }
 
@@ -33,7 +30,7 @@ fn disc(grid: &Grid, radius: f64) -> Solution<f64> {
 /// The error of the contact area by nodes and of the corrected one, each as mean and root mean square over loads,
 /// relative to Hertz among periodic images.
 fn area_errors(n: usize) -> [f64; 4] {
-    let mut problem = sphere::<f64, _>(n, NoAdhesion);
+    let mut problem = sphere::<f64>(n, NoAdhesion);
     let periodic = Periodic::new(exact::Hertz::new(2.0, 1.0).unwrap(), 1.0).unwrap();
     let mut sums = [0.0; 4];
     for k in 0..24 {
@@ -72,7 +69,7 @@ fn edge_errors(grid: Grid, (a, b): (u8, u8)) -> (f64, f64) {
     let errors = (0..10).map(|step| {
         let pressure = wave.closing_pressure() * (0.3 + 0.03 * f64::from(step));
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(pressure)).unwrap();
-        let found = ContactStatistics::of(&solution, &NoAdhesion).unwrap().corrected_contact_fraction;
+        let found = ContactStatistics::of(&solution).unwrap().corrected_contact_fraction;
         let exact = 2.0 * k * wave.at_mean_pressure(pressure).unwrap().half_width();
         (found - exact) * grid.nodes() as f64 / edges
     });
@@ -104,7 +101,7 @@ fn the_perimeter_of_a_disc_is_that_of_its_square() {
     for (shape, lengths) in [((256, 256), (1.0, 1.0)), ((256, 128), (1.0, 1.0)), ((200, 300), (2.0, 1.0))] {
         let grid = Grid::new(shape, lengths).unwrap();
         let solution = disc(&grid, 0.3);
-        let found = ContactStatistics::of(&solution, &NoAdhesion).unwrap();
+        let found = ContactStatistics::of(&solution).unwrap();
         let (dx, dy) = grid.spacing();
         assert!((found.perimeter - 2.4).abs() <= 4.0 * dx.max(dy), "{}", found.perimeter);
         let area = found.contact_fraction * lengths.0 * lengths.1;
@@ -123,7 +120,7 @@ fn the_perimeter_of_a_disc_is_that_of_its_square() {
 
 #[test]
 fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
-    let mut problem = rough::<f64, _>(64, 16, NoAdhesion);
+    let mut problem = rough::<f64>(64, 16, NoAdhesion);
     let control = Control::MeanPressure(0.1);
     let settings = Settings::default();
     let projected = Solver::new(settings).solve(&mut problem, control).unwrap();
@@ -131,7 +128,7 @@ fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
     let soft = Solver { settings, constraint }.solve(&mut problem, control).unwrap();
     let hard = Solver { settings, constraint: Uzawa::new(500.0).unwrap() }.solve(&mut problem, control).unwrap();
     for solution in [projected, soft, hard] {
-        let found = ContactStatistics::of(&solution, &NoAdhesion).unwrap();
+        let found = ContactStatistics::of(&solution).unwrap();
         assert_eq!(found.contact_nodes, solution.report.contact_nodes);
         assert_eq!(found.contact_fraction, solution.report.contact_fraction);
         assert_eq!(found.cluster_sizes.iter().sum::<usize>(), found.contact_nodes);
@@ -151,13 +148,13 @@ fn the_nodes_in_contact_are_those_of_the_report_whatever_the_constraint() {
 #[test]
 fn adhesion_divides_the_surface_in_three() {
     let single = Exponential::new(2e-4, 4e-3).unwrap();
-    let (solution, found) = statistics(&mut rough::<f32, _>(64, 16, single), Control::MeanGap(0.02));
+    let (solution, found) = statistics(&mut rough::<f32>(64, 16, single), Control::MeanGap(0.02));
     let reach = 4e-3 * 100.0_f32.ln();
     let near = solution.gap.iter().filter(|g| **g > 0.0 && **g < reach).count();
     assert!((found.attractive_fraction * 4096.0 - near as f64).abs() <= 1.0 && near > 100);
 
     let law = MaugisDugdale::new(1e-4, 4e-3).unwrap();
-    let (solution, found) = statistics(&mut sphere::<f64, _>(128, law), Control::MeanGap(0.042));
+    let (solution, found) = statistics(&mut sphere::<f64>(128, law), Control::MeanGap(0.042));
     let near = solution.gap.iter().filter(|g| **g > 0.0 && **g < 4e-3).count();
     assert_eq!(found.attractive_fraction, near as f64 / 16384.0);
     let sum = found.contact_fraction + found.attractive_fraction + found.apart_fraction;
@@ -217,7 +214,7 @@ fn the_edge_of_a_contact_with_a_wall_that_gives_is_found_between_the_nodes() {
             let settings = Settings::default().tolerance(1e-8);
             let mut solver = Solver { settings, constraint: Penalty::new(stiffness).unwrap() };
             let solution = solver.solve(&mut problem, Control::MeanPressure(0.02)).unwrap();
-            ContactStatistics::of(&solution, &NoAdhesion).unwrap().corrected_contact_fraction
+            ContactStatistics::of(&solution).unwrap().corrected_contact_fraction
         };
         let exact = width(4096);
         for n in [60, 64, 68, 72] {
@@ -231,7 +228,7 @@ fn the_edge_of_a_contact_with_a_wall_that_gives_is_found_between_the_nodes() {
 fn where_the_law_alone_repels_the_area_is_that_of_the_nodes_that_it_presses() {
     // counted nodes are right in the mean over loads: pressure and gap have no kink there
     let law = LennardJones::new(1e-3, 4e-3).unwrap();
-    let mut problem = sphere::<f64, _>(128, law);
+    let mut problem = sphere::<f64>(128, law);
     let loads: Vec<f64> = (0..12).map(|k| 2e-3 * 1.1_f64.powi(k)).collect();
     let excess = |load: &f64| {
         let mut solver = Solver { settings: Settings::default(), constraint: NoWall };
@@ -296,7 +293,7 @@ fn the_area_is_the_same_bits_however_the_fields_lie() {
     let holed = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
     let mut punch = Problem::new(&holed, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let solution = Solver::default().solve(&mut punch, Control::Approach(0.01)).unwrap();
-    let found = ContactStatistics::of(&solution, &NoAdhesion).unwrap();
+    let found = ContactStatistics::of(&solution).unwrap();
     assert_eq!((found.contact_fraction, found.corrected_contact_fraction), (1.0, 1.0));
     let flat = Surface::from_fn(grid, |_, _| 0.0).unwrap();
     let mut window = Problem::new(&flat, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
@@ -306,7 +303,7 @@ fn the_area_is_the_same_bits_however_the_fields_lie() {
 
 #[test]
 fn full_contact_and_none_have_statistics() {
-    let mut problem = rough::<f64, _>(32, 8, NoAdhesion);
+    let mut problem = rough::<f64>(32, 8, NoAdhesion);
     let (solution, full) = statistics(&mut problem, Control::MeanGap(0.0));
     assert_eq!((full.contact_fraction, full.corrected_contact_fraction, full.perimeter), (1.0, 1.0, 0.0));
     assert_eq!((&full.cluster_sizes[..], full.apart_fraction), (&[1024][..], 0.0));
@@ -320,27 +317,17 @@ fn full_contact_and_none_have_statistics() {
 
 #[test]
 fn statistics_refuse_what_does_not_fit() {
-    let mut problem = sphere::<f64, _>(16, NoAdhesion);
+    let mut problem = sphere::<f64>(16, NoAdhesion);
     let mut solution = Solver::default().solve(&mut problem, Control::MeanGap(0.04)).unwrap();
     for bins in [0, usize::MAX] {
         let refused = PressureDistribution::of_pressure(&solution, bins);
         assert!(matches!(refused, Err(Error::Value { name: "number of bins", .. })));
     }
-    let other = Exponential::new(1e-4, 1e-3).unwrap();
-    let refused = ContactStatistics::of(&solution, &other);
-    assert!(matches!(refused, Err(Error::Value { name: "work of adhesion", .. })));
-    assert!(solution.regions(&other).is_err());
-    let mut adhesive = sphere::<f64, _>(16, other);
-    let found = Solver::default().solve(&mut adhesive, Control::MeanGap(0.04)).unwrap();
-    assert_eq!(found.report.law, "exponential");
-    assert!(found.regions(&CutOff::new(other, 1e-2).unwrap()).is_ok());
-    let refused = found.regions(&MaugisDugdale::new(1e-4, 1e-3).unwrap());
-    assert!(matches!(refused, Err(Error::Value { name: "work of adhesion of a law of another name", .. })));
     solution.contact_pressure[[3, 4]] = f64::NAN;
     let refused = PressureDistribution::of_contact_pressure(&solution, 3);
     assert!(matches!(refused, Err(Error::NotFinite { name: "contact pressure", first: (3, 4), .. })));
     solution.contact_pressure = Array2::zeros((4, 4));
-    assert!(ContactStatistics::of(&solution, &NoAdhesion).is_err());
+    assert!(ContactStatistics::of(&solution).is_err());
     assert!(PressureDistribution::of_contact_pressure(&solution, 3).is_err());
     // a uniform pressure has a bin around it
     solution.pressure.fill(-2.0);
@@ -356,9 +343,9 @@ fn patches_share_out_the_contact_by_their_work_of_adhesion() {
         // stripes along y, of which those without adhesion come first
         let work = grid.sample(|x, _| 2e-5 * ((works as f64 * (x + 0.5)).floor() / works as f64));
         let law = Varying::new(Exponential::new(2e-5, 3e-3).unwrap(), work.view()).unwrap();
-        let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, 1.0).unwrap(), &law).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, 1.0).unwrap(), law).unwrap();
         let solution = Solver::default().solve(&mut problem, Control::MeanPressure(5e-3)).unwrap();
-        let found = ContactStatistics::of(&solution, &&law).unwrap();
+        let found = ContactStatistics::of(&solution).unwrap();
         if works > 16 {
             assert!(found.patches.is_empty());
             return;
@@ -385,6 +372,6 @@ fn patches_share_out_the_contact_by_their_work_of_adhesion() {
     patched::<f64>(16);
     patched::<f64>(17);
     // one work of adhesion for all has no patches
-    let mut problem = sphere::<f64, _>(32, Exponential::new(1e-5, 1e-2).unwrap());
+    let mut problem = sphere::<f64>(32, Exponential::new(1e-5, 1e-2).unwrap());
     assert!(statistics(&mut problem, Control::MeanGap(0.04)).1.patches.is_empty());
 }

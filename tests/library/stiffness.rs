@@ -94,11 +94,7 @@ fn the_edge_tells_nothing_where_errors_are_others() {
 }
 
 /// −dp̄/dḡ between two solves at nearly the same mean gap.
-fn difference<L: AdhesionLaw<f64>>(
-    problem: &mut Problem<f64, Westergaard<f64>, L>,
-    solution: &Solution<f64>,
-    step: f64,
-) -> f64 {
+fn difference(problem: &mut Problem<f64>, solution: &Solution<f64>, step: f64) -> f64 {
     let gap = solution.report.mean_gap;
     let [low, high] = [1.0 - step, 1.0 + step]
         .map(|share| solve_from(problem, Control::MeanGap(share * gap), 1e-10, Some(&solution.gap)).report);
@@ -108,14 +104,14 @@ fn difference<L: AdhesionLaw<f64>>(
 #[test]
 fn differences_of_two_solves_agree() {
     // as long as hardly a node changes sides
-    let mut hard = rough::<f64, _>(64, 16, NoAdhesion);
+    let mut hard = rough::<f64>(64, 16, NoAdhesion);
     for pressure in [0.01, 0.1, 1.0] {
         let solution = solve(&mut hard, Control::MeanPressure(pressure), 1e-10);
         let found = ContactStiffness::of(&mut hard, &solution).unwrap();
         let expected = difference(&mut hard, &solution, 1e-5);
         assert!((found.pressure_per_length / expected - 1.0).abs() < 2e-3, "{pressure}: {found:?} {expected}");
     }
-    let mut sticky = rough::<f64, _>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
+    let mut sticky = rough::<f64>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
     for gap in [0.012, 0.03] {
         let solution = solve(&mut sticky, Control::MeanGap(gap), 1e-10);
         let found = ContactStiffness::of(&mut sticky, &solution).unwrap();
@@ -152,8 +148,7 @@ fn springs_and_laws_without_a_wall_resist_with_their_slopes() {
 
 #[test]
 fn under_uzawa_stiffness_and_stability_are_those_of_the_rigid_wall() {
-    for law in [&NoAdhesion as &dyn AdhesionLaw<f64>, &Exponential::new(1e-3, 3e-2).unwrap()] {
-        let mut problem = rough(32, 8, law);
+    for mut problem in [rough::<f64>(32, 8, NoAdhesion), rough(32, 8, Exponential::new(1e-3, 3e-2).unwrap())] {
         for pressure in [0.05, 1.0] {
             let (control, settings) = (Control::MeanPressure(pressure), Settings::default().tolerance(1e-9));
             let rigid = Solver::new(settings).solve(&mut problem, control).unwrap();
@@ -215,7 +210,7 @@ fn an_equilibrium_that_does_not_last_has_no_stiffness() {
 #[test]
 fn precisions_layouts_and_jumps_of_a_law() {
     let law = MaugisDugdale::new(1e-4, 2e-3).unwrap();
-    let mut double = sphere::<f64, _>(64, law);
+    let mut double = sphere::<f64>(64, law);
     let solution = solve(&mut double, Control::MeanGap(0.0429), 1e-6);
     let found = ContactStiffness::of(&mut double, &solution).unwrap();
     assert!(found.smoothed && found.pressure_per_length.is_finite());
@@ -223,8 +218,8 @@ fn precisions_layouts_and_jumps_of_a_law() {
     columns.gap = solution.gap.t().as_standard_layout().into_owned().reversed_axes();
     assert_eq!(ContactStiffness::of(&mut double, &columns).unwrap(), found);
 
-    let mut reference = rough::<f64, _>(64, 16, NoAdhesion);
-    let mut single = rough::<f32, _>(64, 16, NoAdhesion);
+    let mut reference = rough::<f64>(64, 16, NoAdhesion);
+    let mut single = rough::<f32>(64, 16, NoAdhesion);
     let control = Control::MeanPressure(0.1);
     let exact = solve(&mut reference, control, 1e-8);
     let near = Solver::default().solve(&mut single, control).unwrap();
@@ -233,7 +228,7 @@ fn precisions_layouts_and_jumps_of_a_law() {
     assert!(!exact.smoothed && near.relative_error <= 1e-4);
     assert!((near.pressure_per_length / exact.pressure_per_length - 1.0).abs() < 1e-3, "{near:?} {exact:?}");
     // found from above, within its bound
-    let mut loose = rough::<f64, _>(64, 16, NoAdhesion);
+    let mut loose = rough::<f64>(64, 16, NoAdhesion);
     let solution = solve(&mut loose, control, 1e-8);
     for tolerance in [1e-1, 1e-2, 1e-3] {
         let found = ContactStiffness::of_constrained(&mut loose, &Projection, &solution, tolerance).unwrap();

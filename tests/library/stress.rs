@@ -70,7 +70,7 @@ fn in_precision<T: Real>(scene: &Scene) -> Result<Judged, String> {
     }
 }
 
-fn with<T: Real, C: ContactConstraint<T>>(scene: &Scene, constraint: C) -> Result<Judged, String> {
+fn with<T: Real, C: ContactConstraint<T> + 'static>(scene: &Scene, constraint: C) -> Result<Judged, String> {
     let refused = |error: Error| format!("refused: {error}");
     let (mut problem, start) = (scene.problem::<T>().map_err(refused)?, scene.start_in::<T>());
     let mut solver = Solver { settings: scene.settings, constraint };
@@ -441,13 +441,16 @@ const DECIDED: &[Decided] = &[
 
 #[test]
 fn a_constant_decides_scenes() {
+    let mut otherwise = Vec::new();
     for &(constant, end, scenes) in DECIDED {
         for &(seed, enough) in scenes {
             let judged = judge(&Scene::new(seed)).unwrap();
-            let found = (judged.end, judged.iterations);
-            assert!(found.0 == end && found.1 <= enough, "{constant}, {seed}: {found:?}");
+            if judged.end != end || judged.iterations > enough {
+                otherwise.push((constant, seed, judged.end, judged.iterations));
+            }
         }
     }
+    assert!(otherwise.is_empty(), "{otherwise:#?}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::common::rough::rough as rough_surface;
-use crate::common::{check, rough, sphere, with_holes};
+use crate::common::{Kept, check, rough, sphere, swept, with_holes};
 use asperity::*;
 use ndarray::Array2;
 
@@ -19,27 +19,23 @@ fn evenly(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64).collect()
 }
 
-fn sweep<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, O, L>,
-    loads: &[Control],
-) -> Vec<Solution<T>> {
-    let steps: Result<Vec<_>> = Sweep::new(&mut Solver::default(), problem, loads.to_vec()).collect();
-    steps.unwrap()
+fn sweep<T: Real>(problem: &mut Problem<T>, loads: &[Control]) -> Vec<Solution<T>> {
+    swept(&mut Sweep::default(), &mut Solver::default(), problem, loads)
 }
 
-fn applications<T>(steps: &[Solution<T>]) -> usize {
+fn applications<T: Real>(steps: &[Solution<T>]) -> usize {
     steps.iter().map(|solution| solution.report.operator_applications).sum()
 }
 
 /// Sweeps, compares with single solves, and returns the operator applications of both.
 #[track_caller]
-fn compare<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>, loads: &[Control]) -> (usize, usize) {
+fn compare(problem: &mut Problem<f64>, loads: &[Control]) -> (usize, usize) {
     let steps = sweep(problem, loads);
     assert_eq!(steps.iter().map(|step| step.report.control).collect::<Vec<_>>(), loads);
     let mut cold = 0;
     for found in &steps {
         let control = found.report.control;
-        check(found, problem.law(), control);
+        check(found);
         assert_eq!(found.report.status, Status::Converged);
         let single = Solver::default().solve(problem, control).unwrap().report;
         cold += single.operator_applications;
@@ -52,18 +48,14 @@ fn compare<L: AdhesionLaw<f64>>(problem: &mut Problem<f64, Westergaard<f64>, L>,
 /// Takes no more applications, of the sweep and of single solves, than were counted, and what rounding, which differs
 /// between processors, may add: an iteration for every other load.
 #[track_caller]
-fn takes<L: AdhesionLaw<f64>>(
-    mut problem: Problem<f64, Westergaard<f64>, L>,
-    loads: &[Control],
-    (sweep, single): (usize, usize),
-) {
+fn takes(mut problem: Problem<f64>, loads: &[Control], (sweep, single): (usize, usize)) {
     let found = compare(&mut problem, loads);
     assert!(found.0 <= sweep + loads.len() && found.1 <= single + loads.len(), "{found:?} and not {sweep}, {single}");
 }
 
 #[test]
 fn a_sweep_takes_fewer_applications_than_single_solves() {
-    let bare = || rough::<f64, _>(128, 32, NoAdhesion);
+    let bare = || rough::<f64>(128, 32, NoAdhesion);
     takes(bare(), &gaps(&evenly(0.02, 0.0125, 16)), (273, 412));
     takes(bare(), &pressures(&evenly(0.02, 0.095, 16)), (313, 532));
     let doubled: Vec<f64> = (0..7).map(|k| 0.005 * f64::from(1 << k)).collect();
@@ -86,36 +78,32 @@ fn twenty_loads_take_two_thirds_of_the_applications_of_single_solves() {
         (pressures(&evenly(1.5e-3, 0.03, 20)), (398, 658), (413, 722)),
         (gaps(&evenly(0.03, 0.01, 20)), (353, 520), (359, 538)),
     ] {
-        takes(rough::<f64, _>(128, 16, NoAdhesion), &loads, bare);
+        takes(rough::<f64>(128, 16, NoAdhesion), &loads, bare);
         takes(rough(128, 16, law), &loads, adhesive);
     }
 }
 
 #[test]
-fn a_sweep_goes_on_from_its_history_bit_for_bit() {
+fn a_sweep_that_is_kept_goes_on_bit_for_bit() {
     let loads = gaps(&evenly(0.03, 0.01, 6));
     let law = MaugisDugdale::new(1e-4, 4e-3).unwrap();
-    for kept in 0..loads.len() {
-        continued(&mut rough::<f64, _>(48, 12, NoAdhesion), &loads, kept, 2);
-        continued(&mut rough::<f32, _>(48, 12, NoAdhesion), &loads, kept, 2);
-        continued(&mut sphere::<f64, _>(48, law), &gaps(&evenly(0.045, 0.04, 6)), kept, 3);
-    }
+    goes_on(|| rough::<f64>(48, 12, NoAdhesion), &loads);
+    goes_on(|| rough::<f32>(48, 12, NoAdhesion), &loads);
+    goes_on(|| sphere::<f64>(48, law), &gaps(&evenly(0.045, 0.04, 6)));
 }
 
-fn continued<T: Real, O: ElasticOperator<T>, L: AdhesionLaw<T>>(
-    problem: &mut Problem<T, O, L>,
-    loads: &[Control],
-    kept: usize,
-    most: usize,
-) {
-    let all = sweep(problem, loads);
-    let mut solver = Solver::default();
-    let mut first = Sweep::new(&mut solver, problem, loads[..kept].to_vec());
-    assert!(first.by_ref().all(|step| step.is_ok()));
-    let history = first.history().to_vec();
-    assert_eq!(history.len(), kept.min(most));
-    let rest = Sweep::new(&mut solver, problem, loads[kept..].to_vec()).continuing(history);
-    assert!(rest.map(Result::unwrap).eq(all[kept..].iter().cloned()));
+/// From each load on, at a problem that is made anew.
+fn goes_on<T: Real>(new: impl Fn() -> Problem<T>, loads: &[Control])
+where
+    Sweep<T>: Kept,
+{
+    let all = sweep(&mut new(), loads);
+    let (mut sweep, mut solver, mut problem) = (Sweep::default(), Solver::default(), new());
+    for (k, &load) in loads.iter().enumerate() {
+        let rest = swept(&mut sweep.read_again(), &mut Solver::default(), &mut new(), &loads[k..]);
+        assert!(rest == all[k..], "{k}");
+        assert_eq!(sweep.next(&mut solver, &mut problem, load).unwrap(), all[k]);
+    }
 }
 
 /// A paraboloid with a little roughness.
@@ -155,16 +143,14 @@ fn a_sweep_goes_on_bit_for_bit_where_nodes_face_no_surface() {
     let periodic = Westergaard::<f64>::new(*surface.grid(), 1.0).unwrap();
     let law = Exponential::new(1e-4, 4e-3).unwrap();
     let loads: Vec<_> = evenly(1e-3, 4e-3, 5).into_iter().map(Control::Force).collect();
-    for kept in [1, 2, 4] {
-        continued(&mut Problem::new(&surface, free.clone(), NoAdhesion).unwrap(), &loads, kept, 2);
-        continued(&mut Problem::new(&surface, free.clone(), law).unwrap(), &loads, kept, 3);
-        continued(&mut Problem::new(&absent, periodic.clone(), NoAdhesion).unwrap(), &loads, kept, 2);
-    }
+    goes_on(|| Problem::new(&surface, free.clone(), NoAdhesion).unwrap(), &loads);
+    goes_on(|| Problem::new(&surface, free.clone(), law).unwrap(), &loads);
+    goes_on(|| Problem::new(&absent, periodic.clone(), NoAdhesion).unwrap(), &loads);
 }
 
 #[test]
 fn sweeps_go_through_full_contact_and_back() {
-    let mut problem = rough::<f64, _>(32, 8, NoAdhesion);
+    let mut problem = rough::<f64>(32, 8, NoAdhesion);
     for loads in [
         gaps(&[0.01, 0.0, 0.0, 0.005, 0.02, 0.0, 0.01]),
         pressures(&[0.1, 100.0, 100.0, 200.0, 0.1, 0.01, 50.0]),
@@ -183,7 +169,7 @@ fn sweeps_go_through_full_contact_and_back() {
 #[test]
 fn a_sweep_with_adhesion_follows_its_branch() {
     let law = MaugisDugdale::new(1e-3, 1e-2).unwrap();
-    let mut problem = sphere::<f64, _>(32, law);
+    let mut problem = sphere::<f64>(32, law);
     let pressed = pressures(&[1e-3, 0.0, -1e-3, -2e-2, -1e-3, 1e-3]);
     let steps = sweep(&mut problem, &pressed);
     let status: Vec<_> = steps.iter().map(|solution| solution.report.status).collect();
@@ -198,13 +184,13 @@ fn a_sweep_with_adhesion_follows_its_branch() {
 #[test]
 fn every_constraint_can_be_swept() {
     let loads = pressures(&[0.02, 0.03, 0.045, 0.03]);
-    let mut problem = rough::<f64, _>(48, 12, NoAdhesion);
+    let mut problem = rough::<f64>(48, 12, NoAdhesion);
     let exact = sweep(&mut problem, &loads);
     let settings = Settings::default();
     let mut penalty = Solver { settings, constraint: Penalty::new(5000.0).unwrap() };
     let mut uzawa = Solver { settings, constraint: Uzawa::new(500.0).unwrap() };
-    let soft: Vec<_> = Sweep::new(&mut penalty, &mut problem, loads.clone()).map(Result::unwrap).collect();
-    let hard: Vec<_> = Sweep::new(&mut uzawa, &mut problem, loads).map(Result::unwrap).collect();
+    let soft = swept(&mut Sweep::default(), &mut penalty, &mut problem, &loads);
+    let hard = swept(&mut Sweep::default(), &mut uzawa, &mut problem, &loads);
     for (steps, allowed) in [(soft, 1e-2), (hard, 1e-4)] {
         for (found, exact) in steps.iter().zip(&exact) {
             assert_eq!(found.report.status, Status::Converged);
@@ -214,19 +200,21 @@ fn every_constraint_can_be_swept() {
 }
 
 #[test]
-fn refused_loads_end_a_sweep_and_bad_histories_are_refused() {
-    let mut problem = sphere::<f64, _>(16, NoAdhesion);
-    let mut solver = Solver::default();
-    let loads = gaps(&[0.04, f64::NAN, 0.04]);
-    let mut steps = Sweep::new(&mut solver, &mut problem, loads);
-    assert!(steps.next().unwrap().is_ok());
-    assert!(matches!(steps.next(), Some(Err(Error::Value { name: "mean gap", .. }))));
-    assert!(steps.next().is_none());
-    for shapes in [vec![(8, 8)], vec![(16, 16), (8, 8)], vec![(8, 8), (8, 8), (8, 8)]] {
-        let history = shapes.into_iter().zip([0.03, 0.035, 0.038]);
-        let history = history.map(|(shape, gap)| (Control::MeanGap(gap), ndarray::Array2::zeros(shape))).collect();
-        let mut steps = Sweep::new(&mut solver, &mut problem, gaps(&[0.04])).continuing(history);
-        assert!(matches!(steps.next(), Some(Err(Error::Shape { name: "starting gap", .. }))));
-    }
-    assert!(Sweep::new(&mut solver, &mut problem, []).next().is_none());
+fn bad_loads_and_problems_on_another_grid_are_refused() {
+    let (mut solver, mut problem) = (Solver::default(), sphere::<f64>(16, NoAdhesion));
+    let (mut sweep, load) = (Sweep::default(), Control::MeanGap(0.04));
+    let first = sweep.next(&mut solver, &mut problem, load).unwrap();
+    let kept = sweep.clone();
+    let refused = sweep.next(&mut solver, &mut problem, Control::MeanGap(f64::NAN));
+    assert!(matches!(refused, Err(Error::Value { name: "mean gap", .. })), "{refused:?}");
+    let refused = sweep.next(&mut solver, &mut sphere(8, NoAdhesion), load);
+    assert!(matches!(refused, Err(Error::Shape { name: "field of the sweep", .. })), "{refused:?}");
+    // what is refused leaves a sweep where it is
+    let next = |mut sweep: Sweep<f64>| sweep.next(&mut Solver::default(), &mut sphere(16, NoAdhesion), load).unwrap();
+    assert_eq!(next(sweep), next(kept));
+    let begun = Sweep::starting_from(first.gap);
+    let mut sweep = begun.clone();
+    let refused = sweep.next(&mut solver, &mut sphere(8, NoAdhesion), load);
+    assert!(matches!(refused, Err(Error::Shape { name: "starting gap", .. })), "{refused:?}");
+    assert_eq!(next(sweep), next(begun));
 }

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use super::*;
 use crate::adhesion::{Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, Tabulated, Varying};
 
@@ -88,7 +90,7 @@ struct Part<L> {
     share: f64,
 }
 
-impl<L: AdhesionLaw<f64>> AdhesionLaw<f64> for Part<L> {
+impl<L: AdhesionLaw<f64> + Clone + 'static> AdhesionLaw<f64> for Part<L> {
     fn energy(&self, gap: f64) -> f64 {
         self.share * self.law.energy(gap)
     }
@@ -111,7 +113,7 @@ impl<L: AdhesionLaw<f64>> AdhesionLaw<f64> for Part<L> {
 
 #[test]
 fn the_checker_names_what_a_law_by_node_does_not_say() {
-    fn part<L: AdhesionLaw<f64>>(law: L) -> Part<L> {
+    fn part<L: AdhesionLaw<f64> + Clone + 'static>(law: L) -> Part<L> {
         let works = ndarray::Array2::from_shape_fn((8, 5), |(_, iy)| if iy % 2 == 0 { 1.0 } else { 0.25 });
         let law = Varying::new(law, works.view()).unwrap();
         Part { law, shape: Some((8, 5)), adapts: true, share: 1.0 }

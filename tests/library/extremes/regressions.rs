@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use asperity::*;
 use ndarray::Array2;
 
-use super::{Boxed, Scene, bare, in_both_precisions, loose, problem};
+use super::{bare, in_both_precisions, loose, problem};
 
 in_both_precisions!(
     planes_stay_at_a_mean_gap_from_any_start,
@@ -16,9 +16,9 @@ in_both_precisions!(
     a_step_under_a_light_pressure_lands_on_all_of_its_plateau,
 );
 
-fn solve_from<T: Real, C: ContactConstraint<T>>(
+fn solve_from<T: Real, C: ContactConstraint<T> + 'static>(
     solver: &mut Solver<C>,
-    problem: &mut Scene<T>,
+    problem: &mut Problem<T>,
     control: Control,
     start: Option<&Array2<f64>>,
 ) -> Solution<T> {
@@ -93,12 +93,12 @@ fn springs_and_multipliers_keep_a_mean_gap_of_zero<T: Real>() {
     springs::<T, _>(Uzawa::new(200.0).unwrap());
 }
 
-fn springs<T: Real, C: ContactConstraint<T>>(constraint: C) {
+fn springs<T: Real, C: ContactConstraint<T> + 'static>(constraint: C) {
     let wave = |i: usize, j: usize| 0.02 * (std::f64::consts::TAU * (i + 2 * j) as f64 / 16.0).cos();
     let settings = Settings::default().tolerance(loose::<T>());
     let mut solver = Solver { settings, constraint };
     for start in [None, Some(Array2::from_shape_fn((16, 16), |(i, _)| if i % 2 == 0 { 1e-3 } else { -1e-3 }))] {
-        let mut problem: Problem<T, _, Boxed<T>> = problem((16, 16), (1.0, 1.0), wave, bare());
+        let mut problem = problem::<T>((16, 16), (1.0, 1.0), wave, bare());
         let report = solve_from(&mut solver, &mut problem, Control::MeanGap(0.0), start.as_ref()).report;
         assert_eq!(report.status, Status::Converged);
         assert!(report.mean_gap.abs() < 8.0 * T::epsilon().widen() * 0.02 && report.min_gap < 0.0);

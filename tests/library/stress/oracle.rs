@@ -14,7 +14,7 @@ use crate::common::scenes::{Constraint, Kind, Scene};
 const ROUNDINGS: f64 = 64.0;
 
 /// A solution beside the dense matrix of its body: fields at the nodes that face it, in `f64`.
-pub struct Judge<'a, T> {
+pub struct Judge<'a, T: Real> {
     scene: &'a Scene,
     report: &'a Report,
     solution: &'a Solution<T>,
@@ -533,12 +533,11 @@ impl<'a, T: Real> Judge<'a, T> {
 
     /// That the verdicts on the stability are those of the pivots of the second derivative: under the control, and
     /// under the pressure that holds a given mean gap. Which they are.
-    pub fn stability<O, L, C>(&self, problem: &mut Problem<T, O, L>, constraint: &C) -> Result<Vec<Verdict>, String>
-    where
-        O: ElasticOperator<T>,
-        L: AdhesionLaw<T>,
-        C: ContactConstraint<T>,
-    {
+    pub fn stability(
+        &self,
+        problem: &mut Problem<T>,
+        constraint: &dyn ContactConstraint<T>,
+    ) -> Result<Vec<Verdict>, String> {
         let (scene, free) = (self.scene, self.free());
         let jumps = scene.law.base == Kind::MaugisDugdale;
         let rounds = matches!(scene.constraint, Constraint::Uzawa | Constraint::Hardness);
