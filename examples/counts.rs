@@ -4,9 +4,10 @@
 
 use std::collections::BTreeMap;
 
+use asperity::solver::Criterion;
 use asperity::{
-    AdhesionLaw, Control, Criterion, Grid, MaugisDugdale, NoAdhesion, Problem, Report, Result, Settings, Solver,
-    Status, Surface, Westergaard,
+    AdhesionLaw, Control, Grid, MaugisDugdale, NoAdhesion, Problem, Report, Result, Settings, Solver, Status, Surface,
+    Westergaard,
 };
 use clap::Parser;
 use common::arguments;

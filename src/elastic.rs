@@ -70,7 +70,7 @@ pub trait ElasticOperator<T: Real>: Send {
     ///
     /// It tells whether adhesion is resolved ([`Problem::mu_rho`](crate::Problem::mu_rho)), where between the nodes the
     /// edge of the contact runs ([`ContactStatistics`](crate::contact::ContactStatistics)), and how smooth jumps of a
-    /// law become; it is the unit of [`Criterion::Complementarity`](crate::Criterion::Complementarity).
+    /// law become; it is the unit of [`Criterion::Complementarity`](crate::solver::Criterion::Complementarity).
     fn modulus(&self) -> f64;
 
     /// The boundary of the body; periodic by default.

@@ -86,7 +86,7 @@ pub mod constraint;
 pub mod contact;
 mod derivatives;
 pub mod elastic;
-mod error;
+pub mod error;
 pub mod exact;
 mod fft;
 mod field;
@@ -97,13 +97,13 @@ pub mod nested;
 mod par;
 pub mod path;
 mod problem;
-mod pull_off;
+pub mod pull_off;
 mod ranks;
 mod real;
 pub mod search;
 mod setters;
 mod slab;
-mod solver;
+pub mod solver;
 pub mod stability;
 pub mod surface;
 mod sweep;
@@ -121,16 +121,16 @@ pub use adhesion::{
 pub use constraint::{ContactConstraint, Hardness, NoWall, Penalty, Projection, Uzawa};
 #[doc(inline)]
 pub use elastic::{Boundary, Boussinesq, ElasticOperator, Spectral, Westergaard};
-pub use error::{Breach, Error, ErrorKind, Place, Result};
+pub use error::{Error, ErrorKind, Result};
 pub use grid::Grid;
 #[doc(inline)]
 pub use nested::Nested;
 pub use problem::{Control, Problem};
-pub use pull_off::{FoundPullOff, PullOff};
+pub use pull_off::PullOff;
 pub use real::Real;
 #[doc(inline)]
 pub use search::ContactSearch;
-pub use solver::{Branch, Criterion, Iteration, Method, Plastic, Report, Settings, Solution, Solver, Start, Status};
+pub use solver::{Branch, Report, Settings, Solution, Solver, Start, Status};
 #[doc(inline)]
 pub use surface::{Amplitude, SelfAffine, Surface};
 pub use sweep::Sweep;

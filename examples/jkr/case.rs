@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use asperity::contact::ContactArea;
+use asperity::pull_off::FoundPullOff;
 use asperity::{
-    Branch, Control, FoundPullOff, Grid, Problem, PullOff, Result, Settings, Solution, Solver, Start, Status,
-    Westergaard,
+    Branch, Control, Grid, Problem, PullOff, Result, Settings, Solution, Solver, Start, Status, Westergaard,
 };
 
 /// The tolerance of solves, far below the error of the grid.

@@ -3,7 +3,8 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::adhesion::Hints;
-use asperity::{AdhesionLaw, Breach, Error};
+use asperity::error::Breach;
+use asperity::{AdhesionLaw, Error};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;

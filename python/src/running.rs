@@ -50,8 +50,8 @@ impl Iteration {
     }
 }
 
-impl From<&asperity::Iteration> for Iteration {
-    fn from(state: &asperity::Iteration) -> Self {
+impl From<&asperity::solver::Iteration> for Iteration {
+    fn from(state: &asperity::solver::Iteration) -> Self {
         Self {
             iteration: state.iteration,
             operator_applications: state.operator_applications,
@@ -67,7 +67,7 @@ impl From<&asperity::Iteration> for Iteration {
 }
 
 /// An observer as the library calls it.
-pub type Observe<'a> = &'a mut (dyn FnMut(&asperity::Iteration) -> ControlFlow<()> + Send);
+pub type Observe<'a> = &'a mut (dyn FnMut(&asperity::solver::Iteration) -> ControlFlow<()> + Send);
 
 /// Runs `work` on a thread of the pool and returns its result, and the exception that stopped it, if one did.
 ///

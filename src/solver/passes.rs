@@ -32,7 +32,7 @@ pub(super) struct Fields<T, Lo> {
     /// the preconditioned residual z = M r', until then that of the previous state
     pub(super) preconditioned: Array2<Lo>,
     /// the change c, a multiple of the last step, during the next one not yet scaled to the mean gap; the direction t
-    /// of [`Method::Rey2017`](crate::Method)
+    /// of [`Method::Rey2017`](crate::solver::Method)
     pub(super) change: Array2<Lo>,
     pub(super) reducer: Reducer,
     /// the least r in contact of each chunk

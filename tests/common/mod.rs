@@ -12,6 +12,7 @@ use std::iter;
 use std::ops::ControlFlow;
 
 use asperity::path::{Path, PathStep};
+use asperity::solver::Iteration;
 use asperity::*;
 use ndarray::Array2;
 

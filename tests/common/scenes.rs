@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
 use asperity::elastic::{self, Base, Coating, HalfSpace, Layer, Material, Series};
+use asperity::solver::Iteration;
 use asperity::*;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2};
 use rand::rngs::ChaCha8Rng;

@@ -6,6 +6,7 @@ use asperity::accuracy::{Accuracy, AccurateSolution, GridError, Quantity};
 use asperity::contact::ContactArea;
 use asperity::exact::WavyLine;
 use asperity::nested::Level;
+use asperity::solver::Iteration;
 use asperity::*;
 use ndarray::Array2;
 

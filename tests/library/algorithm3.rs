@@ -1,6 +1,7 @@
 //! Algorithm 3 of the paper as it is printed: what each of its misprints does, by experiment.
 
 use crate::common::rough::rough;
+use asperity::solver::Criterion;
 use asperity::*;
 use ndarray::Array2;
 

@@ -1,6 +1,7 @@
 //! Which equilibrium is found where adhesion has several: the largest by loading, the smallest by unloading.
 
 use asperity::adhesion::{Hints, Values};
+use asperity::solver::Criterion;
 use asperity::*;
 use ndarray::Array2;
 

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use asperity::contact::ContactStatistics;
+use asperity::solver::{Criterion, Method};
 use asperity::stability::Verdict;
 use asperity::*;
 use serde_json::{Value, from_value, json, to_value};

@@ -8,6 +8,7 @@ use asperity::contact::{ContactStatistics, PressureDistribution};
 use asperity::elastic::check_operator;
 use asperity::exact::{self, Cone, EllipticHertz, FlatPunch, Hertz, Sphere};
 use asperity::path::{Event, Path, PathSettings, PathStep};
+use asperity::solver::{Criterion, Iteration};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;

@@ -11,6 +11,7 @@ use crate::common::rough::rough as rough_surface;
 use crate::common::{Kept, followed, rough, sphere, swept, with_holes};
 use approx::assert_relative_eq;
 use asperity::path::{Path, PathSettings};
+use asperity::solver::Iteration;
 use asperity::*;
 use ndarray::{Array2, Zip};
 use rand::rngs::ChaCha8Rng;

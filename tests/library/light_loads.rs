@@ -5,6 +5,7 @@
 
 use std::ops::ControlFlow;
 
+use asperity::solver::Iteration;
 use asperity::*;
 use ndarray::Array2;
 

@@ -4,6 +4,7 @@
 use crate::common::sphere;
 use crate::common::{rough, solve};
 use approx::assert_relative_eq;
+use asperity::solver::{Criterion, Iteration};
 use asperity::*;
 use ndarray::Array2;
 

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::common::{rough, solve, solve_from, sphere};
 use approx::assert_relative_eq;
 use asperity::adhesion::{Discretisation, Hints, Values};
+use asperity::solver::{Criterion, Method};
 use asperity::*;
 use ndarray::Array2;
 

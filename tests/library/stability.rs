@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use crate::common::dense::{Dense, Held};
 use crate::common::{rough, solve, sphere};
 use asperity::path::{Path, PathSettings};
+use asperity::solver::Iteration;
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;

@@ -12,6 +12,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::result::Result;
 
 use crate::common::scenes::{Body, Constraint, Features, Kind, Precision, Scene};
+use asperity::solver::Iteration;
 use asperity::stability::Verdict;
 use asperity::*;
 use ndarray::Array2;

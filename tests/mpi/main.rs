@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 use asperity::adhesion::Varying;
 use asperity::elastic::check_operator;
 use asperity::ndarray::{Array2, Axis, Slice};
+use asperity::solver::Iteration;
 use asperity::*;
 
 type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::{Error, Method, Surface};
+use asperity::solver::Method;
+use asperity::{Error, Surface};
 use asperity_maps::io::read_field;
 pub use asperity_scene::Scalar;
 use asperity_scene::{Branches, Elastic, Precision, Scene};

@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use asperity::{Grid, Iteration};
+use asperity::Grid;
+use asperity::solver::Iteration;
 use asperity_scene::fall::Fall;
 use asperity_scene::pace::Pace;
 use indicatif::{ProgressBar, ProgressStyle};

@@ -7,10 +7,10 @@ use crate::bench::Bench;
 
 const LOAD: f64 = 0.003;
 
-fn press<L: AdhesionLaw<f64>>(law: L) -> Problem<f64, Westergaard<f64>, L> {
+fn press(law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     let grid = Grid::square(160, 1.0).unwrap();
     let surface = SelfAffine::default().seed(3).surface(grid).unwrap();
-    Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap()
+    Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap()
 }
 
 /// The column of a comma-separated table.
@@ -50,11 +50,12 @@ fn from_a_seed_to_areas_the_tool_finds_what_the_library_finds() {
         said(&format!("sweep --heights rough.npy --mean-pressures 0.001,0.002,{LOAD} {law} --out {file}"));
     }
     let [bare, sticky] = ["bare.csv", "sticky.csv"].map(|name| bench.read(name));
-    let mut problem = press(NoAdhesion);
-    let areas: Vec<_> = Sweep::new(&mut Solver::default(), &mut problem, loads.map(Control::MeanPressure))
-        .map(|step| ContactStatistics::of(&step.unwrap(), &NoAdhesion).unwrap())
-        .map(|found| [found.contact_fraction, found.corrected_contact_fraction])
-        .collect();
+    let (mut solver, mut problem, mut sweep) = (Solver::default(), press(NoAdhesion), Sweep::default());
+    let areas = loads.map(|load| {
+        let solution = sweep.next(&mut solver, &mut problem, Control::MeanPressure(load)).unwrap();
+        let found = ContactStatistics::of(&solution).unwrap();
+        [found.contact_fraction, found.corrected_contact_fraction]
+    });
     for (i, name) in ["contact_fraction", "corrected_contact_fraction"].into_iter().enumerate() {
         let expected: Vec<f64> = areas.iter().map(|area| area[i]).collect();
         assert_eq!(column(&bare, name), expected);

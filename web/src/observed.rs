@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use asperity::Iteration;
+use asperity::solver::Iteration;
 use js_sys::{Date, Function};
 use wasm_bindgen::JsValue;
 

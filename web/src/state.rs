@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use asperity::contact::{Original, Region};
-use asperity::{Control, Grid, Iteration, Solution, Surface};
+use asperity::solver::Iteration;
+use asperity::{Control, Grid, Solution, Surface};
 use asperity_maps::io::npz;
 use asperity_plot::LoadScale;
 use asperity_scene::outcome::Outcome;

@@ -1,7 +1,8 @@
 //! The account of a solve, with the keys of its report.
 
 use asperity::contact::{ContactStatistics, Patch};
-use asperity::{Branch, Control, Criterion, Grid, Method, Real, Report, Result, Solution, Status};
+use asperity::solver::{Criterion, Method};
+use asperity::{Branch, Control, Grid, Real, Report, Result, Solution, Status};
 use ndarray::ArrayView2;
 use serde::Serialize;
 use serde_json::Value;

@@ -1,6 +1,7 @@
 //! The quantities that are asked of a solve.
 
-use asperity::{Control, Method};
+use asperity::Control;
+use asperity::solver::Method;
 
 use crate::accuracy::Goal;
 use crate::adhesion::Adhesion;

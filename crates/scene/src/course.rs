@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use std::path::Path as File;
 
 use asperity::path::{Event, Path, PathSettings};
-use asperity::{Branch, ContactSearch, Control, Grid, Iteration, Real, Result, Sweep};
+use asperity::solver::Iteration;
+use asperity::{Branch, ContactSearch, Control, Grid, Real, Result, Sweep};
 use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use asperity::Iteration;
+use asperity::solver::Iteration;
 
 /// The iterations from which the fall of the error is told, at most and at least.
 const WINDOW: usize = 12;

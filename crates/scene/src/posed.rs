@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use asperity::accuracy::{Accuracy, Plan, Quantity};
 use asperity::contact::Original;
+use asperity::solver::Iteration;
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::{
-    AdhesionLaw, Branch, Control, Error, Grid, Iteration, Problem, PullOff, Real, Result, Solution, Solver, Start,
-    Status, Surface,
+    AdhesionLaw, Branch, Control, Error, Grid, Problem, PullOff, Real, Result, Solution, Solver, Start, Status, Surface,
 };
 use ndarray::Array2;
 

@@ -1,7 +1,8 @@
 //! The pull-off of a problem, with the sentences of its report.
 
 use asperity::accuracy::AccuratePullOff;
-use asperity::{Branch, FoundPullOff, PullOff, Real, Status};
+use asperity::pull_off::FoundPullOff;
+use asperity::{Branch, PullOff, Real, Status};
 use serde::Serialize;
 
 use crate::account::Account;

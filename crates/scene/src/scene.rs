@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use asperity::contact::Original;
-use asperity::{AdhesionLaw, Branch, Method, Real, Result, Settings, Solver, Surface};
+use asperity::solver::Method;
+use asperity::{AdhesionLaw, Branch, Real, Result, Settings, Solver, Surface};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use asperity::elastic::Body;
-use asperity::{Breach, Error, Grid, Place, Result};
+use asperity::error::{Breach, Place};
+use asperity::{Error, Grid, Result};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

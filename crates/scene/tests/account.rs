@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use asperity::accuracy::Quantity;
 use asperity::path::PathSettings;
-use asperity::{Control, Grid, Method, SelfAffine, Status};
+use asperity::solver::Method;
+use asperity::{Control, Grid, SelfAffine, Status};
 use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, After, Asked, Boundary, Course, Elastic, Found, Goal, Inputs, Posed, Precision, Scene, Skin,

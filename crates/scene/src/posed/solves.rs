@@ -5,8 +5,9 @@ use std::sync::Arc;
 use asperity::accuracy::{AccurateSolution, GridError};
 use asperity::constraint::Wall;
 use asperity::nested::NestedSolution;
+use asperity::solver::Iteration;
 use asperity::stability::{ContactStiffness, Departure, StabilityTest, Verdict};
-use asperity::{ContactConstraint, ContactSearch, Grid, Iteration, Nested, Real, Result, Solution, Start, Status};
+use asperity::{ContactConstraint, ContactSearch, Grid, Nested, Real, Result, Solution, Start, Status};
 use ndarray::Array2;
 
 use super::{Body, Observe, Posed};
