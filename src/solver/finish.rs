@@ -73,8 +73,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.trust_work(T::epsilon().widen().sqrt())
     }
 
-    /// Makes a mean pressure that of the elastic pressure, and takes the contact pressure λ out of it. Returns Σ λ, Σ g and
-    /// the sum of the pressure over the nodes that face the surface, and the least gap.
+    /// Gives the elastic pressure its mean, and takes the contact pressure λ out of it. Returns Σ λ, Σ g and the sum of
+    /// the pressure over the nodes that face the surface, and the least gap.
     fn carry(&mut self, mean: f64) -> (Array2<T>, Partial) {
         let shift = T::lit(mean - self.sums.drift);
         let Self { fields, posed, .. } = self;
