@@ -2,7 +2,7 @@
 
 use super::passes::Fields;
 use super::state::State;
-use super::work::{TRUSTED, Work};
+use super::work::Work;
 use crate::error::Result;
 use crate::real::Real;
 
@@ -45,11 +45,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn summed_work(&self, sum_gp: f64, gap_surface: f64) -> Work {
         let surface = self.posed.nodes() * self.posed.flat.work;
         Work { sum: sum_gp + gap_surface + surface, noise: self.sum_noise(surface) }
-    }
-
-    /// Whether rounding since its last sum matters in the work.
-    pub(super) fn has_lost_its_work(&self) -> bool {
-        self.sums.work.is_doubtful(TRUSTED)
     }
 
     /// Computes the work as ⟨p, K p⟩ if rounding may exceed `share` of it, over the corrections and the last step.

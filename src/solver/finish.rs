@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::field::{Minimum, Sums, found, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
-use crate::problem::Load;
+use crate::problem::{Load, Window};
 use crate::real::Real;
 use crate::vector::sums;
 
@@ -34,42 +34,32 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.certify_as_returned()?;
         let mean = self.external_pressure();
         let (contact_pressure, carried) = self.carry(mean);
+        let net = carried.contact / self.posed.nodes() - self.mean_traction();
         let load_error = match self.posed.load {
             _ if self.sums.detached.is_some() => 1.0,
             Load::Gap(_) => self.load_error(),
-            _ => self.load_error().max(self.share_of_load(self.net_pressure(&carried) - mean)),
+            _ => self.load_error().max(self.share_of_load(net - mean)),
         };
         let yielded = self.yielded();
         if let Some((.., pulled)) = yielded {
             self.sums.tally.adhesive += pulled;
         }
         let (plastic_depth, plastic) = yielded.map(|(depth, figures, _)| (depth, figures)).unzip();
-        let report = self.report(status, (mean, load_error), &carried, plastic);
+        let report = self.report(status, [mean, net, load_error], &carried, plastic);
         let (on_grid, flat, at_floor) = (self.posed.law(), self.posed.flat, self.is_at_floor());
-        let law = self.posed.given.clone();
-        let (grid, nodes) = (*self.posed.operators.state().grid(), self.posed.nodes());
-        let facing = self.posed.facing();
-        let Fields { gap, mut pressure, .. } = self.fields;
-        let yields = plastic_depth.is_some();
-        let (mut solution, whole) = match &flat.window {
-            None => {
-                let whole = yields.then(|| (grid, gap.clone()));
-                (Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law }, whole)
-            }
-            Some(window) => {
-                // the nodes that face no surface have their part of the residual: in balance the others bear the load
-                if report.status == Status::Converged {
-                    let share = T::lit((mean * nodes - carried.pressure) / facing);
-                    pressure.mapv_inplace(|p| p + share);
-                }
-                let [pressure, contact_pressure] =
-                    [pressure, contact_pressure].map(|field| window.crop(&field, T::zero()));
-                let plastic_depth = plastic_depth.map(|depth| window.crop(&depth, T::zero()));
-                let own = window.crop(&gap, T::infinity());
-                let (grid, whole) = (*window.grid(), Some((grid, gap)));
-                (Solution { gap: own, pressure, contact_pressure, plastic_depth, grid, report, law }, whole)
-            }
+        let (grid, yields, law) = (*self.posed.operators.state().grid(), plastic.is_some(), self.posed.given.clone());
+        if flat.window.is_some() && report.status == Status::Converged {
+            // the nodes that face no surface have their part of the residual: in balance the others bear the load
+            let share = T::lit((mean * self.posed.nodes() - carried.pressure) / self.posed.facing());
+            self.fields.pressure.mapv_inplace(|p| p + share);
+        }
+        let Fields { gap, pressure, .. } = self.fields;
+        let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law };
+        let (mut solution, gap) = match &flat.window {
+            None => (solution, None),
+            Some(window) => solution.through(window),
         };
+        let gap = gap.or_else(|| yields.then(|| solution.gap.clone()));
         if yields {
             // the gap to the surface that has yielded
             solution.gap.mapv_inplace(|gap| gap.max(T::zero()));
@@ -77,7 +67,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if flat.boundary != Boundary::Periodic {
             solution.watch_edge(on_grid);
         }
-        Ok(Solved { solution, whole, at_floor })
+        Ok(Solved { solution, whole: gap.map(|gap| (grid, gap)), at_floor })
     }
 
     /// The certificate and the work of the fields as they are.
@@ -93,8 +83,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.trust_work(T::epsilon().widen().sqrt())
     }
 
-    /// Makes a mean pressure that of the elastic pressure, and takes the contact pressure λ out of it. Returns Σ λ, Σ g and
-    /// the sum of the pressure over the nodes that face the surface, and the least gap.
+    /// Gives the elastic pressure its mean, and takes the contact pressure λ out of it. Returns Σ λ, Σ g and the sum of
+    /// the pressure over the nodes that face the surface, and the least gap.
     fn carry(&mut self, mean: f64) -> (Array2<T>, Borne) {
         let shift = T::lit(mean - self.sums.drift);
         let Self { fields, posed, .. } = self;
@@ -119,19 +109,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         (contact_pressure, carried)
     }
 
-    /// ⟨λ⟩ − ⟨φ'⟩.
-    fn net_pressure(&self, carried: &Borne) -> f64 {
-        carried.contact / self.posed.nodes() - self.mean_traction()
-    }
-
+    /// The report, of a mean pressure, the net pressure ⟨λ⟩ − ⟨φ'⟩, and the error of the load.
     fn report(
         &self,
         status: Status,
-        (mean, load_error): (f64, f64),
+        [mean, net, load_error]: [f64; 3],
         carried: &Borne,
         plastic: Option<Plastic>,
     ) -> Report {
-        let net = self.net_pressure(carried);
         let Posed { flat, settings, .. } = self.posed;
         let (law, operator) = (self.posed.law(), self.posed.operators.state());
         let (hints, modulus, padding) = (law.hints(), operator.modulus(), flat.padding);
@@ -209,6 +194,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 }
 
 impl<T: Real> Solution<T> {
+    /// The part in a window, and the gap of all nodes.
+    fn through(self, window: &Window) -> (Self, Option<Array2<T>>) {
+        let part = |field: &Array2<T>| window.crop(field, T::zero());
+        let [pressure, contact_pressure] = [&self.pressure, &self.contact_pressure].map(part);
+        let (gap, plastic_depth) = (window.crop(&self.gap, T::infinity()), self.plastic_depth.as_ref().map(part));
+        (Self { gap, pressure, contact_pressure, plastic_depth, grid: *window.grid(), ..self }, Some(self.gap))
+    }
+
     /// Notes the traction at the edge of the window, and whether the contact reaches it.
     fn watch_edge(&mut self, law: &dyn AdhesionLaw<T>) {
         let (grid, report) = (self.grid, &mut self.report);

@@ -46,14 +46,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let law = self.posed.law();
         let mut value = [T::zero()];
         let first = self.posed.operators.state().grid().slab().first_node();
+        let window = self.posed.flat.window.as_ref();
+        let on_surface = |node| window.map_or(Some(node), |window| window.pieces(node..node + 1).next()?.1);
         for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
-            let node = match &self.posed.flat.window {
-                None => node,
-                Some(window) => match window.pieces(node..node + 1).next() {
-                    Some((_, Some(node))) => node,
-                    _ => continue,
-                },
-            };
+            let Some(node) = on_surface(node) else { continue };
             let gap = gap.max(T::zero());
             for (order, function) in ["adhesive energy", "adhesive traction"].into_iter().enumerate() {
                 law.evaluate(node, &[gap], Values::one(order, &mut value));

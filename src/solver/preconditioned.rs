@@ -55,11 +55,6 @@ impl Trial {
     fn is_clipped(&self) -> bool {
         self.tried.clipped > 0.0 || self.kink > 0.0
     }
-
-    /// Whether nodes that the gradient drives into contact were clipped.
-    fn is_blocked(&self) -> bool {
-        self.tried.blocked > 0.0
-    }
 }
 
 /// The length of a step along a trial to be taken, and its sums.
@@ -126,7 +121,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let elastic = self.posed.operators.corrections().pressure_and_work(change.view(), response.view_mut())?;
             self.counters.applications += 1;
             let Some(step) = self.search(&trial, elastic * self.posed.nodes()) else { return Ok(None) };
-            if !trial.is_blocked() || self.has_yielded() || step.length >= SHORT {
+            if trial.tried.blocked == 0.0 || self.has_yielded() || step.length >= SHORT {
                 return Ok(Some(self.advance(&trial, &step)));
             }
             // so short a part leaves the blocked nodes apart: drop the last change, or shorten the step
@@ -166,7 +161,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if momentum.take().is_some() {
                 continue;
             }
-            if trial.is_blocked() {
+            if trial.tried.blocked > 0.0 {
                 return Some(self.land(centre, trial)).filter(|trial| trial.slope < 0.0);
             }
             self.steps.step_length *= 0.5;

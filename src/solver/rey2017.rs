@@ -12,8 +12,8 @@ use crate::real::{Real, cast};
 /// The iterations between two certificates, which the algorithm needs for the report only.
 const CERTIFY: usize = 10;
 
-/// Iterations without progress until the direction is dropped, and until the solve has stalled: energy and residual need
-/// not fall.
+/// Iterations without progress until the direction is dropped, and until the solve has stalled: energy and residual
+/// need not fall.
 const PATIENCE: (usize, usize) = (400, 800);
 
 /// The criterion of convergence: the measure that has to fall below the tolerance.

@@ -247,12 +247,12 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
     pub(super) fn step(&mut self) -> Result<bool> {
         let Some(next) = self.preconditioned_step()? else { return Ok(false) };
         self.counters.iterations += 1;
-        if self.is_stale() {
+        let stale = self.is_stale();
+        if stale {
             self.renew_pressure()?;
-            self.compute_residual();
-            return Ok(true);
         }
         match next {
+            _ if stale => self.compute_residual(),
             Next::Compute => self.compute_residual(),
             Next::Level => self.take_level(),
             Next::Go => {}
@@ -262,7 +262,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
 
     /// Whether the pressure has to be computed anew from the gap.
     pub(super) fn is_stale(&self) -> bool {
-        self.steps.age >= REFRESH || self.has_lost_its_work() || self.has_lost_its_pressure()
+        self.steps.age >= REFRESH || self.sums.work.is_doubtful(TRUSTED) || self.has_lost_its_pressure()
     }
 
     pub(super) fn iteration(&self) -> Iteration {
