@@ -36,6 +36,8 @@ pub struct Spectral<T: Real> {
     stiffness: Stiffness<T>,
     range: (f64, f64),
     convolver: Convolver<T>,
+    /// whether a solve in `f64` may have its corrections in `f32`
+    single: bool,
 }
 
 impl<T: Real> fmt::Debug for Spectral<T> {
@@ -65,7 +67,13 @@ impl<T: Real> Spectral<T> {
             check_range::<T>(range.0, range.1)?;
         }
         let (stiffness, convolver) = (Stiffness::Stored(stiffness), Convolver::new(grid.slab()));
-        Ok(Self { grid, modulus, symbol, stiffness, range, convolver })
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true })
+    }
+
+    /// Sets whether a solve in `f64` may have its corrections by this operator in `f32`, as by default it does: gap,
+    /// pressure and certificate are in `f64` either way.
+    pub fn set_single(&mut self, single: bool) {
+        self.single = single;
     }
 
     /// The operator of a body, whose [`modulus`](ElasticOperator::modulus) is its [`modulus_on`](Body::modulus_on) the
@@ -91,7 +99,7 @@ impl<T: Real> Spectral<T> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
         let (stiffness, range) = T::half_space(&grid, modulus)?;
-        Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) })
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()), single: true })
     }
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
@@ -122,7 +130,8 @@ impl<T: Real> Spectral<T> {
                 slab.each(own).into_iter().fold(f64::NEG_INFINITY, f64::max)
             }
         };
-        Ok(Self { grid, modulus, symbol: Arc::new(symbol), stiffness: Stiffness::Even(modes), range, convolver })
+        let (symbol, stiffness) = (Arc::new(symbol), Stiffness::Even(modes));
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true })
     }
 
     /// The operator with a stiffness that depends on the wave number's magnitude alone.
@@ -201,7 +210,15 @@ impl<T: Real> Spectral<T> {
 
     fn with<U: Real>(&self, stiffness: Stiffness<U>, range: (f64, f64)) -> Spectral<U> {
         let (grid, modulus, symbol) = (self.grid, self.modulus, Arc::clone(&self.symbol));
-        Spectral { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()) }
+        Spectral {
+            grid,
+            modulus,
+            symbol,
+            stiffness,
+            range,
+            convolver: Convolver::new(grid.slab()),
+            single: self.single,
+        }
     }
 
     fn in_double(&self) -> Result<Spectral<f64>> {
@@ -230,6 +247,9 @@ impl<T: Real> Spectral<T> {
 
     /// The operator in `f32`, for the corrections of a solve in `f64`; none if a stiffness leaves the range of `f32`.
     pub(crate) fn in_single(&self) -> Option<Spectral<f32>> {
+        if !self.single {
+            return None;
+        }
         let (stiffness, range) = match &self.stiffness {
             Stiffness::Stored(stiffness) => {
                 check_range::<f32>(self.range.0, self.range.1).ok()?;

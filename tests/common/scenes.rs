@@ -10,7 +10,7 @@ use asperity::adhesion::{CutOff, Varying};
 use asperity::elastic::{self, Base, Coating, HalfSpace, Layer, Material, Series};
 use asperity::solver::Iteration;
 use asperity::*;
-use ndarray::{Array2, ArrayView2, ArrayViewMut2};
+use ndarray::Array2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -497,14 +497,15 @@ impl Scene {
     }
 
     pub fn operator<T: Real>(&self) -> Box<dyn ElasticOperator<T>> {
-        fn boxed<T: Real>(operator: impl ElasticOperator<T> + 'static, alone: bool) -> Box<dyn ElasticOperator<T>> {
-            if alone { Box::new(Alone(operator)) } else { Box::new(operator) }
-        }
-        let alone = self.precision == Precision::Double;
+        let single = self.precision != Precision::Double;
+        let boxed = |mut operator: Box<dyn ElasticOperator<T>>| {
+            operator.spectral().into_iter().for_each(|spectral| spectral.set_single(single));
+            operator
+        };
         match (self.body, self.layers) {
-            (Body::Periodic, Some(layers)) => boxed(Spectral::<T>::of(self.grid, layers).unwrap(), alone),
-            (Body::Periodic, None) => boxed(Westergaard::<T>::new(self.grid, self.modulus).unwrap(), alone),
-            (Body::Free, _) => boxed(Boussinesq::<T>::new(self.grid, self.modulus).unwrap(), alone),
+            (Body::Periodic, Some(layers)) => boxed(Box::new(Spectral::<T>::of(self.grid, layers).unwrap())),
+            (Body::Periodic, None) => boxed(Box::new(Westergaard::<T>::new(self.grid, self.modulus).unwrap())),
+            (Body::Free, _) => boxed(Box::new(Boussinesq::<T>::new(self.grid, self.modulus).unwrap())),
         }
     }
 
@@ -579,30 +580,6 @@ impl Scene {
             self.law.work *= 0.5 * self.dense().softest / steepest.fold(0.0, f64::max);
         }
         self
-    }
-}
-
-/// An operator that has no other precision than its own.
-struct Alone<O>(O);
-
-impl<T: Real, O: ElasticOperator<T>> ElasticOperator<T> for Alone<O> {
-    fn grid(&self) -> &Grid {
-        self.0.grid()
-    }
-    fn boundary(&self) -> Boundary {
-        self.0.boundary()
-    }
-    fn pressure(&mut self, displacement: ArrayView2<'_, T>, pressure: ArrayViewMut2<'_, T>) -> Result<()> {
-        self.0.pressure(displacement, pressure)
-    }
-    fn displacement(&mut self, pressure: ArrayView2<'_, T>, displacement: ArrayViewMut2<'_, T>) -> Result<()> {
-        self.0.displacement(pressure, displacement)
-    }
-    fn stiffness_range(&self) -> (f64, f64) {
-        self.0.stiffness_range()
-    }
-    fn modulus(&self) -> f64 {
-        self.0.modulus()
     }
 }
 
