@@ -177,6 +177,12 @@ impl<T: Real> Path<T> {
         self.course.share(self.legs.len())
     }
 
+    /// The last gaps and the plastic depth, on the grid of the operator, and the softest mode, on that of the surface:
+    /// processes that share a grid gather these of a path that they keep.
+    pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
+        self.gaps.iter_mut().chain(&mut self.depth).chain(&mut self.watch.mode)
+    }
+
     /// Refuses loads that the problem does not have, as the first step does.
     ///
     /// # Errors

@@ -111,7 +111,6 @@ impl<'a> TableOptions<'a> {
         let controls = loads.controls(&listed);
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
         let inputs = report::inputs(problem, &part, &units, scene);
-        let yields = inputs.adhesion.yields();
         in_options(Asked { after: self.after, ..Asked::under(self.control) }.check(
             &inputs.adhesion,
             inputs.method,
@@ -132,8 +131,9 @@ impl<'a> TableOptions<'a> {
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
-        if yields && nodes.shape() != grid.shape() {
-            processes.alone("a table of a surface that yields, with --boundary free")?;
+        // the softest mode of a path is on the grid of the surface
+        if course.pace().is_some() && nodes.shape() != grid.shape() {
+            processes.alone("a cycle with --boundary free")?;
         }
         let opening = Opening {
             out: out.to_owned(),

@@ -108,8 +108,7 @@ impl<T: Real> Place<T> {
         match &mut self.strategy {
             Strategy::Sweep(sweep) => sweep.fields().collect(),
             Strategy::Search(search) => search.fields().collect(),
-            // one process alone follows a path
-            Strategy::Cycle(_) => Vec::new(),
+            Strategy::Cycle(path) => path.fields().collect(),
         }
     }
 
