@@ -110,12 +110,12 @@ impl Hardness {
         borne.sum::<f64>() / nodes
     }
 
-    /// Writes the hardness at nodes of the solve's grid, from the node `first` on.
+    /// Writes the hardness at nodes of the solve's grid, from the node `first` on; it is infinite at nodes without one.
     pub(crate) fn fill<T: Real>(&self, first: usize, caps: &mut [T]) {
         let own = first.checked_sub(self.first).and_then(|own| flat(&self.held).get(own..own + caps.len()));
         match own {
             Some(held) => caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held)),
-            None => caps.fill(T::lit(self.mean)),
+            None => caps.fill(if self.varies() { T::infinity() } else { T::lit(self.mean) }),
         }
     }
 
@@ -166,5 +166,27 @@ impl<T: Real> ContactConstraint<T> for Hardness {
         });
         self.first = rows.start * ny;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_without_a_hardness_have_no_cap() {
+        let caps = |hardness: &Hardness, first| {
+            let mut caps = [0.0_f64; 2];
+            hardness.fill(first, &mut caps);
+            caps
+        };
+        let mut hardness = Hardness::varying(Array2::from_shape_fn((2, 2), |(i, j)| (1 + 2 * i + j) as f64)).unwrap();
+        assert_eq!(caps(&hardness, 0), [f64::INFINITY; 2]);
+        ContactConstraint::<f64>::start(&mut hardness, &Grid::square(2, 1.0).unwrap(), 0.0, 0.0).unwrap();
+        assert_eq!(
+            [caps(&hardness, 1), caps(&hardness, 2), caps(&hardness, 3)],
+            [[2.0, 3.0], [3.0, 4.0], [f64::INFINITY; 2]]
+        );
+        assert_eq!(caps(&Hardness::new(5.0).unwrap(), 7), [5.0; 2]);
     }
 }
