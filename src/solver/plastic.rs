@@ -20,15 +20,23 @@ impl<T: Real> Potential<'_, T> {
         self.hardness().is_some()
     }
 
-    /// The caps on the contact pressure where the surfaces touch, ∞ elsewhere.
-    pub(crate) fn caps_of_contacts<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut Option<[T; CHUNK]>) -> &'b [T] {
-        let Some(hardness) = self.hardness() else { return &T::CONSTANT[2][..gaps.len()] };
-        let caps = &mut buffer.insert([T::zero(); CHUNK])[..gaps.len()];
+    /// The gaps, infinite at contact nodes that the gradient r makes yield, and the caps that r loses there.
+    pub(crate) fn parted<'b, G: Real>(
+        &self,
+        first: usize,
+        (gaps, gradient): (&'b [T], &[G]),
+        release: T,
+        buffers: &'b mut Option<[[T; CHUNK]; 2]>,
+    ) -> [&'b [T]; 2] {
+        let Some(hardness) = self.hardness() else { return [gaps, &T::CONSTANT[0][..gaps.len()]] };
+        let [parted, caps] = buffers.insert([[T::zero(); CHUNK]; 2]).each_mut().map(|buffer| &mut buffer[..gaps.len()]);
         hardness.fill(first, caps);
-        vectors!([gaps], [caps], |i| {
-            caps[i] = if gaps[i] == T::zero() { caps[i] } else { T::infinity() };
+        vectors!([gaps, gradient], [parted, caps], |i| {
+            let yields = (gaps[i] == T::zero()) & (cast::<_, T>(gradient[i]) - caps[i] > release);
+            parted[i] = if yields { T::infinity() } else { gaps[i] };
+            caps[i] = if yields { caps[i] } else { T::zero() };
         });
-        caps
+        [parted, caps]
     }
 
     /// The bounds of gaps after a step at the corner where the surface yields, from the side on which a node is, or to which
@@ -40,9 +48,9 @@ impl<T: Real> Potential<'_, T> {
         yields: bool,
         buffers: &'b mut Option<[[T; CHUNK]; 2]>,
     ) -> [&'b [T]; 2] {
-        let (mut caps, [least, most]) = (None, buffers.insert([[T::zero(); CHUNK]; 2]).each_mut());
+        let [least, most] = buffers.insert([[T::zero(); CHUNK]; 2]).each_mut().map(|buffer| &mut buffer[..gaps.len()]);
+        let mut caps = None;
         let caps = self.caps(first, gaps.len(), &mut caps);
-        let (least, most) = (&mut least[..gaps.len()], &mut most[..gaps.len()]);
         vectors!([gaps, residual, caps], [least, most], |i| {
             let (gap, r): (_, T) = (gaps[i], cast(residual[i]));
             let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
@@ -140,13 +148,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 let deeper = (-gap).max(T::zero());
                 *depth += deeper;
                 let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);
-                found = found.add(Deepened {
-                    yielded: count(deep > 0.0),
-                    depth: deep,
-                    deepest: Minimum(-deep),
-                    energy: (cap - pull) * deep,
-                    pulled: pull * deeper.widen(),
-                });
+                found.yielded += count(deep > 0.0);
+                found.depth += deep;
+                found.deepest.0 = found.deepest.0.min(-deep);
+                found.energy += (cap - pull) * deep;
+                found.pulled += pull * deeper.widen();
             }
             found
         });

@@ -122,7 +122,7 @@ impl<'a, T: Real> Potential<'a, T> {
             let Some((piece, others)) = rest.take().map(|rest| rest.divide(len)) else { break };
             rest = Some(others);
             let (local, node) = node.map_or((&nothing, first), |node| (&whole, node));
-            total = total.add(f(local, node, piece));
+            total = total.add(&f(local, node, piece).numbers());
         }
         total
     }
@@ -232,7 +232,7 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// The local tractions in a buffer of zeros.
-    pub(crate) fn tractions<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut [T; CHUNK]) -> &'b [T] {
+    pub(crate) fn tractions<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut [T; CHUNK]) -> &'b mut [T] {
         let tractions = &mut buffer[..gaps.len()];
         if !self.is_zero() {
             self.evaluate(Of::Traction, first, gaps, tractions);

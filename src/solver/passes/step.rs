@@ -107,16 +107,9 @@ fn clipped_change<T: Real>([least, most]: [T; 2], attempt: Attempt<T>, gap: T, [
     let Attempt { length, centre, keep, mean, .. } = attempt;
     let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
     let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
-    let (low, high) = (next < least, next > most);
-    let bound = if low { least } else { most };
-    ((if low | high { bound } else { next }) - gap, low | high)
-}
-
-/// Whether a clipped node is driven to zero by the gradient itself.
-#[inline(always)]
-fn is_blocked<T: Real>(clipped: bool, gap: T, r: T) -> bool {
-    let (from_above, from_below) = ((r > T::zero()) & (gap > T::zero()), (r < T::zero()) & (gap < T::zero()));
-    clipped & (from_above | from_below)
+    let bounded = if next < least { least } else { next };
+    let bounded = if bounded > most { most } else { bounded };
+    (bounded - gap, bounded != next)
 }
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h, and `held` whether the mean gap is given.
@@ -129,20 +122,25 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change)).zip(read(surface));
     local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-        let (projects, mut bounds) = (local.projects(), None);
+        let mut bounds = None;
         let [least, most] = local.bounds(first, (gap, residual), attempt.yields, &mut bounds);
         let mut tried = sums!([gap, residual, z, least, most], [change], |i| {
             let (g, r): (_, T) = (gap[i], cast(residual[i]));
             let trial = [r, cast(z[i]), cast(change[i])];
             let (c, clipped) = clipped_change([least[i], most[i]], attempt, g, trial);
             change[i] = cast(c);
-            let blocked = projects & is_blocked(clipped, g, r);
-            let (r, c) = (r.widen(), change[i].widen());
-        } => Tried { change: c, clipped: count(clipped), blocked: count(blocked), descent: r * c, square: c * c });
+            let (c, descent) = (change[i].widen(), r.widen() * change[i].widen());
+        } => Tried {
+            change: c, clipped: count(clipped), blocked: count(clipped & (descent < 0.0)), descent: descent, square: c * c
+        });
+        if !local.projects() {
+            tried.blocked = 0.0;
+        }
         if held {
-            tried = tried.add(sums!([gap, residual, change, surface], [], |i| {
+            let found = sums!([gap, residual, change, surface], [], |i| {
                 let ([g, h], [r, c]) = ([gap[i], surface[i]].map(T::widen), [residual[i], change[i]].map(Lo::widen));
-            } => Tried { gap_descent: r * g, change_surface: c * h, gap_surface: g * h }));
+            } => Tried { gap_descent: r * g, change_surface: c * h, gap_surface: g * h });
+            tried = tried.add(&found.numbers());
         }
         if local.is_zero() {
             return tried;
@@ -150,11 +148,11 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
         let [mut tractions, mut slopes] = [[T::zero(); CHUNK]; 2];
         let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
         local.tractions_and_slopes(first, gap, tractions, slopes);
-        let kink = local.yielding(first, gap, change, tractions, slopes);
+        tried.kink = local.yielding(first, gap, change, tractions, slopes);
         let found = sums!([gap, change, tractions, slopes], [], |i| {
             let ([g, t, s], c) = ([gap[i], tractions[i], slopes[i]].map(T::widen), change[i].widen());
         } => Tried { traction: t * c, slope_change: s * c * c, slope_mixed: s * c * g, slope_gap: s * g * g });
-        tried.add(Tried { kink, ..found })
+        tried.add(&found.numbers())
     })
 }
 
