@@ -110,13 +110,13 @@ impl Hardness {
         borne.sum::<f64>() / nodes
     }
 
-    /// Writes the hardness at nodes of the solve's grid, from the node `first` on; it is infinite at nodes without one.
-    pub(crate) fn fill<T: Real>(&self, first: usize, caps: &mut [T]) {
-        let own = first.checked_sub(self.first).and_then(|own| flat(&self.held).get(own..own + caps.len()));
-        match own {
-            Some(held) => caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held)),
-            None => caps.fill(if self.varies() { T::infinity() } else { T::lit(self.mean) }),
-        }
+    /// The hardness at so many nodes of the solve's grid, from the node `first` on; infinite at nodes without one.
+    pub(crate) fn caps<T: Real>(&self, first: usize, count: usize) -> [T; CHUNK] {
+        let mut caps = [if self.varies() { T::infinity() } else { T::lit(self.mean) }; CHUNK];
+        let own = first.checked_sub(self.first).and_then(|own| flat(&self.held).get(own..own + count));
+        let held = own.unwrap_or_default().iter();
+        caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held));
+        caps
     }
 
     /// Adds the energy ψ = −H g of nodes with a negative gap, or its derivative of an order.
@@ -126,9 +126,7 @@ impl Hardness {
             1 => (T::zero(), T::one()),
             _ => return,
         };
-        let mut caps = [T::zero(); CHUNK];
-        let caps = &mut caps[..gaps.len()];
-        self.fill(first, caps);
+        let caps = self.caps::<T>(first, gaps.len());
         vectors!([gaps, caps], [out], |i| {
             let (gap, cap) = (gaps[i], caps[i]);
             out[i] = if gap < T::zero() { out[i] - cap * (linear * gap + constant) } else { out[i] };
@@ -175,11 +173,7 @@ mod tests {
 
     #[test]
     fn nodes_without_a_hardness_have_no_cap() {
-        let caps = |hardness: &Hardness, first| {
-            let mut caps = [0.0_f64; 2];
-            hardness.fill(first, &mut caps);
-            caps
-        };
+        let caps = |hardness: &Hardness, first| hardness.caps::<f64>(first, 2)[..2].to_vec();
         let mut hardness = Hardness::varying(Array2::from_shape_fn((2, 2), |(i, j)| (1 + 2 * i + j) as f64)).unwrap();
         assert_eq!(caps(&hardness, 0), [f64::INFINITY; 2]);
         ContactConstraint::<f64>::start(&mut hardness, &Grid::square(2, 1.0).unwrap(), 0.0, 0.0).unwrap();

@@ -12,9 +12,6 @@ use crate::problem::Yielded;
 use crate::real::{Real, cast};
 use crate::vector::{sums, vectors};
 
-/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
-const PASSES: f64 = 0.3;
-
 impl<T: Real> Potential<'_, T> {
     pub(crate) fn is_capped(&self) -> bool {
         self.hardness().is_some()
@@ -29,38 +26,14 @@ impl<T: Real> Potential<'_, T> {
         buffers: &'b mut Option<[[T; CHUNK]; 2]>,
     ) -> [&'b [T]; 2] {
         let Some(hardness) = self.hardness() else { return [gaps, &T::CONSTANT[0][..gaps.len()]] };
-        let [parted, caps] = buffers.insert([[T::zero(); CHUNK]; 2]).each_mut().map(|buffer| &mut buffer[..gaps.len()]);
-        hardness.fill(first, caps);
+        let buffers = buffers.insert([hardness.caps(first, gaps.len()); 2]);
+        let [parted, caps] = buffers.each_mut().map(|buffer| &mut buffer[..gaps.len()]);
         vectors!([gaps, gradient], [parted, caps], |i| {
             let yields = (gaps[i] == T::zero()) & (cast::<_, T>(gradient[i]) - caps[i] > release);
             parted[i] = if yields { T::infinity() } else { gaps[i] };
             caps[i] = if yields { caps[i] } else { T::zero() };
         });
         [parted, caps]
-    }
-
-    /// The bounds of gaps after a step at the corner where the surface yields, from the side on which a node is, or to which
-    /// the gradient drives it.
-    pub(super) fn bounds_of_yielding<'b, Lo: Real>(
-        &self,
-        first: usize,
-        (gaps, residual): (&[T], &[Lo]),
-        yields: bool,
-        buffers: &'b mut Option<[[T; CHUNK]; 2]>,
-    ) -> [&'b [T]; 2] {
-        let [least, most] = buffers.insert([[T::zero(); CHUNK]; 2]).each_mut().map(|buffer| &mut buffer[..gaps.len()]);
-        let mut caps = None;
-        let caps = self.caps(first, gaps.len(), &mut caps);
-        vectors!([gaps, residual, caps], [least, most], |i| {
-            let (gap, r): (_, T) = (gaps[i], cast(residual[i]));
-            let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
-            // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
-            let against = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
-            let stops = (gap == T::zero()) | (against <= caps[i]);
-            least[i] = if stops & !below { T::zero() } else { T::neg_infinity() };
-            most[i] = if stops & below { T::zero() } else { T::infinity() };
-        });
-        [least, most]
     }
 
     /// Takes from tractions the hardness, and the slopes, where the surfaces touch and a change makes them yield.

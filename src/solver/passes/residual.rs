@@ -97,7 +97,8 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
                 let yields = parted[i] != gap[i];
                 let released = (gap[i] == touching) & (yields | (r[i] < release));
             } => Released {
-                count: count(released), sum_r: if released { (r[i] - caps[i]).widen() } else { 0.0 }, yielding: count(yields)
+                count: count(released), sum_r: if released { (r[i] - caps[i]).widen() } else { 0.0 },
+                yielding: count(yields)
             })
         },
     )
