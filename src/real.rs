@@ -7,20 +7,12 @@ use num_traits::{Float, FromPrimitive, NumAssign, Signed};
 use crate::heavy::Heavy;
 use crate::ranks::Sent;
 
-/// The nodes of a chunk, which are summed one by one. The rounding of a sum of such sums grows with the length of a
-/// chunk, and not with that of the field.
-pub(crate) const CHUNK: usize = 256;
-
 /// The scalar of every field, `f32` or `f64`, and no other type; sums over fields accumulate in `f64`.
 pub trait Real:
     Float + NumAssign + FromPrimitive + Signed + Default + Debug + Display + LowerExp + Send + Sync + Sent + Heavy + 'static
 {
     /// The name of the precision, as the report prints it: `"f32"` or `"f64"`.
     const NAME: &'static str;
-
-    /// Constant chunks: of zeros, of −∞ and of ∞.
-    #[doc(hidden)]
-    const CONSTANT: [&'static [Self; CHUNK]; 3];
 
     /// The value nearest to a literal.
     fn lit(value: f64) -> Self;
@@ -36,7 +28,6 @@ pub(crate) fn cast<S: Real, T: Real>(value: S) -> T {
 
 impl Real for f32 {
     const NAME: &'static str = "f32";
-    const CONSTANT: [&'static [Self; CHUNK]; 3] = [&[0.0; CHUNK], &[f32::NEG_INFINITY; CHUNK], &[f32::INFINITY; CHUNK]];
     #[inline]
     fn lit(value: f64) -> Self {
         value as f32
@@ -49,7 +40,6 @@ impl Real for f32 {
 
 impl Real for f64 {
     const NAME: &'static str = "f64";
-    const CONSTANT: [&'static [Self; CHUNK]; 3] = [&[0.0; CHUNK], &[f64::NEG_INFINITY; CHUNK], &[f64::INFINITY; CHUNK]];
     #[inline]
     fn lit(value: f64) -> Self {
         value

@@ -7,7 +7,10 @@ use ndarray::{Array2, ArrayView1, ArrayView2, Axis, CowArray, Ix2, Slice};
 
 use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Sent, Shares};
-pub(crate) use crate::real::CHUNK;
+
+/// The nodes of a chunk, which are summed one by one. The rounding of a sum of such sums grows with the length of a
+/// chunk, and not with that of the field.
+pub(crate) const CHUNK: usize = 256;
 
 /// Rows that are transformed together.
 pub(crate) const TILE: usize = 32;

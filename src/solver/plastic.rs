@@ -10,30 +10,11 @@ use crate::field::{CHUNK, Minimum, Sums, found, read, write};
 use crate::par::Parts;
 use crate::problem::Yielded;
 use crate::real::{Real, cast};
-use crate::vector::{sums, vectors};
+use crate::vector::sums;
 
 impl<T: Real> Potential<'_, T> {
     pub(crate) fn is_capped(&self) -> bool {
         self.hardness().is_some()
-    }
-
-    /// The gaps, infinite at contact nodes that the gradient r makes yield, and the caps that r loses there.
-    pub(crate) fn parted<'b, G: Real>(
-        &self,
-        first: usize,
-        (gaps, gradient): (&'b [T], &[G]),
-        release: T,
-        buffers: &'b mut Option<[[T; CHUNK]; 2]>,
-    ) -> [&'b [T]; 2] {
-        let Some(hardness) = self.hardness() else { return [gaps, &T::CONSTANT[0][..gaps.len()]] };
-        let buffers = buffers.insert([hardness.caps(first, gaps.len()); 2]);
-        let [parted, caps] = buffers.each_mut().map(|buffer| &mut buffer[..gaps.len()]);
-        vectors!([gaps, gradient], [parted, caps], |i| {
-            let yields = (gaps[i] == T::zero()) & (cast::<_, T>(gradient[i]) - caps[i] > release);
-            parted[i] = if yields { T::infinity() } else { gaps[i] };
-            caps[i] = if yields { caps[i] } else { T::zero() };
-        });
-        [parted, caps]
     }
 
     /// Takes from tractions the hardness, and the slopes, where the surfaces touch and a change makes them yield.
@@ -49,8 +30,7 @@ impl<T: Real> Potential<'_, T> {
         if !self.is_capped() {
             return 0.0;
         }
-        let mut caps = None;
-        let caps = self.caps(first, gaps.len(), &mut caps);
+        let caps = self.caps(first, gaps.len());
         // a node that stops there is beyond it by no more than its rounding
         let rounding = T::lit(4.0) * cast(Lo::epsilon());
         sums!([gaps, change, caps], [tractions, slopes], |i| {
@@ -70,8 +50,7 @@ impl<T: Real> Potential<'_, T> {
         if !self.is_capped() {
             return 0.0;
         }
-        let mut caps = None;
-        let caps = self.caps(first, gaps.len(), &mut caps);
+        let caps = self.caps(first, gaps.len());
         let nodes = gaps.iter().zip(step).zip(caps);
         let landed = nodes.filter(|((gap, step), _)| **gap == T::zero() && **step > Lo::zero());
         landed.map(|((_, step), cap)| step.widen() * cap.widen()).sum()
@@ -111,13 +90,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let local = posed.potential();
         let chunks = read(&fields.gap).zip(write(&mut depth));
         let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
-            let (mut caps, mut pulls, mut found) = (None, [T::zero(); CHUNK], Deepened::NONE);
+            let (mut pulls, mut found) = ([T::zero(); CHUNK], Deepened::NONE);
             if !local.is_surface() {
                 return found;
             }
-            let caps = local.caps(first, gaps.len(), &mut caps);
+            let caps = local.caps(first, gaps.len());
             local.law(Of::Traction, first, &[T::zero(); CHUNK][..gaps.len()], &mut pulls[..gaps.len()]);
-            for (((&gap, depth), &cap), &pull) in gaps.iter().zip(depths).zip(caps).zip(&pulls) {
+            for (((&gap, depth), cap), &pull) in gaps.iter().zip(depths).zip(caps).zip(&pulls) {
                 let deeper = (-gap).max(T::zero());
                 *depth += deeper;
                 let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);

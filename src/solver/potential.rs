@@ -27,10 +27,6 @@ impl<T: Real> Least<T> {
         Self { rest: T::infinity(), share: T::zero(), depth: T::infinity() }
     }
 
-    pub(crate) fn is_unbounded(self) -> bool {
-        self.rest.is_infinite()
-    }
-
     /// Whether a wall at zero gap is all that bounds the gap.
     pub(crate) fn is_wall(self) -> bool {
         [self.rest, self.share, self.depth] == [T::zero(); 3]
@@ -149,10 +145,9 @@ impl<'a, T: Real> Potential<'a, T> {
         self.wall.and_then(|wall| wall.hardness())
     }
 
-    /// The caps on the contact pressure at some nodes from `first` on: the hardness, or ∞ where nothing yields.
-    pub(crate) fn caps<'b>(&self, first: usize, count: usize, buffer: &'b mut Option<[T; CHUNK]>) -> &'b [T] {
-        let Some(hardness) = self.hardness() else { return &T::CONSTANT[2][..count] };
-        &buffer.insert(hardness.caps(first, count))[..count]
+    /// The caps on the contact pressure at so many nodes from `first` on: the hardness, or ∞ where nothing yields.
+    pub(crate) fn caps(&self, first: usize, count: usize) -> [T; CHUNK] {
+        self.hardness().map_or([T::infinity(); CHUNK], |hardness| hardness.caps(first, count))
     }
 
     pub(crate) fn is_surface(&self) -> bool {
@@ -212,7 +207,7 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// The local tractions in a buffer of zeros.
-    pub(crate) fn tractions<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut [T; CHUNK]) -> &'b mut [T] {
+    pub(crate) fn tractions<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut [T; CHUNK]) -> &'b [T] {
         let tractions = &mut buffer[..gaps.len()];
         if !self.is_zero() {
             self.evaluate(Of::Traction, first, gaps, tractions);
@@ -316,9 +311,8 @@ impl<'a, T: Real> Potential<'a, T> {
         if self.is_soft() {
             return contact.iter_mut().for_each(|contact| *contact = (-*contact).max(T::zero()));
         }
-        let mut buffer = None;
-        let caps = self.caps(first, gaps.len(), &mut buffer);
-        for (((contact, &gap), &p), &cap) in contact.iter_mut().zip(gaps).zip(pressures).zip(caps) {
+        let caps = self.caps(first, gaps.len());
+        for (((contact, &gap), &p), cap) in contact.iter_mut().zip(gaps).zip(pressures).zip(caps) {
             *contact = if gap > T::zero() {
                 T::zero()
             } else if gap < T::zero() {

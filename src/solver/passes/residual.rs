@@ -5,7 +5,7 @@ use crate::field::{CHUNK, found, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
-use crate::vector::{sums, vectors};
+use crate::vector::sums;
 
 /// The working set by the gradient r, and the constants of r and r'.
 #[derive(Clone, Copy, Debug)]
@@ -53,26 +53,19 @@ fn works<T: Real>(residual: T) -> T {
     residual + T::zero()
 }
 
-/// The residual r' of a node by its gap and gradient r, [parted](Potential::parted), and whether it may move.
+/// Whether the gradient r makes a node in contact yield.
 #[inline(always)]
-fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, [gap, cap, r]: [T; 3]) -> (Lo, bool) {
-    let may = (gap != touching) | (r < w.release);
-    (if may { works(cast(r - cap - w.level)) } else { Lo::neg_zero() }, may)
+fn yields<T: Real>(touching: T, release: T, [cap, gap, r]: [T; 3]) -> bool {
+    (gap == touching) & (r - cap > release)
 }
 
-/// The gradient r = p + φ'(g) + b of some nodes.
-fn gradient<'b, T: Real>(
-    local: &Potential<'_, T>,
-    offset: T,
-    first: usize,
-    (gap, pressure): (&[T], &[T]),
-    buffer: &'b mut [T; CHUNK],
-) -> &'b [T] {
-    let gradient = local.tractions(first, gap, buffer);
-    vectors!([pressure], [gradient], |i| {
-        gradient[i] = pressure[i] + gradient[i] + offset;
-    });
-    gradient
+/// The residual r' of a node, and whether it may move.
+#[inline(always)]
+fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, [cap, gap, r]: [T; 3]) -> (Lo, bool) {
+    let yields = yields(touching, w.release, [cap, gap, r]);
+    let may = (gap != touching) | (r < w.release) | yields;
+    let r = if yields { r - cap } else { r };
+    (if may { works(cast(r - w.level)) } else { Lo::neg_zero() }, may)
 }
 
 /// The contact nodes that are released.
@@ -90,15 +83,16 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
         read(gap).zip(read(pressure)),
         |local, first, (gap, pressure)| {
             let touching = local.touching();
-            let (mut gradients, mut buffers) = ([T::zero(); CHUNK], None);
-            let r = gradient(local, offset, first, (gap, pressure), &mut gradients);
-            let [parted, caps] = local.parted(first, (gap, r), release, &mut buffers);
-            sums!([gap, r, parted, caps], [], |i| {
-                let yields = parted[i] != gap[i];
-                let released = (gap[i] == touching) & (yields | (r[i] < release));
+            let mut tractions = [T::zero(); CHUNK];
+            let tractions = local.tractions(first, gap, &mut tractions);
+            let caps = local.caps(first, gap.len());
+            sums!([gap, pressure, tractions, caps], [], |i| {
+                let (cap, r) = (caps[i], pressure[i] + tractions[i] + offset);
+                let yields = yields(touching, release, [cap, gap[i], r]);
+                let released = yields | ((gap[i] == touching) & (r < release));
+                let r = if yields { r - cap } else { r };
             } => Released {
-                count: count(released), sum_r: if released { (r[i] - caps[i]).widen() } else { 0.0 },
-                yielding: count(yields)
+                count: count(released), sum_r: if released { r.widen() } else { 0.0 }, yielding: count(yields)
             })
         },
     )
@@ -114,11 +108,12 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     let chunks = read(gap).zip(read(pressure)).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, first, ((((gap, pressure), residual), z), change)| {
         let touching = local.touching();
-        let (mut gradients, mut buffers) = ([T::zero(); CHUNK], None);
-        let r = gradient(local, working.offset, first, (gap, pressure), &mut gradients);
-        let [parted, caps] = local.parted(first, (gap, r), working.release, &mut buffers);
-        sums!([gap, r, z, change, parted, caps], [residual], |i| {
-            let (r, may): (Lo, _) = residual_of(touching, working, [parted[i], caps[i], r[i]]);
+        let mut tractions = [T::zero(); CHUNK];
+        let tractions = local.tractions(first, gap, &mut tractions);
+        let caps = local.caps(first, gap.len());
+        sums!([gap, pressure, tractions, z, change, caps], [residual], |i| {
+            let r = pressure[i] + tractions[i] + working.offset;
+            let (r, may): (Lo, _) = residual_of(touching, working, [caps[i], gap[i], r]);
             let difference = (r - residual[i]).widen();
             residual[i] = r;
             let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
@@ -141,10 +136,9 @@ pub(super) fn release_chunk<T: Real, Lo: Real>(
     (z, change): (&[Lo], &[Lo]),
     residual: &mut [Lo],
 ) -> Continued {
-    let (touching, mut buffers) = (local.touching(), None);
-    let [parted, caps] = local.parted(first, (gap, residual), working.release, &mut buffers);
-    sums!([gap, z, change, parted, caps], [residual], |i| {
-        let (r, may): (Lo, _) = residual_of(touching, working, [parted[i], caps[i], cast(residual[i])]);
+    let (touching, caps) = (local.touching(), local.caps(first, gap.len()));
+    sums!([gap, z, change, caps], [residual], |i| {
+        let (r, may): (Lo, _) = residual_of(touching, working, [caps[i], gap[i], cast(residual[i])]);
         residual[i] = r;
         let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
     } => Continued {

@@ -120,36 +120,45 @@ fn clipped_change<T: Real, Lo: Real>(
 /// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
 const PASSES: f64 = 0.3;
 
-/// The least and the greatest gap after a step. At the corner where the surface yields a node stops from the side on
-/// which it is, or to which the gradient drives it.
-fn bounds<'b, T: Real, Lo: Real>(
-    local: &Potential<'_, T>,
-    first: usize,
-    (gaps, residual): (&[T], &[Lo]),
-    yields: bool,
-    buffers: &'b mut Option<[[T; CHUNK]; 2]>,
-) -> [&'b [T]; 2] {
-    let ([zeros, no_least, no_most], bound) = (T::CONSTANT.map(|chunk| &chunk[..gaps.len()]), local.least());
-    let Some(hardness) = local.hardness() else {
-        if bound.is_wall() || bound.is_unbounded() {
-            return [if bound.is_wall() { zeros } else { no_least }, no_most];
-        }
-        let [least, _] = buffers.insert([[T::zero(); CHUNK]; 2]);
-        least.iter_mut().zip(gaps).for_each(|(least, &gap)| *least = bound.after(gap));
-        return [&least[..gaps.len()], no_most];
+/// The least and the greatest gap after a step at the corner where the surface yields: a node stops there from the side
+/// on which it is, or to which the gradient drives it.
+#[inline(always)]
+fn bounds_of_yielding<T: Real>(yields: bool, [cap, gap, r]: [T; 3]) -> [T; 2] {
+    let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
+    // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
+    let against = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
+    let stops = (gap == T::zero()) | (against <= cap);
+    let least = if stops & !below { T::zero() } else { T::neg_infinity() };
+    [least, if stops & below { T::zero() } else { T::infinity() }]
+}
+
+/// Writes the clipped change of a chunk within `bounds` by cap, gap and residual: compiled for caps, and for none.
+#[inline(always)]
+fn try_chunk<T: Real, Lo: Real, C: Copy>(
+    attempt: Attempt<T>,
+    (gap, surface): (&[T], Option<&[T]>),
+    (residual, z, change): (&[Lo], &[Lo], &mut [Lo]),
+    (caps, bounds): (&[C], impl Fn(C, T, T) -> [T; 2] + Copy),
+) -> Tried {
+    let Some(surface) = surface else {
+        return sums!([gap, residual, z, caps], [change], |i| {
+            let (g, r) = (gap[i], residual[i]);
+            let (new, clipped) = clipped_change(bounds(caps[i], g, cast(r)), attempt, g, [r, z[i], change[i]]);
+            change[i] = new;
+            let [r, c] = [r, new].map(Lo::widen);
+        } => Tried {
+            change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c, square: c * c
+        });
     };
-    let buffers = buffers.insert([hardness.caps(first, gaps.len()); 2]);
-    let [least, most] = buffers.each_mut().map(|buffer| &mut buffer[..gaps.len()]);
-    vectors!([gaps, residual], [least, most], |i| {
-        let (gap, r, cap): (_, T, _) = (gaps[i], cast(residual[i]), least[i]);
-        let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
-        // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
-        let against = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
-        let stops = (gap == T::zero()) | (against <= cap);
-        least[i] = if stops & !below { T::zero() } else { T::neg_infinity() };
-        most[i] = if stops & below { T::zero() } else { T::infinity() };
-    });
-    [least, most]
+    sums!([gap, residual, z, surface, caps], [change], |i| {
+        let (g, r) = (gap[i], residual[i]);
+        let (new, clipped) = clipped_change(bounds(caps[i], g, cast(r)), attempt, g, [r, z[i], change[i]]);
+        change[i] = new;
+        let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, new].map(Lo::widen));
+    } => Tried {
+        change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c, square: c * c,
+        gap_descent: r * g, change_surface: c * h, gap_surface: g * h
+    })
 }
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h, and `held` whether the mean gap is given.
@@ -162,28 +171,13 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change)).zip(read(surface));
     local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-        let mut buffers = None;
-        let [least, most] = bounds(local, first, (gap, residual), attempt.yields, &mut buffers);
-        let mut tried = if held {
-            sums!([gap, residual, z, surface, least, most], [change], |i| {
-                let (g, r) = (gap[i], residual[i]);
-                let (new, clipped) = clipped_change([least[i], most[i]], attempt, g, [r, z[i], change[i]]);
-                change[i] = new;
-                let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, new].map(Lo::widen));
-            } => Tried {
-                change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c,
-                square: c * c, gap_descent: r * g, change_surface: c * h, gap_surface: g * h
-            })
+        let (least, surface, yields) = (local.least(), held.then_some(surface), attempt.yields);
+        let mut tried = if local.is_capped() {
+            let (caps, bounds) = (local.caps(first, gap.len()), |cap, g, r| bounds_of_yielding(yields, [cap, g, r]));
+            try_chunk(attempt, (gap, surface), (residual, z, change), (&caps, bounds))
         } else {
-            sums!([gap, residual, z, least, most], [change], |i| {
-                let r = residual[i];
-                let (new, clipped) = clipped_change([least[i], most[i]], attempt, gap[i], [r, z[i], change[i]]);
-                change[i] = new;
-                let [r, c] = [r, new].map(Lo::widen);
-            } => Tried {
-                change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c,
-                square: c * c
-            })
+            let bounds = |(), gap, _| [least.after(gap), T::infinity()];
+            try_chunk(attempt, (gap, surface), (residual, z, change), (&[(); CHUNK], bounds))
         };
         if !local.projects() {
             tried.blocked = 0.0;
