@@ -1,7 +1,5 @@
 //! Passes over fields: chunk by chunk, with sums that do not depend on the number of threads.
 
-use std::slice::{Iter, IterMut};
-
 use ndarray::{Array2, ArrayView2};
 
 use crate::error::{Error, Result};
@@ -35,58 +33,51 @@ pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: Arra
     slab.agreed(found)
 }
 
-/// The result of a pass over the nodes: sums, [minima](Minimum), named [structs](found) of them, or nothing.
+/// The numbers of the largest result of a pass.
+type Numbers = [f64; 16];
+
+/// The result of a pass over nodes: sums, [minima](Minimum), [structs](found) of them with names, or nothing.
 pub(crate) trait Sums: Copy + Send + Sync {
-    /// the result over no nodes
+    /// the result of no nodes
     const NONE: Self;
-    /// how many numbers it holds
-    const COUNT: usize;
 
-    fn add(self, other: Self) -> Self;
+    /// Calls a function of each number, and of whether it is a minimum.
+    fn each(&mut self, of: &mut impl FnMut(&mut f64, bool));
 
-    fn put(self, numbers: &mut IterMut<'_, f64>);
+    fn numbers(mut self) -> Numbers {
+        const { assert!(size_of::<Self>() <= size_of::<Numbers>()) };
+        let mut numbers = Numbers::default();
+        let mut places = numbers.iter_mut();
+        self.each(&mut |number, _| places.by_ref().take(1).for_each(|place| *place = *number));
+        numbers
+    }
 
-    fn take(numbers: &mut Iter<'_, f64>) -> Self;
+    fn add(mut self, numbers: &Numbers) -> Self {
+        let mut others = numbers.iter();
+        self.each(&mut |number, least| {
+            let other = others.next().copied().unwrap_or_default();
+            *number = if least { number.min(other) } else { *number + other };
+        });
+        self
+    }
 }
-
-/// The largest [`Sums::COUNT`].
-const NUMBERS: usize = 16;
-
-type Numbers = [f64; NUMBERS];
 
 impl Sums for () {
     const NONE: Self = ();
-    const COUNT: usize = 0;
-    fn add(self, (): Self) -> Self {}
-    fn put(self, _: &mut IterMut<'_, f64>) {}
-    fn take(_: &mut Iter<'_, f64>) -> Self {}
+    fn each(&mut self, _: &mut impl FnMut(&mut f64, bool)) {}
 }
 
 impl Sums for f64 {
     const NONE: Self = 0.0;
-    const COUNT: usize = 1;
-    fn add(self, other: Self) -> Self {
-        self + other
-    }
-    fn put(self, numbers: &mut IterMut<'_, f64>) {
-        numbers.take(1).for_each(|number| *number = self);
-    }
-    fn take(numbers: &mut Iter<'_, f64>) -> Self {
-        numbers.next().copied().unwrap_or_default()
+    fn each(&mut self, of: &mut impl FnMut(&mut f64, bool)) {
+        of(self, false);
     }
 }
 
 impl<const N: usize> Sums for [f64; N] {
     const NONE: Self = [0.0; N];
-    const COUNT: usize = N;
-    fn add(self, other: Self) -> Self {
-        std::array::from_fn(|i| self[i] + other[i])
-    }
-    fn put(self, numbers: &mut IterMut<'_, f64>) {
-        self.into_iter().for_each(|sum| sum.put(numbers));
-    }
-    fn take(numbers: &mut Iter<'_, f64>) -> Self {
-        std::array::from_fn(|_| f64::take(numbers))
+    fn each(&mut self, of: &mut impl FnMut(&mut f64, bool)) {
+        self.iter_mut().for_each(|sum| of(sum, false));
     }
 }
 
@@ -96,19 +87,12 @@ pub(crate) struct Minimum(pub(crate) f64);
 
 impl Sums for Minimum {
     const NONE: Self = Self(f64::INFINITY);
-    const COUNT: usize = 1;
-    fn add(self, other: Self) -> Self {
-        Self(self.0.min(other.0))
-    }
-    fn put(self, numbers: &mut IterMut<'_, f64>) {
-        self.0.put(numbers);
-    }
-    fn take(numbers: &mut Iter<'_, f64>) -> Self {
-        Self(f64::take(numbers))
+    fn each(&mut self, of: &mut impl FnMut(&mut f64, bool)) {
+        of(&mut self.0, true);
     }
 }
 
-/// Declares a struct of named [`Sums`], which is one itself.
+/// Declares a struct of [`Sums`] with names, which is one itself.
 macro_rules! found {
     ($(#[$about:meta])* $see:vis struct $Name:ident {
         $($(#[$meta:meta])* $of:vis $field:ident: $kind:ty),* $(,)?
@@ -119,15 +103,8 @@ macro_rules! found {
 
         impl $crate::field::Sums for $Name {
             const NONE: Self = Self { $($field: <$kind as $crate::field::Sums>::NONE),* };
-            const COUNT: usize = 0 $(+ <$kind as $crate::field::Sums>::COUNT)*;
-            fn add(self, other: Self) -> Self {
-                Self { $($field: $crate::field::Sums::add(self.$field, other.$field)),* }
-            }
-            fn put(self, numbers: &mut std::slice::IterMut<'_, f64>) {
-                $($crate::field::Sums::put(self.$field, numbers);)*
-            }
-            fn take(numbers: &mut std::slice::Iter<'_, f64>) -> Self {
-                Self { $($field: $crate::field::Sums::take(numbers)),* }
+            fn each(&mut self, of: &mut impl FnMut(&mut f64, bool)) {
+                $($crate::field::Sums::each(&mut self.$field, of);)*
             }
         }
     };
@@ -148,10 +125,10 @@ pub(crate) struct Reducer {
 impl Reducer {
     pub(crate) fn new(slab: Slab) -> Self {
         let (rows, columns) = slab.held();
-        let chunks = vec![[0.0; NUMBERS]; (rows * columns).div_ceil(CHUNK)];
-        let shares = slab.shares(|rank| NUMBERS * slab.bands_of(rank).len());
+        let chunks = vec![Numbers::default(); (rows * columns).div_ceil(CHUNK)];
+        let shares = slab.shares(|rank| Numbers::default().len() * slab.bands_of(rank).len());
         let [own, all] =
-            [slab.bands_of(slab.ranks().rank()).len(), slab.bands()].map(|bands| vec![[0.0; NUMBERS]; bands]);
+            [slab.bands_of(slab.ranks().rank()).len(), slab.bands()].map(|bands| vec![Numbers::default(); bands]);
         Self { chunks, slab, shares, own, all }
     }
 
@@ -167,18 +144,16 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Part) -> S + Sync + Send,
     ) -> S {
-        const { assert!(S::COUNT <= NUMBERS) };
         let first = self.slab.first_node();
         par::update(chunks, &mut self.chunks, |i, chunk, numbers| {
-            let found = if wanted(i) { f(first + i * CHUNK, chunk) } else { S::NONE };
-            found.put(&mut numbers.iter_mut());
+            *numbers = if wanted(i) { f(first + i * CHUNK, chunk) } else { S::NONE }.numbers();
         });
         self.total()
     }
 
     /// Keeps a number of each chunk of the last pass, for a later one.
     pub(crate) fn keep<S: Sums>(&self, of: impl Fn(S) -> f64, kept: &mut [f64]) {
-        kept.iter_mut().zip(&self.chunks).for_each(|(kept, numbers)| *kept = of(S::take(&mut numbers.iter())));
+        kept.iter_mut().zip(&self.chunks).for_each(|(kept, numbers)| *kept = of(S::NONE.add(numbers)));
     }
 
     pub(crate) fn chunks(&self) -> usize {
@@ -186,18 +161,18 @@ impl Reducer {
     }
 
     fn total<S: Sums>(&mut self) -> S {
-        if S::COUNT == 0 {
+        if size_of::<S>() == 0 {
             return S::NONE;
         }
         // the sums of chunks are summed as nodes are: in runs, and then the runs
-        let run = |run: &[Numbers]| run.iter().map(|chunk| S::take(&mut chunk.iter())).fold(S::NONE, S::add);
-        let bands = self.chunks.chunks(self.slab.chunks_of_a_band());
-        let bands = bands.map(|band| band.chunks(CHUNK).map(run).fold(S::NONE, S::add));
+        let run = |run: &[Numbers]| run.iter().fold(S::NONE, S::add).numbers();
+        let band = |band: &[Numbers]| band.chunks(CHUNK).map(run).fold(S::NONE, |sum, run| sum.add(&run)).numbers();
+        let bands = self.chunks.chunks(self.slab.chunks_of_a_band()).map(band);
         // bands beyond a window have no nodes
-        let bands = bands.chain(std::iter::repeat(S::NONE));
-        self.own.iter_mut().zip(bands).for_each(|(numbers, band)| band.put(&mut numbers.iter_mut()));
+        let bands = bands.chain(std::iter::repeat(S::NONE.numbers()));
+        self.own.iter_mut().zip(bands).for_each(|(own, band)| *own = band);
         self.slab.ranks().gather(self.own.as_flattened(), &self.shares, self.all.as_flattened_mut());
-        self.all.iter().map(|numbers| S::take(&mut numbers.iter())).fold(S::NONE, S::add)
+        self.all.iter().fold(S::NONE, S::add)
     }
 }
 

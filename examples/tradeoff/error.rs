@@ -5,7 +5,7 @@ use std::time::Instant;
 use asperity::{ElasticOperator, Westergaard};
 use ndarray::Array2;
 
-use crate::scene::{Choice, Scene, State};
+use crate::scene::{FAMILIES, Family, Scene, State};
 use common::Outcome;
 
 /// The largest grid that has no coarser ones below it.
@@ -19,9 +19,8 @@ pub type Errors = [f64; 4];
 
 /// A grid of a scene.
 pub struct OnGrid {
+    /// Its nodes along a side.
     pub n: usize,
-    /// Nodes, (N, 1) or (N, N).
-    pub nodes: f64,
     /// Of the solution converged on the grid, against the truth.
     pub discretisation: Errors,
     pub rows: Vec<Row>,
@@ -29,7 +28,8 @@ pub struct OnGrid {
 
 /// A choice on a grid.
 pub struct Row {
-    pub choice: Choice,
+    pub family: Family,
+    pub tolerance: f64,
     /// In units of one application on the grid; the mean over the loads, as are the seconds.
     pub applications: f64,
     pub seconds: f64,
@@ -39,31 +39,14 @@ pub struct Row {
     pub solver: Errors,
 }
 
-impl Choice {
-    /// The choices that are measured on a grid.
-    fn all(n: usize, quick: bool) -> Vec<Self> {
-        let families = [(false, false, false), (false, false, true), (false, true, false), (false, true, true)];
-        let families = families.into_iter().chain([(true, false, false)]);
-        let fitting =
-            families.filter(|&(rey2017, _, nested)| if rey2017 { n <= SLOW } else { n > COARSEST || !nested });
-        let choices = fitting.flat_map(|(rey2017, single, nested)| {
-            let step = if quick || rey2017 { 2 } else { 1 };
-            let tolerances = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8].into_iter().step_by(step);
-            let reached = tolerances.filter(move |&tolerance| tolerance >= if single { 1e-5 } else { 1e-8 });
-            reached.map(move |tolerance| Self { rey2017, single, nested, tolerance })
-        });
-        choices.collect()
-    }
-
-    pub fn family(&self) -> &'static str {
-        match (self.rey2017, self.nested, self.single) {
-            (true, ..) => "rey2017, f64",
-            (_, false, false) => "default, f64",
-            (_, true, false) => "nested, f64",
-            (_, false, true) => "default, f32",
-            (_, true, true) => "nested, f32",
-        }
-    }
+/// The choices that are measured on a grid.
+fn choices(n: usize, quick: bool) -> impl Iterator<Item = (Family, f64)> {
+    let fits = move |(_, rey2017, _, nested): &Family| if *rey2017 { n <= SLOW } else { n > COARSEST || !nested };
+    FAMILIES.into_iter().filter(fits).flat_map(move |family| {
+        let (step, least) = (if quick || family.1 { 2 } else { 1 }, if family.2 { 1e-5 } else { 1e-8 });
+        let tolerances = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8].into_iter().step_by(step);
+        tolerances.filter(move |&tolerance| tolerance >= least).map(move |tolerance| (family, tolerance))
+    })
 }
 
 /// Measures a scene on all of its grids.
@@ -72,29 +55,24 @@ pub fn on_grids(scene: &Scene, references: &[State], quick: bool) -> Outcome<Vec
         let surface = scene.surface(n)?;
         let mut operator = Westergaard::<f64>::new(*surface.grid(), 1.0)?;
         let truths: Vec<_> = references.iter().map(|reference| scene.truth(n, reference)).collect();
-        let sharp = scene.loads.iter().map(|&load| scene.converged(&surface, load, false));
+        let sharp = scene.loads.iter().map(|&load| scene.converged(&surface, load, FAMILIES[0]));
         let sharp = sharp.collect::<Outcome<Vec<_>>>()?;
         let discretisation = errors(&sharp, &truths, &mut operator)?;
         let mut rows = Vec::new();
-        for choice in Choice::all(n, quick) {
+        for (family, tolerance) in choices(n, quick) {
             let (mut states, mut converged, mut applications, mut seconds) = (Vec::new(), true, 0.0, 0.0);
             for &load in &scene.loads {
                 let begin = Instant::now();
-                let solve = if choice.single { Scene::solve::<f32> } else { Scene::solve::<f64> };
-                let (state, count, well) = solve(scene, &surface, load, choice)?;
+                let solve = if family.2 { Scene::solve::<f32> } else { Scene::solve::<f64> };
+                let (state, count, well) = solve(scene, &surface, load, (family, tolerance))?;
                 (converged, applications) = (converged && well, applications + count / scene.loads.len() as f64);
                 seconds += begin.elapsed().as_secs_f64() / scene.loads.len() as f64;
                 states.push(state);
             }
-            rows.push(Row {
-                choice,
-                applications,
-                seconds,
-                converged,
-                solver: errors(&states, &sharp, &mut operator)?,
-            });
+            let solver = errors(&states, &sharp, &mut operator)?;
+            rows.push(Row { family, tolerance, applications, seconds, converged, solver });
         }
-        Ok(OnGrid { n, nodes: surface.grid().nodes() as f64, discretisation, rows })
+        Ok(OnGrid { n, discretisation, rows })
     };
     scene.sizes.iter().map(measured).collect()
 }
@@ -126,10 +104,8 @@ fn percent(error: f64) -> String {
 pub fn tell(scene: &Scene, grids: &[OnGrid]) {
     println!("\nErrors of converged solutions on the grids, that of the displacement in the energy norm\n");
     let (length, name) = scene.length;
-    println!(
-        "| nodes in the {name} | nodes | μ_ρ | displacement, % | nodes in contact, % | corrected area, % | mean gap or pressure, % |"
-    );
-    println!("|{}", "---|".repeat(7));
+    let errors = ["displacement", "nodes in contact", "corrected area", "mean gap or pressure"].join(", % | ");
+    println!("| nodes in the {name} | nodes | μ_ρ | {errors}, % |\n|{}", "---|".repeat(7));
     for grid in grids {
         let (nodes, mu_rho) = ((10.0 * grid.n as f64 * length).round() / 10.0, scene.resolution(grid.n));
         let errors = grid.discretisation.map(percent).join(" | ");
@@ -145,8 +121,8 @@ pub fn tell(scene: &Scene, grids: &[OnGrid]) {
         println!(
             "{:>6} {:<14} {:>9.0e} {:>12.1} {:>9.2} | {energy:>12} {area:>8} {answer:>8} {}",
             grid.n,
-            row.choice.family(),
-            row.choice.tolerance,
+            row.family.0,
+            row.tolerance,
             row.applications,
             1e3 * row.seconds,
             if row.converged { "" } else { "!" },

@@ -74,9 +74,8 @@ fn scenes(quick: bool) -> Outcome<Vec<Scene>> {
     let (seeds, hursts) = if quick { (11..12, &[0.8][..]) } else { (11..15, &[0.3, 0.6, 0.9][..]) };
     let mut all = Vec::new();
     for (seed, &hurst) in seeds.flat_map(|seed| hursts.iter().map(move |hurst| (seed, hurst))) {
-        let loads =
-            LOADS.into_iter().flat_map(|(adhesive, pressed, all)| all.iter().map(move |p| (adhesive, pressed, p)));
-        for (adhesive, pressed, pressure) in loads {
+        let of = |(adhesive, pressed, all): (_, _, &'static [f64])| all.iter().map(move |p| (adhesive, pressed, p));
+        for (adhesive, pressed, pressure) in LOADS.into_iter().flat_map(of) {
             let mut scene = Scene { seed, hurst, adhesive, control: Control::MeanPressure(SLOPE * pressure) };
             if !pressed {
                 scene.control = Control::MeanGap(scene.by_hand(4 * GIVEN, 1e-6)?.1);
@@ -97,10 +96,8 @@ fn work(levels: &[Level]) -> f64 {
 pub fn measure(quick: bool) -> Outcome<()> {
     let scenes = scenes(quick)?;
     let finest = if quick { 256 } else { 1024 };
-    println!(
-        "\n== knob: {} rough scenes, the shortest wave 1/{SHORTEST} of a side, truth from {finest}²",
-        scenes.len()
-    );
+    println!("\n== knob: accuracies of the area of {} scenes on maps of {GIVEN}² nodes, and one choice", scenes.len());
+    println!("by hand, right in nine of ten; work is operator applications times nodes\n");
     // the error of the area is of second order
     let truth = |scene: &Scene| -> Outcome<f64> {
         let [coarse, fine] = [scene.by_hand(finest / 2, 1e-6)?.0, scene.by_hand(finest, 1e-6)?.0];
@@ -119,14 +116,8 @@ pub fn measure(quick: bool) -> Outcome<()> {
             by_hand.push((n, found.collect::<Outcome<Vec<_>>>()?));
         }
     }
-    println!(
-        "\nAn accuracy of the area that is asked for, on maps of {GIVEN}² nodes, and the best choice by hand, one for"
-    );
-    println!("all scenes and right in nine of ten; work is operator applications times nodes\n");
-    println!(
-        "| asked for | right | true error: median | nine in ten | grid by hand | work over by hand |\n|{}",
-        "---|".repeat(6)
-    );
+    println!("| asked for | right | true error: median | nine in ten | grid by hand | work over by hand |");
+    println!("|{}", "---|".repeat(6));
     for target in TARGETS.into_iter().take(if quick { 1 } else { TARGETS.len() }) {
         let mut found = Vec::new();
         for (scene, truth) in all() {
@@ -137,12 +128,9 @@ pub fn measure(quick: bool) -> Outcome<()> {
             let error = |level: &Level| (level.area.corrected_contact_fraction / truth - 1.0).abs();
             found.extend(level.map(|level| (work(&solved.levels), error(level))));
         }
-        let mean = |found: &[(f64, f64)], of: fn(&(f64, f64), f64) -> f64| {
-            found.iter().map(|found| of(found, target)).sum::<f64>() / found.len() as f64
-        };
-        let cost = |found: &[(f64, f64)]| mean(found, |(work, _), _| *work);
-        let right =
-            |found: &[(f64, f64)]| 100.0 * mean(found, |(_, error), target| f64::from(u8::from(*error <= target)));
+        let cost = |found: &[(f64, f64)]| found.iter().map(|(work, _)| work).sum::<f64>() / found.len() as f64;
+        let share = |found: &[(f64, f64)]| found.iter().filter(|(_, error)| *error <= target).count() as f64;
+        let right = |found: &[(f64, f64)]| 100.0 * share(found) / found.len() as f64;
         let good = by_hand.iter().filter(|(_, found)| right(found) >= 90.0);
         let best = good.min_by(|a, b| cost(&a.1).total_cmp(&cost(&b.1)));
         let hand = best.map(|(n, by_hand)| format!("{n}² | {:.1}", cost(&found) / cost(by_hand)));

@@ -58,7 +58,6 @@ fn main() -> Outcome<()> {
         error::tell(scene, &grids);
         let path = options.out.join(format!("tradeoff-{}.svg", scene.name));
         picture::draw(&path, scene, &grids)?;
-        println!("drawn in {}", path.display());
     }
     if wanted("knob") {
         knob::measure(options.quick)?;

@@ -5,17 +5,17 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use crate::error::{OnGrid, Row};
-use crate::scene::Scene;
+use crate::scene::{FAMILIES, Scene};
 use common::Outcome;
 use common::chart::{Chart, Series, Style};
 
-/// The families of choices and their colours.
-const FAMILIES: [(&str, RGBColor); 5] = [
-    ("default, f64", RGBColor(10, 40, 140)),
-    ("nested, f64", RGBColor(0, 130, 80)),
-    ("default, f32", RGBColor(110, 160, 240)),
-    ("nested, f32", RGBColor(110, 200, 140)),
-    ("rey2017, f64", RGBColor(200, 30, 20)),
+/// The colours of the families of choices.
+const COLOURS: [RGBColor; 5] = [
+    RGBColor(10, 40, 140),
+    RGBColor(0, 130, 80),
+    RGBColor(110, 160, 240),
+    RGBColor(110, 200, 140),
+    RGBColor(200, 30, 20),
 ];
 
 /// Draws errors, of the discretisation and of the solver added, in the energy norm (above) and of the contact area
@@ -26,22 +26,22 @@ pub fn draw(path: &Path, scene: &Scene, grids: &[OnGrid]) -> Outcome<()> {
     root.fill(&WHITE)?;
     let panels = root.titled(scene.name, ("sans-serif", 20))?.split_evenly((2, 3));
     let costs = |grid: &OnGrid, row: &Row| {
-        let share = if row.choice.single { 0.5 } else { 1.0 };
-        [row.choice.tolerance, row.seconds, 1e-6 * share * row.applications * grid.nodes]
+        let share = if row.family.2 { 0.5 } else { 1.0 };
+        [row.tolerance, row.seconds, 1e-6 * share * row.applications * (grid.n * grid.n) as f64]
     };
     let names = ["tolerance", "time / s", "work / applications of 10⁶ nodes in f64"];
     let parts = [(0, "error of the displacement, energy norm"), (2, "error of the contact area")];
     for ((part, name), panels) in parts.into_iter().zip(panels.chunks(3)) {
         for (k, (across, panel)) in names.into_iter().zip(panels).enumerate() {
-            let series = FAMILIES.map(|(name, colour)| {
+            let series = FAMILIES.into_iter().zip(COLOURS).map(|(family, colour)| {
                 let rows = grids.iter().flat_map(|grid| grid.rows.iter().map(move |row| (grid, row)));
-                let well = rows.filter(|(_, row)| row.converged && row.choice.family() == name);
+                let well = rows.filter(|(_, row)| row.converged && row.family == family);
                 let error = |grid: &OnGrid, row: &Row| grid.discretisation[part] + row.solver[part];
                 let points = well.map(|(grid, row)| (costs(grid, row)[k], error(grid, row))).collect();
-                Series { name: name.to_owned(), colour, style: Style::Dots, points }
+                Series { name: family.0.to_owned(), colour, style: Style::Dots, points }
             });
             let (axes, labels) = ([across, name], SeriesLabelPosition::UpperRight);
-            Chart { title: String::new(), axes, logarithmic: true, labels, series: series.into() }.draw(panel)?;
+            Chart { title: String::new(), axes, logarithmic: true, labels, series: series.collect() }.draw(panel)?;
         }
     }
     root.present()?;

@@ -31,15 +31,17 @@ pub struct Scene {
     finest: usize,
 }
 
-/// The choices of a user.
-#[derive(Clone, Copy)]
-pub struct Choice {
-    /// Algorithm 3 of Rey, Anciaux and Molinari (2017), with the certified error as its criterion.
-    pub rey2017: bool,
-    pub single: bool,
-    pub nested: bool,
-    pub tolerance: f64,
-}
+/// Choices of a user by name: whether by Algorithm 3 of Rey, Anciaux and Molinari (2017), with the certified error as its
+/// criterion, whether in `f32`, and whether on nested grids.
+pub type Family = (&'static str, bool, bool, bool);
+
+pub const FAMILIES: [Family; 5] = [
+    ("default, f64", false, false, false),
+    ("nested, f64", false, false, true),
+    ("default, f32", false, true, false),
+    ("nested, f32", false, true, true),
+    ("rey2017, f64", true, false, false),
+];
 
 /// The displacement, and the quantities that are compared: the share of nodes in contact, the contact fraction
 /// corrected for its edge, and the mean gap under a given mean pressure, or the other way round.
@@ -98,12 +100,12 @@ impl Scene {
     }
 
     /// The solution by a choice.
-    pub fn solve<T: Real>(&self, surface: &Surface, control: Control, choice: Choice) -> Outcome<Found> {
-        let settings = if choice.rey2017 { Settings::rey2017() } else { Settings::default() };
-        let settings = settings.tolerance(choice.tolerance);
+    pub fn solve<T: Real>(&self, surface: &Surface, control: Control, by: (Family, f64)) -> Outcome<Found> {
+        let ((_, rey2017, _, nested), tolerance) = by;
+        let settings = if rey2017 { Settings::rey2017() } else { Settings::default() }.tolerance(tolerance);
         let (mut solver, law) = (Solver::new(settings), self.law::<T>()?);
         let half_space = |grid| Westergaard::<T>::new(grid, 1.0);
-        let (solution, count) = if choice.nested {
+        let (solution, count) = if nested {
             let found = Nested::default().solve(&mut solver, surface, half_space, law, control)?;
             let count = found.equivalent_applications();
             (found.solution, count)
@@ -121,9 +123,8 @@ impl Scene {
     }
 
     /// The solution converged on a grid.
-    pub fn converged(&self, surface: &Surface, control: Control, nested: bool) -> Outcome<State> {
-        let choice = Choice { rey2017: false, single: false, nested, tolerance: SHARP };
-        match self.solve::<f64>(surface, control, choice)? {
+    pub fn converged(&self, surface: &Surface, control: Control, family: Family) -> Outcome<State> {
+        match self.solve::<f64>(surface, control, (family, SHARP))? {
             (state, _, true) => Ok(state),
             _ => Err(format!("{}: the reference has not converged", self.name).into()),
         }
@@ -132,14 +133,10 @@ impl Scene {
     /// The solutions on the finest grid under each load. The contact area corrected for its
     /// edge is extrapolated from that grid and one of half the nodes along a side, with the order log₂ 3.
     pub fn references(&self) -> Outcome<Vec<State>> {
-        println!(
-            "reference: {0}², converged to {SHARP:e}; its area extrapolated with that on half the nodes",
-            self.finest
-        );
         let [coarse, fine] = [self.surface(self.finest / 2)?, self.surface(self.finest)?];
         let reference = |&control: &Control| -> Outcome<State> {
-            let (_, [_, coarser, _]) = self.converged(&coarse, control, true)?;
-            let (displacement, [_, finer, answer]) = self.converged(&fine, control, true)?;
+            let (_, [_, coarser, _]) = self.converged(&coarse, control, FAMILIES[1])?;
+            let (displacement, [_, finer, answer]) = self.converged(&fine, control, FAMILIES[1])?;
             let area = finer + 0.5 * (finer - coarser);
             Ok((displacement, [area, area, answer]))
         };

@@ -109,12 +109,13 @@ impl Hardness {
         borne.sum::<f64>() / nodes
     }
 
-    /// Writes the hardness at nodes of the solve's grid, from the node `first` on.
-    pub(crate) fn fill<T: Real>(&self, first: usize, caps: &mut [T]) {
-        match flat(&self.held).get(first..first + caps.len()) {
-            Some(held) => caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held)),
-            None => caps.fill(T::lit(self.mean)),
+    /// The hardness at so many nodes of the solve's grid, from the node `first` on; infinite at nodes without one.
+    pub(crate) fn caps<T: Real>(&self, first: usize, count: usize) -> [T; CHUNK] {
+        let mut caps = [if self.varies() { T::infinity() } else { T::lit(self.mean) }; CHUNK];
+        if let Some(held) = flat(&self.held).get(first..first + count) {
+            caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held));
         }
+        caps
     }
 
     /// Adds the energy ψ = −H g of nodes with a negative gap, or its derivative of an order.
@@ -124,9 +125,7 @@ impl Hardness {
             1 => (T::zero(), T::one()),
             _ => return,
         };
-        let mut caps = [T::zero(); CHUNK];
-        let caps = &mut caps[..gaps.len()];
-        self.fill(first, caps);
+        let caps = self.caps::<T>(first, gaps.len());
         vectors!([gaps, caps], [out], |i| {
             let (gap, cap) = (gaps[i], caps[i]);
             out[i] = if gap < T::zero() { out[i] - cap * (linear * gap + constant) } else { out[i] };
@@ -157,5 +156,23 @@ impl<T: Real> ContactConstraint<T> for Hardness {
         let nearest = |i: usize, fine: usize, coarse: usize| ((2 * i * fine + coarse) / (2 * coarse)).min(fine - 1);
         self.held = Array2::from_shape_fn((nx, ny), |(i, j)| self.field[[nearest(i, fx, nx), nearest(j, fy, ny)]]);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_without_a_hardness_have_no_cap() {
+        let caps = |hardness: &Hardness, first| hardness.caps::<f64>(first, 2)[..2].to_vec();
+        let mut hardness = Hardness::varying(Array2::from_shape_fn((2, 2), |(i, j)| (1 + 2 * i + j) as f64)).unwrap();
+        assert_eq!(caps(&hardness, 0), [f64::INFINITY; 2]);
+        ContactConstraint::<f64>::start(&mut hardness, &Grid::square(2, 1.0).unwrap(), 0.0, 0.0).unwrap();
+        assert_eq!(
+            [caps(&hardness, 1), caps(&hardness, 2), caps(&hardness, 3)],
+            [[2.0, 3.0], [3.0, 4.0], [f64::INFINITY; 2]]
+        );
+        assert_eq!(caps(&Hardness::new(5.0).unwrap(), 7), [5.0; 2]);
     }
 }

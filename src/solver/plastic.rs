@@ -12,47 +12,28 @@ use crate::problem::Yielded;
 use crate::real::{Real, cast};
 use crate::vector::{sums, vectors};
 
-/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
-const PASSES: f64 = 0.3;
-
 impl<T: Real> Potential<'_, T> {
     pub(crate) fn is_capped(&self) -> bool {
         self.hardness().is_some()
     }
 
-    /// The caps on the contact pressure where the surfaces touch, ∞ elsewhere.
-    pub(crate) fn caps_of_contacts<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut Option<[T; CHUNK]>) -> &'b [T] {
-        let Some(hardness) = self.hardness() else { return &T::CONSTANT[2][..gaps.len()] };
-        let caps = &mut buffer.insert([T::zero(); CHUNK])[..gaps.len()];
-        hardness.fill(first, caps);
-        vectors!([gaps], [caps], |i| {
-            caps[i] = if gaps[i] == T::zero() { caps[i] } else { T::infinity() };
-        });
-        caps
-    }
-
-    /// The bounds of gaps after a step at the corner where the surface yields, from the side on which a node is, or to which
-    /// the gradient drives it.
-    pub(super) fn bounds_of_yielding<'b, Lo: Real>(
+    /// The gaps, infinite at contact nodes that the gradient r makes yield, and the caps that r loses there.
+    pub(crate) fn parted<'b, G: Real>(
         &self,
         first: usize,
-        (gaps, residual): (&[T], &[Lo]),
-        yields: bool,
+        (gaps, gradient): (&'b [T], &[G]),
+        release: T,
         buffers: &'b mut Option<[[T; CHUNK]; 2]>,
     ) -> [&'b [T]; 2] {
-        let (mut caps, [least, most]) = (None, buffers.insert([[T::zero(); CHUNK]; 2]).each_mut());
-        let caps = self.caps(first, gaps.len(), &mut caps);
-        let (least, most) = (&mut least[..gaps.len()], &mut most[..gaps.len()]);
-        vectors!([gaps, residual, caps], [least, most], |i| {
-            let (gap, r): (_, T) = (gaps[i], cast(residual[i]));
-            let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
-            // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
-            let against = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
-            let stops = (gap == T::zero()) | (against <= caps[i]);
-            least[i] = if stops & !below { T::zero() } else { T::neg_infinity() };
-            most[i] = if stops & below { T::zero() } else { T::infinity() };
+        let Some(hardness) = self.hardness() else { return [gaps, &T::CONSTANT[0][..gaps.len()]] };
+        let buffers = buffers.insert([hardness.caps(first, gaps.len()); 2]);
+        let [parted, caps] = buffers.each_mut().map(|buffer| &mut buffer[..gaps.len()]);
+        vectors!([gaps, gradient], [parted, caps], |i| {
+            let yields = (gaps[i] == T::zero()) & (cast::<_, T>(gradient[i]) - caps[i] > release);
+            parted[i] = if yields { T::infinity() } else { gaps[i] };
+            caps[i] = if yields { caps[i] } else { T::zero() };
         });
-        [least, most]
+        [parted, caps]
     }
 
     /// Takes from tractions the hardness, and the slopes, where the surfaces touch and a change makes them yield.
@@ -140,13 +121,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 let deeper = (-gap).max(T::zero());
                 *depth += deeper;
                 let [deep, cap, pull] = [*depth, cap, pull].map(T::widen);
-                found = found.add(Deepened {
-                    yielded: count(deep > 0.0),
-                    depth: deep,
-                    deepest: Minimum(-deep),
-                    energy: (cap - pull) * deep,
-                    pulled: pull * deeper.widen(),
-                });
+                found.yielded += count(deep > 0.0);
+                found.depth += deep;
+                found.deepest.0 = found.deepest.0.min(-deep);
+                found.energy += (cap - pull) * deep;
+                found.pulled += pull * deeper.widen();
             }
             found
         });

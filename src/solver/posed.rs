@@ -15,7 +15,7 @@ use crate::real::Real;
 
 /// The mean pressure, over the rms pressure that presses the surface flat, up to which undeformed surfaces that touch
 /// are the better start without adhesion on a periodic grid.
-const HARDLY: f64 = 1e-3;
+const HARDLY_PRESSED: f64 = 1e-3;
 
 /// The energy to be minimised, and how well. A phase may change load and goal, and with the goal law and wall.
 pub(super) struct Posed<'a, T: Real, Lo> {
@@ -120,6 +120,6 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
     /// Whether the load of the wall alone hardly presses the surfaces together.
     pub(super) fn is_hardly_pressed(&self) -> bool {
         let flat = self.flat.rms_pressure();
-        self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY * flat)
+        self.branch.is_some() && matches!(self.load, Load::Pressure(pressure) if pressure <= HARDLY_PRESSED * flat)
     }
 }

@@ -27,6 +27,10 @@ impl<T: Real> Least<T> {
         Self { rest: T::infinity(), share: T::zero(), depth: T::infinity() }
     }
 
+    pub(crate) fn is_unbounded(self) -> bool {
+        self.rest.is_infinite()
+    }
+
     /// Whether a wall at zero gap is all that bounds the gap.
     pub(crate) fn is_wall(self) -> bool {
         [self.rest, self.share, self.depth] == [T::zero(); 3]
@@ -122,7 +126,7 @@ impl<'a, T: Real> Potential<'a, T> {
             let Some((piece, others)) = rest.take().map(|rest| rest.divide(len)) else { break };
             rest = Some(others);
             let (local, node) = node.map_or((&nothing, first), |node| (&whole, node));
-            total = total.add(f(local, node, piece));
+            total = total.add(&f(local, node, piece).numbers());
         }
         total
     }
@@ -148,31 +152,7 @@ impl<'a, T: Real> Potential<'a, T> {
     /// The caps on the contact pressure at some nodes from `first` on: the hardness, or ∞ where nothing yields.
     pub(crate) fn caps<'b>(&self, first: usize, count: usize, buffer: &'b mut Option<[T; CHUNK]>) -> &'b [T] {
         let Some(hardness) = self.hardness() else { return &T::CONSTANT[2][..count] };
-        let caps = &mut buffer.insert([T::zero(); CHUNK])[..count];
-        hardness.fill(first, caps);
-        caps
-    }
-
-    /// The least and the greatest gap after a step: nodes stop at a corner of the local energy, or keep a part of their
-    /// gap.
-    pub(crate) fn bounds<'b, Lo: Real>(
-        &self,
-        first: usize,
-        (gaps, residual): (&[T], &[Lo]),
-        yields: bool,
-        buffers: &'b mut Option<[[T; CHUNK]; 2]>,
-    ) -> [&'b [T]; 2] {
-        let [zeros, no_least, no_most] = T::CONSTANT.map(|chunk| &chunk[..gaps.len()]);
-        match self.wall {
-            Some(Wall::Rigid) => [zeros, no_most],
-            Some(Wall::Capped(_)) => self.bounds_of_yielding(first, (gaps, residual), yields, buffers),
-            Some(Wall::None) => {
-                let (least, [lowest, _]) = (self.least(), buffers.insert([[T::zero(); CHUNK]; 2]));
-                lowest.iter_mut().zip(gaps).for_each(|(lowest, &gap)| *lowest = least.after(gap));
-                [&lowest[..gaps.len()], no_most]
-            }
-            Some(Wall::Springs(_)) | None => [no_least, no_most],
-        }
+        &buffer.insert(hardness.caps(first, count))[..count]
     }
 
     pub(crate) fn is_surface(&self) -> bool {
@@ -232,7 +212,7 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// The local tractions in a buffer of zeros.
-    pub(crate) fn tractions<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut [T; CHUNK]) -> &'b [T] {
+    pub(crate) fn tractions<'b>(&self, first: usize, gaps: &[T], buffer: &'b mut [T; CHUNK]) -> &'b mut [T] {
         let tractions = &mut buffer[..gaps.len()];
         if !self.is_zero() {
             self.evaluate(Of::Traction, first, gaps, tractions);

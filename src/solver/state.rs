@@ -227,7 +227,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             if working > 0.0 {
                 level = (tally.sum_r + released.sum_r) / working;
             }
-            yields = yields && (-released.spare.0 > multiplier.widen() || yielded);
+            yields = yields && (released.yielding > 0.0 || yielded);
         }
         (sums.residual.level, sums.residual.yields) = (level, yields);
         // where some yield, both sides of the corner have one level

@@ -13,7 +13,7 @@ use crate::real::Real;
 use crate::vector::sums;
 
 /// A share of the load that, held without contact, is hardly any.
-const HARDLY: f64 = 1e-3;
+const HARDLY_HELD: f64 = 1e-3;
 
 /// The share of the work of adhesion that a law has left at least where its traction is strongest.
 pub(crate) const STRONGEST: f64 = 0.5;
@@ -110,11 +110,11 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let one = if range > 0.0 { node / range } else { 0.0 };
         let stored = -self.sums.tally.adhesive;
         // a traction that rises with the gap is none at rest
-        let hardly = HARDLY * pulls.max(one);
+        let hardly = HARDLY_HELD * pulls.max(one);
         let gone = held <= hardly && (hints.concave || range == 0.0 || stored <= hardly * range);
         // With less than one node has at the law's strongest traction they fly apart, once their waves are at rest: all,
         // if that is in contact. Where the law varies one node may have less than another.
-        let least = if hints.concave { 1.0 - HARDLY } else { STRONGEST };
+        let least = if hints.concave { 1.0 - HARDLY_HELD } else { STRONGEST };
         let pulled = held < pulls && (hints.concave || hints.shape.is_none());
         let flies = stored < least * node && (pulled || pulls == 0.0 && self.posed.from_full_contact);
         gone || flies && matches!(self.posed.load, Load::Pressure(_)) && self.relative_error() <= AT_REST
@@ -175,7 +175,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let side = next.unwrap_or(section % 2);
             let width = interval[1] - interval[0];
             gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
-            held[side] = match self.tension_at(gaps[side], HARDLY * -load, &mut *observe)? {
+            held[side] = match self.tension_at(gaps[side], HARDLY_HELD * -load, &mut *observe)? {
                 Some(tension) if tension >= -load => {
                     self.go_on(Load::Pressure(load), Goal::Solution)?;
                     self.begins(Nearness::Near);
@@ -185,12 +185,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 None => break,
             };
             tried.push((gaps[side], held[side]));
-            if most_between(&mut tried, HARDLY * -load) < -load {
+            if most_between(&mut tried, HARDLY_HELD * -load) < -load {
                 break;
             }
             if section > 0 {
                 // the larger tension stays inside; where hardly any is held the surfaces are apart
-                let larger = usize::from(held[1] > held[0].max(HARDLY * -load));
+                let larger = usize::from(held[1] > held[0].max(HARDLY_HELD * -load));
                 interval[1 - larger] = gaps[1 - larger];
                 (gaps[1 - larger], held[1 - larger]) = (gaps[larger], held[larger]);
                 next = Some(larger);

@@ -16,41 +16,6 @@ use asperity::solver::Iteration;
 use asperity::*;
 use ndarray::Array2;
 
-/// A surface with absent nodes where heights are NaN, which has there the heights of a membrane over the hole.
-pub fn with_holes(grid: Grid, mut heights: Array2<f64>) -> Result<Surface> {
-    let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
-    let (absent, mean) = (heights.mapv(f64::is_nan), asperity::surface::mean_of_finite(&heights));
-    heights.mapv_inplace(|height| if height.is_nan() && mean.is_finite() { mean } else { height });
-    // Laplace's equation on these nodes, without neighbours beyond the edge, by successive over-relaxation
-    let holes: Vec<_> = absent.indexed_iter().filter(|(_, absent)| **absent).map(|(node, _)| node).collect();
-    let relaxation = 2.0 / (1.0 + std::f64::consts::PI / nx.max(ny) as f64);
-    let size = heights.iter().map(|height| height.abs()).fold(0.0, f64::max);
-    for _ in 0..10_000 {
-        let mut largest = 0.0_f64;
-        for &(i, j) in &holes {
-            let along = |present: bool, node, spacing: f64| present.then_some((node, spacing.powi(-2)));
-            let around = [
-                along(i > 0, (i.wrapping_sub(1), j), dx),
-                along(i + 1 < nx, (i + 1, j), dx),
-                along(j > 0, (i, j.wrapping_sub(1)), dy),
-                along(j + 1 < ny, (i, j + 1), dy),
-            ];
-            let sums = around
-                .into_iter()
-                .flatten()
-                .fold((0.0, 0.0), |sums, (node, weight)| (sums.0 + weight * heights[node], sums.1 + weight));
-            let change = relaxation * (sums.0 / sums.1 - heights[[i, j]]);
-            heights[[i, j]] += change;
-            largest = largest.max(change.abs());
-        }
-        if largest <= 1e-14 * size || !largest.is_finite() {
-            break;
-        }
-    }
-    heights.mapv_inplace(|height| if height.is_nan() { 0.0 } else { height });
-    Surface::new(grid, heights)?.with_absent(absent)
-}
-
 /// Solves from the default start, watching that the energy falls, and checks the solution's invariants.
 pub fn solve<T: Real>(problem: &mut Problem<T>, control: Control, tolerance: f64) -> Solution<T> {
     solve_from(problem, control, tolerance, None)

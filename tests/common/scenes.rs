@@ -10,12 +10,12 @@ use asperity::adhesion::{CutOff, Varying};
 use asperity::elastic::{self, Base, Coating, HalfSpace, Layer, Material, Series};
 use asperity::solver::Iteration;
 use asperity::*;
+use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
 use super::dense::{Dense, Held};
-use super::with_holes;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
@@ -493,7 +493,7 @@ impl Scene {
     }
 
     pub fn surface(&self) -> Surface {
-        with_holes(self.grid, self.heights.clone()).unwrap()
+        surface_with_absent(self.grid, self.heights.clone()).unwrap()
     }
 
     pub fn operator<T: Real>(&self) -> Box<dyn ElasticOperator<T>> {

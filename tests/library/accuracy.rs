@@ -8,9 +8,8 @@ use asperity::exact::WavyLine;
 use asperity::nested::Level;
 use asperity::solver::Iteration;
 use asperity::*;
+use asperity_maps::surface_with_absent;
 use ndarray::Array2;
-
-use crate::common::with_holes;
 
 fn half_space(grid: Grid) -> Result<Westergaard<f64>> {
     Westergaard::new(grid, 1.0)
@@ -412,7 +411,7 @@ fn a_free_sphere_an_adhesive_one_and_a_line_have_accuracies_too() {
 #[test]
 fn what_is_known_on_one_grid_alone_is_not_refined() {
     let grid = Grid::square(32, 1.0).unwrap();
-    let punch = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
+    let punch = surface_with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
     let found = Accuracy::new(0.01, Quantity::Stiffness)
         .solve(&mut Solver::default(), &punch, free, NoAdhesion, Control::Approach(0.01))
         .unwrap();

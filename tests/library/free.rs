@@ -11,10 +11,11 @@ use asperity::path::{Event, Path, PathSettings, PathStep};
 use asperity::solver::{Criterion, Iteration};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
+use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 
 use crate::common::dense::{Dense, Held};
-use crate::common::{followed, with_holes};
+use crate::common::followed;
 
 /// A free half-space of unit modulus against a surface.
 fn problem(surface: &Surface, law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
@@ -66,7 +67,7 @@ fn bumps_with_holes(shape: (usize, usize)) -> Surface {
     let heights = bumps(shape).heights().clone();
     let absent = |i: usize, j: usize| (i * i + 3 * j).is_multiple_of(11) || i + 3 < j && j + 3 > shape.1;
     let holes = Array2::from_shape_fn(shape, |(i, j)| if absent(i, j) { f64::NAN } else { heights[[i, j]] });
-    with_holes(*bumps(shape).grid(), holes).unwrap()
+    surface_with_absent(*bumps(shape).grid(), holes).unwrap()
 }
 
 fn faces(surface: &Surface) -> Vec<bool> {
@@ -273,7 +274,7 @@ fn a_cone_and_a_flat_punch_are_met() {
     let a = 0.45;
     let heights = grid.sample(|x, y| if x.hypot(y) < a { 0.0 } else { f64::NAN });
     let cells = heights.iter().filter(|h| !h.is_nan()).count();
-    let (punch, end) = (FlatPunch::new(a, 1.0).unwrap(), with_holes(grid, heights).unwrap());
+    let (punch, end) = (FlatPunch::new(a, 1.0).unwrap(), surface_with_absent(grid, heights).unwrap());
     let mut problem = problem(&end, NoAdhesion);
     for found in [Control::Approach(0.01), Control::Force(0.009)].map(|control| solve(&mut problem, control, 1e-6)) {
         let report = &found.report;
@@ -492,7 +493,7 @@ fn a_periodic_cell_takes_forces_springs_and_absent_nodes() {
         .heights()
         .indexed_iter()
         .map(|((i, j), h)| if i.abs_diff(20) < 3 && j.abs_diff(16) < 3 { f64::NAN } else { *h });
-    let holed = with_holes(grid, Array2::from_shape_vec((40, 32), holed.collect()).unwrap()).unwrap();
+    let holed = surface_with_absent(grid, Array2::from_shape_vec((40, 32), holed.collect()).unwrap()).unwrap();
     assert_eq!(holed.absent_nodes(), 25);
     let mut problem = Problem::new(&holed, half_space(), NoAdhesion).unwrap();
     let found = solve(&mut problem, Control::MeanPressure(0.02), 1e-8);
@@ -541,7 +542,7 @@ fn statistics_do_not_wrap_and_leave_absent_nodes_out() {
     let grid = Grid::square(32, 1.0).unwrap();
     // bumps at two opposite edges
     let heights = grid.sample(|x, y| if y.abs() > 0.2 { f64::NAN } else { -0.1 * ((x.abs() - 0.5).powi(2) + y * y) });
-    let surface = with_holes(grid, heights).unwrap();
+    let surface = surface_with_absent(grid, heights).unwrap();
     let found = solve(&mut problem(&surface, NoAdhesion), Control::Force(1e-4), 1e-6);
     let statistics = ContactStatistics::of(&found).unwrap();
     assert_eq!(statistics.cluster_sizes.len(), 2);
@@ -821,7 +822,7 @@ fn what_a_boundary_does_not_have_is_refused_by_name() {
     let flat = Surface::from_fn(grid, |_, _| 0.0).unwrap();
     let mut free = problem(&flat, NoAdhesion);
     let mut periodic = Problem::new(&flat, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
-    let holed = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.2 { f64::NAN } else { 0.0 })).unwrap();
+    let holed = surface_with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.2 { f64::NAN } else { 0.0 })).unwrap();
     let mut absent = Problem::new(&holed, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let mut solver = Solver::default();
     let spring = |stiffness: f64, rest: f64| Control::Spring { stiffness, rest };
@@ -854,11 +855,11 @@ fn what_a_boundary_does_not_have_is_refused_by_name() {
     let refused = Path::new(legs, PathSettings::default()).unwrap().check(&solver, &absent);
     assert!(matches!(refused, Err(Error::Unsuited { what: "path", .. })));
     // surfaces and half-spaces
-    let nothing = with_holes(grid, Array2::from_elem((16, 16), f64::NAN));
+    let nothing = surface_with_absent(grid, Array2::from_elem((16, 16), f64::NAN));
     assert!(matches!(nothing, Err(Error::Value { name: "number of nodes with a surface", .. })));
     let mut infinite = Array2::from_elem((16, 16), f64::NAN);
     infinite[[3, 4]] = f64::INFINITY;
-    assert!(matches!(with_holes(grid, infinite), Err(Error::NotFinite { first: (3, 4), .. })));
+    assert!(matches!(surface_with_absent(grid, infinite), Err(Error::NotFinite { first: (3, 4), .. })));
     for line in [Grid::line(8, 1.0).unwrap(), Grid::new((1, 8), (1.0, 1.0)).unwrap()] {
         assert!(matches!(Boussinesq::<f64>::new(line, 1.0), Err(Error::Value { .. })));
     }

@@ -8,11 +8,12 @@ use std::ops::ControlFlow::{Break, Continue};
 
 use crate::common::dense::Dense;
 use crate::common::rough::rough as rough_surface;
-use crate::common::{Kept, followed, rough, sphere, swept, with_holes};
+use crate::common::{Kept, followed, rough, sphere, swept};
 use approx::assert_relative_eq;
 use asperity::path::{Path, PathSettings};
 use asperity::solver::Iteration;
 use asperity::*;
+use asperity_maps::surface_with_absent;
 use ndarray::{Array2, Zip};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
@@ -477,7 +478,7 @@ fn every_law_control_body_and_precision_works_with_it() {
     let sphere = Surface::paraboloid(grid, 2.0).unwrap();
     let mut heights = sphere.heights().clone();
     heights.iter_mut().step_by(7).for_each(|h| *h = f64::NAN);
-    let holes = with_holes(grid, heights).unwrap();
+    let holes = surface_with_absent(grid, heights).unwrap();
     let mut problem = Problem::new(&holes, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let periodic = capped(0.05, 1e-6).solve(&mut problem, Control::MeanPressure(5e-4)).unwrap();
     let mut problem = Problem::new(&holes, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();

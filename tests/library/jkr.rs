@@ -6,9 +6,8 @@ use asperity::adhesion::{Varying, mu_rho};
 use asperity::elastic::{Base, Layer, Material};
 use asperity::exact::{self, AdhesiveWavyLine, Sphere};
 use asperity::*;
+use asperity_maps::surface_with_absent;
 use ndarray::Array2;
-
-use crate::common::with_holes;
 
 /// The wave of Johnson: its amplitude, and the work of adhesion at α = 0.3.
 const AMPLITUDE: f64 = 0.01;
@@ -194,7 +193,7 @@ fn a_flat_punch_and_a_cone_come_off_as_they_do_in_the_limit() {
         let heights = grid.sample(|x, y| if x.hypot(y) <= 0.25 { 0.0 } else { f64::NAN });
         let nodes = heights.iter().filter(|height| height.is_finite()).count() as f64;
         let radius = (nodes / PI).sqrt() * side / n as f64;
-        on(n, &with_holes(grid, heights).unwrap()) / (8.0 * PI * work * radius.powi(3)).sqrt()
+        on(n, &surface_with_absent(grid, heights).unwrap()) / (8.0 * PI * work * radius.powi(3)).sqrt()
     });
     // F = ½πE*m a² − √(8πwE*a³), least where a = 18w/(πE*m²)
     let slope = 0.2;

@@ -6,9 +6,8 @@ use asperity::{
     Boussinesq, Control, ElasticOperator, Error, Grid, NoAdhesion, Problem, SelfAffine, Solver, Spectral, Surface,
     Westergaard,
 };
+use asperity_maps::surface_with_absent;
 use ndarray::{Array2, Axis, concatenate};
-
-use crate::common::with_holes;
 
 fn grid() -> Grid {
     Grid::new((48, 40), (1.2, 1.0)).unwrap()
@@ -123,7 +122,7 @@ fn nodes_that_one_of_both_lacks_are_absent() {
     let lacking = |surface: &Surface, node| {
         let mut heights = surface.heights().clone();
         heights[node] = f64::NAN;
-        with_holes(grid(), heights).unwrap()
+        surface_with_absent(grid(), heights).unwrap()
     };
     let (one, other) = (lacking(&rough(1), (3, 4)), lacking(&rough(2), (0, 9)));
     let between = one.against(&other, (2.0 * spacing(), 0.0)).unwrap();

@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{rough, sphere, with_holes};
+use crate::common::{rough, sphere};
 use asperity::adhesion::Varying;
 use asperity::contact::{ContactArea, ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;
+use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 
 fn statistics<T: Real>(problem: &mut Problem<T>, control: Control) -> (Solution<T>, ContactStatistics) {
@@ -290,7 +291,7 @@ fn the_area_is_the_same_bits_however_the_fields_lie() {
     let of_map = ContactArea::of(map.view(), &grid).unwrap().corrected_contact_fraction;
     assert_eq!(found.corrected_contact_fraction, of_map);
     // where the surface ends, or the window, there is no edge
-    let holed = with_holes(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
+    let holed = surface_with_absent(grid, grid.sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN })).unwrap();
     let mut punch = Problem::new(&holed, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let solution = Solver::default().solve(&mut punch, Control::Approach(0.01)).unwrap();
     let found = ContactStatistics::of(&solution).unwrap();

@@ -2,15 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{rough, solve, solve_from, sphere, with_holes};
+use crate::common::{rough, solve, solve_from, sphere};
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::*;
+use asperity_maps::surface_with_absent;
 
 const PUNCH: f64 = 0.3;
 
 fn punch(grid: Grid) -> Surface {
     let heights = grid.sample(|x, y| if x.hypot(y) < PUNCH { 0.0 } else { f64::NAN });
-    with_holes(grid, heights).unwrap()
+    surface_with_absent(grid, heights).unwrap()
 }
 
 #[test]

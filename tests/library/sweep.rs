@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use crate::common::rough::rough as rough_surface;
-use crate::common::{Kept, check, rough, sphere, swept, with_holes};
+use crate::common::{Kept, check, rough, sphere, swept};
 use asperity::*;
+use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 
 fn gaps(values: &[f64]) -> Vec<Control> {
@@ -139,7 +140,7 @@ fn a_sweep_goes_on_bit_for_bit_where_nodes_face_no_surface() {
     let free = Boussinesq::<f64>::new(*surface.grid(), 1.0).unwrap();
     let hole = |(i, j)| (3..9).contains(&i) && (5..20).contains(&j);
     let absent = Array2::from_shape_fn((32, 32), |at| if hole(at) { f64::NAN } else { surface.heights()[at] });
-    let absent = with_holes(*surface.grid(), absent).unwrap();
+    let absent = surface_with_absent(*surface.grid(), absent).unwrap();
     let periodic = Westergaard::<f64>::new(*surface.grid(), 1.0).unwrap();
     let law = Exponential::new(1e-4, 4e-3).unwrap();
     let loads: Vec<_> = evenly(1e-3, 4e-3, 5).into_iter().map(Control::Force).collect();

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`io`] | files of instruments, of Gwyddion and of numpy; fields and heights written; folders of results |
 //! | [`numbers`] | numbers as text for people |
-//! | the root | [`Topography`]: a map with missing points, tilt and edges, on its way to a surface; [`fill()`] and [`surface_with_absent`] for missing points, and [`knee_wavelength`], at which noise begins |
+//! | root | [`Topography`], a map on its way to a surface; [`fill()`], [`surface_with_absent`], [`knee_wavelength`] |
 //! | [`warning`] | probable mistakes in heights, in the law on them, and in an answer |
 
 pub mod io;

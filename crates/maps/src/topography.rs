@@ -214,7 +214,7 @@ impl Topography {
         self
     }
 
-    /// Gives missing points the heights of a membrane that spans the hole from its edge: [`fill`]. Without side lengths
+    /// Gives missing points the heights of a membrane that spans the hole from its edge: [`fill()`]. Without side lengths
     /// cells are square.
     ///
     /// ```

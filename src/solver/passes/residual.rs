@@ -1,11 +1,11 @@
 //! The residual r' on the working set, and the passes that use it before a step is made.
 
 use super::{Fields, count, idles};
-use crate::field::{CHUNK, Minimum, found, read, write};
+use crate::field::{CHUNK, found, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::Potential;
-use crate::vector::sums;
+use crate::vector::{sums, vectors};
 
 /// The working set by the gradient r, and the constants of r and r'.
 #[derive(Clone, Copy, Debug)]
@@ -24,8 +24,8 @@ found! {
         pub(in crate::solver) count: f64,
         /// Σ r over these nodes, less the cap where they yield
         pub(in crate::solver) sum_r: f64,
-        /// the least that the cap of a contact node exceeds its r
-        pub(in crate::solver) spare: Minimum,
+        /// the number of nodes that begin to yield
+        pub(in crate::solver) yielding: f64,
     }
 }
 
@@ -53,18 +53,26 @@ fn works<T: Real>(residual: T) -> T {
     residual + T::zero()
 }
 
-/// The gradient r of a node in the direction in which it may move, r less the cap where it is about to yield, and
-/// whether it may.
+/// The residual r' of a node by its gap and gradient r, [parted](Potential::parted), and whether it may move.
 #[inline(always)]
-fn gradient<T: Real>(touching: T, release: T, cap: T, gap: T, r: T) -> (T, bool) {
-    let yields = r - cap > release;
-    (if yields { r - cap } else { r }, (gap != touching) | (r < release) | yields)
+fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, [gap, cap, r]: [T; 3]) -> (Lo, bool) {
+    let may = (gap != touching) | (r < w.release);
+    (if may { works(cast(r - cap - w.level)) } else { Lo::neg_zero() }, may)
 }
 
-#[inline(always)]
-fn residual_of<T: Real, Lo: Real>(touching: T, w: Working<T>, cap: T, gap: T, r: T) -> (Lo, bool) {
-    let (r, may) = gradient(touching, w.release, cap, gap, r);
-    (if may { works(cast(r - w.level)) } else { Lo::neg_zero() }, may)
+/// The gradient r = p + φ'(g) + b of some nodes.
+fn gradient<'b, T: Real>(
+    local: &Potential<'_, T>,
+    offset: T,
+    first: usize,
+    (gap, pressure): (&[T], &[T]),
+    buffer: &'b mut [T; CHUNK],
+) -> &'b [T] {
+    let gradient = local.tractions(first, gap, buffer);
+    vectors!([pressure], [gradient], |i| {
+        gradient[i] = pressure[i] + gradient[i] + offset;
+    });
+    gradient
 }
 
 /// The contact nodes that are released.
@@ -82,16 +90,15 @@ pub(in crate::solver) fn released<T: Real, Lo: Real>(
         read(gap).zip(read(pressure)),
         |local, first, (gap, pressure)| {
             let touching = local.touching();
-            let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
-            let tractions = local.tractions(first, gap, &mut tractions);
-            let caps = local.caps_of_contacts(first, gap, &mut caps);
-            sums!([gap, pressure, tractions, caps], [], |i| {
-                let r = pressure[i] + tractions[i] + offset;
-                let (less, may) = gradient(touching, release, caps[i], gap[i], r);
-                let released = (gap[i] == touching) & may;
+            let (mut gradients, mut buffers) = ([T::zero(); CHUNK], None);
+            let r = gradient(local, offset, first, (gap, pressure), &mut gradients);
+            let [parted, caps] = local.parted(first, (gap, r), release, &mut buffers);
+            sums!([gap, r, parted, caps], [], |i| {
+                let yields = parted[i] != gap[i];
+                let released = (gap[i] == touching) & (yields | (r[i] < release));
             } => Released {
-                count: count(released), sum_r: if released { less.widen() } else { 0.0 };
-                least spare: (caps[i] - r).widen()
+                count: count(released), sum_r: if released { (r[i] - caps[i]).widen() } else { 0.0 },
+                yielding: count(yields)
             })
         },
     )
@@ -107,12 +114,11 @@ pub(in crate::solver) fn residual<T: Real, Lo: Real>(
     let chunks = read(gap).zip(read(pressure)).zip(write(residual)).zip(read(preconditioned)).zip(read(change));
     let total = local.run(reducer, chunks, |local, first, ((((gap, pressure), residual), z), change)| {
         let touching = local.touching();
-        let (mut tractions, mut caps) = ([T::zero(); CHUNK], None);
-        let tractions = local.tractions(first, gap, &mut tractions);
-        let caps = local.caps_of_contacts(first, gap, &mut caps);
-        sums!([gap, pressure, tractions, z, change, caps], [residual], |i| {
-            let r = pressure[i] + tractions[i] + working.offset;
-            let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], r);
+        let (mut gradients, mut buffers) = ([T::zero(); CHUNK], None);
+        let r = gradient(local, working.offset, first, (gap, pressure), &mut gradients);
+        let [parted, caps] = local.parted(first, (gap, r), working.release, &mut buffers);
+        sums!([gap, r, z, change, parted, caps], [residual], |i| {
+            let (r, may): (Lo, _) = residual_of(touching, working, [parted[i], caps[i], r[i]]);
             let difference = (r - residual[i]).widen();
             residual[i] = r;
             let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
@@ -135,10 +141,10 @@ pub(super) fn release_chunk<T: Real, Lo: Real>(
     (z, change): (&[Lo], &[Lo]),
     residual: &mut [Lo],
 ) -> Continued {
-    let (touching, mut caps) = (local.touching(), None);
-    let caps = local.caps_of_contacts(first, gap, &mut caps);
-    sums!([gap, z, change, caps], [residual], |i| {
-        let (r, may): (Lo, _) = residual_of(touching, working, caps[i], gap[i], cast(residual[i]));
+    let (touching, mut buffers) = (local.touching(), None);
+    let [parted, caps] = local.parted(first, (gap, residual), working.release, &mut buffers);
+    sums!([gap, z, change, parted, caps], [residual], |i| {
+        let (r, may): (Lo, _) = residual_of(touching, working, [parted[i], caps[i], cast(residual[i])]);
         residual[i] = r;
         let [r, d, z] = [r, change[i], z[i]].map(Lo::widen);
     } => Continued {

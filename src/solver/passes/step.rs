@@ -103,20 +103,53 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
 
 /// The change c of a node, and whether it was clipped to the `least` or the `most` gap after a step.
 #[inline(always)]
-fn clipped_change<T: Real>([least, most]: [T; 2], attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
+fn clipped_change<T: Real, Lo: Real>(
+    [least, most]: [T; 2],
+    attempt: Attempt<T>,
+    gap: T,
+    [r, z, c]: [Lo; 3],
+) -> (Lo, bool) {
     let Attempt { length, centre, keep, mean, .. } = attempt;
-    let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
-    let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
-    let (low, high) = (next < least, next > most);
-    let bound = if low { least } else { most };
-    ((if low | high { bound } else { next }) - gap, low | high)
+    let kept = if keep == T::zero() { T::zero() } else { keep * (cast::<_, T>(c) - mean) };
+    let next = if idles(r) { gap } else { gap - length * (cast::<_, T>(z) - centre) + kept };
+    let bounded = if next < least { least } else { next };
+    let bounded = if bounded > most { most } else { bounded };
+    (cast(bounded - gap), bounded != next)
 }
 
-/// Whether a clipped node is driven to zero by the gradient itself.
-#[inline(always)]
-fn is_blocked<T: Real>(clipped: bool, gap: T, r: T) -> bool {
-    let (from_above, from_below) = ((r > T::zero()) & (gap > T::zero()), (r < T::zero()) & (gap < T::zero()));
-    clipped & (from_above | from_below)
+/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
+const PASSES: f64 = 0.3;
+
+/// The least and the greatest gap after a step. At the corner where the surface yields a node stops from the side on
+/// which it is, or to which the gradient drives it.
+fn bounds<'b, T: Real, Lo: Real>(
+    local: &Potential<'_, T>,
+    first: usize,
+    (gaps, residual): (&[T], &[Lo]),
+    yields: bool,
+    buffers: &'b mut Option<[[T; CHUNK]; 2]>,
+) -> [&'b [T]; 2] {
+    let ([zeros, no_least, no_most], bound) = (T::CONSTANT.map(|chunk| &chunk[..gaps.len()]), local.least());
+    let Some(hardness) = local.hardness() else {
+        if bound.is_wall() || bound.is_unbounded() {
+            return [if bound.is_wall() { zeros } else { no_least }, no_most];
+        }
+        let [least, _] = buffers.insert([[T::zero(); CHUNK]; 2]);
+        least.iter_mut().zip(gaps).for_each(|(least, &gap)| *least = bound.after(gap));
+        return [&least[..gaps.len()], no_most];
+    };
+    let buffers = buffers.insert([hardness.caps(first, gaps.len()); 2]);
+    let [least, most] = buffers.each_mut().map(|buffer| &mut buffer[..gaps.len()]);
+    vectors!([gaps, residual], [least, most], |i| {
+        let (gap, r, cap): (_, T, _) = (gaps[i], cast(residual[i]), least[i]);
+        let below = (gap < T::zero()) | ((gap == T::zero()) & (r > T::zero()) & yields);
+        // beyond the corner the gradient is another one by the cap: a node stops if that might drive it back
+        let against = if gap > T::zero() { T::lit(PASSES) * r } else { -r };
+        let stops = (gap == T::zero()) | (against <= cap);
+        least[i] = if stops & !below { T::zero() } else { T::neg_infinity() };
+        most[i] = if stops & below { T::zero() } else { T::infinity() };
+    });
+    [least, most]
 }
 
 /// Writes the clipped change c of a step; `surface` is K⁻¹h, and `held` whether the mean gap is given.
@@ -129,20 +162,31 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change)).zip(read(surface));
     local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
-        let (projects, mut bounds) = (local.projects(), None);
-        let [least, most] = local.bounds(first, (gap, residual), attempt.yields, &mut bounds);
-        let mut tried = sums!([gap, residual, z, least, most], [change], |i| {
-            let (g, r): (_, T) = (gap[i], cast(residual[i]));
-            let trial = [r, cast(z[i]), cast(change[i])];
-            let (c, clipped) = clipped_change([least[i], most[i]], attempt, g, trial);
-            change[i] = cast(c);
-            let blocked = projects & is_blocked(clipped, g, r);
-            let (r, c) = (r.widen(), change[i].widen());
-        } => Tried { change: c, clipped: count(clipped), blocked: count(blocked), descent: r * c, square: c * c });
-        if held {
-            tried = tried.add(sums!([gap, residual, change, surface], [], |i| {
-                let ([g, h], [r, c]) = ([gap[i], surface[i]].map(T::widen), [residual[i], change[i]].map(Lo::widen));
-            } => Tried { gap_descent: r * g, change_surface: c * h, gap_surface: g * h }));
+        let mut buffers = None;
+        let [least, most] = bounds(local, first, (gap, residual), attempt.yields, &mut buffers);
+        let mut tried = if held {
+            sums!([gap, residual, z, surface, least, most], [change], |i| {
+                let (g, r) = (gap[i], residual[i]);
+                let (new, clipped) = clipped_change([least[i], most[i]], attempt, g, [r, z[i], change[i]]);
+                change[i] = new;
+                let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, new].map(Lo::widen));
+            } => Tried {
+                change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c,
+                square: c * c, gap_descent: r * g, change_surface: c * h, gap_surface: g * h
+            })
+        } else {
+            sums!([gap, residual, z, least, most], [change], |i| {
+                let r = residual[i];
+                let (new, clipped) = clipped_change([least[i], most[i]], attempt, gap[i], [r, z[i], change[i]]);
+                change[i] = new;
+                let [r, c] = [r, new].map(Lo::widen);
+            } => Tried {
+                change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c,
+                square: c * c
+            })
+        };
+        if !local.projects() {
+            tried.blocked = 0.0;
         }
         if local.is_zero() {
             return tried;
@@ -150,11 +194,11 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
         let [mut tractions, mut slopes] = [[T::zero(); CHUNK]; 2];
         let (tractions, slopes) = (&mut tractions[..gap.len()], &mut slopes[..gap.len()]);
         local.tractions_and_slopes(first, gap, tractions, slopes);
-        let kink = local.yielding(first, gap, change, tractions, slopes);
+        tried.kink = local.yielding(first, gap, change, tractions, slopes);
         let found = sums!([gap, change, tractions, slopes], [], |i| {
             let ([g, t, s], c) = ([gap[i], tractions[i], slopes[i]].map(T::widen), change[i].widen());
         } => Tried { traction: t * c, slope_change: s * c * c, slope_mixed: s * c * g, slope_gap: s * g * g });
-        tried.add(Tried { kink, ..found })
+        tried.add(&found.numbers())
     })
 }
 
