@@ -429,7 +429,7 @@ const DECIDED: &[Decided] = &[
     ("ROUNDINGS", End::Converged, &[(3869, 80), (4703, 60)]),
     ("HOLD", End::Converged, &[(2410, 80), (3881, 75)]),
     ("STALL, the first", End::Converged, &[(656, 200), (1688, 190)]),
-    ("STALL, the second", End::Stalled, &[(2548, 110)]),
+    ("STALL, the second", End::Stalled, &[(7425, 100), (14238, 100)]),
     ("CERTIFY", End::Converged, &[(1160, 20), (1337, 20), (1691, 20)]),
     ("PROGRESS of the error", End::Floor, &[(2121, 300), (7239, 300), (15099, 400)]),
     ("PROGRESS of a proof", End::Floor, &[(2112, 69), (16446, 52)]),
