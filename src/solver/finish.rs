@@ -9,7 +9,7 @@ use super::state::State;
 use crate::adhesion::{AdhesionLaw, mu_rho, noticeable};
 use crate::elastic::Boundary;
 use crate::error::Result;
-use crate::field::{Minimum, Sums, found, read, write};
+use crate::field::{Field, Minimum, Sums, found, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::Load;
@@ -49,7 +49,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let law = self.posed.given.clone();
         let (grid, nodes) = (*self.posed.operators.state().grid(), self.posed.nodes());
         let facing = self.posed.facing();
-        let Fields { gap, mut pressure, .. } = self.fields;
+        let [gap, mut pressure] = [self.fields.gap, self.fields.pressure].map(Field::into_array);
         let yields = plastic_depth.is_some();
         let (mut solution, whole) = match &flat.window {
             None => {
@@ -100,9 +100,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let Self { fields, posed, .. } = self;
         let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
         for correction in [residual, preconditioned, change] {
-            *correction = Array2::zeros((0, 0));
+            *correction = Field::default();
         }
-        let mut contact_pressure = Array2::zeros(gap.dim());
+        let mut contact_pressure = Field::zeros(gap.dim());
         let local = posed.potential();
         let fields = read(gap).zip(write(pressure)).zip(write(&mut contact_pressure));
         let carried = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
@@ -116,7 +116,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 least least_gap: gap[i].widen()
             })
         });
-        (contact_pressure, carried)
+        (contact_pressure.into_array(), carried)
     }
 
     /// ⟨λ⟩ − ⟨φ'⟩.

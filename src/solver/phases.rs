@@ -7,7 +7,6 @@ use super::state::State;
 use crate::adhesion::Values;
 use crate::constraint::{Update, Wall};
 use crate::error::{Error, Result};
-use crate::field::flat;
 use crate::problem::{Control, Load};
 use crate::real::Real;
 
@@ -46,7 +45,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let law = self.posed.law();
         let mut value = [T::zero()];
         let first = self.posed.operators.state().grid().slab().first_node();
-        for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
+        for (node, gap) in (first..).zip(self.fields.gap.nodes()) {
             let node = match &self.posed.flat.window {
                 None => node,
                 Some(window) => match window.pieces(node..node + 1).next() {
@@ -95,7 +94,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.posed.goal = Goal::Solution;
         if self.posed.branch.is_some() && self.is_adrift() {
             // the law itself may hold this tension
-            self.fields.gap.fill(T::lit(uniform_start(self.posed.adhesion, self.posed.flat, self.posed.load)));
+            let uniform = uniform_start(self.posed.adhesion, self.posed.flat, self.posed.load);
+            self.fields.gap.nodes_mut().fill(T::lit(uniform));
             self.refresh()?;
         }
         self.restart();
@@ -107,8 +107,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn update_constraint(&mut self) -> Update {
         // no gap where no surface faces the half-space
         let whole = || match &self.posed.flat.window {
-            Some(window) => window.held().whole_of(window.cut(&self.fields.gap, T::infinity())),
-            None => self.posed.operators.state().grid().whole(&self.fields.gap),
+            Some(window) => window.held().whole_of(window.cut(&self.fields.gap, T::infinity()).into_array()),
+            None => self.posed.operators.state().grid().whole(&*self.fields.gap),
         };
         let gap = matches!(self.posed.constraint.wall(), Wall::Springs(_)).then(whole);
         let work = self.error_scale().0 * self.posed.nodes();
