@@ -78,7 +78,7 @@ impl<T: Real> Solution<T> {
     }
 }
 
-type Field<'a, T> = CowArray<'a, T, Ix2>;
+type Whole<'a, T> = CowArray<'a, T, Ix2>;
 
 /// Whether each node attracts without contact: whether its adhesive traction is noticeable.
 fn attracting<T: Real>(
@@ -106,7 +106,7 @@ fn whole<'a, T: Real>(
     gap: ArrayView2<'a, T>,
     contact_pressure: ArrayView2<'a, T>,
     grid: &Grid,
-) -> Result<(Field<'a, T>, Field<'a, T>, Grid)> {
+) -> Result<(Whole<'a, T>, Whole<'a, T>, Grid)> {
     grid.fits("gap", gap.dim())?;
     grid.fits("contact pressure", contact_pressure.dim())?;
     Ok((grid.whole(gap), grid.whole(contact_pressure), grid.alone()))

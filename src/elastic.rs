@@ -1,9 +1,9 @@
 //! The elastic operator: pressure from displacement, displacement from pressure, and the preconditioner.
 
-use ndarray::{Array2, ArrayView2, ArrayViewMut2};
+use ndarray::{ArrayView2, ArrayViewMut2};
 
 use crate::error::{Error, Result};
-use crate::field;
+use crate::field::Field;
 use crate::grid::Grid;
 use crate::real::Real;
 

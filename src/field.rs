@@ -1,6 +1,9 @@
-//! Passes over fields: chunk by chunk, with sums that do not depend on the number of threads.
+//! Fields, and passes over them: chunk by chunk, with sums that do not depend on the number of threads.
 
-use ndarray::{Array2, ArrayView2};
+use std::borrow::Cow;
+use std::ops::Deref;
+
+use ndarray::{Array2, ArrayView2, ArrayViewMut2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
 use crate::par::{self, Parts};
@@ -176,19 +179,70 @@ impl Reducer {
     }
 }
 
-/// The nodes of a field that this crate made, in row-major order; none in another layout.
-pub(crate) fn flat<T>(field: &Array2<T>) -> &[T] {
-    field.as_slice().unwrap_or_default()
+/// A field of the crate's own, contiguous in row-major order. It is read as an array.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Field<T>(Array2<T>);
+
+impl<T> Deref for Field<T> {
+    type Target = Array2<T>;
+    fn deref(&self) -> &Array2<T> {
+        &self.0
+    }
 }
 
-pub(crate) fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
-    field.as_slice_mut().unwrap_or_default()
+impl<T: Clone + Default + 'static> Field<T> {
+    /// The field of an array, which is copied if it is borrowed or in another order.
+    pub(crate) fn of<'a>(array: impl Into<CowArray<'a, T, Ix2>>) -> Self {
+        let array = array.into();
+        Self(if array.is_standard_layout() { array.into_owned() } else { array.as_standard_layout().into_owned() })
+    }
+
+    pub(crate) fn zeros(shape: (usize, usize)) -> Self {
+        Self::filled(shape, T::default())
+    }
+
+    pub(crate) fn filled(shape: (usize, usize), value: T) -> Self {
+        Self(Array2::from_elem(shape, value))
+    }
 }
 
-pub(crate) fn read<T: Sync>(field: &Array2<T>) -> impl Parts<Part = &[T]> {
-    par::chunks(flat(field), CHUNK)
+impl<T> Field<T> {
+    pub(crate) fn from_fn(shape: (usize, usize), f: impl FnMut((usize, usize)) -> T) -> Self {
+        Self(Array2::from_shape_fn(shape, f))
+    }
+
+    pub(crate) fn nodes(&self) -> &[T] {
+        contiguous(self.0.as_slice())
+    }
+
+    pub(crate) fn nodes_mut(&mut self) -> &mut [T] {
+        contiguous(self.0.as_slice_mut())
+    }
+
+    pub(crate) fn view_mut(&mut self) -> ArrayViewMut2<'_, T> {
+        self.0.view_mut()
+    }
+
+    pub(crate) fn into_array(self) -> Array2<T> {
+        self.0
+    }
 }
 
-pub(crate) fn write<T: Send>(field: &mut Array2<T>) -> impl Parts<Part = &mut [T]> {
-    par::chunks_mut(flat_mut(field), CHUNK)
+/// The nodes of an array that is contiguous by construction.
+pub(crate) fn contiguous<S: Default>(nodes: Option<S>) -> S {
+    debug_assert!(nodes.is_some(), "an array is not in the order of its construction");
+    nodes.unwrap_or_default()
+}
+
+/// The nodes of an array in row-major order, copied if it is in another one.
+pub(crate) fn ordered<T: Clone>(array: ArrayView2<'_, T>) -> Cow<'_, [T]> {
+    array.to_slice().map_or_else(|| array.iter().cloned().collect(), Cow::Borrowed)
+}
+
+pub(crate) fn read<T: Sync>(field: &Field<T>) -> impl Parts<Part = &[T]> {
+    par::chunks(field.nodes(), CHUNK)
+}
+
+pub(crate) fn write<T: Send>(field: &mut Field<T>) -> impl Parts<Part = &mut [T]> {
+    par::chunks_mut(field.nodes_mut(), CHUNK)
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Reducer, all_finite_in};
+use crate::field::{CHUNK, Reducer, all_finite_in, ordered};
 use crate::par::{self, Parts};
 use crate::ranks::{COUNTED, Sent};
 use crate::real::Real;
@@ -155,9 +155,8 @@ impl Grid {
         b: ArrayView2<'_, T>,
         of: impl Fn(S, T) -> f64 + Sync + Send,
     ) -> f64 {
-        let (a, b) = (a.as_standard_layout(), b.as_standard_layout());
-        let chunks = par::chunks(a.as_slice().unwrap_or_default(), CHUNK);
-        let chunks = chunks.zip(par::chunks(b.as_slice().unwrap_or_default(), CHUNK));
+        let (a, b) = (ordered(a), ordered(b));
+        let chunks = par::chunks(&a, CHUNK).zip(par::chunks(&b, CHUNK));
         let sum = self.reducer().run(chunks, |_, (a, b)| a.iter().zip(b).map(|(&a, &b)| of(a, b)).sum::<f64>());
         sum / self.nodes() as f64
     }

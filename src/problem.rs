@@ -8,6 +8,7 @@ use ndarray::{Array2, ArrayView2};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho, on_grid};
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
+use crate::field::Field;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
@@ -171,14 +172,9 @@ impl<T: Real> Problem<T> {
         self.flat.flatten(&mut *self.operator, depth)
     }
 
-    /// As [`flatten`](Self::flatten), with a depth on the operator's grid.
-    pub(crate) fn flatten_on_grid(&mut self, depth: Array2<T>) -> Result<()> {
-        self.flat.flatten(&mut *self.operator, depth)
-    }
-
     /// The plastic depth by which the surface is lower than it was made, on its grid; none if it never was lowered.
     pub fn plastic_depth(&self) -> Option<Array2<T>> {
-        let depth = self.flat.yielded.as_ref()?.depth();
+        let depth = self.yielded()?;
         Some(self.flat.window.as_ref().map_or_else(|| depth.clone(), |window| window.crop(depth, T::zero())))
     }
 
@@ -186,11 +182,11 @@ impl<T: Real> Problem<T> {
     /// depth before. Returns by how much it is lower than before, on the operator's grid, as the gap is.
     pub(crate) fn lower(&mut self, depth: ArrayView2<'_, T>, stays: bool, gap: &mut Array2<T>) -> Result<Array2<T>> {
         let depth = self.flat.placed(&*self.operator, depth)?;
-        let mut lowered = depth.clone();
-        self.flat.yielded.iter().for_each(|before| lowered -= before.depth());
+        let mut lowered = Array2::clone(&depth);
+        self.flat.yielded.iter().for_each(|before| lowered -= &*before.depth);
         gap.zip_mut_with(&lowered, |gap, &lowered| *gap = if lowered > T::zero() { T::zero() } else { *gap });
         if stays {
-            self.flatten_on_grid(depth)?;
+            self.flat.flatten(&mut *self.operator, depth)?;
         } else {
             lowered.fill(T::zero());
         }
@@ -199,14 +195,14 @@ impl<T: Real> Problem<T> {
 
     /// The plastic depth on the operator's grid.
     pub(crate) fn yielded(&self) -> Option<&Array2<T>> {
-        self.flat.yielded.as_ref().map(Yielded::depth)
+        self.flat.yielded.as_ref().map(|yielded| &*yielded.depth)
     }
 
     /// Lowers the surface to the plastic depth of a strategy, if it has one, on the operator's grid.
     pub(crate) fn yield_to(&mut self, depth: Option<&Array2<T>>) -> Result<()> {
         match depth {
             Some(depth) if self.operator.grid().each(self.yielded() != Some(depth)).contains(&true) => {
-                self.flatten_on_grid(depth.clone())
+                self.flat.flatten(&mut *self.operator, Field::of(depth))
             }
             _ => Ok(()),
         }

@@ -210,10 +210,10 @@ impl Slab {
         if !self.is_shared() || self == to {
             return field;
         }
-        let width = field.ncols();
+        let mut moved = Array2::default((to.rows().len(), field.ncols()));
         let rows = self.rows_for(field, to, |row| [row]);
-        let moved = to.rows().flat_map(|row| rows.row(row).to_vec()).collect();
-        Array2::from_shape_vec((to.rows().len(), width), moved).unwrap_or_default().into()
+        to.rows().zip(moved.rows_mut()).for_each(|(row, mut moved)| moved.assign(&rows.row(row)));
+        moved.into()
     }
 
     /// The field of the whole grid, on every process, of which `held` is that of this slab. All processes have to call

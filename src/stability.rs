@@ -10,7 +10,7 @@ use ndarray::Array2;
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, Minimum, Reducer, flat, write};
+use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Parts, Problem, Window, smoothed_law};
@@ -252,13 +252,13 @@ impl StabilityTest {
             residual: pair.residual,
             lower_bound,
             error_bound: (lower_bound > 0.0).then(|| relative_error * (1.0 + steepest / lower_bound)),
-            mode: pair.vector,
+            mode: pair.vector.into_array(),
             smoothed,
             operator_applications: taken,
             bound_applications: more,
         };
         if hessian.dimension() == 0 {
-            let nothing = Array2::zeros(hessian.shape());
+            let nothing = Field::zeros(hessian.shape());
             let pair = Eigenpair { value: f64::INFINITY, residual: 0.0, noise: 0.0, vector: nothing };
             return Ok(stability(Verdict::Stable, pair, f64::INFINITY, 0, 0));
         }
@@ -299,18 +299,17 @@ fn slopes<T: Real>(
     gap: &Array2<T>,
     (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
     (grid, window): (&Grid, Option<&Window>),
-) -> Result<Array2<T>> {
+) -> Result<Field<T>> {
     let slab = window.map_or(grid.slab(), Window::held);
     let local = Potential::new(law, constraint, None);
     let gap = window.map_or_else(|| gap.view().into(), |window| window.hold(gap.view()));
-    let gap = gap.as_standard_layout();
-    let gaps = gap.as_slice().unwrap_or_default();
-    let mut slopes = Array2::zeros(gap.dim());
+    let gaps = ordered(gap.view());
+    let mut slopes = Field::zeros(gap.dim());
     let touches = |node, gap| match constraint.wall() {
         Wall::Springs(springs) => constraint.ends_rigid() && springs.traction(node, gap) < T::zero(),
         _ => local.projects() && gap <= T::zero(),
     };
-    let wrong = Reducer::new(slab).run(par::chunks(gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
+    let wrong = Reducer::new(slab).run(par::chunks(&gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut wrong = f64::INFINITY;
         local.evaluate(Of::Slope, first, gap, slopes);
         for (i, (slope, &gap)) in slopes.iter_mut().zip(gap).enumerate() {
@@ -324,7 +323,7 @@ fn slopes<T: Real>(
     });
     if wrong.0.is_finite() {
         let own = (wrong.0 as usize).checked_sub(slab.first_node());
-        let own = own.and_then(|node| Some((gaps.get(node)?.widen(), flat(&slopes).get(node)?.widen())));
+        let own = own.and_then(|node| Some((gaps.get(node)?.widen(), slopes.nodes().get(node)?.widen())));
         let refused =
             own.map_or(Ok(()), |(gap, value)| Err(Error::not_finite("slope of the local traction", gap, value)));
         slab.agreed(refused)?;

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
+use crate::field::{Field, contiguous};
 use crate::grid::Grid;
 
 mod fourier;
@@ -41,8 +42,8 @@ pub use statistics::SurfaceStatistics;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     grid: Grid,
-    heights: Array2<f64>,
-    absent: Option<Array2<bool>>,
+    heights: Field<f64>,
+    absent: Option<Field<bool>>,
 }
 
 impl Surface {
@@ -53,8 +54,7 @@ impl Surface {
     pub fn new(grid: Grid, heights: Array2<f64>) -> Result<Self> {
         grid.fits("heights", heights.dim())?;
         grid.finite("heights", heights.view())?;
-        let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
-        Ok(Self { grid, heights, absent: None })
+        Ok(Self { grid, heights: Field::of(heights), absent: None })
     }
 
     /// The surface with absent nodes, of shape (Nx, Ny): they neither touch nor attract. The heights there count in
@@ -70,8 +70,7 @@ impl Surface {
             let requirement = "at least 1: all nodes are absent";
             return Err(Error::Value { name: "number of nodes with a surface", value: 0.0, requirement });
         }
-        let absent = if absent.is_standard_layout() { absent } else { absent.as_standard_layout().into_owned() };
-        Ok(Self { absent: (count > 0).then_some(absent), ..self })
+        Ok(Self { absent: (count > 0).then_some(Field::of(absent)), ..self })
     }
 
     /// A surface from a function of the coordinates, `(x, y) → h`.
@@ -131,13 +130,13 @@ impl Surface {
         if !self.grid.is_shared() {
             return Cow::Borrowed(self);
         }
-        let absent = self.absent.as_ref().map(|absent| self.grid.whole(absent).into_owned());
-        Cow::Owned(Self { grid: self.grid.alone(), heights: self.grid.whole(&self.heights).into_owned(), absent })
+        let absent = self.absent.as_ref().map(|absent| Field::of(self.grid.whole(&**absent)));
+        Cow::Owned(Self { grid: self.grid.alone(), heights: Field::of(self.grid.whole(&*self.heights)), absent })
     }
 
     /// The absent nodes, of the shape of the [heights](Self::heights); nothing if there are none.
     pub fn absent(&self) -> Option<&Array2<bool>> {
-        self.absent.as_ref()
+        self.absent.as_deref()
     }
 
     /// The number of absent nodes, of the whole surface. Where several processes share its grid, all have to ask.
@@ -180,7 +179,7 @@ pub fn mean_of_finite(heights: &Array2<f64>) -> f64 {
 /// Moves what is at index zero along y to the origin of the grid.
 fn centre(field: &mut Array2<f64>) {
     let ny = field.ncols();
-    field.rows_mut().into_iter().filter_map(|row| row.into_slice()).for_each(|row| row.rotate_right(ny / 2));
+    field.rows_mut().into_iter().for_each(|row| contiguous(row.into_slice()).rotate_right(ny / 2));
 }
 
 fn resolved(periods: usize, nodes: usize) -> Result<()> {

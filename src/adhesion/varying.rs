@@ -1,10 +1,10 @@
 use std::sync::Arc;
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::ArrayView2;
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::error::{Error, Result};
-use crate::field::{all_finite, flat};
+use crate::field::{Field, all_finite};
 use crate::real::Real;
 
 /// A law whose work of adhesion differs from node to node, w(x, y): energy, traction and slope in proportion to it.
@@ -26,7 +26,7 @@ use crate::real::Real;
 pub struct Varying<L> {
     law: L,
     /// the work of adhesion at each node over that of the law
-    shares: Arc<Array2<f64>>,
+    shares: Arc<Field<f64>>,
     largest: f64,
     repels: bool,
 }
@@ -54,7 +54,7 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
         }
         let most = works.iter().fold(0.0, |most: f64, &work| most.max(work));
         Error::positive("largest work of adhesion", most)?;
-        let shares = Arc::new(works.mapv(|work| work / own).as_standard_layout().into_owned());
+        let shares = Arc::new(Field::of(works.mapv(|work| work / own)));
         let repels = works.iter().all(|&work| work > 0.0);
         Ok(Self { law, shares, largest: most / own, repels })
     }
@@ -63,7 +63,7 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
 impl<L> Varying<L> {
     /// The node with the largest work of adhesion, (ix, iy); the first of several.
     pub fn strongest(&self) -> (usize, usize) {
-        let node = flat(&self.shares).iter().position(|share| *share == self.largest).unwrap_or_default();
+        let node = self.shares.nodes().iter().position(|share| *share == self.largest).unwrap_or_default();
         (node / self.shares.ncols(), node % self.shares.ncols())
     }
 
@@ -73,7 +73,7 @@ impl<L> Varying<L> {
     }
 
     fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
-        let shares = flat(&self.shares).get(first..).unwrap_or_default();
+        let shares = self.shares.nodes().get(first..).unwrap_or_default();
         values.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
     }
 }
@@ -110,7 +110,7 @@ impl<T: Real, L: AdhesionLaw<T> + Clone + 'static> AdhesionLaw<T> for Varying<L>
             Discretisation::Coarse(nx, ny) => {
                 let (rows, columns) = self.shares.dim();
                 let coarse = (rows.div_ceil(nx), columns.div_ceil(ny));
-                let shares = Array2::from_shape_fn(coarse, |(ix, iy)| self.shares[[ix * nx, iy * ny]]);
+                let shares = Field::from_fn(coarse, |(ix, iy)| self.shares[[ix * nx, iy * ny]]);
                 Arc::new(Varying { law: self.law.clone(), shares: Arc::new(shares), largest, repels })
             }
             Discretisation::Smooth(compliance) => {

@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::{ContactConstraint, Wall};
 use crate::error::{Error, Result};
-use crate::field::{CHUNK, flat};
+use crate::field::{CHUNK, Field};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::vector::vectors;
@@ -48,9 +48,9 @@ pub struct Hardness {
     mean: f64,
     least: f64,
     /// H at every node of the surface; empty if it is the same everywhere
-    field: Array2<f64>,
+    field: Field<f64>,
     /// H at the nodes of the solve's grid
-    held: Array2<f64>,
+    held: Field<f64>,
 }
 
 impl Hardness {
@@ -60,8 +60,7 @@ impl Hardness {
     /// [`Error::Value`] if it is not positive and finite.
     pub fn new(hardness: f64) -> Result<Self> {
         let mean = Error::positive("hardness", hardness)?;
-        let none = || Array2::zeros((0, 0));
-        Ok(Self { mean, least: mean, field: none(), held: none() })
+        Ok(Self { mean, least: mean, field: Field::default(), held: Field::default() })
     }
 
     /// A hardness H at each node of the surface, of shape (Nx, Ny). On coarser grids each node takes that of the
@@ -78,8 +77,8 @@ impl Hardness {
         for &value in &hardness {
             least = least.min(Error::positive("hardness", value)?);
         }
-        let field = hardness.as_standard_layout().into_owned();
-        Ok(Self { mean: field.sum() / field.len() as f64, least, field, held: Array2::zeros((0, 0)) })
+        let field = Field::of(hardness);
+        Ok(Self { mean: field.sum() / field.len() as f64, least, field, held: Field::default() })
     }
 
     /// The hardness H, in the mean over the nodes.
@@ -112,7 +111,7 @@ impl Hardness {
     /// The hardness at so many nodes of the solve's grid, from the node `first` on; infinite at nodes without one.
     pub(crate) fn caps<T: Real>(&self, first: usize, count: usize) -> [T; CHUNK] {
         let mut caps = [if self.varies() { T::infinity() } else { T::lit(self.mean) }; CHUNK];
-        if let Some(held) = flat(&self.held).get(first..first + count) {
+        if let Some(held) = self.held.nodes().get(first..first + count) {
             caps.iter_mut().zip(held).for_each(|(cap, &held)| *cap = T::lit(held));
         }
         caps
@@ -154,7 +153,7 @@ impl<T: Real> ContactConstraint<T> for Hardness {
             return Err(Error::Shape { name: "hardness", found: (fx, fy), expected: (nx, ny) });
         }
         let nearest = |i: usize, fine: usize, coarse: usize| ((2 * i * fine + coarse) / (2 * coarse)).min(fine - 1);
-        self.held = Array2::from_shape_fn((nx, ny), |(i, j)| self.field[[nearest(i, fx, nx), nearest(j, fy, ny)]]);
+        self.held = Field::from_fn((nx, ny), |(i, j)| self.field[[nearest(i, fx, nx), nearest(j, fy, ny)]]);
         Ok(())
     }
 }

@@ -1,12 +1,12 @@
 //! The augmented Lagrangian method: penalty springs with multipliers, updated in rounds (Uzawa).
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::ArrayView2;
 
 use super::penalty::check_stiffness;
 use super::{ContactConstraint, Springs, Update, Wall};
 use crate::adhesion::Values;
 use crate::error::Result;
-use crate::field::{CHUNK, Reducer, flat, read, write};
+use crate::field::{CHUNK, Field, Reducer, ordered, read, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
@@ -69,7 +69,7 @@ pub struct Uzawa<T> {
     solved_to: f64,
     /// the relative error to which the present round is solved
     present: f64,
-    multipliers: Array2<T>,
+    multipliers: Field<T>,
     rounds: usize,
 }
 
@@ -82,7 +82,6 @@ impl<T: Real> Uzawa<T> {
         check_stiffness::<T>(stiffness)?;
         let stiffness = T::lit(stiffness);
         let tolerance = 1e3 * T::epsilon().widen();
-        let multipliers = Array2::zeros((0, 0));
         Ok(Self {
             tolerance,
             max_rounds: 100,
@@ -92,7 +91,7 @@ impl<T: Real> Uzawa<T> {
             stiffest: 0.0,
             solved_to: 0.0,
             present: 0.0,
-            multipliers,
+            multipliers: Field::default(),
             rounds: 0,
         })
     }
@@ -104,7 +103,7 @@ impl<T: Real> Uzawa<T> {
 
     /// The multipliers of so many nodes; none before a solve.
     fn multipliers(&self, node: usize, count: usize) -> &[T] {
-        flat(&self.multipliers).get(node..node + count).unwrap_or_default()
+        self.multipliers.nodes().get(node..node + count).unwrap_or_default()
     }
 
     /// Energy, traction and slope at one node.
@@ -126,7 +125,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn start(&mut self, grid: &Grid, stiffest: f64, tolerance: f64) -> Result<()> {
         (self.solved_to, self.present) = (tolerance, FIRST);
-        (self.multipliers, self.rounds) = (Array2::zeros(grid.shape()), 1);
+        (self.multipliers, self.rounds) = (Field::zeros(grid.shape()), 1);
         (self.stiffness, self.off, self.stiffest) = (self.softest, f64::INFINITY, stiffest);
         if stiffest > 0.0 {
             self.stiffness = self.stiffness.min(T::lit(STIFFEST * stiffest));
@@ -141,8 +140,8 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
         let stiffness = self.stiffness;
-        let gap = gap.as_standard_layout();
-        let gaps = || par::chunks(gap.as_slice().unwrap_or_default(), CHUNK);
+        let nodes = ordered(gap);
+        let gaps = || par::chunks(&nodes, CHUNK);
         let next = move |multiplier: T, gap: T| (multiplier - stiffness * gap).max(T::zero());
         let mut reducer = Reducer::new(Slab::whole(gap.dim()));
         let [change, change_squared, squared] =

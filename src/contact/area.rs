@@ -8,6 +8,7 @@ use super::outline::{Edge, Outline};
 use super::{contact_map, whole};
 use crate::elastic::Boundary;
 use crate::error::Result;
+use crate::field::ordered;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::solver::Solution;
@@ -128,11 +129,9 @@ fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
 /// The pairs of neighbours along x, and along y, of which one is on the map; across opposite sides if periodic.
 fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
-    let map = map.as_standard_layout();
-    let nx = map.nrows();
+    let ((nx, ny), nodes) = (map.dim(), ordered(map));
     for i in 0..nx {
-        let [row, after] = [map.row(i), map.row((i + 1) % nx)];
-        let [row, after] = [&row, &after].map(|row| row.to_slice().unwrap_or_default());
+        let [row, after] = [i, (i + 1) % nx].map(|row| &nodes[row * ny..][..ny]);
         along_x += differences(row, after);
         along_y += differences(&row[1..], row) + usize::from(row[0] != row[row.len() - 1]);
     }

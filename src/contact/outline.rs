@@ -5,6 +5,7 @@ use std::f64::consts::{E, PI};
 use ndarray::ArrayView2;
 
 use super::places::Places;
+use crate::field::ordered;
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -77,7 +78,7 @@ struct Cut {
 impl<T: Real> Outline<'_, T> {
     pub(crate) fn edge(&self) -> Edge {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
-        let (nx, columns) = grid.shape();
+        let ((nx, columns), nodes) = (grid.shape(), ordered(*map));
         let (dx, dy) = grid.spacing();
         let step = Step {
             compliances: [dx, dy].map(|spacing| SOFTNESS * spacing / modulus),
@@ -90,7 +91,7 @@ impl<T: Real> Outline<'_, T> {
             let below = (i + 1) % nx;
             let rows = [i, below].map(|row| (map.row(row), gap.row(row), contact_pressure.row(row)));
             let node = |row: usize, j: usize| Node::of(rows[row].0[j], rows[row].1[j], rows[row].2[j]);
-            let [here, there] = rows.each_ref().map(|(map, ..)| map.to_slice().unwrap_or_default());
+            let [here, there] = [i, below].map(|row| &nodes[row * columns..][..columns]);
             if grid.is_line() {
                 excess += fixed(step.of_side(node(0, 0), node(1, 0), &mut places));
                 continue;

@@ -90,14 +90,14 @@ fn padded(n: usize) -> usize {
 }
 
 /// The displacement of every node by a unit pressure on the cell of node (0, 0), at the shorter distance.
-fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Array2<f64> {
+fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Field<f64> {
     let ((nx, ny), rows) = (grid.shape(), grid.rows());
     let distance = |i: usize| i.min(nx - i);
     let nearest = rows.clone().map(distance).min().unwrap_or_default();
     let farthest = rows.clone().map(distance).max().unwrap_or_default();
     let quadrant = quadrant(nearest..farthest + 1, ny / 2 + 1, cell);
-    let mut kernel = Array2::zeros(grid.field_shape());
-    par::for_each(par::chunks_mut(field::flat_mut(&mut kernel), ny), |i, row| {
+    let mut kernel = Field::zeros(grid.field_shape());
+    par::for_each(par::chunks_mut(kernel.nodes_mut(), ny), |i, row| {
         let quadrant = quadrant.row(distance(rows.start + i) - nearest);
         row.iter_mut().enumerate().for_each(|(j, value)| *value = quadrant[j.min(ny - j)] / (PI * modulus));
     });
@@ -105,7 +105,7 @@ fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Array2<f64> {
 }
 
 /// The sum of Love's four terms in rows of the first quadrant; each is also that of the next cell, negative.
-fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f64> {
+fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Field<f64> {
     let (x, y) = (|i: usize| (2 * i + 1) as f64 * a, |j: usize| (2 * j + 1) as f64 * b);
     // the farthest corners of the cells of a row from the origin, and the terms of the edges that end there along y
     let edges = |i: usize, edges: &mut [(f64, f64)]| {
@@ -116,8 +116,8 @@ fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Array2<f6
             near = far;
         }
     };
-    let mut quadrant = Array2::zeros((rows.len(), columns));
-    par::for_each(par::chunks_mut(field::flat_mut(&mut quadrant), TILE * columns), |tile, values| {
+    let mut quadrant = Field::zeros((rows.len(), columns));
+    par::for_each(par::chunks_mut(quadrant.nodes_mut(), TILE * columns), |tile, values| {
         let first = rows.start + tile * TILE;
         let (mut before, mut here) = (vec![(0.0, 0.0); columns], vec![(0.0, 0.0); columns]);
         if first > 0 {

@@ -104,16 +104,16 @@ impl<T: Real> Spectral<T> {
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
     /// spectrum that this process transforms the first half of its modes, and the middle one. The mean's is not used.
-    pub(super) fn of_compliance(grid: Grid, modulus: f64, mut modes: Array2<f64>) -> Result<Self> {
+    pub(super) fn of_compliance(grid: Grid, modulus: f64, mut modes: Field<f64>) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let wrong = modes.iter().find(|&&compliance| !(compliance > 0.0 && compliance.is_finite()));
         let wrong = wrong.map_or(Ok(()), |&value| {
             Err(Error::Value { name: "compliance of a wave", value, requirement: "positive and finite" })
         });
         grid.slab().agreed(wrong)?;
-        modes.mapv_inplace(f64::recip);
+        modes.view_mut().mapv_inplace(f64::recip);
         let slab = grid.slab();
-        if let Some(mean) = modes.first_mut().filter(|_| slab.ranks().rank() == 0) {
+        if let Some(mean) = modes.nodes_mut().first_mut().filter(|_| slab.ranks().rank() == 0) {
             *mean = 0.0;
         }
         let modes = Columns::of(slab, modes);

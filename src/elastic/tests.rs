@@ -1,5 +1,7 @@
 //! What a solve asks of an operator beside its applications, by its spectral one and by the applications alone.
 
+use ndarray::Array2;
+
 use super::*;
 
 /// An operator with the required methods alone.

@@ -6,7 +6,7 @@ use ndarray::{Array2, ArrayView2};
 use super::Convolver;
 use super::layout::Layout;
 use crate::error::Result;
-use crate::field::flat_mut;
+use crate::field::Field;
 use crate::par::{self, Parts};
 use crate::slab::Slab;
 
@@ -18,13 +18,13 @@ pub(crate) fn powers(field: ArrayView2<'_, f64>) -> Array2<f64> {
     convolver.rows_forward(field);
     let Convolver { columns, spectrum, pool, .. } = &mut convolver;
     let norm = (n0 as f64 * n1 as f64).recip().powi(2);
-    let mut powers = Array2::zeros(spectrum.modes.dim());
-    let pairs = par::chunks_mut(flat_mut(&mut spectrum.modes), n0).zip(par::chunks_mut(flat_mut(&mut powers), n0));
+    let mut powers = Field::zeros(spectrum.modes.dim());
+    let pairs = par::chunks_mut(spectrum.modes.nodes_mut(), n0).zip(par::chunks_mut(powers.nodes_mut(), n0));
     par::for_each(pairs, |_, (z, power)| {
         columns.forward.process_with_scratch(z, &mut pool.get().scratch);
         power.iter_mut().zip(z).for_each(|(power, z)| *power = norm * z.norm_sqr());
     });
-    powers
+    powers.into_array()
 }
 
 /// The field of those modes of another that are kept, by their indices along the first and the second axis, the second
@@ -45,7 +45,7 @@ pub(crate) fn filtered(
 
 /// The modes, real and even, of a plane that is even along both axes: of each column of the half spectrum that this
 /// process transforms, laid out as in a convolver, the first half and the middle one.
-pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> {
+pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Field<f64> {
     let mut convolver = Convolver::new(slab);
     convolver.spectrum.take_memory();
     if !field.is_empty() {
@@ -58,7 +58,7 @@ pub(crate) fn even_modes(slab: Slab, field: ArrayView2<'_, f64>) -> Array2<f64> 
         [0.0; 3]
     });
     let shape = (spectrum.own.len(), layout.plane().0 / 2 + 1);
-    Array2::from_shape_fn(shape, |(k, i)| spectrum.mode(spectrum.own.start + k, i).re)
+    Field::from_fn(shape, |(k, i)| spectrum.mode(spectrum.own.start + k, i).re)
 }
 
 /// The field of given modes in a slab, index zero along the first axis in the middle, and `fill`'s values summed in

@@ -3,10 +3,9 @@
 use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
-use ndarray::Array2;
 
 use super::{Layout, Sums, Workspace};
-use crate::field::{flat, flat_mut};
+use crate::field::Field;
 use crate::par::{self, Chunks, Pool};
 use crate::ranks::Shares;
 use crate::real::Real;
@@ -19,7 +18,7 @@ pub(crate) struct HalfSpectrum<T> {
     slab: Slab,
     layout: Layout,
     /// all columns, of the rows in the slab
-    pub(super) modes: Array2<Complex<T>>,
+    pub(super) modes: Field<Complex<T>>,
     /// the columns that this process transforms
     pub(super) own: Range<usize>,
     /// these columns of all rows, by the processes from which they come
@@ -39,7 +38,7 @@ impl<T: Real> HalfSpectrum<T> {
         Self {
             slab,
             layout,
-            modes: Array2::default((0, 0)),
+            modes: Field::default(),
             pieces: Vec::new(),
             sent: slab.shares(|rank| slab.share_of(columns, rank).len() * rows),
             received: slab.shares(|rank| slab.rows_of(rank).len() * own.len()),
@@ -57,7 +56,7 @@ impl<T: Real> HalfSpectrum<T> {
 
     pub(super) fn take_memory(&mut self) {
         if self.modes.is_empty() {
-            self.modes = Array2::default(self.layout.spectrum_of(&self.slab));
+            self.modes = Field::zeros(self.layout.spectrum_of(&self.slab));
         }
         if self.is_in_pieces() && self.pieces.is_empty() {
             self.pieces = vec![Complex::default(); self.own.len() * self.slab.shape().0];
@@ -65,14 +64,14 @@ impl<T: Real> HalfSpectrum<T> {
     }
 
     pub(super) fn release_memory(&mut self) {
-        (self.modes, self.pieces) = (Array2::default((0, 0)), Vec::new());
+        (self.modes, self.pieces) = (Field::default(), Vec::new());
     }
 
     /// Brings the columns to the processes that transform them.
     pub(super) fn come(&mut self) {
         if self.is_in_pieces() {
             let Self { slab, modes, sent, received, pieces, .. } = self;
-            T::exchange(slab.ranks(), flat(modes), sent, pieces, received);
+            T::exchange(slab.ranks(), modes.nodes(), sent, pieces, received);
         }
     }
 
@@ -80,7 +79,7 @@ impl<T: Real> HalfSpectrum<T> {
     pub(super) fn go(&mut self) {
         if self.is_in_pieces() {
             let Self { slab, modes, sent, received, pieces, .. } = self;
-            T::exchange(slab.ranks(), pieces, received, flat_mut(modes), sent);
+            T::exchange(slab.ranks(), pieces, received, modes.nodes_mut(), sent);
         }
     }
 
@@ -112,7 +111,7 @@ impl<T: Real> HalfSpectrum<T> {
                 }
             });
         }
-        let columns = flat_mut(&mut self.modes).get_mut(..count * n0).unwrap_or_default();
+        let columns = &mut self.modes.nodes_mut()[..count * n0];
         par::update(par::chunks_mut(columns, n0), &mut self.sums[..count], |k, column, sum| {
             *sum = f(first + k, column, &mut pool.get().scratch);
         });
@@ -127,7 +126,7 @@ impl<T: Real> HalfSpectrum<T> {
     /// A mode of the own columns.
     pub(super) fn mode(&self, column: usize, row: usize) -> Complex<T> {
         if !self.is_in_pieces() {
-            return flat(&self.modes)[column * self.layout.plane().0 + row];
+            return self.modes.nodes()[column * self.layout.plane().0 + row];
         }
         let rows = (0..self.slab.ranks().count()).map(|rank| self.slab.rows_of(rank)).find(|rows| rows.contains(&row));
         let rows = rows.unwrap_or_default();

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
-use ndarray::{Array2, ArrayView2, ArrayViewMut2, CowArray, Ix2};
+use ndarray::{ArrayView2, ArrayViewMut2, CowArray, Ix2};
 
+use crate::field::{Field, contiguous};
 use crate::real::Real;
 use crate::slab::{Slab, TILE};
 use crate::vector::vectorised;
@@ -109,13 +110,13 @@ fn divisor(n: usize) -> usize {
 /// The twiddles exp(−2πi bk/n) of row b, column k, for a line's half spectrum: the first [`RUN`] of each column, and
 /// behind them the factors from one run to the next.
 #[derive(Debug)]
-pub(super) struct Twiddles<T>(Array2<Complex<T>>);
+pub(super) struct Twiddles<T>(Field<Complex<T>>);
 
 impl<T: Real> Twiddles<T> {
     pub(super) fn new(layout: &Layout) -> Option<Self> {
         let ((columns, rows), n) = (layout.spectrum(), layout.shape.0 * layout.shape.1);
         layout.folded.then(|| {
-            Self(Array2::from_shape_fn((columns, RUN + rows.div_ceil(RUN)), |(k, i)| {
+            Self(Field::from_fn((columns, RUN + rows.div_ceil(RUN)), |(k, i)| {
                 let row = if i < RUN { i } else { RUN * (i - RUN) };
                 let (sin, cos) = (TAU * ((row * k) % n) as f64 / n as f64).sin_cos();
                 Complex::new(T::lit(cos), T::lit(-sin))
@@ -125,8 +126,7 @@ impl<T: Real> Twiddles<T> {
 
     /// Multiplies column `k` by its twiddles, or divides it by them.
     pub(super) fn turn(&self, k: usize, column: &mut [Complex<T>], back: bool) {
-        let twiddles = self.0.row(k).to_slice().unwrap_or_default();
-        let Some((run, runs)) = twiddles.split_at_checked(RUN) else { return };
+        let (run, runs) = contiguous(self.0.row(k).to_slice()).split_at(RUN);
         let sign = if back { -T::one() } else { T::one() };
         vectorised(
             #[inline(always)]

@@ -4,6 +4,7 @@ use asperity_fft::num_complex::Complex;
 use ndarray::{ArrayView1, ArrayView2, ArrayViewMut2, Axis};
 
 use super::SLACK;
+use crate::field::contiguous;
 use crate::real::Real;
 
 pub(super) fn lines<T>(tile: &[Complex<T>], n: usize) -> impl Iterator<Item = &[Complex<T>]> {
@@ -60,7 +61,7 @@ pub(super) fn unpack<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2
 fn pack_columns<T: Real>(x: ArrayView2<'_, T>, tile: &mut [Complex<T>]) {
     let stride = x.ncols() + SLACK;
     for (k, column) in x.columns().into_iter().enumerate() {
-        let mut pairs = column.to_slice().unwrap_or_default().chunks_exact(2);
+        let mut pairs = contiguous(column.to_slice()).chunks_exact(2);
         let mut lines = tile[k..].iter_mut().step_by(stride);
         pairs.by_ref().zip(lines.by_ref()).for_each(|(x, z)| *z = Complex::new(x[0], x[1]));
         pairs.remainder().iter().zip(lines).for_each(|(&x, z)| *z = Complex::new(x, T::zero()));
@@ -71,7 +72,7 @@ fn unpack_columns<T: Real, U: Real>(tile: &[Complex<T>], mut x: ArrayViewMut2<'_
     let stride = x.ncols() + SLACK;
     let part = |part: T| U::lit(part.widen());
     for (k, mut column) in x.columns_mut().into_iter().enumerate() {
-        let mut pairs = column.as_slice_mut().unwrap_or_default().chunks_exact_mut(2);
+        let mut pairs = contiguous(column.as_slice_mut()).chunks_exact_mut(2);
         let mut lines = tile[k..].iter().step_by(stride);
         pairs.by_ref().zip(lines.by_ref()).for_each(|(x, z)| (x[0], x[1]) = (part(z.re), part(z.im)));
         pairs.into_remainder().iter_mut().zip(lines).for_each(|(x, z)| *x = part(z.re));
@@ -83,8 +84,7 @@ pub(super) fn separate<T: Real>(tile: &[Complex<T>], n: usize, mut z: ArrayViewM
     let half = T::lit(0.5);
     for (k, mut column) in z.rows_mut().into_iter().enumerate() {
         let mirror = (n - k) % n;
-        let column = column.as_slice_mut().unwrap_or_default();
-        let mut pairs = column.chunks_exact_mut(2);
+        let mut pairs = contiguous(column.as_slice_mut()).chunks_exact_mut(2);
         let mut lines = lines(tile, n);
         for (pair, line) in pairs.by_ref().zip(lines.by_ref()) {
             let (p, q) = (line[k], line[mirror]);
@@ -100,8 +100,7 @@ pub(super) fn separate<T: Real>(tile: &[Complex<T>], n: usize, mut z: ArrayViewM
 pub(super) fn join<T: Real>(z: ArrayView2<'_, Complex<T>>, n: usize, norm: T, tile: &mut [Complex<T>]) {
     for (k, column) in z.rows().into_iter().enumerate() {
         let mirror = (n - k) % n;
-        let column = ArrayView1::to_slice(&column).unwrap_or_default();
-        let pairs = column.chunks_exact(2);
+        let pairs = contiguous(ArrayView1::to_slice(&column)).chunks_exact(2);
         let last = pairs.remainder();
         let mut lines = lines_mut(tile, n);
         for (pair, line) in pairs.zip(lines.by_ref()) {

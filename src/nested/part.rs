@@ -67,10 +67,11 @@ impl Part {
 
     fn cut<T: Real>(&self, field: &ArrayRef2<T>, from: &Grid, to: &Grid) -> Array2<T> {
         let rows = from.slab().rows_for(field.view(), &to.slab(), |row| [self.x.start + row]);
-        let cut = to.rows().flat_map(|row| {
-            rows.row(self.x.start + row).slice_axis_move(Axis(0), Slice::from(self.y.clone())).to_vec()
-        });
-        Array2::from_shape_vec(to.field_shape(), cut.collect()).unwrap_or_default()
+        let mut cut = Array2::zeros(to.field_shape());
+        for (row, mut cut) in to.rows().zip(cut.rows_mut()) {
+            cut.assign(&rows.row(self.x.start + row).slice_axis_move(Axis(0), Slice::from(self.y.clone())));
+        }
+        cut
     }
 
     /// Calls `f` with the rows of a field that are in the part, and those of a field of the part.

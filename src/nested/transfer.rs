@@ -7,7 +7,7 @@ use ndarray::Array2;
 
 use crate::constraint::Wall;
 use crate::error::Result;
-use crate::field::{flat, flat_mut};
+use crate::field::{Field, contiguous, ordered};
 use crate::grid::Grid;
 use crate::par;
 use crate::problem::Window;
@@ -29,15 +29,15 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
     let needed = |row: usize| along_x[row].nodes;
     let heights = slab.rows_for(surface.heights(), &grid.slab(), needed);
     let absent = surface.absent().map(|absent| slab.rows_for(absent, &grid.slab(), needed));
-    let mut coarse = Array2::zeros(grid.field_shape());
-    par::for_each(par::chunks_mut(flat_mut(&mut coarse), shape.1), |i, row| {
+    let mut coarse = Field::zeros(grid.field_shape());
+    par::for_each(par::chunks_mut(coarse.nodes_mut(), shape.1), |i, row| {
         let x = along_x[grid.rows().start + i];
         let lines = x.nodes.map(|node| line(&heights, node));
         for (height, y) in row.iter_mut().zip(&along_y) {
             *height = x.cubic(|k| y.cubic(|l| lines[k][y.nodes[l]]));
         }
     });
-    let coarse = Surface::new(grid, coarse)?;
+    let coarse = Surface::new(grid, coarse.into_array())?;
     let Some(absent) = absent else { return Ok(Some(coarse)) };
     let first = grid.rows().start;
     let absent = Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
@@ -49,7 +49,7 @@ pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option
 
 /// A row of a field that this crate made.
 fn line<'a, T>(rows: &'a Rows<'_, T>, row: usize) -> &'a [T] {
-    rows.row(row).to_slice().unwrap_or_default()
+    contiguous(rows.row(row).to_slice())
 }
 
 /// The place of a node among those of another grid along a side.
@@ -183,7 +183,7 @@ impl<T: Real> Deformed<T> {
         match Window::new(surface, &grid) {
             Some(window) => {
                 displacement += &window.extend(surface.heights().view());
-                gap = window.place(&window.cut(&gap, T::infinity()), T::infinity());
+                gap = window.place(&window.cut(&Field::of(gap), T::infinity()), T::infinity()).into_array();
             }
             None => displacement += surface.heights(),
         }
@@ -195,7 +195,7 @@ impl<T: Real> Deformed<T> {
         let Self { window, grid: coarse, displacement, gap } = self;
         let facing = Window::new(surface, grid);
         let extended = facing.as_ref().map(|facing| facing.extend(surface.heights().view()));
-        let heights = flat(extended.as_ref().unwrap_or(surface.heights()));
+        let heights = ordered(extended.as_ref().unwrap_or(surface.heights()).view());
         let [from, to] = [Side::of(window, coarse.shape()), Side::of(surface.grid().shape(), grid.shape())];
         let (along_x, along_y, back_y) = (places(from[0], to[0]), places(from[1], to[1]), places(to[1], from[1]));
         let needed = |row: usize| along_x[row].nodes;
@@ -206,8 +206,8 @@ impl<T: Real> Deformed<T> {
             None => vec![true; nodes.len()],
             Some(facing) => facing.pieces(nodes).flat_map(|(len, own)| repeat_n(own.is_some(), len)).collect(),
         };
-        let mut fine = Array2::zeros(grid.field_shape());
-        par::for_each(par::chunks_mut(flat_mut(&mut fine), width), |i, row| {
+        let mut fine = Field::zeros(grid.field_shape());
+        par::for_each(par::chunks_mut(fine.nodes_mut(), width), |i, row| {
             let (x, faces) = (along_x[grid.rows().start + i], facing_in(first + i * width..first + (i + 1) * width));
             let heights = &heights[i * width..][..width];
             // displacement and gap along the row, at the coarse nodes of y
@@ -226,7 +226,7 @@ impl<T: Real> Deformed<T> {
                 *g = T::lit(if faces { touching.gap(y, gap, |l| apart[y.nodes[l]]) } else { gap });
             }
         });
-        fine
+        fine.into_array()
     }
 }
 

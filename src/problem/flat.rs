@@ -1,13 +1,11 @@
 //! The surface pressed flat, and the loads that a problem has.
 
-use ndarray::Array2;
-
 use super::{Control, Load, Window, Yielded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
-use crate::field::{all_finite_in, flat};
+use crate::field::{Field, all_finite_in, ordered};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::surface::Surface;
@@ -16,7 +14,7 @@ use crate::vector::range;
 /// The surface pressed flat: the pressure K⁻¹h and the figures of h that a solve needs.
 #[derive(Clone, Debug)]
 pub struct PressedFlat<T> {
-    pub(crate) pressure: Array2<T>,
+    pub(crate) pressure: Field<T>,
     /// the mean of h·K⁻¹h
     pub(crate) work: f64,
     pub(crate) rms_height: f64,
@@ -99,15 +97,15 @@ impl<T: Real> PressedFlat<T> {
         let rms_height = whole.rms_about(mean);
         // where nothing faces the body there is no height
         let faces = |(&height, absent): (&f64, &bool)| (!absent).then_some(height);
-        let facing: Option<Vec<_>> =
-            surface.absent().map(|absent| surface.heights().iter().zip(absent).filter_map(faces).collect());
-        let (low, high) = range(facing.as_deref().unwrap_or_else(|| flat(surface.heights())));
+        let heights = surface.heights();
+        let facing = surface.absent().map(|absent| heights.iter().zip(absent).filter_map(faces).collect());
+        let (low, high) = range(&facing.unwrap_or_else(|| ordered(heights.view())));
         let low = grid.each(low).into_iter().fold(f64::INFINITY, f64::min);
         let high = grid.each(high).into_iter().fold(f64::NEG_INFINITY, f64::max);
         let height_span = high - low;
         // a mean beyond the heights' own size is rounded more than the peak above it may be
         let peak = if mean.abs() > height_span { (high - datum) - above } else { high - mean };
-        let mut pressure = Array2::zeros(whole.grid().field_shape());
+        let mut pressure = Field::zeros(whole.grid().field_shape());
         // a large datum would drown the heights in its rounding; a small one is not worth a copy
         let centred = (mean.abs() > rms_height).then(|| whole.heights().mapv(|h| h - mean));
         let heights = centred.as_ref().unwrap_or(whole.heights()).view();

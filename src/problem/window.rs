@@ -5,7 +5,7 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 
 use crate::error::Result;
-use crate::field::{all_finite_in, flat, flat_mut};
+use crate::field::{Field, all_finite_in, ordered};
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::slab::Slab;
@@ -142,22 +142,23 @@ impl Window {
 
     /// A field of the operator's grid on that of the surface.
     pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
-        self.held.moved(self.cut(field, absent).into(), &self.grid.slab()).into_owned()
+        self.held.moved(self.cut(field, absent).into_array().into(), &self.grid.slab()).into_owned()
     }
 
-    pub(crate) fn cut<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
-        let mut cut = Array2::from_elem(self.held.held(), absent);
+    pub(crate) fn cut<T: Real>(&self, field: &Array2<T>, absent: T) -> Field<T> {
+        let mut cut = Field::filled(self.held.held(), absent);
+        let field = ordered(field.view());
         for (nodes, own) in self.places() {
-            flat_mut(&mut cut)[own].copy_from_slice(&flat(field)[nodes]);
+            cut.nodes_mut()[own].copy_from_slice(&field[nodes]);
         }
         cut
     }
 
     /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid.
-    pub(crate) fn place<T: Real>(&self, field: &Array2<T>, elsewhere: T) -> Array2<T> {
-        let mut placed = Array2::from_elem(self.whole.field_shape(), elsewhere);
+    pub(crate) fn place<T: Real>(&self, field: &Field<T>, elsewhere: T) -> Field<T> {
+        let mut placed = Field::filled(self.whole.field_shape(), elsewhere);
         for (nodes, own) in self.places() {
-            flat_mut(&mut placed)[nodes].copy_from_slice(&flat(field)[own]);
+            placed.nodes_mut()[nodes].copy_from_slice(&field.nodes()[own]);
         }
         placed
     }
@@ -174,12 +175,11 @@ impl Window {
     pub(crate) fn start<T: Real>(&self, gap: ArrayView2<'_, T>) -> Result<Array2<T>> {
         self.grid.fits("starting gap", gap.dim())?;
         let gap = self.hold(gap);
-        let gap = gap.as_standard_layout();
-        let gap = gap.as_slice().unwrap_or_default();
+        let gap = ordered(gap.view());
         // with one value at absent nodes, then another
         let facing = |elsewhere: T| {
-            let mut facing = Array2::from_elem(self.held.held(), elsewhere);
-            self.places().for_each(|(_, own)| flat_mut(&mut facing)[own.clone()].copy_from_slice(&gap[own]));
+            let mut facing = Field::filled(self.held.held(), elsewhere);
+            self.places().for_each(|(_, own)| facing.nodes_mut()[own.clone()].copy_from_slice(&gap[own]));
             facing
         };
         all_finite_in(self.held, "starting gap", facing(T::zero()).view())?;

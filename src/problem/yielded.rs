@@ -1,28 +1,23 @@
 //! The plastic depth of a surface: how far it has yielded under former loads.
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::ArrayView2;
 
 use super::PressedFlat;
 use crate::elastic::ElasticOperator;
 use crate::error::{Error, Result};
+use crate::field::Field;
 use crate::real::Real;
 
 /// The plastic depth of a surface, on the grid of the operator, and the surface as it was before.
 #[derive(Clone, Debug)]
 pub(crate) struct Yielded<T> {
-    depth: Array2<T>,
+    pub(crate) depth: Field<T>,
     /// K⁻¹h, ⟨h, K⁻¹h⟩, and the height of the peak over the mean plane, of the surface before
-    pressure: Array2<T>,
+    pressure: Field<T>,
     work: f64,
     peak: f64,
     /// the mean depth over the operator's grid
     pub(crate) mean: f64,
-}
-
-impl<T> Yielded<T> {
-    pub(crate) fn depth(&self) -> &Array2<T> {
-        &self.depth
-    }
 }
 
 impl<T: Real> PressedFlat<T> {
@@ -32,7 +27,7 @@ impl<T: Real> PressedFlat<T> {
     }
 
     /// A plastic depth on the surface's grid, on that of the operator.
-    pub(super) fn placed(&self, operator: &dyn ElasticOperator<T>, depth: ArrayView2<'_, T>) -> Result<Array2<T>> {
+    pub(super) fn placed(&self, operator: &dyn ElasticOperator<T>, depth: ArrayView2<'_, T>) -> Result<Field<T>> {
         let grid = *operator.grid();
         let surface = self.window.as_ref().map_or(&grid, |window| window.grid());
         surface.fits("plastic depth", depth.dim())?;
@@ -41,14 +36,14 @@ impl<T: Real> PressedFlat<T> {
         let refused = |&depth: &T| Error::non_negative("plastic depth", depth.widen()).map(|_| ());
         surface.slab().agreed(negative.map_or(Ok(()), refused))?;
         Ok(match &self.window {
-            Some(window) => window.place(&window.hold(depth).into_owned(), T::zero()),
-            None => depth.as_standard_layout().into_owned(),
+            Some(window) => window.place(&Field::of(window.hold(depth)), T::zero()),
+            None => Field::of(depth),
         })
     }
 
     /// Lowers the surface, as it was made, by a depth on the operator's grid. The same depth gives the same bits,
     /// whatever the depths before it were.
-    pub(super) fn flatten(&mut self, operator: &mut dyn ElasticOperator<T>, depth: Array2<T>) -> Result<()> {
+    pub(super) fn flatten(&mut self, operator: &mut dyn ElasticOperator<T>, depth: Field<T>) -> Result<()> {
         let grid = *operator.grid();
         let (pressure, work, peak) = match self.yielded.take() {
             Some(before) => (before.pressure, before.work, before.peak),
@@ -59,7 +54,7 @@ impl<T: Real> PressedFlat<T> {
         let own = grid.mean_of_both(depth.view(), self.pressure.view(), |d, p| d.widen() * p.widen());
         let mixed = grid.mean_of_both(depth.view(), pressure.view(), |d, p| d.widen() * p.widen());
         self.work = (work - 2.0 * mixed + own).max(0.0);
-        self.pressure.zip_mut_with(&pressure, |p, &before| *p = before - *p);
+        self.pressure.view_mut().zip_mut_with(&pressure, |p, &before| *p = before - *p);
         self.peak = peak + mean;
         self.yielded = Some(Yielded { depth, pressure, work, peak, mean });
         Ok(())

@@ -3,9 +3,8 @@
 use std::ops::Range;
 use std::slice::Chunks;
 
-use ndarray::{Array2, ArrayView2, Axis};
-
 use crate::elastic::{CoarseSpace, ElasticOperator};
+use crate::field::Field;
 use crate::grid::Grid;
 use crate::par::{self, Parts};
 use crate::real::Real;
@@ -62,7 +61,7 @@ impl Coarse {
     pub(crate) fn renew<T: Real>(
         &mut self,
         iteration: usize,
-        field: &Array2<T>,
+        field: &Field<T>,
         touches: impl Fn(usize, T) -> bool + Sync + Send,
         (stiffness, spring): (f64, f64),
         (softest, stiffest): (f64, f64),
@@ -88,10 +87,9 @@ impl Coarse {
 
     /// Takes the contact map; returns whether some nodes touch and some do not. A node counts for its own block and the
     /// next by linear interpolation, for a map as symmetric as the surface.
-    fn map<T: Real>(&mut self, field: &Array2<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
+    fn map<T: Real>(&mut self, field: &Field<T>, touches: impl Fn(usize, T) -> bool + Sync + Send) -> bool {
         let ([block, blocks], (nx, ny)) = (self.space.blocks(), self.grid.shape());
-        let count = |nodes: ArrayView2<'_, T>, from: usize, node: usize, counts: &mut [Count]| {
-            let nodes = nodes.to_slice().unwrap_or_default();
+        let count = |nodes: &[T], from: usize, node: usize, counts: &mut [Count]| {
             for first in (0..ny).step_by(COLUMNS) {
                 let columns = first..ny.min(first + COLUMNS);
                 let (mut touching, mut along) = ([0; COLUMNS], [0; COLUMNS]);
@@ -112,13 +110,13 @@ impl Coarse {
         let (rows, first) = (self.grid.rows(), self.grid.slab().first_node());
         // the rest of a row of blocks that begins in another slab
         let begun = rows.start % block.0;
-        let (head, others) = field.view().split_at(Axis(0), ((block.0 - begun) % block.0).min(rows.len()));
+        let (head, others) = field.nodes().split_at(((block.0 - begun) % block.0).min(rows.len()) * ny);
         let (before, after) = self.counts.split_at_mut(rows.start.div_ceil(block.0) * blocks.1);
         if let Some(counts) = before.len().checked_sub(blocks.1).and_then(|at| before.get_mut(at..)) {
             count(head, begun, first, counts);
         }
-        par::for_each(par::tiles(others, 0, block.0).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
-            count(nodes.0, 0, first + (head.nrows() + i * block.0) * ny, counts);
+        par::for_each(par::chunks(others, block.0 * ny).zip(par::chunks_mut(after, blocks.1)), |i, (nodes, counts)| {
+            count(nodes, 0, first + head.len() + i * block.0 * ny, counts);
         });
         self.grid.slab().ranks().add_up(self.counts.as_flattened_mut());
 
@@ -169,6 +167,8 @@ fn count_columns<T: Real>(
 
 #[cfg(test)]
 mod tests {
+    use ndarray::Array2;
+
     use super::*;
     use crate::{Grid, Westergaard};
 
@@ -179,7 +179,7 @@ mod tests {
             let mut coarse = Coarse::of(&mut operator).unwrap();
             let [block, blocks] = coarse.space.blocks();
             assert!(block != (1, 1), "{shape:?}");
-            let field = Array2::from_shape_fn(shape, |(i, j)| ((i * i + 3 * j + i * j * j) % 7) as f64);
+            let field = Field::from_fn(shape, |(i, j)| ((i * i + 3 * j + i * j * j) % 7) as f64);
             let touches = |_, value: f64| value < 2.0;
             let share = field.iter().filter(|&&value| touches(0, value)).count() as f64 / field.len() as f64;
             assert!(coarse.map(&field, touches));
@@ -190,10 +190,10 @@ mod tests {
             // mirrored at node 0, and moved by a block
             let map = Array2::from_shape_vec(blocks, coarse.contact.clone()).unwrap();
             let mirrored = |(i, j): (usize, usize), (nx, ny): (usize, usize)| [(nx - i) % nx, (ny - j) % ny];
-            assert!(coarse.map(&Array2::from_shape_fn(shape, |node| field[mirrored(node, shape)]), touches));
+            assert!(coarse.map(&Field::from_fn(shape, |node| field[mirrored(node, shape)]), touches));
             let expected = Array2::from_shape_fn(blocks, |node| map[mirrored(node, blocks)]);
             assert!(expected.iter().zip(&coarse.contact).all(|(a, b)| (a - b).abs() < 1e-15), "{shape:?}");
-            let moved = Array2::from_shape_fn(shape, |(i, j)| field[[(i + block.0) % shape.0, j]]);
+            let moved = Field::from_fn(shape, |(i, j)| field[[(i + block.0) % shape.0, j]]);
             assert!(coarse.map(&moved, touches));
             let expected = Array2::from_shape_fn(blocks, |(i, j)| map[[(i + 1) % blocks.0, j]]);
             assert!(expected.iter().zip(&coarse.contact).all(|(a, b)| (a - b).abs() < 1e-15), "{shape:?}");
@@ -204,9 +204,9 @@ mod tests {
     fn no_contact_and_nothing_but_contact_are_no_map() {
         let mut operator = Westergaard::<f64>::new(Grid::square(40, 1.0).unwrap(), 1.0).unwrap();
         let mut coarse = Coarse::of(&mut operator).unwrap();
-        let mut field = Array2::zeros((40, 40));
+        let mut field = Field::zeros((40, 40));
         assert!(!coarse.map(&field, |_, value| value > 0.0) && !coarse.map(&field, |_, value| value == 0.0));
-        field[[7, 9]] = 1.0;
+        field.view_mut()[[7, 9]] = 1.0;
         assert!(coarse.map(&field, |_, value| value > 0.0) && coarse.map(&field, |_, value| value == 0.0));
     }
 }

@@ -9,7 +9,7 @@ use super::state::State;
 use crate::adhesion::{AdhesionLaw, mu_rho, noticeable};
 use crate::elastic::Boundary;
 use crate::error::Result;
-use crate::field::{Minimum, Sums, found, read, write};
+use crate::field::{Field, Minimum, Sums, found, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::{Load, Window};
@@ -51,9 +51,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if flat.window.is_some() && report.status == Status::Converged {
             // the nodes that face no surface have their part of the residual: in balance the others bear the load
             let share = T::lit((mean * self.posed.nodes() - carried.pressure) / self.posed.facing());
-            self.fields.pressure.mapv_inplace(|p| p + share);
+            self.fields.pressure.nodes_mut().iter_mut().for_each(|p| *p += share);
         }
-        let Fields { gap, pressure, .. } = self.fields;
+        let [gap, pressure] = [self.fields.gap, self.fields.pressure].map(Field::into_array);
         let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law };
         let (mut solution, gap) = match &flat.window {
             None => (solution, None),
@@ -90,9 +90,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let Self { fields, posed, .. } = self;
         let Fields { reducer, gap, pressure, residual, preconditioned, change, .. } = fields;
         for correction in [residual, preconditioned, change] {
-            *correction = Array2::zeros((0, 0));
+            *correction = Field::default();
         }
-        let mut contact_pressure = Array2::zeros(gap.dim());
+        let mut contact_pressure = Field::zeros(gap.dim());
         let local = posed.potential();
         let fields = read(gap).zip(write(pressure)).zip(write(&mut contact_pressure));
         let carried = local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
@@ -106,7 +106,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 least least_gap: gap[i].widen()
             })
         });
-        (contact_pressure, carried)
+        (contact_pressure.into_array(), carried)
     }
 
     /// The report, of a mean pressure, the net pressure ⟨λ⟩ − ⟨φ'⟩, and the error of the load.

@@ -3,9 +3,7 @@
 //! Each does all that can be done while its nodes are in cache, as their cost is memory traffic. Law and constraint
 //! come in as a [`Potential`](super::potential::Potential), at one virtual call a chunk.
 
-use ndarray::Array2;
-
-use crate::field::Reducer;
+use crate::field::{Field, Reducer};
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -24,16 +22,16 @@ pub(super) use tally::{Taken, Tally, tally};
 #[derive(Debug)]
 pub(super) struct Fields<T, Lo> {
     /// the gap g
-    pub(super) gap: Array2<T>,
+    pub(super) gap: Field<T>,
     /// the elastic pressure p = K⁻¹(g + h), of zero mean
-    pub(super) pressure: Array2<T>,
+    pub(super) pressure: Field<T>,
     /// the residual r' (negative zero: a node outside of the working set), or during a step K⁻¹c of the change c
-    pub(super) residual: Array2<Lo>,
+    pub(super) residual: Field<Lo>,
     /// the preconditioned residual z = M r', until then that of the previous state
-    pub(super) preconditioned: Array2<Lo>,
+    pub(super) preconditioned: Field<Lo>,
     /// the change c, a multiple of the last step, during the next one not yet scaled to the mean gap; the direction t
     /// of [`Method::Rey2017`](crate::solver::Method)
-    pub(super) change: Array2<Lo>,
+    pub(super) change: Field<Lo>,
     pub(super) reducer: Reducer,
     /// the least r in contact of each chunk
     pub(super) least_r: Vec<f64>,
@@ -42,10 +40,9 @@ pub(super) struct Fields<T, Lo> {
 }
 
 impl<T: Real, Lo: Real> Fields<T, Lo> {
-    pub(super) fn new(grid: &Grid, gap: Array2<T>, pressure: Array2<T>) -> Self {
-        let field = || Array2::zeros(gap.dim());
+    pub(super) fn new(grid: &Grid, gap: Field<T>, pressure: Field<T>) -> Self {
         let reducer = grid.reducer();
-        let [residual, preconditioned, change] = std::array::from_fn(|_| field());
+        let [residual, preconditioned, change] = std::array::from_fn(|_| Field::zeros(gap.dim()));
         let [least_r, moving] = std::array::from_fn(|_| vec![0.0; reducer.chunks()]);
         Self { gap, pressure, residual, preconditioned, change, reducer, least_r, moving }
     }

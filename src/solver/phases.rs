@@ -7,7 +7,6 @@ use super::state::State;
 use crate::adhesion::Values;
 use crate::constraint::{Update, Wall};
 use crate::error::{Error, Result};
-use crate::field::flat;
 use crate::problem::{Control, Load};
 use crate::real::Real;
 
@@ -48,7 +47,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let first = self.posed.operators.state().grid().slab().first_node();
         let window = self.posed.flat.window.as_ref();
         let on_surface = |node| window.map_or(Some(node), |window| window.pieces(node..node + 1).next()?.1);
-        for (node, gap) in (first..).zip(flat(&self.fields.gap)) {
+        for (node, gap) in (first..).zip(self.fields.gap.nodes()) {
             let Some(node) = on_surface(node) else { continue };
             let gap = gap.max(T::zero());
             for (order, function) in ["adhesive energy", "adhesive traction"].into_iter().enumerate() {
@@ -91,7 +90,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.posed.goal = Goal::Solution;
         if self.posed.branch.is_some() && self.is_adrift() {
             // the law itself may hold this tension
-            self.fields.gap.fill(T::lit(uniform_start(self.posed.adhesion, self.posed.flat, self.posed.load)));
+            let uniform = uniform_start(self.posed.adhesion, self.posed.flat, self.posed.load);
+            self.fields.gap.nodes_mut().fill(T::lit(uniform));
             self.refresh()?;
         }
         self.restart();
@@ -103,8 +103,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn update_constraint(&mut self) -> Update {
         // no gap where no surface faces the half-space
         let whole = || match &self.posed.flat.window {
-            Some(window) => window.held().whole_of(window.cut(&self.fields.gap, T::infinity())),
-            None => self.posed.operators.state().grid().whole(&self.fields.gap),
+            Some(window) => window.held().whole_of(window.cut(&self.fields.gap, T::infinity()).into_array()),
+            None => self.posed.operators.state().grid().whole(&*self.fields.gap),
         };
         let gap = matches!(self.posed.constraint.wall(), Wall::Springs(_)).then(whole);
         let work = self.error_scale().0 * self.posed.nodes();

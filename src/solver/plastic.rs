@@ -6,9 +6,8 @@ use super::passes::count;
 use super::potential::{Of, Potential};
 use super::report::Plastic;
 use super::state::State;
-use crate::field::{CHUNK, Minimum, Sums, found, read, write};
+use crate::field::{CHUNK, Field, Minimum, Sums, found, read, write};
 use crate::par::Parts;
-use crate::problem::Yielded;
 use crate::real::{Real, cast};
 use crate::vector::sums;
 
@@ -85,8 +84,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn yielded(&mut self) -> Option<(Array2<T>, Plastic, f64)> {
         let Self { fields, posed, .. } = self;
         let hardness = posed.wall().hardness()?.mean();
-        let before = posed.flat.yielded.as_ref().map(Yielded::depth);
-        let mut depth = before.cloned().unwrap_or_else(|| Array2::zeros(fields.gap.dim()));
+        let mut depth =
+            posed.flat.yielded.as_ref().map_or_else(|| Field::zeros(fields.gap.dim()), |before| before.depth.clone());
         let local = posed.potential();
         let chunks = read(&fields.gap).zip(write(&mut depth));
         let total = local.run(&mut fields.reducer, chunks, |local, first, (gaps, depths)| {
@@ -116,6 +115,6 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             depth_mean: total.depth / facing,
             energy: posed.flat.padding * total.energy / posed.nodes(),
         };
-        Some((depth, figures, total.pulled))
+        Some((depth.into_array(), figures, total.pulled))
     }
 }

@@ -93,7 +93,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     fn shift(&mut self) -> Result<bool> {
         let imbalance = self.imbalance();
         let length = std::mem::replace(&mut self.steps.step_length, 1.0);
-        self.fields.preconditioned.fill(Lo::zero());
+        self.fields.preconditioned.nodes_mut().fill(Lo::zero());
         let mut trial = self.trial(-imbalance / self.posed.load.stiffness(), None);
         // the sum of r', which is of Lo, has the rounding of the waves
         trial.slope = trial.tried.change * imbalance;
@@ -105,7 +105,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             self.certify()?;
             return Ok(false);
         };
-        self.fields.residual.fill(Lo::zero());
+        self.fields.residual.nodes_mut().fill(Lo::zero());
         self.advance(&trial, &step);
         // the last change is of the waves
         self.steps.momentum = None;

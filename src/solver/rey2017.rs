@@ -158,7 +158,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if !scale.is_finite() {
             // every node was clipped: only the mean gap remains to be kept
             if let Load::Gap(mean) = self.posed.load {
-                self.fields.gap.fill(T::lit(mean));
+                self.fields.gap.nodes_mut().fill(T::lit(mean));
                 self.refresh()?;
                 self.sums.certificate = f64::INFINITY;
             }

@@ -8,9 +8,9 @@ use super::potential::{Least, bounded};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
-use crate::field::{read, write};
+use crate::field::{CHUNK, Field, ordered, write};
 use crate::grid::Grid;
-use crate::par::Parts;
+use crate::par::{self, Parts};
 use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 
@@ -101,7 +101,7 @@ pub(super) fn given_start<T: Real>(
     window: Option<&Window>,
     load: Load,
     wall: Wall<'_, T>,
-) -> Result<Option<Array2<T>>> {
+) -> Result<Option<Field<T>>> {
     let (given, whole): (CowArray<'_, T, Ix2>, _) = match begin {
         Begin::At(Start::Default) | Begin::On(_) => return Ok(None),
         Begin::At(Start::From(gap)) => (gap.view().into(), false),
@@ -124,16 +124,16 @@ pub(super) fn given_start<T: Real>(
         Err(Error::Value { name: "starting gap", value: gap.widen(), requirement })
     });
     grid.slab().agreed(negative)?;
-    let mut gap = if start.is_standard_layout() { start.into_owned() } else { start.as_standard_layout().into_owned() };
+    let mut gap = Field::of(start);
     if let Load::Gap(mean) = load {
         let present = grid.mean(gap.view(), T::widen);
         if !wall.projects() && grid.each(gap.iter().any(|&g| g < T::zero())).contains(&true) {
             // gaps of both signs may have hardly any mean
-            gap.mapv_inplace(|g| g + T::lit(mean - present));
+            gap.view_mut().mapv_inplace(|g| g + T::lit(mean - present));
         } else if present > 0.0 {
-            gap.mapv_inplace(|g| g * T::lit(mean / present));
+            gap.view_mut().mapv_inplace(|g| g * T::lit(mean / present));
         } else {
-            gap.fill(T::lit(mean));
+            gap.nodes_mut().fill(T::lit(mean));
         }
     }
     Ok(Some(gap))
@@ -149,10 +149,10 @@ pub(crate) fn extrapolated<T: Real>(
     (least, long): (Least<T>, bool),
     (window, grid): (Option<&Window>, Grid),
 ) -> Array2<T> {
-    let (steps, mut next) = (T::lit(steps), last.clone());
+    let (steps, mut next, before) = (T::lit(steps), Field::of(last), ordered(before.view()));
     let power = |gap: T| gap.sqrt() * gap.sqrt().sqrt();
     let bends = long && least.is_wall();
-    grid.reducer().run(write(&mut next).zip(read(before)), |first, (gaps, before)| {
+    grid.reducer().run(write(&mut next).zip(par::chunks(&before, CHUNK)), |first, (gaps, before)| {
         for ((gap, &before), node) in gaps.iter_mut().zip(before).zip(first..) {
             let straight = *gap + steps * (*gap - before);
             // not a number below the wall, where the gap of a free half-space is that to no surface
@@ -163,7 +163,7 @@ pub(crate) fn extrapolated<T: Real>(
             *gap = if free { wanted } else { feasible };
         }
     });
-    next
+    next.into_array()
 }
 
 /// Refuses springs, where the energy of a solution has to be in its report.

@@ -1,7 +1,5 @@
 //! The state of a solve: the problem that is posed, its fields, their sums, and the steps.
 
-use ndarray::Array2;
-
 use super::Method;
 use super::coarse::Coarse;
 use super::minimisation::{Counters, Goal, Made, Next, Residual, Steps, Sums};
@@ -12,7 +10,7 @@ use super::start::{Begin, given_start, uniform_start};
 use super::work::{TRUSTED, Work};
 use crate::elastic::Boundary;
 use crate::error::Result;
-use crate::field::{read, write};
+use crate::field::{Field, read, write};
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::Real;
@@ -41,11 +39,11 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let given = given_start(begin, &grid, flat.window.as_ref(), load, posed.wall())?;
         let (gap, pressure) = match given {
             Some(gap) => {
-                let mut pressure = Array2::zeros(shape);
+                let mut pressure = Field::zeros(shape);
                 posed.operators.pressure(&gap, &mut pressure, &mut [])?;
                 (gap, pressure)
             }
-            None => (Array2::from_elem(shape, T::lit(uniform_start(posed.law(), flat, load))), flat.pressure.clone()),
+            None => (Field::filled(shape, T::lit(uniform_start(posed.law(), flat, load))), flat.pressure.clone()),
         };
         let coarse = Coarse::of(posed.operators.corrections());
         let mut state = Self {

@@ -205,7 +205,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         // where the law itself keeps the surfaces apart, it may hold them with no node pressed
         let holds = !self.posed.projects() && self.sums.tally.traction > hardly * self.posed.nodes();
         if self.sums.tally.contact == 0.0 && !holds {
-            self.fields.gap.fill(T::lit(gap));
+            self.fields.gap.nodes_mut().fill(T::lit(gap));
         } else if !self.posed.projects() && self.posed.flat.window.is_none() {
             self.open_to(gap);
         }

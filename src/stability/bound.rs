@@ -41,7 +41,7 @@ pub(super) fn below<T: Real>(hessian: &mut Hessian<'_, T>, pair: &Eigenpair<T>, 
     let least_variance = 1.0 / (hessian.stiffest() + hessian.softest());
     let tangent = start * hessian.nodes() / least_variance / (LEAST * LEAST);
     let (mut before, mut image) = (q.clone(), q.clone());
-    before.fill(T::zero());
+    before.nodes_mut().fill(T::zero());
     let (mut diagonal, mut beside) = (Vec::new(), Vec::<f64>::new());
     let mut norm = start.sqrt();
     let best = |b: f64| lower_bound(pair, lift, b);
@@ -134,6 +134,7 @@ fn ends(diagonal: &[f64], beside: &[f64]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::field::Field;
 
     #[test]
     fn the_ends_of_a_chain_of_springs() {
@@ -152,7 +153,7 @@ mod tests {
             let (sin, cos) = angle.sin_cos();
             let value = e * cos * cos + 3.0 * sin * sin;
             let residual = ((e - value).powi(2) * cos * cos + (3.0 - value).powi(2) * sin * sin).sqrt();
-            let pair = Eigenpair { value, residual, noise: 0.0, vector: ndarray::Array2::<f64>::zeros((1, 1)) };
+            let pair = Eigenpair { value, residual, noise: 0.0, vector: Field::<f64>::zeros((1, 1)) };
             let lift = 4.0;
             // the least eigenvalue of the lifted matrix
             let (a, b, c) = (e + lift * cos * cos, lift * sin * cos, 3.0 + lift * sin * sin);

@@ -1,10 +1,8 @@
 //! The smallest eigenvalue, by locally optimal preconditioned conjugate gradients (Knyazev 2001).
 
-use ndarray::Array2;
-
 use super::hessian::Hessian;
 use crate::error::Result;
-use crate::field::read;
+use crate::field::{Field, read};
 use crate::par::Parts;
 use crate::real::Real;
 
@@ -16,7 +14,7 @@ pub(super) struct Eigenpair<T> {
     /// the rounding of the value
     pub(super) noise: f64,
     /// the mode x, of mean square 1
-    pub(super) vector: Array2<T>,
+    pub(super) vector: Field<T>,
 }
 
 /// The largest error of the eigenvalue as a share of it, by r²/gap with the softest stiffness for the gap to the next.
@@ -31,7 +29,7 @@ type Matrix = [[f64; 3]; 3];
 pub(super) fn lowest<T: Real>(hessian: &mut Hessian<'_, T>, tolerance: f64, most: usize) -> Result<Eigenpair<T>> {
     let mut random = hessian.random(0);
     hessian.weigh(&mut random);
-    let mut start = Array2::zeros(hessian.shape());
+    let mut start = Field::zeros(hessian.shape());
     hessian.precondition(&random, &mut start)?;
     drop(random);
     lowest_from(hessian, start, most, true, |hessian, found| {
@@ -51,20 +49,20 @@ pub(super) struct Found {
 /// computes the image Hx, which the iteration only updates.
 pub(super) fn lowest_from<T: Real>(
     hessian: &mut Hessian<'_, T>,
-    mut x: Array2<T>,
+    mut x: Field<T>,
     most: usize,
     confirmed: bool,
     enough: impl Fn(&Hessian<'_, T>, &Found) -> bool,
 ) -> Result<Eigenpair<T>> {
     let shape = hessian.shape();
-    let [mut ax, mut w, mut aw, mut p, mut ap] = std::array::from_fn(|_| Array2::<T>::zeros(shape));
+    let [mut ax, mut w, mut aw, mut p, mut ap] = std::array::from_fn(|_| Field::<T>::zeros(shape));
     normalise(hessian, &mut x);
     hessian.apply(&x, &mut ax)?;
     let (mut directions, mut fresh, mut iteration) = (2, true, 0);
     loop {
         let value = hessian.product(&x, &ax);
         // w holds the residual for a while
-        w.assign(&ax);
+        w.nodes_mut().copy_from_slice(ax.nodes());
         hessian.combine(1.0, &mut w, -value, &x);
         let residual = hessian.product(&w, &w).sqrt();
         let noise = noise::<T>(hessian, &ax, value);
@@ -79,7 +77,7 @@ pub(super) fn lowest_from<T: Real>(
             (fresh, directions) = (true, 2);
             continue;
         }
-        aw.assign(&w);
+        aw.nodes_mut().copy_from_slice(w.nodes());
         hessian.precondition(&aw, &mut w)?;
         normalise(hessian, &mut w);
         hessian.apply(&w, &mut aw)?;
@@ -99,13 +97,13 @@ pub(super) fn lowest_from<T: Real>(
     }
 }
 
-fn noise<T: Real>(hessian: &mut Hessian<'_, T>, image: &Array2<T>, value: f64) -> f64 {
+fn noise<T: Real>(hessian: &mut Hessian<'_, T>, image: &Field<T>, value: f64) -> f64 {
     // the image is a sum K⁻¹x + φ''x of terms that may both be large
     let image = hessian.product(image, image).sqrt();
     8.0 * T::epsilon().widen() * (image.max(value.abs()) + 2.0 * hessian.least_slope().abs() + hessian.softest())
 }
 
-pub(super) fn normalise<T: Real>(hessian: &mut Hessian<'_, T>, field: &mut Array2<T>) {
+pub(super) fn normalise<T: Real>(hessian: &mut Hessian<'_, T>, field: &mut Field<T>) {
     let norm = hessian.product(field, field).sqrt();
     if norm > 0.0 {
         hessian.scale(field, 1.0 / norm);
@@ -113,7 +111,7 @@ pub(super) fn normalise<T: Real>(hessian: &mut Hessian<'_, T>, field: &mut Array
 }
 
 /// The mean products of three fields with one another, and with their images.
-fn products<T: Real>(hessian: &mut Hessian<'_, T>, of: [&Array2<T>; 3], images: [&Array2<T>; 3]) -> (Matrix, Matrix) {
+fn products<T: Real>(hessian: &mut Hessian<'_, T>, of: [&Field<T>; 3], images: [&Field<T>; 3]) -> (Matrix, Matrix) {
     let nodes = hessian.nodes();
     let [gram, energy] = [of, images].map(|others| {
         let ([a, b, c], [u, v, w]) = (of.map(read), others.map(read));

@@ -1,10 +1,8 @@
 //! The Hessian of the energy, K⁻¹ + φ'', on the admissible changes of the gap.
 
-use ndarray::Array2;
-
 use crate::elastic::{ElasticOperator, Foundation};
 use crate::error::Result;
-use crate::field::{Minimum, Reducer, read, write};
+use crate::field::{Field, Minimum, Reducer, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
 use crate::problem::Load;
@@ -15,7 +13,7 @@ use crate::solver::Coarse;
 pub(super) struct Hessian<'a, T> {
     operator: &'a mut dyn ElasticOperator<T>,
     /// φ'', infinite on the contact
-    slopes: Array2<T>,
+    slopes: Field<T>,
     centred: bool,
     /// the stiffness that a spring adds to the mean, zero without one
     spring: f64,
@@ -28,7 +26,7 @@ pub(super) struct Hessian<'a, T> {
 }
 
 impl<'a, T: Real> Hessian<'a, T> {
-    pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Array2<T>, load: Load) -> Self {
+    pub(super) fn new(operator: &'a mut dyn ElasticOperator<T>, slopes: Field<T>, load: Load) -> Self {
         let (centred, spring) = (matches!(load, Load::Gap(_)), load.stiffness());
         let mut reducer = operator.grid().reducer();
         let free = reducer.run(read(&slopes), |_, slopes| slopes.iter().filter(|s| s.is_finite()).count() as f64);
@@ -92,7 +90,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// Makes a field vanish on the contact and have the mean 1; it becomes uniform if it has no positive mean.
-    pub(super) fn admit(&mut self, field: &mut Array2<T>) {
+    pub(super) fn admit(&mut self, field: &mut Field<T>) {
         let nodes = self.nodes();
         let Self { reducer, slopes, free, .. } = self;
         let sum = reducer.run(read(slopes).zip(write(field)), |_, (slopes, values)| {
@@ -118,7 +116,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// Makes a field admissible; returns the mean that was taken out.
-    pub(super) fn project(&mut self, field: &mut Array2<T>) -> f64 {
+    pub(super) fn project(&mut self, field: &mut Field<T>) -> f64 {
         let Self { reducer, slopes, centred, free, .. } = self;
         let mut mean = T::zero();
         if *centred && *free > 0.0 {
@@ -137,7 +135,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// The image of an admissible field, made admissible; returns the mean taken out. Takes one operator application.
-    pub(super) fn apply(&mut self, field: &Array2<T>, image: &mut Array2<T>) -> Result<f64> {
+    pub(super) fn apply(&mut self, field: &Field<T>, image: &mut Field<T>) -> Result<f64> {
         self.operator.pressure(field.view(), image.view_mut())?;
         self.applications += 1;
         let mean = if self.spring > 0.0 { self.operator.grid().mean(field.view(), T::widen) } else { 0.0 };
@@ -154,7 +152,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// The force that holds a field at zero on the contact, a level less K⁻¹ of the field. One operator application.
-    pub(super) fn reaction(&mut self, field: &Array2<T>, level: f64, reaction: &mut Array2<T>) -> Result<()> {
+    pub(super) fn reaction(&mut self, field: &Field<T>, level: f64, reaction: &mut Field<T>) -> Result<()> {
         self.operator.pressure(field.view(), reaction.view_mut())?;
         self.applications += 1;
         let level = T::lit(level);
@@ -167,7 +165,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// Preconditions an admissible field r by the compliance; returns the mean of r·Kr. One operator application.
-    pub(super) fn precondition(&mut self, residual: &Array2<T>, result: &mut Array2<T>) -> Result<f64> {
+    pub(super) fn precondition(&mut self, residual: &Field<T>, result: &mut Field<T>) -> Result<f64> {
         let softest = self.softest();
         let coarse = self.coarse.as_mut().and_then(Coarse::ready);
         let foundation = Foundation { coarse, ..Foundation::uniform(softest, softest + self.spring) };
@@ -177,14 +175,14 @@ impl<'a, T: Real> Hessian<'a, T> {
         Ok(found.error)
     }
 
-    pub(super) fn product(&mut self, a: &Array2<T>, b: &Array2<T>) -> f64 {
+    pub(super) fn product(&mut self, a: &Field<T>, b: &Field<T>) -> f64 {
         let sum = self
             .reducer
             .run(read(a).zip(read(b)), |_, (a, b)| a.iter().zip(b).map(|(a, b)| a.widen() * b.widen()).sum::<f64>());
         sum / self.nodes()
     }
 
-    pub(super) fn scale(&mut self, field: &mut Array2<T>, factor: f64) {
+    pub(super) fn scale(&mut self, field: &mut Field<T>, factor: f64) {
         let factor = T::lit(factor);
         self.reducer.run(write(field), |_, values| {
             values.iter_mut().for_each(|value| *value *= factor);
@@ -192,7 +190,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// a ← factor·a + other·b
-    pub(super) fn combine(&mut self, factor: f64, a: &mut Array2<T>, other: f64, b: &Array2<T>) {
+    pub(super) fn combine(&mut self, factor: f64, a: &mut Field<T>, other: f64, b: &Field<T>) {
         let (factor, other) = (T::lit(factor), T::lit(other));
         self.reducer.run(write(a).zip(read(b)), |_, (a, b)| {
             a.iter_mut().zip(b).for_each(|(a, &b)| *a = factor * *a + other * b);
@@ -200,7 +198,7 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// Multiplies a field by the curvature of the adhesive energy, where modes are soft.
-    pub(super) fn weigh(&mut self, field: &mut Array2<T>) {
+    pub(super) fn weigh(&mut self, field: &mut Field<T>) {
         let least = self.least_slope();
         if least < 0.0 {
             let least = T::lit(least);
@@ -217,25 +215,25 @@ impl<'a, T: Real> Hessian<'a, T> {
     }
 
     /// An admissible field of independent normal numbers, the same for every `stream`.
-    pub(super) fn random(&mut self, stream: u32) -> Array2<T> {
+    pub(super) fn random(&mut self, stream: u32) -> Field<T> {
         let mut field = normal_numbers(self.operator.grid(), stream);
         self.project(&mut field);
         field
     }
 
     /// Normal numbers smoothed by the compliance, not admissible, the same for every φ'' and contact. One application.
-    pub(super) fn smooth_random(&mut self, stream: u32) -> Result<Array2<T>> {
+    pub(super) fn smooth_random(&mut self, stream: u32) -> Result<Field<T>> {
         let random = normal_numbers::<T>(self.operator.grid(), stream);
-        let (softest, mut smooth) = (self.softest(), Array2::zeros(random.dim()));
+        let (softest, mut smooth) = (self.softest(), Field::zeros(random.dim()));
         self.operator.precondition(random.view(), Foundation::uniform(softest, softest), smooth.view_mut())?;
         self.applications += 1;
         Ok(smooth)
     }
 }
 
-fn normal_numbers<T: Real>(grid: &Grid, stream: u32) -> Array2<T> {
+fn normal_numbers<T: Real>(grid: &Grid, stream: u32) -> Field<T> {
     let (first, ny) = (grid.slab().first_node(), grid.shape().1);
-    Array2::from_shape_fn(grid.field_shape(), |(i, j)| {
+    Field::from_fn(grid.field_shape(), |(i, j)| {
         let node = (first + i * ny + j) as u64;
         let [a, b] = crate::surface::uniform([node as u32, (node >> 32) as u32, stream, 0], [0x5EED, 0]);
         T::lit((-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos())

@@ -1,13 +1,12 @@
 //! The contact stiffness: the increment of pressure over the increment of approach.
 
-use ndarray::Array2;
-
 use super::edge::EdgeError;
 use super::hessian::Hessian;
 use super::tangent::Tangent;
 use super::{check_gap, slopes};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
+use crate::field::Field;
 use crate::par;
 use crate::problem::{Load, Parts, Problem, smoothed_law};
 use crate::real::Real;
@@ -133,10 +132,8 @@ impl ContactStiffness {
         let smoothed = smoothed.is_some();
         let mut hessian = Hessian::new(operator, slopes, Load::Gap(0.0));
         hessian.hold(flat.stiffness);
-        let start = match window {
-            Some(window) => window.extend(solution.gap.view()),
-            None => solution.gap.as_standard_layout().into_owned(),
-        };
+        let gap = &solution.gap;
+        let start = window.map_or_else(|| Field::of(gap), |window| Field::of(window.extend(gap.view())));
         let least = par::within(|| least_energy(&mut hessian, start, (tolerance, at_edge)))?;
         let LeastEnergy { energy: on_grid, relative_error, tangent } = least;
         let operator_applications = hessian.applications();
@@ -160,7 +157,7 @@ struct LeastEnergy<T> {
 /// The least energy, from a start that need not vanish on the contact or have the mean 1.
 fn least_energy<T: Real>(
     hessian: &mut Hessian<'_, T>,
-    start: Array2<T>,
+    start: Field<T>,
     (tolerance, with_tangent): (f64, bool),
 ) -> Result<LeastEnergy<T>> {
     if hessian.free() == 0.0 {
@@ -168,11 +165,11 @@ fn least_energy<T: Real>(
     }
     let mut opening = start;
     hessian.admit(&mut opening);
-    let [mut residual, mut image] = [(); 2].map(|()| Array2::<T>::zeros(hessian.shape()));
+    let [mut residual, mut image] = [(); 2].map(|()| Field::<T>::zeros(hessian.shape()));
     let level = hessian.apply(&opening, &mut image)?;
     let mut energy = hessian.product(&opening, &image) + level;
     hessian.combine(0.0, &mut residual, -1.0, &image);
-    let [mut direction, mut preconditioned] = [(); 2].map(|()| Array2::zeros(hessian.shape()));
+    let [mut direction, mut preconditioned] = [(); 2].map(|()| Field::zeros(hessian.shape()));
     let mut before = 0.0;
     let mut error = f64::INFINITY;
     for iteration in 0..=MOST {

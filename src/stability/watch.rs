@@ -9,6 +9,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
+use crate::field::Field;
 use crate::grid::Grid;
 use crate::problem::{Load, Window};
 use crate::real::Real;
@@ -33,7 +34,7 @@ pub(crate) struct Watch<T> {
     /// the mode that was last found, of mean square 1
     pub(crate) mode: Option<Array2<T>>,
     #[cfg_attr(feature = "serde", serde(skip, default = "Option::default"))]
-    random: Option<Array2<T>>,
+    random: Option<Field<T>>,
 }
 
 impl<T> Default for Watch<T> {
@@ -72,19 +73,17 @@ impl<T: Real> Watch<T> {
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);
         }
-        let random = match self.random.take() {
-            Some(random) => random,
-            None => hessian.smooth_random(2)?,
+        let mut start = match &self.random {
+            Some(random) => random.clone(),
+            None => self.random.insert(hessian.smooth_random(2)?).clone(),
         };
-        let mut start = random.clone();
-        self.random = Some(random);
         hessian.project(&mut start);
         hessian.weigh(&mut start);
         if let Some(mode) = self.mode.take() {
-            let mut mode = match window {
+            let mut mode = Field::of(match window {
                 Some(window) => window.extend(mode.view()),
                 None => mode,
-            };
+            });
             hessian.project(&mut mode);
             normalise(&mut hessian, &mut mode);
             normalise(&mut hessian, &mut start);
@@ -104,7 +103,7 @@ impl<T: Real> Watch<T> {
         let saddle = unstable(&pair).then_some(Saddle { eigenvalue: pair.value });
         self.mode = Some(match window {
             Some(window) => window.crop(&pair.vector, T::zero()),
-            None => pair.vector,
+            None => pair.vector.into_array(),
         });
         Ok(saddle)
     }

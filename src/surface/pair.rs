@@ -65,7 +65,7 @@ impl Surface {
             facing = by_lines(facing, |lines| shifted(lines, x.1), |lines| shifted(lines, y.1));
         }
         let first = grid.rows().start;
-        let mut heights = self.heights.clone();
+        let mut heights = self.heights().clone();
         heights.indexed_iter_mut().for_each(|((i, j), h)| *h += facing[(first + i, j)]);
         let has = |absent: Option<&Array2<bool>>, node| absent.is_some_and(|absent| absent[node]);
         let absent = Array2::from_shape_fn(heights.dim(), |(i, j)| {

@@ -4,12 +4,11 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use asperity_fft::num_complex::Complex;
-use ndarray::Array2;
 
 use super::Symbol;
 use crate::error::{Breach, Error, Place, Result};
 use crate::fft::{Layout, Sums};
-use crate::field::flat;
+use crate::field::{Field, contiguous};
 use crate::grid::Grid;
 use crate::real::{Real, cast};
 use crate::slab::Slab;
@@ -37,22 +36,22 @@ pub enum Stiffness<T> {
 pub struct Columns<T> {
     slab: Slab,
     first: usize,
-    modes: Array2<T>,
+    modes: Field<T>,
 }
 
 impl<T: Real> Columns<T> {
     pub(super) fn new(slab: Slab, count: usize, mut f: impl FnMut(usize, usize) -> T) -> Self {
         let own = Layout::new(slab.shape()).columns_of(&slab);
-        let modes = Array2::from_shape_fn((own.len(), count), |(k, i)| f(own.start + k, i));
+        let modes = Field::from_fn((own.len(), count), |(k, i)| f(own.start + k, i));
         Self { slab, first: own.start, modes }
     }
 
-    pub(super) fn of(slab: Slab, modes: Array2<T>) -> Self {
+    pub(super) fn of(slab: Slab, modes: Field<T>) -> Self {
         Self { slab, first: Layout::new(slab.shape()).columns_of(&slab).start, modes }
     }
 
     fn column(&self, k: usize) -> &[T] {
-        flat(&self.modes).chunks(self.modes.ncols().max(1)).nth(k - self.first).unwrap_or_default()
+        contiguous(self.modes.row(k - self.first).to_slice())
     }
 
     pub(super) fn get(&self, [column, mode]: [usize; 2]) -> Option<T> {
@@ -68,7 +67,7 @@ impl<T: Real> Columns<T> {
     }
 
     pub(super) fn cast<U: Real>(&self) -> Columns<U> {
-        Columns { slab: self.slab, first: self.first, modes: self.modes.mapv(cast) }
+        Columns { slab: self.slab, first: self.first, modes: Field::of(self.modes.mapv(cast)) }
     }
 }
 

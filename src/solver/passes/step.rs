@@ -1,11 +1,9 @@
 //! The passes of a step.
 
-use ndarray::Array2;
-
 use super::residual::{Continued, Working, release_chunk};
 use super::tally::{Tally, tally_chunk};
 use super::{Fields, count, idles};
-use crate::field::{CHUNK, Minimum, Sums, found, read, write};
+use crate::field::{CHUNK, Field, Minimum, Sums, found, read, write};
 use crate::par::Parts;
 use crate::real::{Real, cast};
 use crate::solver::potential::{Of, Potential};
@@ -166,7 +164,7 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     attempt: Attempt<T>,
-    (held, surface): (bool, &Array2<T>),
+    (held, surface): (bool, &Field<T>),
 ) -> Tried {
     let Fields { reducer, gap, residual, preconditioned, change, .. } = fields;
     let chunks = read(gap).zip(read(residual)).zip(read(preconditioned)).zip(write(change)).zip(read(surface));
@@ -240,7 +238,7 @@ pub(in crate::solver) fn advance<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     step: Advance<T>,
-    surface: &Array2<T>,
+    surface: &Field<T>,
 ) -> Advanced {
     let Advance { length, scale, offset, level } = step;
     let Fields { reducer, least_r, gap, pressure, residual: response, preconditioned, change, .. } = fields;

@@ -1,9 +1,7 @@
 //! The tally of a state.
 
-use ndarray::Array2;
-
 use super::{Fields, count};
-use crate::field::{CHUNK, Minimum, found, read};
+use crate::field::{CHUNK, Field, Minimum, found, read};
 use crate::par::Parts;
 use crate::real::Real;
 use crate::solver::potential::Potential;
@@ -97,7 +95,7 @@ pub(in crate::solver) fn tally<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,
     offset: T,
-    surface: &Array2<T>,
+    surface: &Field<T>,
 ) -> Taken {
     let Fields { reducer, least_r, gap, pressure, .. } = fields;
     let chunks = read(gap).zip(read(pressure)).zip(read(surface));
@@ -132,9 +130,8 @@ mod tests {
         let gap = |i: usize| if i.is_multiple_of(3) { 0 } else { bits(i, 1) };
         let pressure = |i: usize| bits(i, 2) - (1 << 22);
         let surface = |i: usize| bits(i, 3) - (1 << 21);
-        let field = |value: &dyn Fn(usize) -> i64| {
-            Array2::from_shape_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32)
-        };
+        let field =
+            |value: &dyn Fn(usize) -> i64| Field::from_fn((n, n), |(i, j)| (value(n * i + j) as f64 * UNIT) as f32);
         let mut fields = Fields::<_, f32>::new(&Grid::square(n, 1.0).unwrap(), field(&gap), field(&pressure));
         let nothing = Potential::new(&NoAdhesion, &Projection, None);
         let Taken { tally, gap_surface, sum_p } = tally(&mut fields, &nothing, 0.0, &field(&surface));
