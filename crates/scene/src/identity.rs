@@ -43,9 +43,11 @@ pub(crate) fn identity<T: Real>(
     // the fields stand for their files; slopes follow from them, and the typed quantities are those of the other keys
     let adhesion =
         Adhesion { law_table: None, work_of_adhesion_map: None, hardness_map: None, ..inputs.adhesion.clone() };
+    let heights = if inputs.shift.is_some() { "surfaces" } else { "heights" };
     let inputs = Inputs {
         heights: None,
         against: None,
+        shift: None,
         initial_gap: None,
         slopes: Slopes::default(),
         length_unit: None,
@@ -55,14 +57,14 @@ pub(crate) fn identity<T: Real>(
         adhesion,
         ..inputs.clone()
     };
-    let text = |value: Value| match value {
-        Value::Number(number) => number.as_f64().map_or(Value::Null, |number| number.to_string().into()),
-        value => value,
+    let number = |value: &Value| value.as_f64().map(|number| number.to_string());
+    let text = |value: Value| match &value {
+        Value::Array(values) => values.iter().filter_map(number).collect::<Vec<_>>().join(" ").into(),
+        one => number(one).map_or(value, Value::String),
     };
     let all = json!(inputs).as_object().cloned().unwrap_or_default();
     let mut identity: Identity =
         all.into_iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| (key, text(value))).collect();
-    let heights = if inputs.shift.is_some() { "surfaces" } else { "heights" };
     let fields = [
         (heights, Some(field(surface.heights()))),
         ("absent_nodes", surface.absent().map(|absent| field(&absent.mapv(f64::from)))),
