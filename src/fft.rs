@@ -40,7 +40,7 @@ pub struct Convolver<T: Real> {
     pool: Pool<Workspace<T>>,
 }
 
-pub(crate) type Sums = [f64; 3];
+pub(crate) type Products = [f64; 3];
 
 struct Workspace<T> {
     tile: Vec<Complex<T>>,
@@ -99,8 +99,8 @@ impl<T: Real> Convolver<T> {
         &mut self,
         input: ArrayView2<'_, T>,
         output: ArrayViewMut2<'_, U>,
-        modify: impl Fn(usize, &mut [Complex<T>]) -> Sums + Sync + Send,
-    ) -> Result<Sums> {
+        modify: impl Fn(usize, &mut [Complex<T>]) -> Products + Sync + Send,
+    ) -> Result<Products> {
         self.convolve_after(input, output, 0, |_| (), |(), k, column| modify(k, column))
     }
 
@@ -112,8 +112,8 @@ impl<T: Real> Convolver<T> {
         output: ArrayViewMut2<'_, U>,
         ahead: usize,
         look: impl FnOnce(&HalfSpectrum<T>) -> L,
-        modify: impl Fn(&L, usize, &mut [Complex<T>]) -> Sums + Sync + Send,
-    ) -> Result<Sums> {
+        modify: impl Fn(&L, usize, &mut [Complex<T>]) -> Products + Sync + Send,
+    ) -> Result<Products> {
         let (held, shape, mut output) = (self.slab.held(), self.layout.shape(), output);
         Error::shape("operator input", input.dim(), held)?;
         Error::shape("operator output", output.dim(), held)?;

@@ -14,11 +14,11 @@ use crate::constraint::ContactConstraint;
 use crate::contact::{ContactStatistics, Edge, Outline};
 use crate::elastic::{Boundary, ElasticOperator, Factor, OnGrids, Spectral, Stiffness, waves};
 use crate::error::Result;
-use crate::fft::{Convolver, Layout, Sums};
+use crate::fft::{Convolver, Layout, Products};
 use crate::grid::Grid;
 use crate::nested::{GridObserver, Heights, Level, Nested};
 use crate::path::{Bench, Path, PathStep};
-use crate::problem::{Control, Parts, PressedFlat, Problem};
+use crate::problem::{Control, PressedFlat, Problem, ProblemMut};
 use crate::pull_off::{FoundPullOff, PullOff};
 use crate::ranks::{Ranks, Shares};
 use crate::real::Real;
@@ -72,9 +72,9 @@ heavy! {
     /// An application of a spectral operator.
     fn apply(
         operator: &mut Spectral<Self>, input: ArrayView2<'_, Self>, output: ArrayViewMut2<'_, Self>, factor: Factor<'_>,
-    ) -> Result<Sums> = Spectral::convolve;
+    ) -> Result<Products> = Spectral::convolve;
     /// The pressure of heights in `f64`, and its work.
-    fn press(operator: &mut Spectral<Self>, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, Self>) -> Result<Sums> =
+    fn press(operator: &mut Spectral<Self>, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, Self>) -> Result<Products> =
         Spectral::<f32>::press, Spectral::<f64>::press;
     /// The surface pressed flat against the body of an operator, if that and the law suit it.
     fn press_flat(
@@ -116,7 +116,7 @@ heavy! {
     ) -> Result<AccuratePullOff<Self>> = Accuracy::refine_pull_off;
     /// A test of stability.
     fn stability(
-        test: &StabilityTest, problem: Parts<'_, Self>, constraint: &dyn ContactConstraint<Self>, control: Control,
+        test: &StabilityTest, problem: ProblemMut<'_, Self>, constraint: &dyn ContactConstraint<Self>, control: Control,
         gap: &Array2<Self>, relative_error: f64,
     ) -> Result<Stability<Self>> = StabilityTest::judge;
     /// The departure from a saddle.
@@ -126,7 +126,7 @@ heavy! {
     ) -> Result<Option<Departure<Self>>> = Stability::depart;
     /// The contact stiffness of a solution.
     fn stiffness(
-        problem: Parts<'_, Self>, constraint: &dyn ContactConstraint<Self>, solution: &Solution<Self>, tolerance: f64,
+        problem: ProblemMut<'_, Self>, constraint: &dyn ContactConstraint<Self>, solution: &Solution<Self>, tolerance: f64,
     ) -> Result<ContactStiffness> = ContactStiffness::find;
     /// The edge of a contact.
     fn edge(outline: &Outline<'_, Self>) -> Edge = Outline::edge;

@@ -10,7 +10,7 @@ use ndarray::Array2;
 use crate::constraint::ContactConstraint;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
-use crate::problem::{Control, Parts, Problem, smoothed_law};
+use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
     Begin, Iteration, Observer, Solution, Solved, Solver, Start, Status, check_hardness, check_wall, refuse_springs,
@@ -300,7 +300,7 @@ impl<T: Real> Path<T> {
             Some(smoothed) => smoothed,
             None => &sharp,
         };
-        bench.solver.run(Parts { law, ..parts }, control, begin, &mut *bench.observe)
+        bench.solver.run(ProblemMut { law, ..parts }, control, begin, &mut *bench.observe)
     }
 
     /// One step; `None` if it has to be taken back and halved.

@@ -58,7 +58,7 @@ impl<T: Real> fmt::Debug for Problem<T> {
 }
 
 /// The parts of a problem, perhaps with another law for a solve than that of the problem.
-pub struct Parts<'a, T: Real> {
+pub struct ProblemMut<'a, T: Real> {
     pub(crate) operator: &'a mut dyn ElasticOperator<T>,
     pub(crate) law: &'a dyn AdhesionLaw<T>,
     /// the law of the problem, as it was given
@@ -66,7 +66,7 @@ pub struct Parts<'a, T: Real> {
     pub(crate) flat: &'a PressedFlat<T>,
 }
 
-impl<T: Real> Parts<'_, T> {
+impl<T: Real> ProblemMut<'_, T> {
     /// The grid of the surface.
     pub(crate) fn grid(&self) -> &Grid {
         self.flat.grid(self.operator.grid())
@@ -208,9 +208,9 @@ impl<T: Real> Problem<T> {
         }
     }
 
-    pub(crate) fn parts(&mut self) -> Parts<'_, T> {
+    pub(crate) fn parts(&mut self) -> ProblemMut<'_, T> {
         let law = self.on_nodes.as_deref().unwrap_or(&*self.law);
-        Parts { operator: &mut *self.operator, law, given: &self.law, flat: &self.flat }
+        ProblemMut { operator: &mut *self.operator, law, given: &self.law, flat: &self.flat }
     }
 
     /// The measure μ_ρ of how the grid resolves the adhesive zone: [`mu_rho`].

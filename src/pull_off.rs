@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
-use crate::problem::{Control, Parts, Problem, smoothed_law};
+use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{
@@ -163,14 +163,14 @@ impl PullOff {
                 "the surfaces do not attract each other under no load: give a law of a longer range, or a preload";
             return Err(Error::Unsuited { what: "pull-off", reason });
         }
-        let mut bracket = Bracket { borne: vec![Place::of(&held.solution.report)], lost: None, from: 0.0 };
+        let mut bracket = Bracket { borne: vec![Held::of(&held.solution.report)], lost: None, from: 0.0 };
         while !bracket.is_narrow(tolerance) && search.solves < MOST {
             let tension = bracket.next(FIRST * attraction, tolerance);
             let begin = Begin::Found(held.gap().clone());
             let solved = search.solve(solver, problem, Control::MeanPressure(-tension), begin)?;
             let report = &solved.solution.report;
             if solved.is_settled() {
-                bracket.bear(Place { tension, ..Place::of(report) });
+                bracket.bear(Held { tension, ..Held::of(report) });
                 held = solved;
             } else if report.status == Status::Detached {
                 bracket.lose(tension);
@@ -222,7 +222,7 @@ impl Search<'_> {
     ) -> Result<Solved<T>> {
         let parts = problem.parts();
         let smoothed = smoothed_law(&*parts.operator, parts.law);
-        let parts = Parts { law: smoothed.as_deref().unwrap_or(parts.law), ..parts };
+        let parts = ProblemMut { law: smoothed.as_deref().unwrap_or(parts.law), ..parts };
         let solved = solver.run(parts, control, begin, &mut *self.observe)?;
         self.solves += 1;
         self.operator_applications += solved.solution.report.operator_applications;
@@ -237,12 +237,12 @@ impl Search<'_> {
 
 /// A tension that is borne, and how far the bodies are there: the mean gap, with a free boundary minus the approach.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct Held {
     distance: f64,
     tension: f64,
 }
 
-impl Place {
+impl Held {
     fn of(report: &Report) -> Self {
         let free = report.boundary != Boundary::Periodic;
         let distance = report.approach.filter(|_| free).map_or(report.mean_gap, |approach| -approach);
@@ -253,14 +253,14 @@ impl Place {
 /// The tensions that are borne, in their order, and the least one that is not.
 #[derive(Debug)]
 struct Bracket {
-    borne: Vec<Place>,
+    borne: Vec<Held>,
     lost: Option<f64>,
     /// the tension that was borne before the loss
     from: f64,
 }
 
 impl Bracket {
-    fn bear(&mut self, place: Place) {
+    fn bear(&mut self, place: Held) {
         self.lost = self.lost.filter(|&lost| lost > place.tension);
         self.borne.push(place);
     }
@@ -301,7 +301,7 @@ impl Bracket {
     /// The largest tension of the parabola over the distance through the last three places, if it has one.
     fn peak(&self) -> Option<f64> {
         let [.., a, b, c] = self.borne[..] else { return None };
-        let slope = |from: Place, to: Place| (to.tension - from.tension) / (to.distance - from.distance);
+        let slope = |from: Held, to: Held| (to.tension - from.tension) / (to.distance - from.distance);
         let bend = (slope(b, c) - slope(a, b)) / (c.distance - a.distance);
         let there = slope(b, c) + bend * (c.distance - b.distance);
         Some(c.tension - there * there / (4.0 * bend)).filter(|peak| bend < 0.0 && peak.is_finite())
@@ -315,14 +315,14 @@ mod tests {
     #[test]
     fn the_peak_of_a_parabola_is_found_and_enclosed() {
         let curve = |x: f64| 3.0 - (x - 2.0).powi(2);
-        let places = [0.3, 0.8, 1.1].map(|distance| Place { distance, tension: curve(distance) });
+        let places = [0.3, 0.8, 1.1].map(|distance| Held { distance, tension: curve(distance) });
         let mut bracket = Bracket { borne: places.to_vec(), lost: None, from: 0.0 };
         assert!((bracket.peak().unwrap() - 3.0).abs() < 1e-12);
         let mut tries = 0;
         while !bracket.is_narrow(0.02) {
             let tension = bracket.next(0.1, 0.02);
             match tension <= 3.0 {
-                true => bracket.bear(Place { distance: 2.0 - (3.0 - tension).sqrt(), tension }),
+                true => bracket.bear(Held { distance: 2.0 - (3.0 - tension).sqrt(), tension }),
                 false => bracket.lose(tension),
             }
             tries += 1;
@@ -332,12 +332,12 @@ mod tests {
 
     #[test]
     fn a_curve_of_teeth_is_enclosed_by_halving() {
-        let mut bracket = Bracket { borne: vec![Place { distance: 1.0, tension: 0.0 }], lost: None, from: 0.0 };
+        let mut bracket = Bracket { borne: vec![Held { distance: 1.0, tension: 0.0 }], lost: None, from: 0.0 };
         let mut tries = 0;
         while !bracket.is_narrow(1e-3) {
             let tension = bracket.next(1e-3, 1e-3);
             match tension <= 0.7 {
-                true => bracket.bear(Place { distance: 1.0 + (f64::from(tries) * 0.7).fract(), tension }),
+                true => bracket.bear(Held { distance: 1.0 + (f64::from(tries) * 0.7).fract(), tension }),
                 false => bracket.lose(tension),
             }
             tries += 1;
@@ -347,13 +347,13 @@ mod tests {
 
     #[test]
     fn a_loss_by_a_long_step_is_tried_again_from_close_by() {
-        let mut bracket = Bracket { borne: vec![Place { distance: 1.0, tension: 0.6 }], lost: None, from: 0.0 };
+        let mut bracket = Bracket { borne: vec![Held { distance: 1.0, tension: 0.6 }], lost: None, from: 0.0 };
         let (mut tries, mut early) = (0, 0);
         while !bracket.is_narrow(0.02) {
             let tension = bracket.next(0.6, 0.02);
             // a step longer than 0.2 jumps
             match tension <= 1.0 && tension <= bracket.greatest() + 0.2 {
-                true => bracket.bear(Place { distance: tension, tension }),
+                true => bracket.bear(Held { distance: tension, tension }),
                 false => bracket.lose(tension),
             }
             early += usize::from(bracket.lost.is_some_and(|lost| lost <= 1.0));

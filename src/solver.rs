@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::constraint::{ContactConstraint, Projection};
 use crate::error::Result;
-use crate::problem::{Control, Parts, Problem};
+use crate::problem::{Control, Problem, ProblemMut};
 use crate::real::Real;
 use crate::setters::setters;
 
@@ -224,13 +224,13 @@ impl<T: Real> Solver<dyn ContactConstraint<T>> {
 
     pub(crate) fn run(
         &mut self,
-        problem: Parts<'_, T>,
+        problem: ProblemMut<'_, T>,
         control: Control,
         begin: Begin<'_, T>,
         observe: Observer<'_>,
     ) -> Result<Solved<T>> {
         let Self { settings, constraint } = self;
-        let Parts { operator, law, given, flat } = problem;
+        let ProblemMut { operator, law, given, flat } = problem;
         T::solve(operator, Job { law, given, flat, constraint, control, settings: *settings, begin, observe })
     }
 }

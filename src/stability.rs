@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
 use crate::grid::Grid;
 use crate::par::{self, Parts as _};
-use crate::problem::{Control, Parts, Problem, Window, smoothed_law};
+use crate::problem::{Control, Problem, ProblemMut, Window, smoothed_law};
 use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{Of, Potential, Solution, check_wall, refuse_hardness};
@@ -212,7 +212,7 @@ impl StabilityTest {
 
     pub(crate) fn judge<T: Real>(
         &self,
-        problem: Parts<'_, T>,
+        problem: ProblemMut<'_, T>,
         constraint: &dyn ContactConstraint<T>,
         control: Control,
         gap: &Array2<T>,
@@ -222,7 +222,7 @@ impl StabilityTest {
         check_gap(&problem, constraint, gap)?;
         // the value of a mean gap is that of the solution, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
-        let Parts { operator, law, flat, .. } = problem;
+        let ProblemMut { operator, law, flat, .. } = problem;
         let (load, window) = (flat.load(kind, constraint.wall())?, flat.window.as_ref());
         let smoothed = smoothed_law(&*operator, law);
         let law = smoothed.as_deref().unwrap_or(law);
@@ -277,7 +277,11 @@ impl StabilityTest {
     }
 }
 
-fn check_gap<T: Real>(problem: &Parts<'_, T>, constraint: &dyn ContactConstraint<T>, gap: &Array2<T>) -> Result<()> {
+fn check_gap<T: Real>(
+    problem: &ProblemMut<'_, T>,
+    constraint: &dyn ContactConstraint<T>,
+    gap: &Array2<T>,
+) -> Result<()> {
     problem.grid().fits("gap", gap.dim())?;
     if problem.flat.window.is_none() {
         problem.grid().finite("gap", gap.view())?;

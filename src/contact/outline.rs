@@ -44,7 +44,7 @@ pub struct Edge {
     pub places: f64,
 }
 
-struct Step {
+struct Rule {
     /// gap per pressure along x and y
     compliances: [f64; 2],
     /// in spacings
@@ -80,7 +80,7 @@ impl<T: Real> Outline<'_, T> {
         let Self { gap, contact_pressure, map, grid, periodic, modulus } = self;
         let ((nx, columns), nodes) = (grid.shape(), ordered(*map));
         let (dx, dy) = grid.spacing();
-        let step = Step {
+        let step = Rule {
             compliances: [dx, dy].map(|spacing| SOFTNESS * spacing / modulus),
             shift: if *periodic { SHIFT_PERIODIC } else { SHIFT_FREE },
         };
@@ -117,7 +117,7 @@ fn fixed(cells: f64) -> i64 {
     (CELL * cells).round() as i64
 }
 
-impl Step {
+impl Rule {
     fn cut(&self, one: Node, other: Node, axis: usize) -> Cut {
         let (inside, outside) = if one.touches { (one, other) } else { (other, one) };
         let pressed = self.compliances[axis] * inside.pressure.max(0.0);

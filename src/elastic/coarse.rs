@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
 
-use crate::fft::{HalfSpectrum, Layout, Sums};
+use crate::fft::{HalfSpectrum, Layout, Products};
 use crate::grid::Grid;
 use crate::real::Real;
 
@@ -160,7 +160,7 @@ impl CoarseSpace {
 
     /// Puts the response into a column of the half spectrum, over that of the uniform foundation, z; `sums` are those
     /// of the column, the second of r·z and the third of z.
-    pub(super) fn put<T: Real>(&self, k: usize, column: &mut [Complex<T>], sums: &mut Sums) {
+    pub(super) fn put<T: Real>(&self, k: usize, column: &mut [Complex<T>], sums: &mut Products) {
         for i in self.columns.get(k).cloned().unwrap_or_default() {
             let (wave, load, response) = (self.waves[i], self.load[i], self.response[i]);
             let places = [Some((wave.row, 1.0)), wave.mirror.map(|row| (row, -1.0))];

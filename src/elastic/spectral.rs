@@ -3,7 +3,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::*;
-use crate::fft::{Convolver, Layout, Sums};
+use crate::fft::{Convolver, Layout, Products};
 
 mod stiffness;
 
@@ -143,7 +143,7 @@ impl<T: Real> Spectral<T> {
     }
 }
 
-fn weigh(layout: Layout, column: usize, sums: Sums) -> Sums {
+fn weigh(layout: Layout, column: usize, sums: Products) -> Products {
     sums.map(|sum| layout.weight(column) * sum)
 }
 
@@ -155,14 +155,14 @@ pub enum Factor<'a> {
 
 impl Spectral<f32> {
     /// The pressure of heights in `f64`, and its work.
-    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f32>) -> Result<Sums> {
+    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f32>) -> Result<Products> {
         self.in_double()?.convolve(heights, pressure, Factor::Stiffness)
     }
 }
 
 impl Spectral<f64> {
     /// The pressure of heights, and its work.
-    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f64>) -> Result<Sums> {
+    pub(crate) fn press(&mut self, heights: ArrayView2<'_, f64>, pressure: ArrayViewMut2<'_, f64>) -> Result<Products> {
         self.convolve(heights, pressure, Factor::Stiffness)
     }
 }
@@ -173,7 +173,7 @@ impl<T: Real> Spectral<T> {
         input: ArrayView2<'_, T>,
         output: ArrayViewMut2<'_, U>,
         factor: Factor<'_>,
-    ) -> Result<Sums> {
+    ) -> Result<Products> {
         let Self { stiffness, range: (softest, _), convolver, .. } = self;
         let layout = convolver.layout();
         match factor {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use asperity_fft::num_complex::Complex;
 
-use super::{Layout, Sums, Workspace};
+use super::{Layout, Products, Workspace};
 use crate::field::Field;
 use crate::par::{self, Chunks, Pool};
 use crate::ranks::Shares;
@@ -27,9 +27,9 @@ pub(crate) struct HalfSpectrum<T> {
     sent: Shares,
     received: Shares,
     /// the sums over the own columns, and over those of each process
-    sums: Vec<Sums>,
+    sums: Vec<Products>,
     shares: Shares,
-    all: Vec<Sums>,
+    all: Vec<Products>,
 }
 
 impl<T: Real> HalfSpectrum<T> {
@@ -88,7 +88,7 @@ impl<T: Real> HalfSpectrum<T> {
         &mut self,
         pool: &Pool<Workspace<T>>,
         end: usize,
-        f: impl Fn(usize, &mut [Complex<T>], &mut [Complex<T>]) -> Sums + Sync + Send,
+        f: impl Fn(usize, &mut [Complex<T>], &mut [Complex<T>]) -> Products + Sync + Send,
     ) {
         let (first, n0) = (self.own.start, self.layout.plane().0);
         let count = end.clamp(first, self.own.end) - first;
@@ -118,7 +118,7 @@ impl<T: Real> HalfSpectrum<T> {
     }
 
     /// The sum over all columns, in their order.
-    pub(super) fn sums(&mut self) -> Sums {
+    pub(super) fn sums(&mut self) -> Products {
         self.slab.ranks().gather(self.sums.as_flattened(), &self.shares, self.all.as_flattened_mut());
         self.all.iter().fold([0.0; 3], |a, b| std::array::from_fn(|i| a[i] + b[i]))
     }

@@ -9,7 +9,7 @@ use crate::constraint::ContactConstraint;
 use crate::elastic::{Boundary, ElasticOperator, OnGrids};
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::problem::{Control, Parts, Problem};
+use crate::problem::{Control, Problem, ProblemMut};
 use crate::real::Real;
 use crate::solver::{Begin, Observer, Solution, Solved, Solver, Start, Status};
 use crate::surface::Surface;
@@ -132,7 +132,7 @@ impl<T: Real> OnPart<T> {
     }
 
     /// The gap of the whole under the pressure of the part, not negative on the window. Takes an operator application.
-    pub(super) fn whole(self, problem: Parts<'_, T>) -> Result<Array2<T>> {
+    pub(super) fn whole(self, problem: ProblemMut<'_, T>) -> Result<Array2<T>> {
         let Self { part, solution: Solution { gap, pressure, grid, .. }, .. } = self;
         let (window, to) = (problem.grid().shape(), *problem.operator.grid());
         // displacement less heights: K (p − K⁻¹h), and a constant

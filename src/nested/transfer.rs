@@ -54,7 +54,7 @@ fn line<'a, T>(rows: &'a Rows<'_, T>, row: usize) -> &'a [T] {
 
 /// The place of a node among those of another grid along a side.
 #[derive(Clone, Copy)]
-struct Place {
+struct Stencil {
     /// The node before the one at or before the place, that node, and the two after it.
     nodes: [usize; 4],
     weights: [f64; 4],
@@ -63,7 +63,7 @@ struct Place {
     edges: [f64; 2],
 }
 
-impl Place {
+impl Stencil {
     fn is_node(&self) -> bool {
         self.weights[1] == 1.0
     }
@@ -108,7 +108,7 @@ impl Side {
 
 /// The places of the nodes of one grid among those of another along a side. Beyond the window, nodes in the first half
 /// keep their distance from its end, those in the second half from its start.
-fn places(from: Side, to: Side) -> Vec<Place> {
+fn places(from: Side, to: Side) -> Vec<Stencil> {
     let place = |k: usize| {
         // in nodes, times those of the window
         let place = match 2 * k <= to.window + to.whole {
@@ -125,7 +125,7 @@ fn places(from: Side, to: Side) -> Vec<Place> {
         ];
         // gaps grow with the power 3/2 of the distance to an edge at the place
         let edge = |t: f64| WIDER * ((2.0 - t) / (1.0 - t)).powf(1.5);
-        Place { nodes, weights, edges: [edge(t), edge(1.0 - t)] }
+        Stencil { nodes, weights, edges: [edge(t), edge(1.0 - t)] }
     };
     (0..to.whole).map(place).collect()
 }
@@ -152,7 +152,7 @@ impl Touching {
 
     /// The gap at a place, from that by interpolation, and the gaps of the four nodes about it.
     #[inline(always)]
-    fn gap(self, place: &Place, interpolated: f64, gap: impl Fn(usize) -> f64) -> f64 {
+    fn gap(self, place: &Stencil, interpolated: f64, gap: impl Fn(usize) -> f64) -> f64 {
         if self == Self::Free {
             return interpolated;
         }

@@ -4,7 +4,7 @@ use ndarray::CowArray;
 
 use super::{Bench, Path};
 use crate::error::Result;
-use crate::problem::{Control, Parts, smoothed_law};
+use crate::problem::{Control, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{Begin, Solution, Solved, Start, Status};
 use crate::stability::{PERTURBATION, Saddle};
@@ -19,7 +19,7 @@ impl<T: Real> Path<T> {
     /// Whether a state is a saddle at its mean gap, of the law that the path follows.
     pub(super) fn saddle(&mut self, bench: &mut Bench<'_, T>, solution: &Solution<T>) -> Result<Option<Saddle>> {
         let load = self.course.held(&bench.problem.flat);
-        let Parts { operator, law, flat, .. } = bench.problem.parts();
+        let ProblemMut { operator, law, flat, .. } = bench.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
         let followed = smoothed.as_deref().unwrap_or(law);
         let gap = (&solution.gap, flat.window.as_ref());

@@ -17,7 +17,7 @@ pub(super) enum Goal {
 }
 
 #[derive(Debug, Default)]
-pub(super) struct Sums {
+pub(super) struct Totals {
     pub(super) tally: Tally,
     /// Σ u·p, twice the elastic energy
     pub(super) work: Work,
@@ -30,7 +30,7 @@ pub(super) struct Sums {
     pub(super) residual: Residual,
     /// the mean of r'·K r'; infinite as long as it is not known
     pub(super) certificate: f64,
-    pub(super) preconditioned: Preconditioned,
+    pub(super) preconditioned: Descent,
 }
 
 /// What the start of a solve knows of the solution, in ascending order.
@@ -109,7 +109,7 @@ pub(super) struct Residual {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Preconditioned {
+pub(super) struct Descent {
     pub(super) descent: f64,
     pub(super) sum: f64,
 }

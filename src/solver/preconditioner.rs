@@ -1,7 +1,7 @@
 //! The preconditioner, its certificate, and its foundation: the stiffness of the contacts.
 
 use super::coarse::Coarse;
-use super::minimisation::{Nearness, Preconditioned};
+use super::minimisation::{Descent, Nearness};
 use super::passes::{self, Fields, idles};
 use super::state::State;
 use crate::elastic::Foundation;
@@ -47,7 +47,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             certificate = (certificate.sqrt() + (held.beside / self.posed.nodes()).sqrt()).powi(2);
         }
         self.sums.certificate = if found.error.is_nan() { f64::INFINITY } else { certificate };
-        self.sums.preconditioned = Preconditioned { descent, sum };
+        self.sums.preconditioned = Descent { descent, sum };
         self.counters.applications += 1;
         Ok(())
     }

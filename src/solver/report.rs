@@ -11,7 +11,7 @@ use crate::constraint::ContactConstraint;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::problem::{Control, Parts};
+use crate::problem::{Control, ProblemMut};
 use crate::real::Real;
 
 /// The width of the process zone at the edge of a contact, by its adhesive energy, in nodes for each side of a cell.
@@ -346,7 +346,7 @@ impl<T: Real> Solution<T> {
     }
 
     /// Refuses to take the solution for one of a problem with another grid, body, law or wall.
-    pub(crate) fn check(&self, problem: &Parts<'_, T>, constraint: &dyn ContactConstraint<T>) -> Result<()> {
+    pub(crate) fn check(&self, problem: &ProblemMut<'_, T>, constraint: &dyn ContactConstraint<T>) -> Result<()> {
         let (own, grid, wall) = (self.grid.lengths(), problem.grid(), constraint.wall().name());
         Error::shape("solution", self.grid.shape(), grid.shape())?;
         let figures = [

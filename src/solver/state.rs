@@ -2,7 +2,7 @@
 
 use super::Method;
 use super::coarse::Coarse;
-use super::minimisation::{Counters, Goal, Made, Next, Residual, Steps, Sums};
+use super::minimisation::{Counters, Goal, Made, Next, Residual, Steps, Totals};
 use super::passes::{self, Continued, Fields, Taken, Working};
 use super::posed::Posed;
 use super::report::Iteration;
@@ -24,7 +24,7 @@ pub(super) const SCALED: f64 = 64.0;
 pub(super) struct State<'a, T: Real, Lo> {
     pub(super) posed: Posed<'a, T, Lo>,
     pub(super) fields: Fields<T, Lo>,
-    pub(super) sums: Sums,
+    pub(super) sums: Totals,
     pub(super) steps: Steps,
     pub(super) counters: Counters,
 }
@@ -49,7 +49,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         let mut state = Self {
             posed,
             fields: Fields::new(&grid, gap, pressure),
-            sums: Sums { certificate: f64::INFINITY, ..Sums::default() },
+            sums: Totals { certificate: f64::INFINITY, ..Totals::default() },
             steps: Steps { coarse, step_length: 1.0, ..Steps::default() },
             counters: Counters::default(),
         };

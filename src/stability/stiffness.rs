@@ -8,7 +8,7 @@ use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
 use crate::field::Field;
 use crate::par;
-use crate::problem::{Load, Parts, Problem, smoothed_law};
+use crate::problem::{Load, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::Solution;
 
@@ -104,7 +104,7 @@ impl ContactStiffness {
     }
 
     pub(crate) fn find<T: Real>(
-        problem: Parts<'_, T>,
+        problem: ProblemMut<'_, T>,
         constraint: &dyn ContactConstraint<T>,
         solution: &Solution<T>,
         tolerance: f64,
@@ -112,7 +112,7 @@ impl ContactStiffness {
         Error::positive("tolerance", tolerance)?;
         solution.check(&problem, constraint)?;
         check_gap(&problem, constraint, &solution.gap)?;
-        let Parts { operator, law, flat, .. } = problem;
+        let ProblemMut { operator, law, flat, .. } = problem;
         if law.hints().zero && solution.report.contact_nodes == 0 {
             return Ok(Self {
                 pressure_per_length: 0.0,

@@ -7,7 +7,7 @@ use asperity_fft::num_complex::Complex;
 
 use super::Symbol;
 use crate::error::{Breach, Error, Place, Result};
-use crate::fft::{Layout, Sums};
+use crate::fft::{Layout, Products};
 use crate::field::{Field, contiguous};
 use crate::grid::Grid;
 use crate::real::{Real, cast};
@@ -143,7 +143,7 @@ pub(super) fn stiffness<T: Real>(grid: &Grid, symbol: &Symbol) -> Result<Columns
 impl<T: Real> Stiffness<T> {
     /// Multiplies the modes z of column `k` by the first function of their stiffness; returns the column's sums of |z|²
     /// times the other two.
-    pub(super) fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Fn(T) -> [T; 3]) -> Sums {
+    pub(super) fn modify(&self, k: usize, column: &mut [Complex<T>], by: impl Fn(T) -> [T; 3]) -> Products {
         match self {
             Self::Stored(stiffness) => {
                 let stiffness = stiffness.column(k);
@@ -197,7 +197,7 @@ impl<T: Real> Stiffness<T> {
     }
 }
 
-fn modify<T: Real, U: Copy>(column: &mut [Complex<T>], of: &[U], by: impl Fn(U) -> [T; 3]) -> Sums {
+fn modify<T: Real, U: Copy>(column: &mut [Complex<T>], of: &[U], by: impl Fn(U) -> [T; 3]) -> Products {
     let mut sums = [0.0; 3];
     let total = &mut sums;
     vectorised(
@@ -259,7 +259,7 @@ pub(super) fn soften<T: Real>(
     column: &mut [Complex<T>],
     shift: T,
     mean: T,
-) -> Sums {
+) -> Products {
     let softest = if softest > 0.0 { T::lit(softest) } else { T::one() };
     let still = if k == 0 { column.first_mut().map(std::mem::take).unwrap_or_default() } else { Complex::default() };
     let compliance = softest.recip();
