@@ -37,7 +37,7 @@ pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: Arra
 }
 
 /// The numbers of the largest result of a pass.
-type Numbers = [f64; 16];
+type Numbers = [f64; 20];
 
 /// The result of a pass over nodes: sums, [minima](Minimum), [structs](found) of them with names, or nothing.
 pub(crate) trait Sums: Copy + Send + Sync {
@@ -48,7 +48,7 @@ pub(crate) trait Sums: Copy + Send + Sync {
     fn each(&mut self, of: &mut impl FnMut(&mut f64, bool));
 
     fn numbers(mut self) -> Numbers {
-        const { assert!(size_of::<Self>() <= size_of::<Numbers>()) };
+        const { assert!(size_of::<Self>() <= size_of::<Numbers>(), "more sums than `Numbers` holds: make it larger") };
         let mut numbers = Numbers::default();
         let mut places = numbers.iter_mut();
         self.each(&mut |number, _| places.by_ref().take(1).for_each(|place| *place = *number));
