@@ -225,6 +225,9 @@ impl<T: Real> ContactSearch<T> {
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
             return Err(Error::Unsuited { what: "contact-fraction", reason });
         }
+        if let Some(gap) = &self.gap {
+            problem.operator.grid().fits("gap of the search", gap.dim())?;
+        }
         let adhesion = !problem.law_on_grid().hints().zero;
         let axis = Axis::of(&problem.flat, adhesion)?;
         let nodes = problem.grid().nodes();

@@ -8,7 +8,9 @@ use crate::constraint::ContactConstraint;
 use crate::error::Result;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, extrapolated};
+use crate::solver::{
+    Begin, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, check_hardness, extrapolated,
+};
 
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
 ///
@@ -124,8 +126,11 @@ impl<T: Real> Sweep<T> {
         for gap in self.history.iter().map(|(_, gap)| gap).chain(&self.depth) {
             problem.operator.grid().fits("field of the sweep", gap.dim())?;
         }
+        // a load that is refused leaves the sweep as it is
+        let (law, wall) = (problem.law_on_grid(), solver.constraint.wall());
+        check_hardness(law, problem.flat.load(load, wall)?, &problem.flat, wall)?;
+        let least = Potential::new(law, &solver.constraint, None).least();
         problem.yield_to(self.depth.as_ref())?;
-        let least = Potential::new(problem.law_on_grid(), &solver.constraint, None).least();
         let next = self.next_start(problem, least, load);
         let start = self.start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
         let solved = solver.run(problem.parts(), load, next.unwrap_or(Begin::At(start)), observe)?;
