@@ -101,18 +101,13 @@ fn whole<T: Real>(scale: T, gap: T, change: T) -> T {
 
 /// The change c of a node, and whether it was clipped to the `least` or the `most` gap after a step.
 #[inline(always)]
-fn clipped_change<T: Real, Lo: Real>(
-    [least, most]: [T; 2],
-    attempt: Attempt<T>,
-    gap: T,
-    [r, z, c]: [Lo; 3],
-) -> (Lo, bool) {
+fn clipped_change<T: Real>([least, most]: [T; 2], attempt: Attempt<T>, gap: T, [r, z, change]: [T; 3]) -> (T, bool) {
     let Attempt { length, centre, keep, mean, .. } = attempt;
-    let kept = if keep == T::zero() { T::zero() } else { keep * (cast::<_, T>(c) - mean) };
-    let next = if idles(r) { gap } else { gap - length * (cast::<_, T>(z) - centre) + kept };
+    let kept = if keep == T::zero() { T::zero() } else { keep * (change - mean) };
+    let next = if idles(r) { gap } else { gap - length * (z - centre) + kept };
     let bounded = if next < least { least } else { next };
     let bounded = if bounded > most { most } else { bounded };
-    (cast(bounded - gap), bounded != next)
+    (bounded - gap, bounded != next)
 }
 
 /// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
@@ -140,19 +135,19 @@ fn try_chunk<T: Real, Lo: Real, C: Copy>(
 ) -> Tried {
     let Some(surface) = surface else {
         return sums!([gap, residual, z, caps], [change], |i| {
-            let (g, r) = (gap[i], residual[i]);
-            let (new, clipped) = clipped_change(bounds(caps[i], g, cast(r)), attempt, g, [r, z[i], change[i]]);
-            change[i] = new;
-            let [r, c] = [r, new].map(Lo::widen);
+            let (g, r): (_, T) = (gap[i], cast(residual[i]));
+            let (c, clipped) = clipped_change(bounds(caps[i], g, r), attempt, g, [r, cast(z[i]), cast(change[i])]);
+            change[i] = cast(c);
+            let (r, c) = (r.widen(), change[i].widen());
         } => Tried {
             change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c, square: c * c
         });
     };
     sums!([gap, residual, z, surface, caps], [change], |i| {
-        let (g, r) = (gap[i], residual[i]);
-        let (new, clipped) = clipped_change(bounds(caps[i], g, cast(r)), attempt, g, [r, z[i], change[i]]);
-        change[i] = new;
-        let ([g, h], [r, c]) = ([g, surface[i]].map(T::widen), [r, new].map(Lo::widen));
+        let (g, r): (_, T) = (gap[i], cast(residual[i]));
+        let (c, clipped) = clipped_change(bounds(caps[i], g, r), attempt, g, [r, cast(z[i]), cast(change[i])]);
+        change[i] = cast(c);
+        let ([g, h, r], c) = ([g, surface[i], r].map(T::widen), change[i].widen());
     } => Tried {
         change: c, clipped: count(clipped), blocked: count(clipped & (r * c < 0.0)), descent: r * c, square: c * c,
         gap_descent: r * g, change_surface: c * h, gap_surface: g * h
@@ -171,10 +166,11 @@ pub(in crate::solver) fn trial<T: Real, Lo: Real>(
     local.run(reducer, chunks, |local, first, ((((gap, residual), z), change), surface)| {
         let (least, surface, yields) = (local.least(), held.then_some(surface), attempt.yields);
         let mut tried = if local.is_capped() {
-            let (caps, bounds) = (local.caps(first, gap.len()), |cap, g, r| bounds_of_yielding(yields, [cap, g, r]));
+            let (caps, bounds) =
+                (local.caps(first, gap.len()), move |cap, g, r| bounds_of_yielding(yields, [cap, g, r]));
             try_chunk(attempt, (gap, surface), (residual, z, change), (&caps, bounds))
         } else {
-            let bounds = |(), gap, _| [least.after(gap), T::infinity()];
+            let bounds = move |(), gap, _| [least.after(gap), T::infinity()];
             try_chunk(attempt, (gap, surface), (residual, z, change), (&[(); CHUNK], bounds))
         };
         if !local.projects() {
