@@ -565,6 +565,18 @@ fn nested_grids_take_a_hardness_that_varies_also_with_a_free_boundary() {
 }
 
 #[test]
+fn a_depth_in_any_order_in_memory_lowers_the_surface_of_a_free_half_space() {
+    let grid = Grid::new((24, 16), (1.5, 1.0)).unwrap();
+    let surface = Surface::paraboloid(grid, 2.0).unwrap();
+    let mut problem = Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
+    let depth = grid.sample(|x, y| (0.01 - x * x - 2.0 * y * y).max(0.0));
+    for depth in [depth.clone(), depth.t().as_standard_layout().into_owned().reversed_axes()] {
+        problem.flatten(depth.view()).unwrap();
+        assert_eq!(problem.plastic_depth().unwrap(), depth);
+    }
+}
+
+#[test]
 fn what_has_no_meaning_is_refused_by_name() {
     assert!(matches!(Hardness::new(0.0), Err(Error::Value { name: "hardness", .. })));
     assert!(matches!(Hardness::new(f64::NAN), Err(Error::Value { name: "hardness", .. })));

@@ -376,3 +376,13 @@ fn patches_share_out_the_contact_by_their_work_of_adhesion() {
     let mut problem = sphere::<f64>(32, Exponential::new(1e-5, 1e-2).unwrap());
     assert!(statistics(&mut problem, Control::MeanGap(0.04)).1.patches.is_empty());
 }
+
+#[test]
+fn the_order_of_the_fields_in_memory_makes_no_difference() {
+    let mut problem = rough::<f64>(32, 8, Exponential::new(1e-3, 1e-2).unwrap());
+    let (mut solution, found) = statistics(&mut problem, Control::MeanPressure(0.1));
+    for field in [&mut solution.gap, &mut solution.contact_pressure] {
+        *field = field.t().as_standard_layout().into_owned().reversed_axes();
+    }
+    assert_eq!(ContactStatistics::of(&solution), Ok(found));
+}
