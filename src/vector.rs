@@ -65,7 +65,7 @@ found! {
     pub(crate) struct Single { pub(crate) sum: f64 }
 }
 
-/// Sums terms of a chunk's nodes: `|i| term`, or several that go to the fields of a struct of [`Sums`], and one of which
+/// Sums terms of a chunk's nodes: `|i| term`, or several that go to the fields of a struct of `Sums`, and one of which
 /// the least is found, `|i| { let … } => Name { field: term, …; least field: term }`. Other fields are those of no nodes.
 macro_rules! sums {
     ([$($read:ident),*], [$($write:ident),*], |$i:ident| { $($body:tt)* } => $Name:ident {

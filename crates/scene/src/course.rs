@@ -58,7 +58,7 @@ pub struct Place<T> {
 enum Strategy<T> {
     Sweep(Sweep<T>),
     Search(ContactSearch<T>),
-    Cycle(Path<T>),
+    Cycle(Box<Path<T>>),
 }
 
 /// The row of a state in a table: its account, and the figures that tables alone have.
@@ -144,7 +144,7 @@ impl<T: Real> Course<T> {
         let strategy = match &way {
             Way::Sweep(_) => Strategy::Sweep(Sweep::default()),
             Way::Search(_) => Strategy::Search(ContactSearch::default()),
-            Way::Cycle(loads, settings) => Strategy::Cycle(Path::new(loads.iter().copied(), *settings)?),
+            Way::Cycle(loads, settings) => Strategy::Cycle(Box::new(Path::new(loads.iter().copied(), *settings)?)),
         };
         let place = Place { strategy, states: 0, events: 0, branch: None };
         let pace = way.pace();
@@ -168,7 +168,7 @@ impl<T: Real> Course<T> {
         let strategy = match self.place.strategy {
             Strategy::Sweep(_) => Strategy::Sweep(Sweep::starting_from(start)),
             Strategy::Search(_) => Strategy::Search(ContactSearch::starting_from(start)),
-            Strategy::Cycle(path) => Strategy::Cycle(path.starting_from(start)),
+            Strategy::Cycle(path) => Strategy::Cycle(Box::new(path.starting_from(start))),
         };
         Self { place: Place { strategy, ..self.place }, ..self }
     }

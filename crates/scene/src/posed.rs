@@ -175,7 +175,7 @@ impl<T: Real> Posed<T> {
     /// Those of the solvers of the library.
     pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Result<Found<T>> {
         let found = match asked.goal {
-            Some(goal) => self.to_accuracy(goal, asked, &mut *observe)?,
+            Some(goal) => self.by_accuracy(goal, asked, &mut *observe)?,
             None => match self.on_nested_grids(asked, start.is_some(), &mut *observe)? {
                 Some(found) => found,
                 None => self.on_one_grid(asked, start, &mut *observe)?,

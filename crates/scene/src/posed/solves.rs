@@ -21,7 +21,7 @@ use crate::found::{Found, Waves};
 const MOST_DEPARTURES: usize = 10;
 
 impl<T: Real> Posed<T> {
-    pub(super) fn to_accuracy(&mut self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
+    pub(super) fn by_accuracy(&mut self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
         let (clock, surface) = (Instant::now(), Arc::clone(self.surface()?));
         let (wanted, tolerance) = (goal.wanted(asked.after.stiffness), self.tolerance(Some(goal))?);
         let elastic = |grid| self.elastic.operator(grid);
