@@ -37,7 +37,7 @@ pub(crate) fn all_finite_in<T: Real>(slab: Slab, name: &'static str, field: Arra
 }
 
 /// The numbers of the largest result of a pass.
-type Numbers = [f64; 20];
+type Numbers = [f64; 16];
 
 /// The result of a pass over nodes: sums, [minima](Minimum), [structs](found) of them with names, or nothing.
 pub(crate) trait Sums: Copy + Send + Sync {

@@ -174,5 +174,5 @@ fn what_cannot_be_searched_for_is_refused() {
     let mut search = ContactSearch::default();
     search.at(&mut solver, &mut problem, 0.1).unwrap();
     let refused = search.at(&mut solver, &mut rough(32, 6, NoAdhesion), 0.2);
-    assert!(matches!(refused, Err(Error::Shape { name: "starting gap", .. })), "{refused:?}");
+    assert!(matches!(refused, Err(Error::Shape { name: "gap of the search", .. })), "{refused:?}");
 }
