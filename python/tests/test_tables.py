@@ -213,7 +213,7 @@ def test_other_inputs_are_refused_by_name(folder, rough):
         begun(law=law)
     whole = {"out": folder / "varying.csv", "law": asperity.Varying(asperity.Exponential(WORKS.max(), 8e-3), WORKS)}
     begun(**whole).run()
-    with pytest.raises(ValueError, match="law values is null, and not"):
+    with pytest.raises(ValueError, match="law values is none, and not"):
         begun(**{**whole, "law": asperity.Varying(asperity.Exponential(1.0, 8e-3), WORKS)})
     with pytest.raises(ValueError, match="another file of its work of adhesion map"):
         begun(**{**whole, "law": asperity.Varying(asperity.Exponential(WORKS.max(), 8e-3), WORKS[::-1])})
