@@ -121,15 +121,18 @@ pub use adhesion::{
 pub use constraint::{ContactConstraint, Hardness, NoWall, Penalty, Projection, Uzawa};
 #[doc(inline)]
 pub use elastic::{Boundary, Boussinesq, ElasticOperator, Spectral, Westergaard};
+#[doc(inline)]
 pub use error::{Error, ErrorKind, Result};
 pub use grid::Grid;
 #[doc(inline)]
 pub use nested::Nested;
 pub use problem::{Control, Problem};
+#[doc(inline)]
 pub use pull_off::PullOff;
 pub use real::Real;
 #[doc(inline)]
 pub use search::ContactSearch;
+#[doc(inline)]
 pub use solver::{Branch, Report, Settings, Solution, Solver, Start, Status};
 #[doc(inline)]
 pub use surface::{Amplitude, SelfAffine, Surface};
