@@ -230,7 +230,7 @@ impl<T> Field<T> {
 
 /// The nodes of an array that is contiguous by construction.
 pub(crate) fn contiguous<S: Default>(nodes: Option<S>) -> S {
-    debug_assert!(nodes.is_some(), "an array is not in the order of its construction");
+    assert!(nodes.is_some(), "an array is not in the order of its construction");
     nodes.unwrap_or_default()
 }
 
