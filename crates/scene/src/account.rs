@@ -1,5 +1,20 @@
 //! The account of a solve, with the keys of its report.
 
+pub mod contact;
+pub(crate) mod displacement;
+pub(crate) mod entries;
+pub(crate) mod findings;
+pub(crate) mod found;
+pub mod interface;
+pub(crate) mod leaked;
+pub(crate) mod pulled_off;
+pub(crate) mod record;
+pub(crate) mod rows;
+pub(crate) mod sentences;
+pub(crate) mod slopes;
+pub mod statistics;
+pub(crate) mod warnings;
+
 use asperity::contact::{ContactStatistics, Patch};
 use asperity::solver::{Criterion, Method};
 use asperity::{Branch, Control, Grid, Real, Report, Result, Solution, Status};
@@ -7,17 +22,17 @@ use ndarray::ArrayView2;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::adhesion::Adhesion;
-use crate::after::Conducted;
-use crate::elastic::Elastic;
-use crate::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
-use crate::found::{Found, Sight};
-use crate::leaked::{Along, Narrowest, Transmissivity};
-use crate::record::record;
-use crate::scene::Precision;
-use crate::slopes::Slopes;
-use crate::told::Told;
-use crate::units::Units;
+use crate::account::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
+use crate::account::findings::Conducted;
+use crate::account::found::{Found, Sight};
+use crate::account::leaked::{Along, Narrowest, Transmissivity};
+use crate::account::record::record;
+use crate::account::slopes::Slopes;
+use crate::key::adhesion::Adhesion;
+use crate::key::elastic::Elastic;
+use crate::key::scene::{Precision, Scene};
+use crate::key::told::Told;
+use crate::key::units::Units;
 
 record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
@@ -280,6 +295,34 @@ pub struct Inputs {
     pub threads: usize,
     /// The version of the program.
     pub version: &'static str,
+}
+
+impl Scene {
+    /// The inputs of a report as far as they are those of the scene, on a surface of a shape and side lengths.
+    pub fn inputs(&self, shape: (usize, usize), lengths: (f64, f64), threads: usize) -> Inputs {
+        Inputs {
+            heights: None,
+            against: None,
+            shift: None,
+            initial_gap: None,
+            part: None,
+            solved_shape: None,
+            shape,
+            lengths,
+            slopes: Slopes::default(),
+            length_unit: None,
+            pressure_unit: None,
+            given: None,
+            elastic: self.elastic.clone(),
+            adhesion: self.adhesion.clone(),
+            method: self.method,
+            precision: self.precision,
+            tolerance: self.tolerance(),
+            max_iterations: self.settings().max_iterations,
+            threads,
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
 }
 
 impl Inputs {

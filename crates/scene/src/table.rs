@@ -1,5 +1,13 @@
 //! Tables: a row for each state of a course, appended to a file as it comes, from which an interrupted run goes on.
 
+pub mod csv;
+pub(crate) mod fields;
+pub(crate) mod identity;
+pub mod journal;
+pub(crate) mod kept;
+pub mod legs;
+pub mod output;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,15 +15,14 @@ use asperity::{Error, Grid, Status};
 use ndarray::Array2;
 use serde_json::{Map, Value};
 
-use crate::course::{Course, Place, Row};
-use crate::csv;
-use crate::found::Found;
-use crate::identity::Identity;
-use crate::journal::{Journal, Row as Line, Seen, damaged, refused, state_path};
-use crate::kept::Kept;
+use crate::account::found::Found;
+use crate::key::scalar::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
-use crate::scalar::Scalar;
+use crate::session::course::{Course, Place, Row};
+use crate::table::identity::Identity;
+use crate::table::journal::{Journal, Row as Line, Seen, damaged, refused, state_path};
+use crate::table::kept::Kept;
 
 /// The format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,224 @@
+//! The leakage through a gap, with the keys of its report and the sentences for people.
+
+use asperity::Result;
+use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak, Leakage};
+use serde::Serialize;
+
+use crate::key::boundary::Boundary;
+use crate::key::quantity::{LENGTH, VISCOSITY, times_ten_to};
+use crate::key::units::Units;
+use crate::key::words::{Skin, worded};
+use crate::numbers::{percent, plain};
+
+/// The leakage through a gap, as its report has it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Leaked {
+    /// What is beyond the map.
+    pub boundary: Boundary,
+    /// Whether open nodes connect the sides.
+    pub percolates: Along<bool>,
+    /// The widest passages.
+    pub constriction: Along<Option<Narrowest>>,
+    /// Qη/Δp, a length³.
+    pub transmissivity: Along<Transmissivity>,
+    /// Q/Δp, if the viscosity is known.
+    pub flow_per_pressure: Along<Option<Enclosed>>,
+    /// The viscosity η, a pressure times a time.
+    pub viscosity: Option<f64>,
+    /// The gap of absent nodes, if they are open.
+    pub absent_gap: Option<f64>,
+    /// The relative distance of the bounds that was asked for.
+    pub tolerance: f64,
+    /// Whether all bounds are as close.
+    pub reached: bool,
+}
+
+/// What there is along x and along y.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Along<T> {
+    /// Along x.
+    pub x: T,
+    /// Along y.
+    pub y: T,
+}
+
+impl<T> Along<T> {
+    pub(crate) fn of(make: impl Fn(Axis) -> T) -> Self {
+        Self { x: make(Axis::X), y: make(Axis::Y) }
+    }
+
+    /// That along an axis.
+    pub fn along(&self, axis: Axis) -> &T {
+        match axis {
+            Axis::X => &self.x,
+            Axis::Y => &self.y,
+        }
+    }
+}
+
+/// The narrowest place of the widest passage along an axis.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Narrowest {
+    /// The gap there.
+    pub gap: f64,
+    /// The node.
+    pub node: (usize, usize),
+    /// The nodes on the passage.
+    pub path_nodes: usize,
+}
+
+impl Narrowest {
+    pub(crate) fn of(found: &Constriction) -> Self {
+        Self { gap: found.gap, node: found.node, path_nodes: found.path.len() }
+    }
+
+    /// Where the passage along an axis is narrowest, in words.
+    pub(crate) fn in_words(found: Option<&Self>, units: &Units) -> String {
+        found.map_or("closed".to_owned(), |Self { gap, node: (i, j), .. }| {
+            format!("open, {} wide at its constriction, node [{i}, {j}]", units.number(*gap, LENGTH))
+        })
+    }
+}
+
+/// A number between two bounds.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Enclosed {
+    /// The lower bound.
+    pub lower: f64,
+    /// The upper bound.
+    pub upper: f64,
+}
+
+/// A transmissivity, and how it was found.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Transmissivity {
+    /// The lower bound.
+    pub lower: f64,
+    /// The upper bound.
+    pub upper: f64,
+    /// The estimated relative error of the grid, from grids of half the resolution.
+    pub grid_error: Option<f64>,
+    /// Whether the bounds are as close as the tolerance.
+    pub reached: bool,
+    /// The iterations of conjugate gradients.
+    pub iterations: usize,
+    /// The nodes through which the fluid may flow.
+    pub nodes: usize,
+}
+
+/// What is asked of a gap.
+#[derive(Clone, Copy, Debug)]
+pub struct LeakAsked {
+    /// What is beyond the map.
+    pub boundary: Boundary,
+    /// The gap of absent nodes, if they are open.
+    pub absent_gap: Option<f64>,
+    /// The settings.
+    pub settings: Leakage,
+    /// The viscosity, if it is known.
+    pub viscosity: Option<f64>,
+    /// Whether to estimate the error of the grid.
+    pub grid_error: bool,
+}
+
+impl LeakAsked {
+    /// The leakage through a gap, with the flow, and as its report has it.
+    ///
+    /// # Errors
+    /// Those of [`Gap::absent`] and [`Leakage::through`].
+    pub fn find(&self, gap: Gap<'_>) -> Result<(Leak, Leaked)> {
+        self.find_while(gap, &|| true)
+    }
+
+    /// The same, by [`Leakage::through_while`].
+    ///
+    /// # Errors
+    /// Those of [`Gap::absent`] and [`Leakage::through`].
+    pub fn find_while(&self, gap: Gap<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<(Leak, Leaked)> {
+        let Self { boundary, absent_gap, settings, viscosity, grid_error } = *self;
+        let gap = if boundary == Boundary::Free { gap.free() } else { gap };
+        let gap = gap.absent(absent_gap.unwrap_or(0.0))?;
+        let leak = settings.through_while(&gap, goes_on)?;
+        let grid_errors =
+            if grid_error && goes_on() { settings.grid_error_while(&gap, &leak, goes_on)? } else { [None; 2] };
+        let transmissivity = |axis| {
+            let flow = leak.along(axis);
+            let Bounds { lower, upper } = flow.transmissivity;
+            let grid_error = grid_errors[axis as usize];
+            let Flow { reached, iterations, nodes, .. } = *flow;
+            Transmissivity { lower, upper, grid_error, reached, iterations, nodes }
+        };
+        let per_pressure = |axis| {
+            let Bounds { lower, upper } = leak.along(axis).transmissivity;
+            viscosity.map(|viscosity| Enclosed { lower: lower / viscosity, upper: upper / viscosity })
+        };
+        let leaked = Leaked {
+            boundary,
+            percolates: Along::of(|axis| leak.percolation.along(axis).is_some()),
+            constriction: Along::of(|axis| leak.percolation.along(axis).map(Narrowest::of)),
+            transmissivity: Along::of(transmissivity),
+            flow_per_pressure: Along::of(per_pressure),
+            viscosity,
+            absent_gap,
+            tolerance: settings.tolerance,
+            reached: leak.reached(),
+        };
+        Ok((leak, leaked))
+    }
+}
+
+impl Leaked {
+    /// The shortfall of bounds that are further apart than the tolerance, with a remedy, in the words of a skin.
+    pub fn shortfall(&self, skin: Skin) -> Option<String> {
+        if self.reached {
+            return None;
+        }
+        let width = |axis| {
+            let Transmissivity { lower, upper, .. } = *self.transmissivity.along(axis);
+            if upper > 0.0 { (upper - lower) / upper } else { 0.0 }
+        };
+        let widest = Axis::BOTH.map(width).into_iter().fold(0.0, f64::max);
+        let text = format!(
+            "the bounds of the transmissivity hold, but are {} % apart, not {} %: raise {{max_iterations}} or {{tolerance}}",
+            percent(widest),
+            percent(self.tolerance)
+        );
+        Some(worded(&text, skin))
+    }
+
+    /// The rows of its summary.
+    pub fn rows(&self, units: &Units) -> Vec<(String, String)> {
+        let mut rows = Vec::new();
+        let unit = |text: Option<String>| text.map(|unit| format!(" {unit}")).unwrap_or_default();
+        // rounded outwards, so that the bounds hold as they are printed
+        let between = |lower: f64, upper: f64, unit: &str| match upper > 0.0 {
+            true => format!("{} to {}{unit}", plain(outwards(lower, f64::floor)), plain(outwards(upper, f64::ceil))),
+            false => "0".to_owned(),
+        };
+        let volume = unit(units.length.as_ref().map(|unit| format!("{unit}³")));
+        for axis in Axis::BOTH {
+            let constriction = Narrowest::in_words(self.constriction.along(axis).as_ref(), units);
+            rows.push((format!("along {}", axis.name()), constriction));
+            let Transmissivity { lower, upper, grid_error, .. } = *self.transmissivity.along(axis);
+            rows.push(("  transmissivity".to_owned(), between(lower, upper, &volume)));
+            if let Some(error) = grid_error {
+                rows.push(("  error of the grid".to_owned(), format!("{} %", percent(error))));
+            }
+            if let Some(Enclosed { lower, upper }) = *self.flow_per_pressure.along(axis) {
+                let viscous = units.of(VISCOSITY).zip(units.length.as_ref());
+                let volume = unit(viscous.map(|(viscosity, length)| format!("{length}³/({viscosity})")));
+                rows.push(("  flow per pressure".to_owned(), between(lower, upper, &volume)));
+            }
+        }
+        rows
+    }
+}
+
+/// A number to seven digits, rounded by a function to whole numbers.
+fn outwards(value: f64, round: fn(f64) -> f64) -> f64 {
+    if value <= 0.0 {
+        return 0.0;
+    }
+    let power = value.log10().floor() as i32 - 6;
+    times_ten_to(power, round(times_ten_to(-power, value)))
+}

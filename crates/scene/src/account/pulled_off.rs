@@ -1,0 +1,157 @@
+//! The pull-off of a problem, with the sentences of its report.
+
+use asperity::accuracy::AccuratePullOff;
+use asperity::pull_off::FoundPullOff;
+use asperity::{Branch, PullOff, Real, Status};
+use serde::Serialize;
+
+use crate::account::Account;
+use crate::account::found::Found;
+use crate::key::accuracy::Goal;
+use crate::key::quantity::{FORCE, LENGTH, PRESSURE};
+use crate::key::units::Units;
+use crate::key::words::{Skin, worded};
+use crate::numbers::percent;
+
+/// The pull-off of a problem, as its report has it beside the account of the last state that holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PulledOff {
+    /// The greatest tension that was borne, a pressure over the area of the map; none if no state under a tension was
+    /// found.
+    pub pull_off_pressure: Option<f64>,
+    /// The force of that tension.
+    pub pull_off_force: Option<f64>,
+    /// The pull-off in the limit of no range that the state tells, a pressure, of a law that has the range of the grid.
+    pub limit_pressure: Option<f64>,
+    /// The force of that tension.
+    pub limit_force: Option<f64>,
+    /// The estimated relative error of the limit, if a coarser grid tells it.
+    pub limit_error: Option<f64>,
+    /// The relative error that was asked for, if one was.
+    pub accuracy: Option<f64>,
+    /// The least tension under which the surfaces came apart.
+    pub lost_pressure: Option<f64>,
+    /// Whether the two are as close as the tolerance.
+    pub reached: bool,
+    /// The relative tolerance.
+    pub rtol: f64,
+    /// The mean pressure to which the surfaces were pressed before; flat, or as the branch says, if there is none.
+    pub preload: Option<f64>,
+    /// The branch of the first solve, unless its start was given.
+    pub branch: Option<Branch>,
+    /// The number of solves.
+    pub solves: usize,
+    /// The operator applications of all of them.
+    pub operator_applications: usize,
+}
+
+impl PulledOff {
+    /// The pull-off that a search found; of the last state, which is on the part of a map that results are of.
+    ///
+    /// # Errors
+    /// Those of [`Found::part`].
+    pub(crate) fn of<T: Real, S: Real>(
+        asked: PullOff,
+        found: &FoundPullOff<S>,
+        last: &Found<T>,
+    ) -> asperity::Result<Self> {
+        let report = &last.part()?.report;
+        let is_borne = report.mean_pressure < 0.0;
+        Ok(Self {
+            pull_off_pressure: is_borne.then_some(-report.mean_pressure),
+            pull_off_force: is_borne.then_some(-report.normal_force),
+            limit_pressure: None,
+            limit_force: None,
+            limit_error: None,
+            accuracy: None,
+            lost_pressure: found.lost,
+            reached: found.reached,
+            rtol: asked.tolerance,
+            preload: asked.preload,
+            branch: found.branch,
+            solves: found.solves,
+            operator_applications: found.operator_applications,
+        })
+    }
+
+    /// The same with the limit that a search to an accuracy tells.
+    ///
+    /// # Errors
+    /// Those of [`Found::part`] and [`FoundPullOff::limit`].
+    pub(crate) fn to_accuracy<T: Real>(
+        self,
+        found: &AccuratePullOff<T>,
+        goal: Option<Goal>,
+        last: &Found<T>,
+    ) -> asperity::Result<Self> {
+        let report = &last.part()?.report;
+        let limit = found.found.limit()?;
+        Ok(Self {
+            limit_pressure: limit,
+            limit_force: limit.map(|limit| limit * report.normal_force / report.mean_pressure),
+            limit_error: found.error.map(|error| error.relative),
+            accuracy: goal.map(|goal| goal.accuracy),
+            reached: self.reached && found.reached,
+            ..self
+        })
+    }
+
+    /// The shortfall of a search that has not come to its end, with a remedy, in the words of a skin.
+    pub fn shortfall(&self, last: &Account, skin: Skin) -> Option<String> {
+        // a first state that is none says so itself
+        if self.reached || last.status != Status::Converged {
+            return None;
+        }
+        // where the search itself has come to its end, the grid falls short
+        let ends = self.lost_pressure.zip(self.pull_off_pressure);
+        let is_narrow = ends.is_some_and(|(lost, borne)| lost - borne <= self.rtol * lost);
+        if let Some(accuracy) = self.accuracy.filter(|_| is_narrow) {
+            let estimate = self.limit_error.map_or("unknown".to_owned(), |error| format!("{} %", percent(error)));
+            let text = format!(
+                "the accuracy of {accuracy} of the pull-off is not reached: the estimate is {estimate}: give {{memory}} for \
+                 a finer grid, or a larger {{accuracy}}"
+            );
+            return Some(worded(&text, skin));
+        }
+        let lost = self.lost_pressure.map_or("no bound".to_owned(), |lost| lost.to_string());
+        let text = format!(
+            "the pull-off is not found to {} %: a tension of {} is borne, {lost} is not, and a solve in between has not \
+             converged: raise {{max_iterations}} or {{rtol}}",
+            percent(self.rtol),
+            self.pull_off_pressure.unwrap_or_default()
+        );
+        Some(worded(&text, skin))
+    }
+
+    /// The rows of its summary, with the last state that holds.
+    pub fn rows(&self, last: &Account, units: &Units) -> Vec<(&'static str, String)> {
+        let pressure = |value: Option<f64>| value.map_or("none".to_owned(), |value| units.number(value, PRESSURE));
+        let before = match (self.preload, self.branch) {
+            (Some(preload), _) => format!("pressed to {}", units.number(preload, PRESSURE)),
+            (None, Some(Branch::Loading)) => "together from afar".to_owned(),
+            (None, Some(Branch::Unloading)) => "pressed flat".to_owned(),
+            (None, None) => "as given".to_owned(),
+        };
+        let force = self.pull_off_force.map_or("none".to_owned(), |force| units.number(force, FORCE));
+        let limit = self.limit_pressure.map(|limit| {
+            let error = self.limit_error.map_or(String::new(), |error| format!(", to {} %", percent(error)));
+            let force = self.limit_force.map_or(String::new(), |force| format!(", {}", units.number(force, FORCE)));
+            ("in the limit of no range", format!("{}{force}{error}", units.number(limit, PRESSURE)))
+        });
+        let place = match last.approach {
+            Some(approach) => ("approach there", units.number(approach, LENGTH)),
+            None => ("mean gap there", units.number(last.mean_gap, LENGTH)),
+        };
+        let mut rows = vec![("pull-off pressure", pressure(self.pull_off_pressure)), ("pull-off force", force)];
+        rows.extend(limit);
+        rows.extend([
+            ("apart under", pressure(self.lost_pressure)),
+            ("before", before),
+            place,
+            ("contact there", format!("{} %", percent(last.contact_fraction))),
+            ("solves", self.solves.to_string()),
+            ("operator applications", self.operator_applications.to_string()),
+        ]);
+        rows
+    }
+}

@@ -1,0 +1,154 @@
+//! The accuracy that is planned, and the shortfalls of an answer, in words.
+
+use asperity::Status;
+use asperity::accuracy::{GridError, Plan, Quantity};
+use asperity::stability::Verdict;
+
+use crate::account::Account;
+use crate::account::entries::{GridErrors, Reached, Search};
+use crate::key::accuracy::{GIB, Goal};
+use crate::key::boundary::Boundary;
+use crate::key::scene::Precision;
+use crate::key::words::{Skin, worded};
+use crate::numbers::percent;
+
+/// The shortfalls of an answer with their remedies, in the words of a skin: each with what was not reached, which is
+/// `"convergence"`, `"contact fraction"`, `"accuracy"` or `"stability"`.
+pub fn shortfalls(account: &Account, skin: Skin) -> Vec<(&'static str, String)> {
+    let converged = account.status == Status::Converged;
+    let search = account.search.as_ref().filter(|search| converged && !search.reached);
+    let accuracy = account.accuracy.as_ref().filter(|reached| converged && !reached.reached);
+    let all = [
+        ("convergence", (!converged).then(|| unconverged(account))),
+        ("contact fraction", search.map(Search::jump)),
+        ("accuracy", accuracy.map(|reached| inaccurate(account, reached))),
+        ("stability", unstable(account)),
+    ];
+    all.into_iter().filter_map(|(what, text)| Some((what, worded(&text?, skin)))).collect()
+}
+
+/// The errors of a solve that has not converged, with a remedy.
+fn unconverged(account: &Account) -> String {
+    let Account { status, relative_error, load_error, iterations, ref inputs, .. } = *account;
+    let tolerance = inputs.tolerance;
+    let (held, path) = match inputs.elastic.boundary {
+        Boundary::Periodic => ("a {mean_gap}", "{cycle:mean_gaps}"),
+        Boundary::Free => ("an {approach}", "{cycle:approaches}"),
+    };
+    let remedy = match status {
+        Status::Detached => format!(
+            "no equilibrium under this tension was found from this start: use less tension, hold {held} and give its \
+             gap as {{initial_gap}}, or follow the branch by {path}"
+        ),
+        Status::IterationLimit => {
+            "the fields are not accurate: raise {max_iterations}, or give a gap nearby as {initial_gap}".to_owned()
+        }
+        Status::Stopped => "the fields are not accurate: it was stopped before its end".to_owned(),
+        _ if load_error > tolerance && relative_error <= tolerance => {
+            format!("the load is not carried: try another {{initial_gap}}, or hold {held}")
+        }
+        _ if inputs.precision == Precision::F32 => {
+            "this is what f32 can do: use {precision=f64}, or a larger {tolerance}".to_owned()
+        }
+        _ => "this is the best to be had: use a larger {tolerance}, or another {initial_gap}".to_owned(),
+    };
+    let errors = [("error", relative_error), ("load error", load_error)];
+    let missed = errors.iter().filter(|(_, error)| *error > tolerance || error.is_nan());
+    let mut missed: Vec<_> = missed.map(|(name, error)| format!("{name} {error:.1e}")).collect();
+    if missed.is_empty() {
+        missed.push(format!("error {relative_error:.1e}"));
+    }
+    let missed = missed.join(" and ");
+    format!("not converged ({status}): {missed} after {iterations} iterations, tolerance {tolerance:e}; {remedy}")
+}
+
+/// The reason why an accuracy was not reached, with a remedy.
+fn inaccurate(account: &Account, reached: &Reached) -> String {
+    let reason = match reached.unaffordable {
+        Some(((nx, ny), size)) => {
+            format!("{nx} x {ny} nodes would be next, and take {}: raise {{memory}}, or ask for less", bytes(size))
+        }
+        None if !reached.refinable => {
+            "a single node, absent nodes, and a work of adhesion that varies are known on this grid alone: give a finer \
+             one"
+                .to_owned()
+        }
+        None => "the solve has not converged".to_owned(),
+    };
+    let (Reached { wanted, of, .. }, estimate) = (reached, estimate(account));
+    format!("the accuracy of {wanted} of the {of} is not reached: the estimate is {estimate}; {reason}")
+}
+
+/// The remedy for an equilibrium that would not last, if it is one.
+fn unstable(account: &Account) -> Option<String> {
+    account.stability.as_ref().filter(|found| found.verdict == Verdict::Unstable)?;
+    Some(match &account.departures {
+        None => "the equilibrium is unstable, it would not last: {leave=} goes on from it".to_owned(),
+        Some(left) => format!("still unstable after {} departures: try another {{initial_gap}}", left.len()),
+    })
+}
+
+impl Search {
+    /// The end of a search that has not reached its contact fraction.
+    pub fn jump(&self) -> String {
+        let share = |share: f64| format!("{} %", percent(share));
+        let found = match (self.below.map(share), self.above.map(share)) {
+            (Some(below), Some(above)) => format!("it jumps from {below} to {above}, and the nearer one is taken"),
+            (Some(most), None) => format!("it grows to {most} at most, which is taken: give a pressure"),
+            (None, least) => format!("it falls to {} at least, which is taken", least.unwrap_or_default()),
+        };
+        format!("no load was found with {} contact: {found}", share(self.wanted))
+    }
+}
+
+impl Goal {
+    /// The plan of a solve to the accuracy in words, with the seconds that it is likely to take.
+    pub fn announced(&self, plan: &Plan, seconds: f64) -> String {
+        let waves = if plan.nodes_per_wave.is_finite() {
+            format!("the shortest wave has {:.1} nodes; ", plan.nodes_per_wave)
+        } else {
+            String::new()
+        };
+        let time = match seconds {
+            seconds if seconds < 0.1 => format!("{:.0} ms", 1e3 * seconds),
+            seconds if seconds < 100.0 => format!("{seconds:.1} s"),
+            seconds => format!("{:.0} min", seconds / 60.0),
+        };
+        let (Self { accuracy, of, .. }, (nx, ny), size) = (self, plan.shape, bytes(plan.bytes));
+        format!(
+            "accuracy {accuracy} of the {of}: {waves}likely {nx} x {ny} nodes, tolerance {:.0e}, about {time}, {size}",
+            plan.tolerance
+        )
+    }
+}
+
+/// Bytes in words.
+fn bytes(bytes: f64) -> String {
+    if bytes < GIB { format!("{:.0} MiB", bytes * 1024.0 / GIB) } else { format!("{:.1} GiB", bytes / GIB) }
+}
+
+/// The estimated error of the grid in words: that of the quantity that has an accuracy; or that of the area, if it can
+/// be told, and those that are sure; or why there is none, with a remedy where the waves of the surface are the reason.
+pub(crate) fn estimate(account: &Account) -> String {
+    let of_accuracy = account.accuracy.map(|reached| reached.of);
+    let counts = |of: Quantity, error: &GridError| match of_accuracy {
+        Some(wanted) => of == wanted,
+        None => of == Quantity::Area || !error.rough,
+    };
+    let told = account.grid_error.iter().flat_map(GridErrors::all).filter_map(|(of, error)| {
+        let error = error.filter(|error| counts(of, error))?;
+        Some(format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" }))
+    });
+    let words: Vec<_> = told.collect();
+    let least = GridError::LEAST_NODES_PER_WAVE;
+    if !words.is_empty() {
+        return words.join(", ");
+    } else if account.inputs.adhesion.yields() {
+        return "unknown where a surface yields".to_owned();
+    } else if of_accuracy.is_some() || account.nodes_per_wave >= least {
+        return "unknown".to_owned();
+    }
+    // rounded down: 3.96 nodes are not the 4.0 that are needed
+    let has = (10.0 * account.nodes_per_wave).floor() / 10.0;
+    format!("unknown: the shortest wave has {has:.1} nodes and needs {least}: refine the map ({{accuracy}})")
+}

@@ -1,0 +1,101 @@
+//! The quantities that are asked of a solve.
+
+use asperity::Control;
+use asperity::solver::Method;
+
+use crate::key::accuracy::Goal;
+use crate::key::adhesion::Adhesion;
+use crate::key::after::After;
+
+/// The load of a solve, and the findings that are asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asked {
+    /// The load; of no meaning where a contact fraction is wanted.
+    pub control: Control,
+    /// The contact fraction for which a load is to be found, if one is.
+    pub fraction: Option<f64>,
+    /// Whether to solve on nested grids; if it is not said, where that is faster from the default start.
+    pub nested: Option<bool>,
+    /// Whether to solve on the other branch of equilibria, too.
+    pub other_branch: bool,
+    /// Whether to test the stability of the solution.
+    pub stability: bool,
+    /// Whether to go on from an unstable solution.
+    pub leave: bool,
+    /// The findings that are asked for after it.
+    pub after: After,
+    /// The accuracy, if one is asked for.
+    pub goal: Option<Goal>,
+}
+
+impl Asked {
+    /// The solution under a load, without anything beside it.
+    pub fn under(control: Control) -> Self {
+        let (fraction, nested, after, goal) = (None, None, After::default(), None);
+        Self { control, fraction, nested, other_branch: false, stability: false, leave: false, after, goal }
+    }
+
+    /// Refuses what excludes each other, in a solve by a method with an adhesion and a wall, from a start that is given
+    /// or the default.
+    ///
+    /// # Errors
+    /// The reason and the remedy, for [`worded`](crate::worded).
+    pub fn check(&self, adhesion: &Adhesion, method: Method, started: bool) -> Result<(), String> {
+        self.check_branches(adhesion.adheres(), method)?;
+        self.check_hardness(adhesion, method)?;
+        let (fraction, nested, tested) = (self.fraction.is_some(), self.nested == Some(true), self.stability);
+        let chosen = [
+            ("{initial_gap}", started),
+            ("{nested}", self.nested.is_some()),
+            ("{leave}", self.leave),
+            ("{stability}", tested && !self.leave),
+        ];
+        let chosen: Vec<_> = chosen.iter().filter(|(_, is_chosen)| *is_chosen).map(|(key, _)| *key).collect();
+        let of_both = |what, key| {
+            format!("{what} for a load that is given: leave out {key}, or give a load for {{contact_fraction}}")
+        };
+        Err(match self.goal {
+            Some(_) if fraction => of_both("an accuracy is", "{accuracy}"),
+            Some(_) if !chosen.is_empty() => {
+                let chosen = chosen.join(" and ");
+                format!("an accuracy makes its own start and chooses the grids: leave out {chosen}")
+            }
+            None if nested && fraction => of_both("nested grids are", "{nested}"),
+            None if nested && (started || tested) => {
+                "nested grids make their own start, and do not test stability: leave out {initial_gap}, {stability} \
+                 and {leave}"
+                    .to_owned()
+            }
+            _ => return Ok(()),
+        })
+    }
+
+    /// Refuses what is known of elastic contact alone where the surface yields.
+    fn check_hardness(&self, adhesion: &Adhesion, method: Method) -> Result<(), String> {
+        let elastic = "a surface that yields does not come back, as its test and its tangent take for granted";
+        let (key, reason) = match self {
+            _ if !adhesion.yields() => return Ok(()),
+            _ if method == Method::Rey2017 => ("{method=rey2017}", "it has no form for a surface that yields"),
+            Self { leave: true, .. } => ("{leave}", elastic),
+            Self { stability: true, .. } => ("{stability}", elastic),
+            Self { after: After { stiffness: true, .. }, .. } => ("{stiffness}", elastic),
+            Self { goal: Some(_), .. } => ("{accuracy}", "the error of the grid is known of elastic contact alone"),
+            _ => return Ok(()),
+        };
+        Err(format!("{key} and {{hardness}}: {reason}: leave one of them out"))
+    }
+
+    /// Refuses both branches where there is nothing to be compared.
+    fn check_branches(&self, adhesive: bool, method: Method) -> Result<(), String> {
+        let reason = match self {
+            _ if !self.other_branch => return Ok(()),
+            _ if !adhesive => "without adhesion there is but one equilibrium",
+            Self { fraction: Some(_), .. } => "each branch has a load of its own for a contact fraction: give a load",
+            Self { goal: Some(_), .. } => "each branch has an accuracy of its own: give one branch",
+            Self { leave: true, .. } => "an equilibrium that is left leads off its branch: give one branch",
+            _ if method == Method::Rey2017 => "rey2017 has one start: take the default method",
+            _ => return Ok(()),
+        };
+        Err(format!("{{branch=both}}: {reason}"))
+    }
+}

@@ -1,0 +1,272 @@
+//! The elastic body, by the names of its parameters.
+
+use std::sync::Arc;
+
+use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Series};
+use asperity::{Boussinesq, ElasticOperator, Error, Grid, Real, Result, Spectral, Surface, Westergaard};
+use asperity_maps::io::check_memory;
+use serde::{Deserialize, Serialize};
+
+use crate::key::boundary::Boundary;
+use crate::key::quantity::{LENGTH, PRESSURE};
+use crate::key::symbol::Symbol;
+use crate::key::units::Units;
+
+/// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Elastic {
+    /// The boundary.
+    pub boundary: Boundary,
+    /// The contact modulus E*, a pressure; of a coated body that of the substrate.
+    pub modulus: f64,
+    /// Poisson's ratio of a layer or of the substrate under a coating.
+    pub poisson: Option<f64>,
+    /// The thickness of a layer on a rigid base, a length.
+    pub layer: Option<f64>,
+    /// The hold of the base on a layer.
+    pub base: Option<Base>,
+    /// The thickness of a coating on a half-space, a length.
+    pub coating: Option<f64>,
+    /// The contact modulus of a coating, a pressure.
+    pub coating_modulus: Option<f64>,
+    /// Poisson's ratio of a coating.
+    pub coating_poisson: Option<f64>,
+    /// The body of a user's own, by the stiffness of its waves.
+    pub symbol: Option<Symbol>,
+    /// The contact modulus of the other body, an elastic half-space, a pressure; the other body is rigid without it.
+    pub against_modulus: Option<f64>,
+}
+
+impl Default for Elastic {
+    fn default() -> Self {
+        Self {
+            boundary: Boundary::default(),
+            modulus: 1.0,
+            poisson: None,
+            layer: None,
+            base: None,
+            coating: None,
+            coating_modulus: None,
+            coating_poisson: None,
+            symbol: None,
+            against_modulus: None,
+        }
+    }
+}
+
+/// A kind of elastic body that is no half-space.
+struct Kind {
+    /// The key that chooses it, its thickness.
+    key: &'static str,
+    /// The keys that it needs beside.
+    needs: &'static [&'static str],
+    /// The keys that it may have.
+    takes: &'static [&'static str],
+    /// The body of its parameters.
+    make: fn(&Elastic) -> Result<Arc<dyn Body>>,
+}
+
+/// The kinds of elastic bodies beside the half-space.
+static BODIES: [Kind; 3] = [
+    Kind {
+        key: "layer",
+        needs: &["poisson"],
+        takes: &["base"],
+        make: |elastic| {
+            let material = Material::new(elastic.modulus, or_nan(elastic.poisson))?;
+            Ok(Arc::new(Layer::new(material, or_nan(elastic.layer), elastic.base.unwrap_or_default())?))
+        },
+    },
+    Kind {
+        key: "coating",
+        needs: &["coating_modulus", "coating_poisson", "poisson"],
+        takes: &[],
+        make: |elastic| {
+            let coating = Material::new(or_nan(elastic.coating_modulus), or_nan(elastic.coating_poisson))?;
+            let substrate = Material::new(elastic.modulus, or_nan(elastic.poisson))?;
+            Ok(Arc::new(Coating::new(coating, or_nan(elastic.coating), substrate)?))
+        },
+    },
+    Kind {
+        key: "symbol",
+        needs: &[],
+        takes: &[],
+        make: |elastic| match &elastic.symbol {
+            Some(symbol) => Ok(Arc::new(symbol.clone())),
+            None => Err(Error::Unsuited { what: "symbol", reason: "give the stiffness of waves" }),
+        },
+    },
+];
+
+/// A number that is needed, or one that no body takes.
+fn or_nan(number: Option<f64>) -> f64 {
+    number.unwrap_or(f64::NAN)
+}
+
+impl Elastic {
+    /// The parameters beside the modulus by their keys, as far as they are given.
+    pub fn given(&self) -> impl Iterator<Item = (&'static str, String)> {
+        let other = self.against_modulus.map(|modulus| ("against_modulus", modulus.to_string()));
+        self.own().chain(other)
+    }
+
+    /// Those of the body itself.
+    fn own(&self) -> impl Iterator<Item = (&'static str, String)> + use<> {
+        let base = self.base.map(|base| if base == Base::Bonded { "bonded" } else { "sliding" }.to_owned());
+        let number = |value: Option<f64>| value.map(|value| value.to_string());
+        let given = [
+            ("layer", number(self.layer)),
+            ("coating", number(self.coating)),
+            ("poisson", number(self.poisson)),
+            ("base", base),
+            ("coating_modulus", number(self.coating_modulus)),
+            ("coating_poisson", number(self.coating_poisson)),
+            ("symbol", self.symbol.as_ref().map(|symbol| symbol.0.name().to_owned())),
+        ];
+        given.into_iter().filter_map(|(key, value)| Some((key, value?)))
+    }
+
+    /// The contact modulus E* of both bodies, of one whose own is `modulus` and of the other: 1/E* = 1/E₁* + 1/E₂*.
+    pub(crate) fn with_other(&self, modulus: f64) -> f64 {
+        self.against_modulus.map_or(modulus, |other| {
+            let (softer, harder) = (modulus.min(other), modulus.max(other));
+            softer / (1.0 + softer / harder)
+        })
+    }
+
+    /// The first body alone, against a rigid one.
+    pub(crate) fn alone(&self) -> Self {
+        Self { against_modulus: None, ..self.clone() }
+    }
+
+    /// The other body, if it is elastic.
+    pub(crate) fn other(&self) -> Option<Self> {
+        self.against_modulus.map(|modulus| Self { modulus, boundary: self.boundary, ..Self::default() })
+    }
+
+    /// The body in words, and the other one, unless it is a half-space against a rigid one.
+    pub(crate) fn in_words(&self, units: &Units) -> Option<String> {
+        let against = |modulus| format!("against a half-space of contact modulus {}", units.number(modulus, PRESSURE));
+        let both = [self.own_in_words(units), self.against_modulus.map(against)];
+        let both: Vec<_> = both.into_iter().flatten().collect();
+        (!both.is_empty()).then(|| both.join(" "))
+    }
+
+    fn own_in_words(&self, units: &Units) -> Option<String> {
+        let length = |value| units.number(value, LENGTH);
+        match (self.layer, self.coating) {
+            (Some(thickness), _) => {
+                let hold = if self.base == Some(Base::Sliding) { "sliding" } else { "bonded" };
+                Some(format!("{hold} layer of {}", length(thickness)))
+            }
+            (_, Some(thickness)) => {
+                let modulus = units.number(self.coating_modulus.unwrap_or_default(), PRESSURE);
+                Some(format!("coating of {}, contact modulus {modulus}", length(thickness)))
+            }
+            (None, None) => {
+                self.symbol.as_ref().map(|symbol| format!("by the stiffness of its waves, {}", symbol.0.name()))
+            }
+        }
+    }
+
+    /// The kind of the body, unless it is a half-space.
+    fn kind(&self) -> Option<&'static Kind> {
+        self.own().find_map(|(given, _)| BODIES.iter().find(|kind| kind.key == given))
+    }
+
+    /// The key that makes the body another one than a half-space, if it is.
+    pub(crate) fn no_half_space(&self) -> Option<&'static str> {
+        self.kind().map(|kind| kind.key)
+    }
+
+    /// Refuses a body without its parameters, and parameters that are not those of the body.
+    ///
+    /// # Errors
+    /// The reason with a remedy, with keys in braces, for [`worded`](crate::worded).
+    pub fn check(&self) -> std::result::Result<(), String> {
+        let Some(kind) = self.kind() else {
+            return self.own().next().map_or(Ok(()), |(key, value)| {
+                Err(format!(
+                    "{{{key}}} is {value}, but the body is a half-space, whose {{modulus}} is E/(1 - nu^2): leave it out, \
+                     or give {{layer}} or {{coating}}, a thickness"
+                ))
+            });
+        };
+        if let Some(missing) = kind.needs.iter().find(|key| self.own().all(|(given, _)| given != **key)) {
+            return Err(format!("{{{}}} needs {{{missing}}} beside it: give both", kind.key));
+        }
+        let foreign = |key: &str| key != kind.key && !kind.needs.contains(&key) && !kind.takes.contains(&key);
+        if let Some((key, value)) = self.own().find(|(key, _)| foreign(key)) {
+            return Err(format!("{{{key}}} is {value}, but a body with {{{}}} has none: leave it out", kind.key));
+        }
+        if self.boundary == Boundary::Free {
+            return Err(format!(
+                "{{{}}} has no free boundary, as only waves that repeat have its stiffness: leave out {{boundary}}, or \
+                 make the map so large that its images do not matter",
+                kind.key
+            ));
+        }
+        Ok(())
+    }
+
+    /// The operator on the nodes of `grid`, if the machine has the memory for a solve: five fields of `f64`, and four
+    /// times as many with a free boundary.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] if the memory is too small, and those of the body and the operator.
+    pub fn operator<T: Real>(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<T>>> {
+        if !grid.is_shared() {
+            check_memory("a solve", grid.shape(), if self.boundary == Boundary::Free { 160 } else { 40 })?;
+        }
+        Ok(match (self.kind(), self.boundary) {
+            (Some(_), _) => Box::new(Spectral::of(grid, self.body_on(&grid)?)?),
+            (None, Boundary::Periodic) => Box::new(Westergaard::new(grid, self.with_other(self.modulus))?),
+            (None, Boundary::Free) => Box::new(Boussinesq::new(grid, self.with_other(self.modulus))?),
+        })
+    }
+
+    /// The body by the stiffness of its waves, with the other one if that is elastic.
+    ///
+    /// # Errors
+    /// Those of the body.
+    pub fn body(&self) -> Result<Arc<dyn Body>> {
+        let own = match self.kind() {
+            Some(kind) => (kind.make)(self)?,
+            None => Arc::new(HalfSpace::new(self.modulus)?),
+        };
+        self.in_series(own)
+    }
+
+    /// The body for the waves of a grid.
+    ///
+    /// # Errors
+    /// Those of the body.
+    fn body_on(&self, grid: &Grid) -> Result<Arc<dyn Body>> {
+        match &self.symbol {
+            Some(symbol) => self.in_series(Arc::new(symbol.on(grid)?)),
+            None => self.body(),
+        }
+    }
+
+    /// A body with the other one, if that is elastic.
+    fn in_series(&self, own: Arc<dyn Body>) -> Result<Arc<dyn Body>> {
+        let Some(other) = self.against_modulus else { return Ok(own) };
+        let other = HalfSpace::new(Error::positive("contact modulus of the other body", other)?)?;
+        Ok(Arc::new(Series(own, other)))
+    }
+
+    /// The pressure E* h'rms, with E* of both bodies, of which a reduced pressure is a part.
+    ///
+    /// # Errors
+    /// The reason why a surface with absent nodes has none, and a remedy.
+    pub fn full_pressure(&self, surface: &Surface) -> std::result::Result<f64, String> {
+        match surface.absent_nodes() {
+            0 => Ok(self.with_other(self.modulus) * surface.statistics().rms_slope),
+            absent => Err(format!(
+                "a reduced pressure is over the rms slope, but {absent} nodes are absent, which have no slope: give a \
+                 pressure"
+            )),
+        }
+    }
+}

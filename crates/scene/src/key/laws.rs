@@ -1,0 +1,166 @@
+//! The adhesion laws by their names, each with its description, its parameters and its construction.
+
+use std::sync::Arc;
+
+use asperity::{Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
+
+use crate::key::formula::Formula;
+
+/// An adhesion law by its name.
+pub struct Law {
+    /// The name in options and reports.
+    pub name: &'static str,
+    /// The formula over the gap g, attraction positive.
+    pub formula: &'static str,
+    /// The keys of the parameters that it needs, of [`PARAMETERS`].
+    pub needs: &'static [&'static str],
+    /// A remark on the parameters.
+    pub remark: &'static str,
+    /// The source.
+    pub source: &'static str,
+    /// Whether it never ends, so that it can be cut off.
+    pub never_ends: bool,
+    /// Whether its range is that of the grid, so that it has none of its own.
+    pub of_grid: bool,
+    /// Whether it repels surfaces that come too close, so that they need no wall.
+    pub repels: bool,
+    /// The law of its work of adhesion, range, exponent and Hamaker's constant, beside a wall or without one, or that
+    /// of its table.
+    pub(crate) make: fn([f64; 4], bool, Option<&Tabulated>) -> Result<Formula>,
+}
+
+/// A parameter of adhesion laws.
+pub struct Parameter {
+    /// The key in options and reports.
+    pub key: &'static str,
+    /// The symbol in formulas.
+    pub symbol: &'static str,
+    /// The quantity, with its article.
+    pub what: &'static str,
+}
+
+/// The key of the parameter that a map may take the place of.
+pub(crate) const WORK: &str = "work_of_adhesion";
+
+/// The parameters of the laws.
+pub static PARAMETERS: [Parameter; 5] = [
+    Parameter { key: WORK, symbol: "W", what: "an energy per area" },
+    Parameter { key: "range", symbol: "RHO", what: "a length" },
+    Parameter { key: "exponent", symbol: "N", what: "a number" },
+    Parameter { key: "hamaker", symbol: "A", what: "an energy" },
+    Parameter { key: "law_table", symbol: "FILE", what: "a file of gaps and tractions" },
+];
+
+/// No law, of which the others differ in what they name.
+const NONE: Law = Law {
+    name: "none",
+    formula: "no adhesion",
+    needs: &[],
+    remark: "",
+    source: "",
+    never_ends: false,
+    of_grid: false,
+    repels: false,
+    make: |_, _, _| Ok(Arc::new(NoAdhesion)),
+};
+
+/// The adhesion laws.
+pub static LAWS: [Law; 9] = [
+    NONE,
+    Law {
+        name: "jkr",
+        formula: "traction 2W/r (1 - x)^3 (1 + 3x + 6x^2), x = g/r < 1, with the shortest r that the grid resolves",
+        needs: &[WORK],
+        remark: "; the limit of no range, with r = sqrt(13 W dx/E*) on nodes dx apart",
+        source: "Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971)",
+        of_grid: true,
+        make: |[w, ..], _, _| Ok(Arc::new(Jkr::new(w)?)),
+        ..NONE
+    },
+    Law {
+        name: "maugis-dugdale",
+        formula: "traction W/RHO for gaps below RHO, 0 beyond",
+        needs: &[WORK, "range"],
+        source: "Maugis, J. Colloid Interface Sci. 150 (1992)",
+        make: |[w, range, ..], _, _| Ok(Arc::new(MaugisDugdale::new(w, range)?)),
+        ..NONE
+    },
+    Law {
+        name: "exponential",
+        formula: "traction W/RHO exp(-g/RHO)",
+        needs: &[WORK, "range"],
+        source: "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
+        never_ends: true,
+        make: |[w, range, ..], _, _| Ok(Arc::new(Exponential::new(w, range)?)),
+        ..NONE
+    },
+    Law {
+        name: "lennard-jones",
+        formula: "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; beside a wall, x = RHO/(RHO + g)",
+        needs: &[WORK, "range"],
+        remark: ", the equilibrium separation",
+        source: "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",
+        never_ends: true,
+        repels: true,
+        make: |[w, range, ..], walled, _| {
+            let law = LennardJones::new(w, range)?;
+            Ok(Arc::new(if walled { law.cut() } else { law }))
+        },
+        ..NONE
+    },
+    Law {
+        name: "morse",
+        formula: "traction 2W/RHO (exp(-g/RHO) - exp(-2g/RHO))",
+        needs: &[WORK, "range"],
+        source: "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
+        never_ends: true,
+        repels: true,
+        make: |[w, range, ..], _, _| Ok(Arc::new(Morse::new(w, range)?)),
+        ..NONE
+    },
+    Law {
+        name: "power",
+        formula: "traction W/RHO (1 + g/(N RHO))^-(N + 1)",
+        needs: &[WORK, "range", "exponent"],
+        source: "as of forces between bodies that fall with a power of their distance",
+        never_ends: true,
+        make: |[w, range, n, _], _, _| Ok(Arc::new(PowerLaw::new(w, range, n)?)),
+        ..NONE
+    },
+    Law {
+        name: "van-der-waals",
+        formula: "traction A/(6 pi (RHO + g)^3)",
+        needs: &["hamaker", "range"],
+        remark: ", the distance in contact; cut off where retardation begins",
+        source: "Israelachvili, Intermolecular and Surface Forces (2011), section 13",
+        never_ends: true,
+        make: |[_, range, _, a], _, _| Ok(Arc::new(PowerLaw::van_der_waals(a, range)?)),
+        ..NONE
+    },
+    Law {
+        name: "table",
+        formula: "the monotone cubic through the points of a table of gaps and tractions",
+        needs: &["law_table"],
+        remark: ", lines of a gap and a traction",
+        source: "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984)",
+        make: |_, _, table| match table {
+            Some(table) => Ok(Arc::new(table.clone())),
+            None => Ok(Arc::new(NoAdhesion)),
+        },
+        ..NONE
+    },
+];
+
+impl Law {
+    /// The law of a name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        LAWS.iter().find(|law| law.name == name)
+    }
+
+    /// The parameters with their symbols, by the names that `named` gives to their keys.
+    pub fn parameters(&self, named: impl Fn(&str) -> String) -> String {
+        let needed = self.needs.iter().filter_map(|key| PARAMETERS.iter().find(|parameter| parameter.key == *key));
+        let needed: Vec<_> = needed.map(|Parameter { key, symbol, .. }| format!("{} {symbol}", named(key))).collect();
+        if needed.is_empty() { "none".to_owned() } else { needed.join(", ") + self.remark }
+    }
+}

@@ -1,0 +1,82 @@
+//! Two surfaces that face each other, as files and arrays bring them.
+
+use asperity::Surface;
+use asperity_maps::Topography;
+
+use crate::key::boundary::Boundary;
+use crate::key::preparation::in_unit;
+use crate::key::units::Units;
+
+/// The surface between a first one, with the unit and the original that its map names, and the map of a second one that
+/// faces it ([`Surface::against`]), moved by a shift. Missing points of the second become absent nodes, or are refused.
+///
+/// A mirrored map has the image of its original as its other half, which as it is turned over comes to lie in the place of
+/// the original: originals that are to face each other lie half a side apart.
+///
+/// # Errors
+/// The reason with a remedy, with keys in braces, for [`worded`](crate::worded).
+pub fn between(
+    (first, unit, original): (&Surface, Option<&str>, Option<(usize, usize)>),
+    mut second: Topography,
+    shift: (f64, f64),
+    (boundary, absent_missing): (Boundary, bool),
+) -> Result<Surface, String> {
+    match (unit, second.unit.as_deref()) {
+        (Some(first), Some(_)) => second = in_unit(second, first).map_err(|text| format!("{{against}} {text}"))?,
+        (None, None) => {}
+        (one, other) => {
+            let (named, unnamed) = if one.is_some() { ("heights", "against") } else { ("against", "heights") };
+            let unit = one.or(other).unwrap_or_default();
+            return Err(format!(
+                "{{{named}}} is in {unit}, but {{{unnamed}}} names no unit: give it one by {{prepare:unit}}"
+            ));
+        }
+    }
+    let (grid, shape) = (first.grid(), second.heights.dim());
+    let sides = *second.lengths.get_or_insert(grid.lengths());
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() <= 1e-6;
+    let is_same = near(sides.0, grid.lengths().0) && (near(sides.1, grid.lengths().1) || grid.is_line());
+    if shape != grid.shape() || !is_same {
+        let told = |(nx, ny), sides| format!("{nx} x {ny} nodes on {}", Units::of_map(unit).sides(sides));
+        return Err(format!(
+            "{{against}} has {}, but {{heights}} has {}: both need the same, cut or interpolate one by {{prepare:crop}} or \
+             {{prepare:resample}}",
+            told(shape, sides),
+            told(grid.shape(), grid.lengths())
+        ));
+    }
+    second.lengths = Some(grid.lengths());
+    let (missing, has_infinite) = (second.missing(), second.heights.iter().any(|h| h.is_infinite()));
+    if missing > 0 && (has_infinite || !absent_missing) {
+        return Err(format!(
+            "{{against}}: {missing} of {} points are missing: fill them by {{prepare:fill}}, or take those that are NaN for \
+             absent nodes by {{absent_missing=}}",
+            second.heights.len()
+        ));
+    }
+    let shifted = shift != (0.0, 0.0);
+    let told = format!("{{shift}} is {} {}", shift.0, shift.1);
+    let shift = match (boundary, original, second.original) {
+        (Boundary::Free, ..) if shifted => {
+            return Err(format!(
+                "{told}, but with a free boundary the surface ends, and nothing follows it as it moves: move the heights \
+                 within larger maps, or leave out {{boundary}}"
+            ));
+        }
+        (Boundary::Free, ..) | (_, None, None) => shift,
+        (_, Some(_), Some(_)) if shifted => {
+            return Err(format!(
+                "{told}, but as a mirrored map moves its original leaves its place: make both maps periodic by \
+                 {{prepare:window}}, without mirror images"
+            ));
+        }
+        (_, Some((nx, _)), Some(other)) if Some(other) == original => (nx as f64 * grid.spacing().0, 0.0),
+        _ => {
+            return Err(
+                "{heights} and {against} are not mirrored alike: mirror both by {prepare:mirror}, or none".to_owned()
+            );
+        }
+    };
+    let second = if missing > 0 { second.surface_with_absent() } else { second.surface() };
+    second.and_then(|second| first.against(&second, shift)).map_err(|error| error.to_string())
+}

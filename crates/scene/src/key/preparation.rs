@@ -1,0 +1,356 @@
+//! The preparation of a measured map: its steps, their order, and the log of them.
+
+mod described;
+
+use std::fmt::Display;
+use std::str::FromStr;
+
+use asperity::Result;
+use asperity_maps::io::check_memory;
+use asperity_maps::warning::{Warning, WarningCode};
+use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
+use serde::{Deserialize, Deserializer, de};
+
+#[cfg(feature = "options")]
+use crate::key::allowed::{by_name, finite, nodes, positive, unit};
+use crate::key::quantity::{LENGTH, power_of_length, times_ten_to};
+use crate::key::told::Told;
+use crate::key::units::Units;
+use crate::numbers::plain;
+use described::{changed, described, described_form, holes, quantity, removed, rms, sides};
+
+/// The steps that make a surface of a measured map, in the order of the fields; no step by default.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "options", derive(clap::Args))]
+#[cfg_attr(
+    feature = "options",
+    command(group(clap::ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true)))
+)]
+pub struct Preparation {
+    /// The side lengths, with the unit of the map from then on.
+    #[cfg_attr(feature = "options", arg(skip))]
+    pub lengths: Option<((f64, f64), Option<String>)>,
+    /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
+    #[cfg_attr(feature = "options", arg(long, value_name = "CODE", value_delimiter = ',', value_parser = finite))]
+    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    pub missing: Vec<f64>,
+    /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
+    #[cfg_attr(feature = "options", arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive))]
+    pub scale: Option<f64>,
+    /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and
+    /// pictures
+    #[cfg_attr(feature = "options", arg(long, value_name = "UNIT", value_parser = unit))]
+    pub unit: Option<String>,
+    /// Keep NX x NY nodes from index [X, Y] on
+    #[cfg_attr(feature = "options", arg(long, value_names = ["X", "Y", "NX", "NY"], num_args = 4))]
+    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    pub crop: Option<Vec<usize>>,
+    /// Turn peaks into valleys: for a replica
+    #[cfg_attr(feature = "options", arg(long))]
+    pub flip: bool,
+    /// Bring the scan lines of an AFM to one height: median (of each line), median-difference (from line to line, for
+    /// large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
+    #[cfg_attr(feature = "options", arg(long, value_name = "METHOD"))]
+    #[serde(deserialize_with = "align_rows")]
+    pub align_rows: Option<RowAlignment>,
+    /// Direction of the scan lines of --align-rows and --remove-scars [default: x]
+    #[cfg_attr(feature = "options", arg(long, requires = "scan_lines"))]
+    #[cfg_attr(feature = "options", arg(value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
+    #[serde(deserialize_with = "scan_axis")]
+    pub scan_axis: Option<ScanAxis>,
+    /// Replace scars, by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all
+    /// higher, or all lower, than both lines beside them, by more than this many rms differences of neighbouring lines
+    /// [default: 0.667 if --remove-scars stands alone]
+    #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
+    #[cfg_attr(feature = "options", arg(default_missing_value = "0.667", allow_negative_numbers = true))]
+    pub remove_scars: Option<f64>,
+    /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust
+    /// standard deviations of all nodes [default: 10 if --despike stands alone]
+    #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
+    #[cfg_attr(feature = "options", arg(default_missing_value = "10", allow_negative_numbers = true))]
+    pub despike: Option<f64>,
+    /// Subtract the sphere or the circular cylinder that fits all measured points best
+    #[cfg_attr(feature = "options", arg(long, value_name = "FORM", value_parser = by_name::<Form>(&Form::NAMES)))]
+    #[serde(deserialize_with = "remove_form")]
+    pub remove_form: Option<Form>,
+    /// Subtract the least-squares fit to all measured points: mean, plane, quadric (as of a sphere or a cylinder), or a
+    /// polynomial of this order, up to 12
+    #[cfg_attr(feature = "options", arg(long, value_name = "TREND", allow_hyphen_values = true))]
+    #[serde(deserialize_with = "detrend")]
+    pub detrend: Option<Trend>,
+    /// Fill missing points smoothly from their surroundings, by Laplace's equation
+    #[cfg_attr(feature = "options", arg(long))]
+    pub fill: bool,
+    /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to 0.5.
+    /// Fit for spectra; under load the flat frame may come into contact, where --mirror keeps all heights
+    #[cfg_attr(
+        feature = "options",
+        arg(long, value_name = "F", allow_hyphen_values = true, conflicts_with = "mirror")
+    )]
+    pub window: Option<f64>,
+    /// Make the map periodic: continue it by its mirror images, to twice the size along both sides. A .npz remembers
+    /// its original, of which solve has results then
+    #[cfg_attr(feature = "options", arg(long))]
+    pub mirror: bool,
+    /// The cut-off wavelength, in the unit of the map.
+    #[cfg_attr(feature = "options", arg(skip))]
+    pub cut_off_wavelength: Option<f64>,
+    /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
+    #[cfg_attr(feature = "options", arg(long, value_names = ["NX", "NY"], num_args = 2, value_parser = nodes))]
+    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    pub resample: Option<Vec<usize>>,
+}
+
+/// The log of a preparation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Log {
+    /// Each step that was taken, with its name and its effect in numbers.
+    pub lines: Vec<(&'static str, String)>,
+    /// The probable mistakes that were met.
+    pub warnings: Vec<Told>,
+}
+
+impl Log {
+    fn tell(&mut self, step: &'static str, what: String) {
+        self.lines.push((step, what));
+    }
+
+    fn warn(&mut self, found: impl IntoIterator<Item = Warning>, map: &Topography) {
+        let units = Units::of_map(map.unit.as_deref());
+        self.warnings.extend(found.into_iter().map(|warning| units.told(&warning)));
+    }
+}
+
+impl Preparation {
+    /// Gives the map side lengths; those in metres are brought to the unit that the map will have.
+    ///
+    /// # Errors
+    /// A text if that is no unit of length, for [`worded`](crate::worded).
+    pub fn set_lengths(
+        &mut self,
+        (lx, ly): (f64, f64),
+        in_metres: bool,
+        of_map: Option<&str>,
+    ) -> std::result::Result<(), String> {
+        if !in_metres {
+            self.lengths = Some(((lx, ly), of_map.map(str::to_owned)));
+            return Ok(());
+        }
+        let (unit, power) = self.unit_of_lengths("{lengths} have", of_map)?;
+        self.lengths = Some(((times_ten_to(-power, lx), times_ten_to(-power, ly)), Some(unit)));
+        Ok(())
+    }
+
+    /// Gives the map a cut-off wavelength; one in metres is brought to the unit that the map will have.
+    ///
+    /// # Errors
+    /// A text if that is no unit of length, for [`worded`](crate::worded).
+    pub fn set_cut_off_wavelength(
+        &mut self,
+        cut_off: f64,
+        in_metres: bool,
+        of_map: Option<&str>,
+    ) -> std::result::Result<(), String> {
+        let power = if in_metres { self.unit_of_lengths("{cut_off_wavelength} has", of_map)?.1 } else { 0 };
+        self.cut_off_wavelength = Some(times_ten_to(-power, cut_off));
+        Ok(())
+    }
+
+    /// The unit that the map will have, which is of length, and its power of ten, for what `has` a unit.
+    fn unit_of_lengths(&self, has: &str, of_map: Option<&str>) -> std::result::Result<(String, i32), String> {
+        let unit = self.unit.as_deref().or(of_map).unwrap_or(LENGTH.si);
+        let power = power_of_length(unit).ok_or_else(|| {
+            format!("{has} a unit, but the map is in {unit}, which is none of length: give {{unit}}, as nm")
+        })?;
+        Ok((unit.to_owned(), power))
+    }
+
+    /// The prepared map, with a line in the log for each step; the log has those before an error, too.
+    ///
+    /// # Errors
+    /// Those of the steps: see [`Topography`].
+    pub fn run(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
+        log.tell("read", described(&map));
+        if let Some((lengths, unit)) = &self.lengths {
+            let before = map.lengths.map_or("unknown".to_owned(), |before| sides(before, map.unit.as_deref()));
+            (map.lengths, map.unit) = (Some(*lengths), unit.clone());
+            log.tell("lengths", format!("{}, before {before}", sides(*lengths, unit.as_deref())));
+        }
+        for code in &self.missing {
+            let before = map.missing();
+            map = map.declare_missing(*code);
+            let (found, nodes) = (map.missing() - before, map.heights.len());
+            log.tell(
+                "missing",
+                format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)),
+            );
+        }
+        let is_code = |warning: &Warning| warning.code == WarningCode::MissingCode;
+        log.warn(Warning::of_topography(&map).into_iter().filter(is_code), &map);
+        let has_codes = !log.warnings.is_empty();
+        if let Some(factor) = self.scale {
+            map.heights.mapv_inplace(|h| factor * h);
+            log.tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
+        }
+        if let Some(unit) = &self.unit {
+            let before = map.unit.replace(unit.clone()).unwrap_or("unknown".to_owned());
+            log.tell("unit", format!("{unit}, before {before}"));
+        }
+        if let Some(&[x, y, nx, ny]) = self.crop.as_deref() {
+            map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
+            log.tell("crop", format!("from index [{x}, {y}] on: {}", described(&map)));
+        }
+        if self.flip {
+            map = map.flip();
+            log.tell("flip", "peaks are valleys now".to_owned());
+        }
+        let along = self.scan_axis.unwrap_or(ScanAxis::X);
+        let axis = if along == ScanAxis::X { "x" } else { "y" };
+        if let Some(alignment) = self.align_rows {
+            let (before, heights) = (rms(&map), map.heights.clone());
+            log.warn(Warning::of_lines(&map, along), &map);
+            map = map.align_rows(alignment, along)?;
+            let (nx, ny) = map.heights.dim();
+            let lines = if along == ScanAxis::X { ny } else { nx };
+            let by = changed(&heights, &map);
+            log.tell("align-rows", format!("{lines} lines along {axis} {by}: rms height {} from {before}", rms(&map)));
+        }
+        if let Some(threshold) = self.remove_scars {
+            let (scars, before, nodes) = (map.scars(threshold, along)?, rms(&map), map.heights.len());
+            let (count, points) = (scars.count, scars.map.iter().filter(|&&on_scar| on_scar).count());
+            let limit = quantity(scars.limit, &map);
+            map = map.without(&scars)?;
+            let what = match count {
+                0 => format!("no scars along {axis} beyond {limit} from the lines beside them"),
+                1 => format!("1 scar along {axis} beyond {limit} from the lines beside it"),
+                _ => format!("{count} scars along {axis} beyond {limit} from the lines beside them"),
+            };
+            let replaced = if count > 0 { format!(", {points} of {nodes} points replaced") } else { String::new() };
+            log.tell("remove-scars", format!("{what}{replaced}: rms height {} from {before}", rms(&map)));
+        }
+        if let Some(threshold) = self.despike {
+            let (spikes, before, nodes) = (map.spikes(threshold)?, rms(&map), map.heights.len());
+            map = map.despike(threshold)?;
+            let limit = quantity(spikes.limit, &map);
+            let what = match spikes.worst {
+                Some(((i, j), distance)) => format!(
+                    "{} of {nodes} points beyond {limit} from the median around them have it now, the worst by {} at index [{i}, {j}]",
+                    spikes.nodes.len(),
+                    quantity(distance, &map)
+                ),
+                None => format!("none of {nodes} points is beyond {limit} from the median around it"),
+            };
+            log.tell("despike", format!("{what}: rms height {} from {before}", rms(&map)));
+        }
+        if let Some(form) = self.remove_form {
+            let (fit, before) = (map.fit_form(form)?, rms(&map));
+            map = map.remove_form(form)?;
+            log.tell(
+                "remove-form",
+                format!("{} removed: rms height {} from {before}", described_form(&fit, &map), rms(&map)),
+            );
+        }
+        if let Some(trend) = self.detrend {
+            let before = map.clone();
+            map = map.detrend(trend)?;
+            let what = removed(trend, &before, &map)?;
+            log.tell("detrend", format!("{what}: rms height {} from {}", rms(&map), rms(&before)));
+        }
+        if self.fill {
+            let (missing, nodes) = (map.missing(), map.heights.len());
+            map = map.fill()?;
+            log.tell("fill", format!("{missing} of {nodes} points filled: rms height {}", rms(&map)));
+        }
+        if let Some(fraction) = self.window {
+            let before = rms(&map);
+            map = map.window(fraction)?;
+            let share = plain(100.0 * fraction);
+            log.tell(
+                "window",
+                format!("{share} % of the sides tapered at each edge: rms height {} from {before}", rms(&map)),
+            );
+        }
+        if self.mirror {
+            let (nx, ny) = map.heights.dim();
+            check_memory("a mirrored map", (2 * nx, 2 * ny), 8)?;
+            map = map.mirror();
+            log.tell("mirror", described(&map));
+        }
+        if let Some(cut_off) = self.cut_off_wavelength {
+            let before = map.clone();
+            map = map.low_pass(cut_off)?;
+            let slopes = [&map, &before].map(|map| plain(map.rms_slope().unwrap_or(f64::NAN)));
+            let what = format!("waves shorter than {} left out, which may be noise", quantity(cut_off, &map));
+            log.tell(
+                "cut-off-wavelength",
+                format!(
+                    "{what}: rms height {} from {}, rms slope by differences {} from {}",
+                    rms(&map),
+                    rms(&before),
+                    slopes[0],
+                    slopes[1]
+                ),
+            );
+        }
+        if let Some(&[nx, ny]) = self.resample.as_deref() {
+            let before = rms(&map);
+            map = map.resample((nx, ny))?;
+            log.tell("resample", format!("{}: rms height {} from {before}", described(&map), rms(&map)));
+        }
+        if let Some(holes) = holes(&map) {
+            log.tell("left", format!("points are missing still, {holes}: fill them before solving"));
+        }
+        // where codes for missing points are among the heights, they alone make the slope
+        log.warn(Warning::of_topography(&map).into_iter().filter(|found| !is_code(found) && !has_codes), &map);
+        Ok(map)
+    }
+}
+
+/// A map in a unit of length. One without a unit is in it already.
+///
+/// # Errors
+/// A text if the map is in another unit, or its side lengths are no lengths in this one, for [`worded`](crate::worded).
+pub fn in_unit(mut map: Topography, unit: &str) -> std::result::Result<Topography, String> {
+    let of_map = map.unit.replace(unit.to_owned()).unwrap_or_else(|| unit.to_owned());
+    if of_map != unit {
+        let (Some(from), Some(to)) = (power_of_length(&of_map), power_of_length(unit)) else {
+            return Err(format!(
+                "is in {of_map}, but numbers with units are in {unit}: give the unit of its lengths by {{prepare:unit}}, \
+                 or numbers without units"
+            ));
+        };
+        let converted = |length| times_ten_to(from - to, length);
+        map.heights.mapv_inplace(converted);
+        map.lengths = map.lengths.map(|(lx, ly)| (converted(lx), converted(ly)));
+        if let Some((lx, ly)) = map.lengths.filter(|&(lx, ly)| !(lx.min(ly) > 0.0 && lx.max(ly).is_finite())) {
+            return Err(format!("has side lengths of {lx} and {ly} {unit}, expected positive numbers: save it again"));
+        }
+    }
+    Ok(map)
+}
+
+/// A step by its name, which the error of another one has in front.
+fn named<'de, S: FromStr<Err: Display>, D: Deserializer<'de>>(
+    key: &str,
+    from: D,
+) -> std::result::Result<Option<S>, D::Error> {
+    let Some(name) = Option::<String>::deserialize(from)? else { return Ok(None) };
+    name.parse().map(Some).map_err(|expected| de::Error::custom(format!("{key} is {name}: {expected}")))
+}
+
+fn align_rows<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<RowAlignment>, D::Error> {
+    named("align_rows", from)
+}
+
+fn scan_axis<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<ScanAxis>, D::Error> {
+    named("scan_axis", from)
+}
+
+fn remove_form<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<Form>, D::Error> {
+    named("remove_form", from)
+}
+
+fn detrend<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<Trend>, D::Error> {
+    named("detrend", from)
+}

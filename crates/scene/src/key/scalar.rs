@@ -1,0 +1,19 @@
+//! Scalars in which one can solve, and that files have.
+
+use ndarray::Array2;
+use ndarray_npy::WritableElement;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::key::formula::InPrecision;
+
+/// A scalar in which one can solve, and that can be written: `f32` or `f64`.
+pub trait Scalar: InPrecision + WritableElement + Serialize + DeserializeOwned {
+    /// A field in this precision; in place, if it is that of the file.
+    fn field(field: Array2<f64>) -> Array2<Self> {
+        field.mapv_into_any(Self::lit)
+    }
+}
+
+impl Scalar for f32 {}
+impl Scalar for f64 {}
