@@ -1,15 +1,13 @@
 //! The adhesion between the surfaces: its law with the parameters, where it varies, and the wall.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Error, Grid, Tabulated};
+use asperity::{Error, Grid, Tabulated};
 use asperity_maps::io::read_field;
-use asperity_scene::Scalar;
 use asperity_scene::{Adhesion as Described, Formula, LAWS, Wall, tabulated};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 
 use crate::allowed::positive;
 use crate::heights;
@@ -73,7 +71,8 @@ type Table = (Tabulated, Array2<f64>);
 
 /// The law that the options choose, with what their files hold.
 pub struct Adhesion {
-    formula: Formula,
+    /// The law
+    pub formula: Formula,
     /// The numbers of the table of the law
     pub table: Option<Array2<f64>>,
     /// The works of adhesion of the map, at all nodes
@@ -161,22 +160,5 @@ impl AdhesionOptions {
             _ => formula,
         };
         Ok(Adhesion { formula, table, works, hardness })
-    }
-}
-
-impl Adhesion {
-    /// The law.
-    pub fn law<T: Scalar>(&self) -> Arc<dyn AdhesionLaw<T>> {
-        self.formula.clone().law()
-    }
-
-    /// The hardness at each node, where it varies.
-    pub fn hardness(&self) -> Option<ArrayView2<'_, f64>> {
-        self.hardness.as_ref().map(|hardness| hardness.view())
-    }
-
-    /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.
-    pub fn strongest(&self) -> Option<(usize, usize)> {
-        self.formula.strongest()
     }
 }

@@ -121,7 +121,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 }
 
 impl Fill for Options {
-    fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way> {
+    fn way(&self, loads: Vec<Control>) -> Outcome<Way> {
         if loads.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
@@ -153,7 +153,7 @@ impl Options {
 
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>) -> Outcome<()> {
-        let (rows, units) = (table.read()?, &table.units);
+        let (rows, units) = (table.read()?, table.units());
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
         let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
         let tension = -least("mean_pressure");

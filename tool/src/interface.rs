@@ -17,7 +17,6 @@ use crate::output::{OutputFile, check_apart, check_free, write_text};
 use crate::printing::{complain, in_options};
 use crate::processes::Processes;
 use crate::scene::SceneFile;
-use crate::sweep::sweep_of;
 use crate::table::{Fill, Manner, Table, TableOptions};
 use crate::units::{UnitOptions, Units};
 
@@ -134,8 +133,8 @@ impl Options {
 }
 
 impl Fill for Options {
-    fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way> {
-        sweep_of::<T>(loads)
+    fn way(&self, loads: Vec<Control>) -> Outcome<Way> {
+        Ok(Way::Sweep(loads))
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
@@ -145,7 +144,7 @@ impl Fill for Options {
             complain("warning", "there are no files --for codes of finite elements, as rows have not converged");
         }
         table.first(|| {
-            let written = if converged { self.write(&rows, &table.units)? } else { Vec::new() };
+            let written = if converged { self.write(&rows, table.units())? } else { Vec::new() };
             if !written.is_empty() {
                 self.manner.printing.say(&format!("for finite elements: {}", written.join(", ")));
             }

@@ -1,16 +1,16 @@
 //! `asperity pull-off`: the greatest tension under which the surfaces stay together.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use asperity::accuracy::Quantity as Of;
 use asperity::{PullOff, Status};
-use asperity_scene::{Goal, Inputs, Precision, Skin};
+use asperity_scene::{Goal, Precision, Skin};
 use clap::Args;
 use serde_json::json;
 
 use crate::adhesion::AdhesionOptions;
 use crate::allowed::{positive, share};
-use crate::fields::check_finite;
 use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
 use crate::outcome::Outcome;
 use crate::printing::{Printing, complain, say};
@@ -19,9 +19,9 @@ use crate::progress::Progress;
 use crate::quantity::{PRESSURE, Quantity};
 use crate::report;
 use crate::scene::SceneFile;
+use crate::session::{Strictness, say_new, session};
 use crate::summary::warn;
 use crate::units::UnitOptions;
-use crate::warnings::{Strictness, Warnings};
 
 /// Find the pull-off, the greatest tension that surfaces bear.
 ///
@@ -101,24 +101,22 @@ impl Options {
         let Given { surface, adhesion, origin, part, start } = given;
         let (problem, printing, nodes) = (self.problem(), self.printing, surface.grid().nodes());
         let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
-        let mut warnings = Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, problem, &units)?;
-        warnings.say()?;
-        let mut posed = problem.scene().posed::<T>(surface, adhesion.law(), None, part.wanted())?;
-        let slopes = posed.slopes()?;
+        let (surface, of) = (Arc::new(surface), (&adhesion, &origin, &part));
+        let session = session::<T>(problem, surface, of, (&units, scene), self.strictness, processes)?;
+        let mut session = session.with_slopes()?.for_one_solve();
+        say_new(&mut session.warnings);
         let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
         let goal = self.accuracy.map(|accuracy| Goal { accuracy, of: Of::Area, memory: self.memory });
-        let mut progress = Progress::new("", posed.tolerance(None)?, nodes, printing.without_bars());
-        let (mut found, pulled_off) =
-            posed.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
-                progress.update_on(grid, state, tolerance);
-                ControlFlow::Continue(())
-            })?;
-        drop((posed, progress));
-        check_finite(&found.solution)?;
-        warnings.look_at(&found.solution, &part)?;
-        let inputs = Inputs { slopes, ..report::inputs(problem, &part, &units, scene) };
-        let mut last = found.account("pull-off", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
-        found.sight.look_at(&mut last, &found.solution)?;
+        let mut progress = Progress::new("", session.tolerance(None)?, nodes, printing.without_bars());
+        let found = session.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
+            progress.update_on(grid, state, tolerance);
+            ControlFlow::Continue(())
+        });
+        drop(progress);
+        let (mut solved, pulled_off) = found?;
+        say_new(&mut session.warnings);
+        solved.look()?;
+        let last = solved.account;
 
         if printing.for_people() {
             let rows = pulled_off.rows(&last, &units);
@@ -128,7 +126,7 @@ impl Options {
         printing.report(|| {
             let mut outcome = json!(pulled_off);
             outcome["last"] = json!(last);
-            report::report("pull-off", outcome, &inputs)
+            report::report("pull-off", outcome, &session.inputs)
         });
         warn("", &last);
         if let Some(text) = pulled_off.shortfall(&last, Skin::Options) {

@@ -125,24 +125,15 @@ impl Options {
     }
 }
 
-/// The sweep of loads, which the precision of its solves has to hold.
-pub fn sweep_of<T: Scalar>(loads: Vec<Control>) -> Outcome<Way> {
-    if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
-        let (name, requirement) = ("load", "finite in the precision of the fields");
-        return Err(Error::Value { name, value, requirement }.into());
-    }
-    Ok(Way::Sweep(loads))
-}
-
 impl Fill for Options {
-    fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way> {
+    fn way(&self, loads: Vec<Control>) -> Outcome<Way> {
         let searched = self.fractions.values().map(|fractions| Way::Search(fractions.to_vec()));
-        searched.map_or_else(|| sweep_of::<T>(loads), Ok)
+        Ok(searched.unwrap_or(Way::Sweep(loads)))
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve(&self.out, self.manner.printing)?;
-        table.first(|| self.plot.draw(&rows, &table.units))?;
+        table.first(|| self.plot.draw(&rows, table.units()))?;
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match self.fractions.values() {
             Some(_) => "or leave out the contact fractions past which the contact jumps",

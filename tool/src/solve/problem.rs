@@ -1,16 +1,12 @@
 //! The problem of a solve, as its options pose it.
 
-use asperity_scene::{After, Asked, Boundary, Branches, Inputs};
+use asperity_scene::{After, Asked, Boundary, Branches};
 
 use super::Options;
 use crate::after;
 use crate::outcome::Outcome;
-use crate::part::Part;
 use crate::printing::in_options;
 use crate::processes::Processes;
-use crate::report;
-use crate::scene::SceneFile;
-use crate::units::Units;
 
 impl Options {
     /// The solution that the options ask for, under a load where a reduced pressure of 1 is the `full` pressure.
@@ -47,10 +43,5 @@ impl Options {
             processes.alone("--fields displacement with a free boundary")?;
         }
         if self.accuracy.accuracy.is_some() { processes.alone("--accuracy") } else { Ok(()) }
-    }
-
-    /// The inputs of the report.
-    pub fn inputs(&self, part: &Part, units: &Units, scene: &SceneFile) -> Inputs {
-        report::inputs(self.problem(), part, units, scene)
     }
 }
