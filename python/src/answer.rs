@@ -1,40 +1,30 @@
 //! The answer to a solve: the dictionary in which Python gets what was found.
 
-use asperity::{Solution, Status};
+use asperity::Solution;
 use asperity_maps::Topography;
-use asperity_scene::{Account, Found, Skin, check_finite, shortfalls, worded};
+use asperity_scene::outcome::Outcome;
+use asperity_scene::{Account, Found, Skin, shortfalls};
 use numpy::{IntoPyArray, PyArrayMethods};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde::Serialize;
 use serde_pyobject::to_pyobject;
 
 use crate::look::Look;
 use crate::numbers::Scalar;
-use crate::refusal::refusal;
-
-/// A report as Python reads it from its file: what is not finite is None there.
-pub fn reported<'py>(py: Python<'py>, report: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    let text = serde_json::to_string(report).map_err(|error| PyValueError::new_err(error.to_string()))?;
-    py.import("json")?.call_method1("loads", (text,))
-}
+use crate::refusal::refusal_of_session;
 
 /// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(
     py: Python<'py>,
     threads: Option<usize>,
-    found: (asperity::Result<(Found<T>, Account)>, Option<PyErr>),
+    found: Outcome<(Found<T>, Account)>,
+    raised: Option<PyErr>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let ((found, account), raised) = match found {
-        (Ok(found), raised) => (found, raised),
-        (Err(_), Some(raised)) => return Err(raised),
-        (Err(error), None) => return Err(refusal(error)),
+    let (Found { solution, sight, mode, refined, .. }, account) = match (found, raised.as_ref()) {
+        (Ok(found), _) => found,
+        (Err(_), Some(raised)) => return Err(raised.clone_ref(py)),
+        (Err(error), None) => return Err(refusal_of_session(error)),
     };
-    let Found { solution, sight, mode, refined, .. } = found;
-    if solution.report.status != Status::Stopped {
-        check_finite(&solution).map_err(|text| PyValueError::new_err(worded(&text, Skin::Keywords)))?;
-    }
     let found = PyDict::new(py);
     // the numbers of the solution, which may be infinite; its report comes with the look
     found.set_item("told", to_pyobject(py, &account)?)?;

@@ -10,9 +10,9 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::answer::reported;
 use crate::numbers::Field;
 use crate::refusal::refusal;
+use crate::report::reported;
 
 /// Sizes and labels of clusters.
 type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);

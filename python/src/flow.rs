@@ -9,10 +9,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::answer::reported;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
+use crate::report::reported;
 use crate::running::until_interrupted;
 
 /// The gap at a constriction, its node, and the nodes of the widest passage, in rows of two.

@@ -20,6 +20,7 @@ mod pair;
 mod pools;
 mod problem;
 mod refusal;
+mod report;
 mod running;
 mod scales;
 mod state;

@@ -7,10 +7,10 @@ use asperity_scene::{Account, Sight, Skin, rows};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::answer::reported;
 use crate::numbers::Scalar;
 use crate::pools::Pool;
 use crate::refusal::refusal;
+use crate::report::reported;
 
 /// A sight in either precision, with the fields.
 trait Looks: Send + Sync {

@@ -3,20 +3,24 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity::path::PathSettings;
-use asperity::{Control, Grid, PullOff, Surface};
+use asperity::{Grid, PullOff, Surface};
 use asperity_maps::surface_with_absent;
+use asperity_scene::processes::Processes;
 use asperity_scene::quantity::PRESSURE;
-use asperity_scene::{Adhesion, Asked, Boundary, Branches, Elastic, Inputs, Load, Precision, Scene, Way};
+use asperity_scene::{
+    Adhesion, Asked, Boundary, Branches, Either, Elastic, Input, Inputs, Load, Precision, Scene, Session, Skin, Way,
+    either,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::inputs::{Accuracy, Begin, Following, Given, Hardness, after, goal, keys, load, named};
 use crate::law::Law;
-use crate::numbers::Field;
+use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
-use crate::refusal::{reason, refusal, refusal_of_heights};
-use crate::state::{File, Pace, Run, Solves, state};
+use crate::refusal::{reason, refusal, refusal_of_heights, refusal_of_session};
+use crate::state::{self, At, Columns, File, Pace};
 
 /// The words of Python for a key.
 fn word(key: &str) -> String {
@@ -26,30 +30,43 @@ fn word(key: &str) -> String {
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
-    solves: Mutex<Box<dyn Solves>>,
+    session: Mutex<Either<Session<f32>, Session<f64>>>,
     threads: Option<usize>,
     nested: Option<bool>,
     other_branch: bool,
-    inputs: Inputs,
 }
 
 impl Problem {
-    /// The pool of a solve, the inputs, and the problem.
-    fn parts(&mut self) -> PyResult<(Pool, &Inputs, &mut dyn Solves)> {
-        let pool = Pool::of(self.threads)?;
-        Ok((pool, &self.inputs, self.solves.get_mut().unwrap_or_else(PoisonError::into_inner).as_mut()))
+    /// The pool of a solve, and the session.
+    fn parts(&mut self) -> PyResult<(Pool, &mut Either<Session<f32>, Session<f64>>)> {
+        Ok((Pool::of(self.threads)?, self.session.get_mut().unwrap_or_else(PoisonError::into_inner)))
+    }
+
+    /// The scene.
+    fn scene(&mut self) -> &Scene {
+        let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner);
+        either!(session = session => session.scene())
     }
 
     /// The pressure of which a reduced pressure is a part, if one is among loads that the problem has.
     fn full_pressure(&mut self, py: Python<'_>, loads: &[Load]) -> PyResult<f64> {
-        let (pool, _, solves) = self.parts()?;
-        py.detach(move || pool.get().install(move || solves.full_pressure(loads))).map_err(reason)
+        let (pool, session) = self.parts()?;
+        let find = || either!(session = session => session.full_pressure(loads));
+        py.detach(|| pool.get().install(find)).map_err(refusal_of_session)
     }
+}
 
-    /// Notes the gap from which solves start for their reports.
-    fn begins(&mut self, start: Option<&Begin<'_>>) {
-        self.inputs.initial_gap = start.map(Begin::word).map(str::to_owned);
-    }
+/// The session of a scene, with the slopes of its surface.
+fn session<T: Scalar>(
+    py: Python<'_>,
+    pool: &Pool,
+    scene: &Scene,
+    input: Input,
+    inputs: Inputs,
+) -> PyResult<Session<T>> {
+    let units = inputs.units();
+    let make = || Ok(Session::new(scene, input, inputs, units, &Processes::start()?)?.with_slopes()?);
+    py.detach(|| pool.get().install(make)).map_err(refusal_of_session)
 }
 
 #[pymethods]
@@ -121,14 +138,21 @@ impl Problem {
             given: given.map(keys).transpose()?,
             ..scene.inputs(surface.grid().shape(), lengths, pool.threads())
         };
-        let (units, problem) = (inputs.units(), (surface, formula, map, original));
-        let (solves, slopes) = match precision {
-            Precision::F64 => state::<f64>(py, &pool, problem, (&scene, units, scars_removed), threads)?,
-            Precision::F32 => state::<f32>(py, &pool, problem, (&scene, units, scars_removed), threads)?,
+        let input = Input {
+            surface: surface.into(),
+            formula,
+            hardness: map,
+            original,
+            converted_from: None,
+            scars_removed,
+            is_strict: false,
+            skin: Skin::Keywords,
         };
-        let other_branch = branch == Some(Branches::Both);
-        let inputs = Inputs { slopes, ..inputs };
-        Ok(Self { solves: Mutex::new(solves), threads, nested, other_branch, inputs })
+        let session = match precision {
+            Precision::F64 => Either::F64(session(py, &pool, &scene, input, inputs)?),
+            Precision::F32 => Either::F32(session(py, &pool, &scene, input, inputs)?),
+        };
+        Ok(Self { session: Mutex::new(session), threads, nested, other_branch: branch == Some(Branches::Both) })
     }
 
     /// The equilibrium at a load.
@@ -145,24 +169,18 @@ impl Problem {
         after: Following,
         accuracy: Accuracy,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let (load, goal) = (self::load(&load)?, goal(accuracy)?);
+        let (load, goal, scene) = (self::load(&load)?, goal(accuracy)?, self.scene());
+        let after = self::after(after, &scene.elastic, &scene.adhesion)?;
         let (fraction, stability, nested, other_branch) =
             (load.fraction(), stability || leave, self.nested, self.other_branch);
-        let asked = Asked {
-            fraction,
-            nested,
-            other_branch,
-            stability,
-            leave,
-            after: self::after(after, &self.inputs.elastic, &self.inputs.adhesion)?,
-            goal,
-            ..Asked::under(load.control(1.0))
-        };
-        asked.check(&self.inputs.adhesion, self.inputs.method, start.is_some()).map_err(reason)?;
+        let asked =
+            Asked { fraction, nested, other_branch, stability, leave, after, goal, ..Asked::under(load.control(1.0)) };
+        let scene = self.scene();
+        asked.check(&scene.adhesion, scene.method, start.is_some()).map_err(reason)?;
         let asked = Asked { control: load.control(self.full_pressure(py, &[load])?), ..asked };
-        self.begins(start.as_ref());
-        let (pool, inputs, solves) = self.parts()?;
-        solves.solve(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, asked, start)
+        let (threads, (pool, session)) = (self.threads, self.parts()?);
+        let at = At { pool: &pool, threads, observer: observe.as_ref() };
+        either!(session = session => state::solve(session, py, at, &asked, start))
     }
 
     /// The pull-off, with the last state that holds.
@@ -178,9 +196,9 @@ impl Problem {
     ) -> PyResult<Bound<'py, PyDict>> {
         let goal = goal(accuracy)?;
         let asked = PullOff::default().tolerance(tolerance).preload(preload);
-        self.begins(start.as_ref());
-        let (pool, inputs, solves) = self.parts()?;
-        solves.pull_off(py, Run { pool: &pool, observer: observe.as_ref(), inputs }, (asked, goal), start)
+        let (threads, (pool, session)) = (self.threads, self.parts()?);
+        let at = At { pool: &pool, threads, observer: observe.as_ref() };
+        either!(session = session => state::pull_off(session, py, at, (asked, goal), start))
     }
 
     /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.
@@ -197,11 +215,11 @@ impl Problem {
         path: Option<(usize, f64, f64, bool)>,
         seed: Option<u64>,
         table: Option<File<'py>>,
-    ) -> PyResult<(Vec<&'static str>, Bound<'py, PyAny>)> {
+    ) -> PyResult<Columns<'py>> {
         let loads = loads.iter().map(load).collect::<PyResult<Vec<_>>>()?;
-        let after = self::after(after, &self.inputs.elastic, &self.inputs.adhesion)?;
-        let asked = Asked { after, ..Asked::under(Control::MeanPressure(0.0)) };
-        asked.check(&self.inputs.adhesion, self.inputs.method, false).map_err(reason)?;
+        let scene = self.scene();
+        let after = self::after(after, &scene.elastic, &scene.adhesion)?;
+        let is_free = scene.elastic.boundary == Boundary::Free;
         let full = self.full_pressure(py, &loads)?;
         let controls = loads.iter().map(|load| load.control(full)).collect();
         let fractions: Vec<_> = loads.iter().copied().filter_map(Load::fraction).collect();
@@ -213,26 +231,29 @@ impl Problem {
             None if fractions.is_empty() => Way::Sweep(controls),
             None => Way::Search(fractions),
         };
-        self.begins(start.as_ref());
-        if interface && self.inputs.elastic.boundary == Boundary::Free {
+        if interface && is_free {
             return Err(PyValueError::new_err(
                 "boundary is 'free': an interface has its law per area of a periodic cell",
             ));
         }
-        let (pool, inputs, solves) = self.parts()?;
-        solves.begin(py, Run { pool: &pool, observer: None, inputs }, (way, (after, interface), seed), start, table)
+        let (pool, session) = self.parts()?;
+        either!(session = session => {
+            session.seed = seed;
+            state::begin(session, py, &pool, (way, after, interface), start, table)
+        })
     }
 
     /// The seconds that are left of a cycle that was begun, as far as they are known, and its pace in words.
     fn pace(&mut self) -> PyResult<Pace> {
-        Ok(self.parts()?.2.pace())
+        Ok(either!(session = self.parts()?.1 => state::pace(session)))
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.
     #[pyo3(signature = (observe))]
     fn next<'py>(&mut self, py: Python<'py>, observe: Option<Py<PyAny>>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let (pool, inputs, solves) = self.parts()?;
-        solves.next(py, Run { pool: &pool, observer: observe.as_ref(), inputs })
+        let (threads, (pool, session)) = (self.threads, self.parts()?);
+        let at = At { pool: &pool, threads, observer: observe.as_ref() };
+        either!(session = session => state::next(session, py, at))
     }
 
     /// The stability of a gap under a load, of which the certified error is known.
@@ -246,7 +267,7 @@ impl Problem {
     ) -> PyResult<Bound<'py, PyAny>> {
         let load = self::load(&load)?;
         let control = load.control(self.full_pressure(py, &[load])?);
-        let (pool, _, solves) = self.parts()?;
-        solves.stability(py, &pool, control, (gap, relative_error))
+        let (pool, session) = self.parts()?;
+        either!(session = session => state::stability(session, py, &pool, control, (gap, relative_error)))
     }
 }

@@ -45,8 +45,8 @@ pub fn reason(text: String) -> PyErr {
     PyValueError::new_err(worded(&text, Skin::Keywords))
 }
 
-/// The exception of an error of a table in a file: `OSError` for what the system refuses.
-pub fn refusal_of_table(error: Box<dyn std::error::Error + Send + Sync>) -> PyErr {
+/// The exception of an error of a session: `OSError` for what the system refuses of the file of its table.
+pub fn refusal_of_session(error: Box<dyn std::error::Error + Send + Sync>) -> PyErr {
     let message = error.to_string().replace("choose another --", "choose another ").replace("--force", "force=True");
     match error.downcast::<Error>() {
         Ok(error) if error.kind() != ErrorKind::File => refusal(*error),

@@ -12,11 +12,11 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::answer::reported;
 use crate::inputs::keys;
 use crate::numbers::Field;
 use crate::pools::Pool;
 use crate::refusal::refusal;
+use crate::report::reported;
 
 /// Heights, side lengths and unit of a map, the nodes of the original of a mirrored one, and the seed of a random one
 /// with the threshold of the scars that were removed.

@@ -54,3 +54,22 @@ pub use table::Format;
 pub use table::fields::{gap_to_write, write_fields};
 pub use table::identity::Identity;
 pub use table::{csv, journal, legs, output, warnings};
+
+/// Something in either precision.
+pub enum Either<S, D> {
+    /// In `f32`.
+    F32(S),
+    /// In `f64`.
+    F64(D),
+}
+
+/// Does the same with something in either precision: `either!(session = problem => session.rows())`.
+#[macro_export]
+macro_rules! either {
+    ($name:ident = $of:expr => $work:expr) => {
+        match $of {
+            $crate::Either::F32($name) => $work,
+            $crate::Either::F64($name) => $work,
+        }
+    };
+}
