@@ -10,7 +10,7 @@ use asperity_scene::{Body, Log, Preparation, Roughness, Skin, statistics};
 use serde_json::{Value, json};
 
 use crate::given::{Given, reason};
-use crate::histogram::Histogram;
+use crate::histogram::{Histogram, extremes};
 use crate::lines::{Origin, Source};
 use crate::problem::{Observe, Problem, keys};
 
@@ -277,12 +277,4 @@ impl Engine {
             "python": self.origin.python(typed, started),
         }))
     }
-}
-
-/// The least and the greatest of the values that are finite; nothing of none.
-pub fn extremes(values: impl Iterator<Item = f64>) -> (Option<f64>, Option<f64>) {
-    let (low, high) = values
-        .filter(|value| value.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    (Some(low).filter(|low| low.is_finite()), Some(high).filter(|high| high.is_finite()))
 }

@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use crate::engine::extremes;
-
 /// The probability density of values in bins of equal width; empty of no values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Histogram {
@@ -31,4 +29,12 @@ impl Histogram {
         let density = counts.into_iter().map(|bin| bin as f64 * rate / f64::from(count)).collect();
         Self { from, to, density }
     }
+}
+
+/// The least and the greatest of the values that are finite; nothing of none.
+pub fn extremes(values: impl Iterator<Item = f64>) -> (Option<f64>, Option<f64>) {
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    (Some(low).filter(|low| low.is_finite()), Some(high).filter(|high| high.is_finite()))
 }

@@ -7,11 +7,11 @@ use asperity_maps::{Topography, surface_with_absent};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::quantity::{LENGTH, PRESSURE};
 use asperity_scene::units::Units;
-use asperity_scene::{Asked, Boundary, Branches, Load, Precision, Scene, Way, in_unit};
+use asperity_scene::{Asked, Boundary, Branches, Either, Input, Load, Precision, Scene, Skin, Way, either, in_unit};
 use serde_json::{Map, Value};
 
 use crate::given::{Given, reason};
-use crate::state::{Origin, Solves, State};
+use crate::state::State;
 
 pub use crate::state::Observe;
 
@@ -69,7 +69,7 @@ pub fn keys() -> Vec<&'static str> {
 pub struct Problem {
     /// What poses it, as it was typed.
     posed: Map<String, Value>,
-    state: Box<dyn Solves>,
+    state: Either<State<f32>, State<f64>>,
     /// What the last solve was asked, as it was typed, and whether it started from another solution.
     asked: Option<(Map<String, Value>, bool)>,
 }
@@ -91,7 +91,7 @@ impl Problem {
         if let Some(same) = before.take_if(|before| goes_on && before.posed == posed) {
             return Ok(same);
         }
-        let before = before.as_ref().and_then(|before| before.state.gap());
+        let before = before.as_ref().and_then(|before| either!(state = &before.state => state.gap()));
         let mut given = given.clone();
         let (lengths, absent) = (given.lengths(map.heights.dim()), given.switch("absent_missing"));
         let scene: Scene = given.take(&SCENE, Value::Null)?;
@@ -108,7 +108,6 @@ impl Problem {
         scene.adhesion.check(str::to_owned)?;
         scene.elastic.check().map_err(reason)?;
         scene.elastic.body()?;
-        let scars_removed = map.scars_removed;
         let (surface, converted_from) = surface(map, name, lengths, absent, given.is_si())?;
         let original = map.original.filter(|_| scene.elastic.boundary == Boundary::Periodic);
         let original = original.map(|nodes| Original::new(surface.grid(), nodes)).transpose()?;
@@ -117,11 +116,19 @@ impl Problem {
         inputs.heights = Some(name.to_owned());
         inputs.part = map.original.map(|_| if original.is_some() { "original" } else { "whole" }.to_owned());
         (inputs.length_unit, inputs.pressure_unit) = (units.length.clone(), units.pressure.clone());
-        let origin = Origin { converted_from: converted_from.as_deref(), scars_removed };
-        let problem = (surface, origin, original);
-        let state: Box<dyn Solves> = match scene.precision {
-            Precision::F32 => Box::new(State::<f32>::new(scene, problem, inputs, units, before)?),
-            Precision::F64 => Box::new(State::<f64>::new(scene, problem, inputs, units, before)?),
+        let input = Input {
+            surface: surface.into(),
+            formula: scene.adhesion.formula(None)?,
+            hardness: None,
+            original,
+            converted_from,
+            scars_removed: map.scars_removed,
+            is_strict: false,
+            skin: Skin::Keywords,
+        };
+        let state = match scene.precision {
+            Precision::F32 => Either::F32(State::new(&scene, input, inputs, units, before)?),
+            Precision::F64 => Either::F64(State::new(&scene, input, inputs, units, before)?),
         };
         Ok(Self { posed, state, asked: None })
     }
@@ -134,16 +141,18 @@ impl Problem {
         let (typed, quantities) = (given.typed().clone(), given.quantities());
         let nested = given.has("nested").then(|| given.switch("nested"));
         let load = load(&mut given)?;
-        let full = self.state.full_pressure(&[load]).map_err(reason)?;
-        let scene = self.state.scene();
+        let full = either!(state = &self.state => state.full_pressure(&[load]))?;
+        let scene = either!(state = &self.state => state.scene());
+        let adheres = scene.adhesion.adheres();
         let asked = Asked {
             fraction: load.fraction(),
             nested,
             other_branch: scene.branch == Some(Branches::Both),
             ..Asked::under(load.control(full))
         };
-        let (answer, started) = self.state.solve(&asked, from_last, quantities, observe)?;
-        self.asked = Some((typed, started && self.state.scene().adhesion.adheres()));
+        let (answer, started) =
+            either!(state = &mut self.state => state.solve(&asked, from_last, quantities, observe))?;
+        self.asked = Some((typed, started && adheres));
         Ok(answer)
     }
 
@@ -160,12 +169,12 @@ impl Problem {
             .smallest_step(given.number("smallest_step").unwrap_or(usual.smallest_step))
             .imbalance(given.number("imbalance").unwrap_or(usual.imbalance))
             .smooth(!given.switch("sharp"));
-        let full = self.state.full_pressure(&loads).map_err(reason)?;
+        let full = either!(state = &self.state => state.full_pressure(&loads))?;
         let controls: Vec<Control> = loads.iter().map(|load| load.control(full)).collect();
         if controls.len() < 2 {
             return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
         }
-        self.state.begin(Way::Cycle(controls, settings), quantities)
+        either!(state = &mut self.state => state.begin(Way::Cycle(controls, settings), quantities))
     }
 
     /// The next state along the loads; nothing at their end.
@@ -173,7 +182,7 @@ impl Problem {
     /// # Errors
     /// Those of the solvers.
     pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
-        self.state.next(observe)
+        either!(state = &mut self.state => state.next(observe))
     }
 
     /// What the last solve was asked, and whether it started from another equilibrium, which decides on its own with
@@ -187,7 +196,7 @@ impl Problem {
     /// # Errors
     /// The name, if there is no such field.
     pub fn field(&self, name: &str) -> Outcome<Vec<f32>> {
-        self.state.field(name)
+        either!(state = &self.state => state.field(name))
     }
 
     /// The nodes of the last solution: 0 apart, 1 in contact, 2 absent, 3 attractive, 4 yielded.
@@ -195,7 +204,7 @@ impl Problem {
     /// # Errors
     /// Without a solution.
     pub fn regions(&self) -> Outcome<Vec<u8>> {
-        self.state.regions()
+        either!(state = &self.state => state.regions())
     }
 
     /// The histograms of gap and contact pressure, with as many bins.
@@ -203,7 +212,7 @@ impl Problem {
     /// # Errors
     /// Without a solution.
     pub fn histograms(&self, bins: usize) -> Outcome<Value> {
-        self.state.histograms(bins)
+        either!(state = &self.state => state.histograms(bins))
     }
 
     /// The bytes of a file to take away.
@@ -213,7 +222,7 @@ impl Problem {
     pub fn file(&self, name: &str) -> Outcome<Vec<u8>> {
         match (name, &self.asked) {
             ("scene.toml", Some((typed, started))) => Ok(crate::lines::scene(typed, *started).into_bytes()),
-            _ => self.state.file(name),
+            _ => either!(state = &self.state => state.file(name)),
         }
     }
 }

@@ -5,52 +5,35 @@ use std::sync::Arc;
 
 use asperity::contact::{Original, Region};
 use asperity::solver::Iteration;
-use asperity::{Control, Grid, Solution, Surface};
+use asperity::{Grid, Solution, Surface};
 use asperity_maps::io::npz;
 use asperity_plot::LoadScale;
 use asperity_scene::outcome::Outcome;
+use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, After, Asked, Course, Formula, Found, Inputs, Load, Posed, Scalar, Scene, Skin, Told, Way, check_finite,
-    csv, gap_to_write, rows, shortfalls, warnings_of_input,
+    Account, After, Asked, Found, Input, Inputs, Load, Scalar, Scene, Session, Skin, Way, csv, gap_to_write, rows,
+    shortfalls,
 };
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use crate::engine::extremes;
 use crate::given::reason;
-use crate::histogram::Histogram;
+use crate::histogram::{Histogram, extremes};
 use crate::lines::START;
 
 /// The observer of a solve: it sees the nodes of the grid, each iteration, and the tolerance of the solve on it.
 pub type Observe<'a> = &'a mut (dyn FnMut(usize, &Iteration, f64) + Send);
 
-/// What was done to the heights before a solve.
-pub struct Origin<'a> {
-    /// The unit from which they were converted.
-    pub converted_from: Option<&'a str>,
-    /// The threshold by which scars were removed.
-    pub scars_removed: Option<f64>,
-}
-
 /// A problem in one precision.
 pub struct State<T: Scalar> {
-    scene: Scene,
+    session: Session<T>,
     surface: Arc<Surface>,
-    formula: Formula,
     original: Option<Original>,
-    inputs: Inputs,
-    units: Units,
-    /// Those of the input.
-    warnings: Vec<Told>,
-    scars_removed: Option<f64>,
-    posed: Option<Posed<T>>,
     last: Option<Last<T>>,
     /// A gap from which to start that is of another problem.
     before: Option<Array2<T>>,
-    /// The loads that are followed, to their end.
-    course: Option<Course<T>>,
-    /// The lines of the table of their states; none before they are followed.
+    /// The lines of the table of the states along loads; none before they are followed.
     table: Vec<String>,
 }
 
@@ -62,82 +45,43 @@ struct Last<T: Scalar> {
     start: Option<Array2<T>>,
 }
 
-/// A problem in either precision.
-pub trait Solves {
-    fn scene(&self) -> &Scene;
-    fn gap(&self) -> Option<Array2<f64>>;
-    fn full_pressure(&self, loads: &[Load]) -> Result<f64, String>;
-    fn solve(
-        &mut self,
-        asked: &Asked,
-        from_last: bool,
-        quantities: Option<Value>,
-        observe: Observe<'_>,
-    ) -> Outcome<(Value, bool)>;
-    fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value>;
-    fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>>;
-    fn field(&self, name: &str) -> Outcome<Vec<f32>>;
-    fn regions(&self) -> Outcome<Vec<u8>>;
-    fn histograms(&self, bins: usize) -> Outcome<Value>;
-    fn file(&self, name: &str) -> Outcome<Vec<u8>>;
-}
-
 impl<T: Scalar> State<T> {
-    /// The problem of a scene on a surface, with the origin of its heights; solves go on from a gap of `before`.
+    /// The problem of a scene on a surface; solves go on from a gap of `before`.
     pub fn new(
-        scene: Scene,
-        (surface, origin, original): (Surface, Origin<'_>, Option<Original>),
+        scene: &Scene,
+        input: Input,
         inputs: Inputs,
         units: Units,
         before: Option<Array2<f64>>,
     ) -> Outcome<Self> {
-        let formula = scene.adhesion.formula(None)?;
-        let law = formula.clone().law::<T>();
-        let warnings = warnings_of_input((&surface, origin.converted_from), &scene.elastic, &*law, &units);
+        let (surface, original) = (input.surface.clone(), input.original);
+        let session = Session::new(scene, input, inputs, units, &Processes::start()?)?.with_slopes()?;
         let before = before.filter(|gap| gap.dim() == surface.grid().shape()).map(T::field);
-        let surface = Arc::new(surface);
-        let scars_removed = origin.scars_removed;
-        let (posed, last, course, table) = (None, None, None, Vec::new());
-        Ok(Self {
-            scene,
-            surface,
-            formula,
-            original,
-            inputs,
-            units,
-            warnings,
-            scars_removed,
-            posed,
-            last,
-            before,
-            course,
-            table,
-        })
+        Ok(Self { session, surface, original, last: None, before, table: Vec::new() })
     }
 
-    /// The problem as it has solved nothing yet.
-    fn fresh(&self) -> asperity::Result<Posed<T>> {
-        self.scene.posed(self.surface.clone(), self.formula.clone().law(), None, self.original)
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        self.session.scene()
     }
 
-    /// The problem anew, with the slopes of its surface for the inputs.
-    fn anew(&mut self) -> Outcome<Posed<T>> {
-        let mut posed = self.fresh()?;
-        self.inputs.slopes = posed.slopes()?;
-        Ok(posed)
+    /// The gap of the last solution, or that of another problem.
+    pub fn gap(&self) -> Option<Array2<f64>> {
+        self.known().map(|gap| gap.mapv(T::widen))
+    }
+
+    fn known(&self) -> Option<&Array2<T>> {
+        self.last.as_ref().map(|last| &last.found.solution.gap).or(self.before.as_ref())
+    }
+
+    /// The pressure of which a reduced pressure is a part, if one is among `loads`.
+    pub fn full_pressure(&self, loads: &[Load]) -> Outcome<f64> {
+        self.session.full_pressure(loads)
     }
 
     /// The last solution.
     fn last(&self) -> Outcome<&Last<T>> {
         Ok(self.last.as_ref().ok_or("nothing is solved yet: solve first")?)
-    }
-
-    /// The account of what was found, with its warnings.
-    fn account(&self, command: &'static str, found: &Found<T>) -> Outcome<Account> {
-        let mut warnings = self.warnings.clone();
-        warnings
-            .extend(found.warnings(&self.warnings, self.scars_removed)?.iter().map(|warning| self.units.told(warning)));
-        Ok(found.account(command, &self.inputs, None, warnings)?)
     }
 
     /// The grid of the results.
@@ -170,12 +114,12 @@ impl<T: Scalar> State<T> {
     fn answer(&self, last: &Last<T>) -> Outcome<Value> {
         let (account, part) = (&last.account, last.found.part()?);
         let of = |field: &Array2<T>| extremes(field.iter().map(|value| value.widen()));
-        let pressure = if self.scene.adhesion.adheres() { &part.pressure } else { &part.contact_pressure };
+        let pressure = if self.session.scene().adhesion.adheres() { &part.pressure } else { &part.contact_pressure };
         let [tension, compression] = [-1.0, 1.0].map(|sign| {
             let values: Vec<f64> = pressure.iter().map(|value| sign * value.widen()).collect();
             LoadScale::of(&values, None).end
         });
-        let rows = rows(&[account], &self.units, Skin::Keywords);
+        let rows = rows(&[account], self.session.units(), Skin::Keywords);
         let rows: Vec<_> = rows.into_iter().map(|(name, texts)| (name, texts.concat())).collect();
         let mut ends = Map::from_iter([
             ("gap".to_owned(), json!(of(&part.gap))),
@@ -190,106 +134,68 @@ impl<T: Scalar> State<T> {
             "shortfalls": told,
             "shape": part.grid.shape(),
             "lengths": part.grid.lengths(),
-            "unit": self.units.length,
-            "pressure_unit": self.units.pressure,
+            "unit": self.session.units().length,
+            "pressure_unit": self.session.units().pressure,
             "extremes": ends,
             "limits": { "pressure": [-tension, compression] },
         }))
     }
-}
 
-impl<T: Scalar> Solves for State<T> {
-    fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
-    fn gap(&self) -> Option<Array2<f64>> {
-        let gap = self.last.as_ref().map(|last| &last.found.solution.gap).or(self.before.as_ref());
-        gap.map(|gap| gap.mapv(T::widen))
-    }
-
-    fn full_pressure(&self, loads: &[Load]) -> Result<f64, String> {
-        self.fresh().map_err(|error| error.to_string())?.full_pressure(loads)
-    }
-
-    fn solve(
+    /// Solves under a load, from the last solution where there is one that fits.
+    pub fn solve(
         &mut self,
         asked: &Asked,
         from_last: bool,
         quantities: Option<Value>,
         observe: Observe<'_>,
     ) -> Outcome<(Value, bool)> {
-        let shape = self.surface.grid().shape();
-        let known = self.last.as_ref().map(|last| &last.found.solution.gap).or(self.before.as_ref());
-        let started = known.is_some_and(|gap| from_last && gap.dim() == shape && asked.nested != Some(true));
-        asked.check(&self.scene.adhesion, self.scene.method, started).map_err(reason)?;
-        let known = self.last.take().map(|last| last.found.solution.gap).or(self.before.take());
-        let start = known.filter(|_| started);
-        // of the second of them nothing is of the first, and its nested grids need the surface
-        let mut posed = match self.posed.take() {
-            Some(posed) if started => posed,
-            _ => self.anew()?,
-        };
-        self.inputs.given = quantities;
-        self.inputs.initial_gap = started.then(|| START.to_owned());
-        if started && self.scene.adhesion.yields() {
-            let problem = posed.parts()?.1;
-            let flat = Array2::zeros(problem.grid().field_shape());
-            problem.flatten(flat.view())?;
+        let (shape, scene) = (self.surface.grid().shape(), self.session.scene());
+        let started = self.known().is_some_and(|gap| from_last && gap.dim() == shape && asked.nested != Some(true));
+        asked.check(&scene.adhesion, scene.method, started).map_err(reason)?;
+        let adheres = scene.adhesion.adheres();
+        let start = self.last.take().map(|last| last.found.solution.gap).or(self.before.take()).filter(|_| started);
+        if !started {
+            self.session.renew()?;
         }
-        let kept = start.clone().filter(|_| self.scene.adhesion.adheres());
-        let start = start.or_else(|| posed.start_afar(&[asked.control]).map(T::field));
-        let found = posed.solve(asked, start, &mut |grid, state, tolerance| {
+        let Inputs { given, initial_gap, .. } = &mut self.session.inputs;
+        (*given, *initial_gap) = (quantities, started.then(|| START.to_owned()));
+        let kept = start.clone().filter(|_| adheres);
+        let mut solved = self.session.solve(asked, start, &mut |grid, state, tolerance| {
             observe(grid.nodes(), state, tolerance);
             ControlFlow::Continue(())
-        });
-        self.posed = Some(posed);
-        let mut found = found?;
-        check_finite(&found.solution).map_err(reason)?;
-        let mut account = self.account("solve", &found)?;
-        found.sight.look_at(&mut account, &found.solution)?;
-        let last = Last { found, account, start: kept };
+        })?;
+        solved.look()?;
+        let last = Last { found: solved.found, account: solved.account, start: kept };
         let mut answer = self.answer(&last)?;
         answer["started"] = if started { "last" } else { "default" }.into();
         self.last = Some(last);
         Ok((answer, started))
     }
 
-    fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value> {
-        let mut posed = self.anew()?;
-        let loads: Vec<Control> = way.loads().to_vec();
-        let course = Course::new(way, After::default())?.with(&self.scene.adhesion);
-        let start = posed.start_afar(&loads).map(T::field);
-        course.check(&mut posed)?;
-        let columns = course.columns();
-        (self.inputs.given, self.inputs.initial_gap) = (quantities, None);
-        let control = loads.first().map_or("mean-pressure", |load| load.name());
-        let names = self.units.columns(&columns, control, self.surface.grid().is_line());
-        (self.posed, self.course, self.table) =
-            (Some(posed), Some(course.starting_from(start)), vec![csv::header(&names)]);
-        Ok(json!({ "columns": columns, "names": names, "warnings": self.warnings }))
+    /// Begins a way through loads.
+    pub fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value> {
+        let control = way.loads().first().map_or("mean-pressure", |load| load.name());
+        self.session.renew()?;
+        (self.session.inputs.given, self.session.inputs.initial_gap) = (quantities, None);
+        self.session.begin(way, After::default(), false, None, None)?;
+        let columns = self.session.columns();
+        let names = self.session.units().columns(&columns, control, self.surface.grid().is_line());
+        self.table = vec![csv::header(&names)];
+        Ok(json!({ "columns": columns, "names": names, "warnings": self.session.warnings.of_input() }))
     }
 
-    fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
-        if self.table.is_empty() {
-            return Err("there are no loads to follow: begin first".into());
-        }
-        // none at the end
-        let Some((mut course, mut posed)) = self.course.take().zip(self.posed.take()) else { return Ok(None) };
-        let (nodes, tolerance) = (self.surface.grid().nodes(), self.scene.tolerance());
-        let found = course.next(&mut posed, &mut |state| {
+    /// The next state; none at the end.
+    pub fn next(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
+        let (nodes, tolerance) = (self.surface.grid().nodes(), self.session.scene().tolerance());
+        let found = self.session.next(&mut |state| {
             observe(nodes, state, tolerance);
             ControlFlow::Continue(())
         })?;
-        self.posed = Some(posed);
-        let Some(mut found) = found else { return Ok(None) };
-        check_finite(&found.solution).map_err(reason)?;
-        let account = self.account(course.command(), &found)?;
-        let row = course.row(&mut found, account, None)?;
-        let cells = row.cells(&course.columns());
+        let Some((found, row)) = found else { return Ok(None) };
+        let cells = row.cells(&self.session.columns());
         self.table.push(csv::line(&cells));
         let told: Vec<_> = shortfalls(&row.account, Skin::Keywords).into_iter().map(|(_, text)| text).collect();
-        let pace = course.pace();
+        let pace = self.session.pace();
         let answer = json!({
             "row": cells,
             "warnings": row.account.warnings,
@@ -298,11 +204,11 @@ impl<T: Scalar> Solves for State<T> {
             "told": pace.map(|pace| pace.told()),
         });
         self.last = Some(Last { found, account: row.account, start: None });
-        self.course = Some(course);
         Ok(Some(answer))
     }
 
-    fn field(&self, name: &str) -> Outcome<Vec<f32>> {
+    /// A field of the last solution.
+    pub fn field(&self, name: &str) -> Outcome<Vec<f32>> {
         let part = self.last()?.found.part()?;
         let field = match name {
             "gap" => gap_to_write(&part).into_owned(),
@@ -317,7 +223,8 @@ impl<T: Scalar> Solves for State<T> {
         Ok(field.iter().map(|value| value.widen() as f32).collect())
     }
 
-    fn regions(&self) -> Outcome<Vec<u8>> {
+    /// The nodes of the last solution by their contact.
+    pub fn regions(&self) -> Outcome<Vec<u8>> {
         let solution = &self.last()?.found.solution;
         let regions = self.part(solution.regions())?;
         let depth = solution.plastic_depth.as_ref().map(|depth| self.part(depth.clone())).transpose()?;
@@ -332,7 +239,8 @@ impl<T: Scalar> Solves for State<T> {
         Ok(regions.iter().map(code).collect())
     }
 
-    fn histograms(&self, bins: usize) -> Outcome<Value> {
+    /// The histograms of gap and contact pressure.
+    pub fn histograms(&self, bins: usize) -> Outcome<Value> {
         let part = self.last()?.found.part()?;
         let positive = |field: &Array2<T>| {
             let values: Vec<f64> = field.iter().map(|value| value.widen()).filter(|value| *value > 0.0).collect();
@@ -341,7 +249,8 @@ impl<T: Scalar> Solves for State<T> {
         Ok(json!({ "gap": positive(&part.gap), "contact_pressure": positive(&part.contact_pressure) }))
     }
 
-    fn file(&self, name: &str) -> Outcome<Vec<u8>> {
+    /// The bytes of a file to take away.
+    pub fn file(&self, name: &str) -> Outcome<Vec<u8>> {
         match name {
             "report.json" => Ok(format!("{:#}\n", json!(self.last()?.account)).into_bytes()),
             "fields.npz" => {

@@ -9,7 +9,7 @@ pub(crate) mod way;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use asperity::contact::{ContactStatistics, Original};
 use asperity::solver::Iteration;
@@ -100,6 +100,7 @@ pub struct Session<T: Scalar> {
     /// The warnings so far.
     pub warnings: Warnings,
     scene: Scene,
+    surface: Weak<Surface>,
     body: Body<T>,
     law: Arc<dyn AdhesionLaw<T>>,
     strongest: Option<(usize, usize)>,
@@ -166,12 +167,14 @@ impl<T: Scalar> Session<T> {
         let warnings = processes.agree(warn())?;
         let constraint = scene.adhesion.constraint(hardness.as_ref().map(|hardness| hardness.view()))?;
         let solver = Solver { settings: scene.settings(), constraint };
-        let (body, scene, processes) = (Body::Surface(surface), scene.clone(), processes.clone());
+        let (scene, processes) = (scene.clone(), processes.clone());
+        let (surface, body) = (Arc::downgrade(&surface), Body::Surface(surface));
         let (seed, course, table, last) = (None, None, None, false);
         Ok(Self {
             inputs,
             warnings,
             scene,
+            surface,
             body,
             law,
             strongest,
@@ -196,7 +199,7 @@ impl<T: Scalar> Session<T> {
     /// [`Error::Unsuited`] after the first solve.
     pub fn with_slopes(mut self) -> Result<Self> {
         if is_whole(&self.grid) {
-            self.inputs.slopes = Slopes::of(self.surface()?, self.scene.elastic.boundary);
+            self.inputs.slopes = Slopes::of(&*self.surface()?, self.scene.elastic.boundary);
         }
         Ok(self)
     }
@@ -207,14 +210,14 @@ impl<T: Scalar> Session<T> {
         Self { last: true, ..self }
     }
 
-    /// Poses the problem anew on its surface, as one that has solved nothing yet.
+    /// Poses the problem anew on its surface, which something else holds, as one that has solved nothing yet.
     ///
     /// # Errors
-    /// Those of [`Session::new`].
-    pub fn renew(&mut self, surface: Arc<Surface>) -> Result<()> {
+    /// [`Error::Unsuited`] where nothing does.
+    pub fn renew(&mut self) -> Result<()> {
         let hardness = self.hardness.as_ref().map(|hardness| hardness.view());
         self.solver.constraint = self.scene.adhesion.constraint(hardness)?;
-        (self.body, self.course, self.table) = (Body::Surface(surface), None, None);
+        (self.body, self.course, self.table) = (Body::Surface(self.surface()?), None, None);
         Ok(())
     }
 
@@ -310,7 +313,7 @@ impl<T: Scalar> Session<T> {
             return Err(Error::Value { name, value, requirement }.into());
         }
         let afar = if start.is_none() { self.start_afar(loads) } else { None };
-        let touch = if is_interface { Some(touch(self.surface()?)) } else { None };
+        let touch = if is_interface { Some(touch(&*self.surface()?)) } else { None };
         let mut course = Course::new(way, after)?.of(&self.scene.adhesion, touch);
         course.expect(self)?;
         let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;
@@ -340,7 +343,8 @@ impl<T: Scalar> Session<T> {
     /// The identity of the problem with the fields of a table, of which the first of several processes knows it, from a
     /// start that is given.
     fn identity(&self, file: &TableFile, start: Option<&Array2<f64>>) -> Outcome<Identity> {
-        let (start, surface) = (start.map(|start| self.grid.whole(start)), self.surface()?.whole());
+        let surface = self.surface()?;
+        let (start, surface) = (start.map(|start| self.grid.whole(start)), surface.whole());
         if !self.processes.is_first() {
             return Ok(Identity::new());
         }

@@ -61,12 +61,12 @@ impl<T: Scalar> Session<T> {
         goal.map_or(Ok(settings.tolerance_in::<T>()), |goal| goal.wanted(false).tolerance(&settings))
     }
 
-    /// The surface, before the first solve.
+    /// The surface: before the first solve, and as long as something else holds it.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] after it.
-    pub(super) fn surface(&self) -> Result<&Arc<Surface>> {
-        if let Body::Surface(surface) = &self.body { Ok(surface) } else { Err(spent()) }
+    /// [`Error::Unsuited`] after that.
+    pub(super) fn surface(&self) -> Result<Arc<Surface>> {
+        self.surface.upgrade().ok_or_else(spent)
     }
 
     /// Whether the surfaces attract each other.
@@ -91,14 +91,17 @@ impl<T: Scalar> Session<T> {
         let check = |load: &Load| load.check(elastic.boundary, self.original.is_some());
         self.worded(loads.iter().try_for_each(check))?;
         let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
-        if reduced { self.worded(elastic.full_pressure(self.surface()?)) } else { Ok(1.0) }
+        if reduced { self.worded(elastic.full_pressure(&*self.surface()?)) } else { Ok(1.0) }
     }
 
     /// The gap from which solves under `loads` begin, before the first of them, if it is not the default; see
     /// [`Boundary::start_afar`](crate::Boundary::start_afar). On the branch of unloading it is.
     pub(super) fn start_afar(&self, loads: &[Control]) -> Option<Array2<f64>> {
         let comes = self.solver.settings.branch != Some(Branch::Unloading);
-        self.surface().ok().filter(|_| comes).and_then(|surface| self.scene.elastic.boundary.start_afar(surface, loads))
+        self.surface()
+            .ok()
+            .filter(|_| comes)
+            .and_then(|surface| self.scene.elastic.boundary.start_afar(&surface, loads))
     }
 
     /// The gap of undeformed bodies under a load that says how far they are, before the first solve.
@@ -106,7 +109,7 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// Those of [`Boundary::apart`](crate::Boundary::apart).
     pub fn apart(&self, load: Control) -> Outcome<Array2<f64>> {
-        self.worded(self.scene.elastic.boundary.apart(self.surface()?, load))
+        self.worded(self.scene.elastic.boundary.apart(&*self.surface()?, load))
     }
 
     /// The plan of a solve to an accuracy, and the seconds that it is likely to take, by those of an operator
@@ -117,7 +120,7 @@ impl<T: Scalar> Session<T> {
     pub fn plan(&self, control: Control, goal: Goal) -> Result<(Plan, f64)> {
         let surface = self.surface()?;
         let mut operator = self.scene.elastic.operator::<T>(*surface.grid())?;
-        let plan = goal.wanted(false).plan(&self.solver, surface, &mut operator, &self.law, control)?;
+        let plan = goal.wanted(false).plan(&self.solver, &surface, &mut operator, &self.law, control)?;
         Ok((plan, plan.applications * seconds_of(&mut operator)?))
     }
 
@@ -202,7 +205,7 @@ impl<T: Scalar> Session<T> {
         if goal.is_some() || start.is_none() && self.law.hints().of_grid {
             let tolerance = self.solver.settings.tolerance_in::<T>();
             let wanted = goal.map_or(Accuracy::new(f64::INFINITY, Quantity::Area), |goal| goal.wanted(false));
-            let surface = Arc::clone(self.surface()?);
+            let surface = self.surface()?;
             let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
             let elastic = |grid| self.scene.elastic.operator(grid);
             let law = Arc::clone(&self.law);

@@ -24,7 +24,7 @@ const MOST_DEPARTURES: usize = 10;
 
 impl<T: Scalar> Session<T> {
     pub(super) fn by_accuracy(&mut self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
-        let (clock, surface) = (Instant::now(), Arc::clone(self.surface()?));
+        let (clock, surface) = (Instant::now(), self.surface()?);
         let (wanted, tolerance) = (goal.wanted(asked.after.stiffness), self.tolerance(Some(goal))?);
         let elastic = |grid| self.scene.elastic.operator(grid);
         let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
