@@ -19,8 +19,9 @@ use crate::outcome::Outcome;
 use crate::output::{at_destination, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
-use crate::printing::{Printing, name, on_terminal};
+use crate::printing::{Printing, in_options, name, on_terminal};
 use crate::progress::Progress;
+use crate::report;
 use crate::scene::{self, SceneFile};
 use crate::solve;
 use crate::summary::{table, warn};
@@ -99,16 +100,17 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let law = Jkr::new(WORK_OF_ADHESION)?;
     let part = Part::all(grid);
     let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
-        let tolerance = options.problem().scene().tolerance();
+        let problem = options.problem()?;
+        let tolerance = problem.scene.tolerance();
         let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
-        let asked = options.asked(1.0);
-        let mut posed = options.problem().scene().posed::<f64>(surface, law, None, part.wanted())?;
+        let asked = in_options(problem.given.load().and_then(|load| problem.given.asked(load, 1.0)))?;
+        let mut posed = problem.scene.posed::<f64>(surface, law, None, part.wanted())?;
         let slopes = posed.slopes()?;
         let mut found = posed.solve_last(&asked, None, &mut |grid, state, tolerance| {
             progress.update_on(grid, state, tolerance);
             ControlFlow::Continue(())
         })?;
-        let inputs = Inputs { slopes, ..options.inputs(&part, &units, scene) };
+        let inputs = Inputs { slopes, ..report::inputs(&problem, &part, &units, scene) };
         let mut account = found.account("solve", &inputs, None, Vec::new())?;
         found.sight.look_at(&mut account, &found.solution)?;
         Ok((found.solution, account))

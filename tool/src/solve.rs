@@ -11,18 +11,17 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::Status;
-use asperity_scene::{Asked, Inputs, Load, Precision, Slopes, gap_to_write, write_fields};
+use asperity_scene::{
+    AccuracyKeys, AdhesionKeys, Asked, ConductorKeys, FindingsKeys, Inputs, Load, LoadKeys, NestedKeys,
+    PercolationKeys, Precision, Slopes, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
+};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
 use self::beside::{BESIDE, Beside};
-use crate::accuracy::AccuracyOptions;
-use crate::adhesion::AdhesionOptions;
-use crate::after::ConductorOptions;
 use crate::allowed::bins;
-use crate::boundary::{LOAD, LoadOptions};
 use crate::fields::check_finite;
-use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, commit, output_folder};
 use crate::part::Part;
@@ -30,9 +29,10 @@ use crate::pictures::{MapColours, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, in_options, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
+use crate::report;
 use crate::scene::{self, SceneFile};
 use crate::summary::{table, warn};
-use crate::units::{UnitOptions, Units};
+use crate::units::Units;
 use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under one load.
@@ -45,26 +45,20 @@ use crate::warnings::{Strictness, Warnings};
 /// fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are
 /// none). Probable mistakes, as a tilt, are warnings, on a line each and in the report; --strict takes them for errors.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceOptions,
-
+    surface: SurfaceKeys,
     #[command(flatten)]
-    load: LoadOptions,
-
+    load: LoadKeys,
     #[command(flatten)]
-    adhesion: AdhesionOptions,
+    adhesion: AdhesionKeys,
     #[command(flatten)]
-    solver: SolverOptions,
-    /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
-    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap", overrides_with = "no_nested")]
-    nested: bool,
-    /// Solve on the grid of the heights alone
-    #[arg(long, help_heading = "Solver", overrides_with = "nested")]
-    no_nested: bool,
+    solver: SolverKeys,
     #[command(flatten)]
-    accuracy: AccuracyOptions,
+    nested: NestedKeys,
+    #[command(flatten)]
+    accuracy: AccuracyKeys,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -72,21 +66,12 @@ pub struct Options {
     /// Replace results that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
-    /// Find out whether the solution is stable, and write its softest mode to mode.npy
-    #[arg(long, help_heading = "Output", conflicts_with = "nested")]
-    stability: bool,
-    /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies
-    /// --stability
-    #[arg(long, help_heading = "Output", conflicts_with = "nested")]
-    leave: bool,
-    /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
-    #[arg(long, help_heading = "Output")]
-    stiffness: bool,
     #[command(flatten)]
-    conductors: ConductorOptions,
-    /// Find out whether the gap is open along x and along y, and where the widest passage is narrowest
-    #[arg(long, help_heading = "Output")]
-    percolation: bool,
+    findings: FindingsKeys,
+    #[command(flatten)]
+    conductors: ConductorKeys,
+    #[command(flatten)]
+    percolation: PercolationKeys,
     /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
     /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
     /// that of the other
@@ -123,7 +108,7 @@ pub struct Options {
     #[command(flatten)]
     colours: MapColours,
     #[command(flatten)]
-    units: UnitOptions,
+    units: UnitKeys,
 }
 
 const EXAMPLES: &str = "\
@@ -181,15 +166,14 @@ const PICTURES: [[&str; 2]; 3] =
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let problem = options.problem();
-    options.check_shared(processes)?;
-    problem.adhesion.check()?;
-    options.check_asked(processes)?;
-    in_options(options.load.load().check(problem.surface.beyond.boundary, false))?;
+    let problem = &options.problem()?;
+    let load = in_options(problem.given.load())?;
+    options.check_asked(problem, load, processes)?;
+    problem.check_loads(&[load])?;
     options.colours.check()?;
     let pictures = options.picture_format.of(PICTURES);
     let pictures = pictures.into_iter().filter(|_| !options.no_pictures);
-    let arrays = FIELDS.into_iter().chain(options.beside()).filter(|_| options.writes(Format::Npy));
+    let arrays = FIELDS.into_iter().chain(options.beside(&problem.scene)).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
     let distribution = options.distribution.map(|_| DISTRIBUTION);
@@ -203,13 +187,12 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     })?;
     let si = scene.is_si();
     let given = problem.read(si, processes)?;
-    let units = processes.agree(options.units.units(given.origin.unit.as_deref(), si))?;
-    let reduced = matches!(options.load.load(), Load::Reduced(_));
-    let full = options.surface.full_pressure(&given.surface, reduced)?;
-    let (asked, part) = (options.asked(full), given.part);
+    let units = processes.agree(in_options(problem.given.units(given.origin.unit.as_deref(), si)))?;
+    let full = problem.full_pressure(&given.surface, &[load])?;
+    let (asked, part) = (in_options(problem.given.asked(load, full))?, given.part);
     part.check(asked.control)?;
-    let job = Job { options, scene, processes, names, asked, units, part };
-    match options.solver.precision {
+    let job = Job { options, problem, scene, processes, names, asked, units, part };
+    match problem.scene.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
     }
@@ -221,14 +204,19 @@ impl Options {
     }
 
     /// The problem.
-    pub fn problem(&self) -> ProblemOptions<'_> {
-        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
+    pub fn problem(&self) -> Outcome<ProblemOptions> {
+        let Self {
+            surface, load, adhesion, solver, nested, accuracy, findings, conductors, percolation, units, ..
+        } = self;
+        let problem = [&surface.0, &load.0, &adhesion.0, &solver.0, &nested.0, &accuracy.0];
+        ProblemOptions::of(problem.into_iter().chain([&findings.0, &conductors.0, &percolation.0, &units.0]))
     }
 }
 
 /// A solve with all that was chosen for it.
 struct Job<'a> {
     options: &'a Options,
+    problem: &'a ProblemOptions,
     scene: &'a SceneFile,
     processes: &'a Processes,
     names: Vec<&'static str>,
@@ -238,7 +226,7 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn run<T: Scalar>(mut self, Given { surface, adhesion, origin, start, .. }: Given) -> Outcome<bool> {
+    fn run<T: Scalar>(mut self, Problem { surface, adhesion, origin, start, .. }: Problem) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
         let (mut grid, processes) = (*surface.grid(), self.processes);
         let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
@@ -249,19 +237,15 @@ impl Job<'_> {
         let strictness = self.options.strictness;
         let mut warnings = processes.agree(if fits {
             let given = (&*surface.whole(), &origin);
-            Warnings::of_input::<T>(strictness, given, &adhesion, self.options.problem(), &self.units)
+            Warnings::of_input::<T>(strictness, given, &adhesion, &self.problem.scene.elastic, &self.units)
         } else {
             Warnings::none(strictness, &self.units)
         })?;
         warnings.say()?;
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
-        let mut posed = self.options.problem().scene().posed::<T>(
-            surface,
-            adhesion.law(),
-            adhesion.hardness(),
-            self.part.wanted(),
-        )?;
+        let mut posed =
+            self.problem.scene.posed::<T>(surface, adhesion.law(), adhesion.hardness(), self.part.wanted())?;
         let slopes = if fits { posed.slopes()? } else { Slopes::default() };
         let tolerance = posed.tolerance(self.asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
@@ -283,11 +267,11 @@ impl Job<'_> {
         let whole = fits.then(|| found.solution.whole());
         let look = |whole: &Cow<'_, _>| warnings.look_at(whole, &self.part);
         processes.agree(whole.as_ref().map_or(Ok(()), look))?;
-        let inputs = Inputs { slopes, ..self.options.inputs(&self.part, &self.units, self.scene) };
+        let inputs = Inputs { slopes, ..report::inputs(self.problem, &self.part, &self.units, self.scene) };
         let mut account = found.account("solve", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
         found.sight.look_at(&mut account, &found.solution)?;
         let surface = kept.map(|kept| refined.unwrap_or(kept));
-        let mut beside = self.options.fields_beside(&found, surface.as_deref())?;
+        let mut beside = self.options.fields_beside(&found, &self.problem.scene.elastic, surface.as_deref())?;
         let solution = &found.solution;
 
         let folder = processes.is_first().then(|| output_folder(out, &FILES, *force)).transpose();

@@ -6,16 +6,16 @@ use std::sync::Arc;
 
 use asperity::{Control, Status};
 use asperity_scene::interface::touch;
-use asperity_scene::{Account, After, Asked, Course, Fields, Format, Inputs, Opening, Posed, Precision, Row, Way};
+use asperity_scene::{
+    Account, After, Asked, Boundary, Course, Fields, Format, Inputs, Load, Opening, Posed, Precision, Row, Way,
+};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::after;
-use crate::boundary::{LoadsOptions, check_load};
 use crate::fields::check_finite;
 use crate::interruption;
 use crate::numbers::percent;
-use crate::options::{Given, ProblemOptions, Scalar};
+use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::part::Part;
@@ -26,7 +26,7 @@ use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::{self, SceneFile};
 use crate::study;
-use crate::units::{UnitOptions, Units};
+use crate::units::Units;
 use crate::warnings::{self, Strictness, Warnings};
 
 /// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
@@ -47,15 +47,11 @@ pub struct Manner {
 /// The options of a table.
 #[derive(Clone, Copy)]
 pub struct TableOptions<'a> {
-    pub problem: ProblemOptions<'a>,
-    pub loads: &'a LoadsOptions,
-    /// The kind of the loads
-    pub control: Control,
+    pub problem: &'a ProblemOptions,
     pub out: &'a Path,
     pub format: Format,
     /// The folder for the fields of the rows
     pub fields: Option<&'a Path>,
-    pub units: &'a UnitOptions,
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
     pub manner: &'a Manner,
@@ -68,7 +64,7 @@ pub struct TableOptions<'a> {
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
 pub trait Fill {
     /// The way through the loads.
-    fn way<T: Scalar>(&self, loads: Vec<Control>) -> Outcome<Way>;
+    fn way<T: Scalar>(&self, loads: &[Load], full: f64) -> Outcome<Way>;
 
     /// Fills the table.
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool>;
@@ -77,6 +73,8 @@ pub trait Fill {
 /// A table on disk, new or continued, with the course of its rows, and the warnings of its run.
 pub struct Table<'a, T: Scalar> {
     options: TableOptions<'a>,
+    /// The kind of the loads
+    control: Control,
     pub units: Units,
     part: Part,
     inputs: Inputs,
@@ -90,38 +88,36 @@ pub struct Table<'a, T: Scalar> {
 impl<'a> TableOptions<'a> {
     /// Reads the files of the problem, opens the table, and fills it.
     pub fn fill(self, by: &impl Fill) -> Outcome<bool> {
-        let ProblemOptions { surface, solver, .. } = self.problem;
-        solver.check_table()?;
-        check_load(surface.beyond.boundary, self.loads.control(0.0))?;
-        after::check(&self.after, self.problem, self.processes)?;
-        let given = self.problem.read(self.scene.is_si(), self.processes)?;
-        match solver.precision {
-            Precision::F32 => by.fill(&mut self.open::<f32>(given, by)?),
-            Precision::F64 => by.fill(&mut self.open::<f64>(given, by)?),
+        let problem = self.problem;
+        problem.check_table()?;
+        let loads = in_options(problem.given.loads())?;
+        problem.check_loads(&loads)?;
+        problem.check_after(&self.after, self.processes)?;
+        let given = problem.read(self.scene.is_si(), self.processes)?;
+        match problem.scene.precision {
+            Precision::F32 => by.fill(&mut self.open::<f32>(given, &loads, by)?),
+            Precision::F64 => by.fill(&mut self.open::<f64>(given, &loads, by)?),
         }
     }
 
     /// Opens the table, writes the scene of the run beside it, and says the warnings so far.
-    fn open<T: Scalar>(self, given: Given, by: &impl Fill) -> Outcome<Table<'a, T>> {
-        let Given { surface, adhesion, origin, part, start } = given;
-        let Self { problem, loads, out, scene, processes, manner, .. } = self;
+    fn open<T: Scalar>(self, given: Problem, loads: &[Load], by: &impl Fill) -> Outcome<Table<'a, T>> {
+        let Problem { surface, adhesion, origin, part, start } = given;
+        let Self { problem, out, scene, processes, manner, .. } = self;
         let &Manner { force, strictness, printing } = manner;
-        let listed = loads.values(problem.surface.full_pressure(&surface, loads.are_reduced())?);
-        part.check(self.control)?;
-        let controls = loads.controls(&listed);
-        let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
+        let full = problem.full_pressure(&surface, loads)?;
+        let way = by.way::<T>(loads, full)?;
+        let control = way.control(&problem.scene);
+        part.check(control)?;
+        let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
         let inputs = report::inputs(problem, &part, &units, scene);
-        in_options(Asked { after: self.after, ..Asked::under(self.control) }.check(
-            &inputs.adhesion,
-            inputs.method,
-            false,
-        ))?;
-        let course = Course::new(by.way::<T>(controls.clone())?, self.after)?.with(&inputs.adhesion);
+        in_options(Asked { after: self.after, ..Asked::under(control) }.check(&inputs.adhesion, inputs.method, false))?;
+        let course = Course::new(way.clone(), self.after)?.with(&inputs.adhesion);
         let mut course = if self.interface { course.of_interface(touch(&surface)) } else { course };
         let surface = Arc::new(surface);
         let mut posed =
-            problem.scene().posed::<T>(surface.clone(), adhesion.law(), adhesion.hardness(), part.wanted())?;
-        let afar = if start.is_none() { posed.start_afar(&controls) } else { None };
+            problem.scene.posed::<T>(surface.clone(), adhesion.law(), adhesion.hardness(), part.wanted())?;
+        let afar = if start.is_none() { posed.start_afar(way.loads()) } else { None };
         if !printing.is_quiet() {
             course.expect(&posed)?;
         }
@@ -138,7 +134,7 @@ impl<'a> TableOptions<'a> {
         let opening = Opening {
             out: out.to_owned(),
             format: self.format,
-            header: units.columns(&course.columns(), self.control.name(), grid.is_line()),
+            header: units.columns(&course.columns(), control.name(), grid.is_line()),
             fields: self.fields.map(Path::to_owned),
             force,
             // a study has the lock of its case: a former run of that is about to end
@@ -147,11 +143,12 @@ impl<'a> TableOptions<'a> {
             nodes,
         };
         let (first, whole) = (start.as_ref().map(|start| grid.whole(start)), surface.whole());
-        let warnings = Warnings::of_input::<T>(strictness, (&whole, &origin), &adhesion, problem, &units);
+        let warnings =
+            Warnings::of_input::<T>(strictness, (&whole, &origin), &adhesion, &problem.scene.elastic, &units);
         let mut warnings = processes.agree(warnings)?;
         let mut opened = None;
         processes.first(|| {
-            check_apart(out, problem.files().chain(problem.solver.initial_gap.as_deref()))?;
+            check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
             scene.check_beside(out, force || out.exists())?;
             warnings::check_beside(out, force || out.exists())?;
             let fields = Fields {
@@ -178,7 +175,8 @@ impl<'a> TableOptions<'a> {
             let of = rows.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
             printing.say(&format!("{} has {count}{of} rows already", name(out)));
         }
-        let table = Table { options: self, units, part, inputs, seed: origin.seed, posed, course, rows, warnings };
+        let table =
+            Table { options: self, control, units, part, inputs, seed: origin.seed, posed, course, rows, warnings };
         table.stands();
         Ok(table)
     }
@@ -192,6 +190,21 @@ impl<T: Scalar> Table<'_, T> {
         let command = if manner.force { "the same command without --force" } else { "the same command" };
         let (rows, out) = (self.rows(), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} goes on from there"));
+    }
+
+    /// Whether the surfaces attract each other.
+    pub fn adheres(&self) -> bool {
+        self.options.problem.scene.adhesion.adheres()
+    }
+
+    /// Whether the boundary is free.
+    pub fn is_free(&self) -> bool {
+        self.options.problem.scene.elastic.boundary == Boundary::Free
+    }
+
+    /// Whether loads are searched for.
+    pub fn searches(&self) -> bool {
+        matches!(self.options.problem.given.loads().as_deref(), Ok([Load::Fraction(_), ..]))
     }
 
     /// The number of rows.
@@ -229,7 +242,7 @@ impl<T: Scalar> Table<'_, T> {
             return Ok(None);
         }
         let name = format!("{}{}", self.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
-        let (tolerance, grid) = (problem.scene().tolerance(), *self.posed.parts()?.1.grid());
+        let (tolerance, grid) = (problem.scene.tolerance(), *self.posed.parts()?.1.grid());
         let mut progress = Progress::new(&name, tolerance, grid.nodes(), manner.printing.without_bars());
         progress.follow(self.course.pace().copied());
         let found = self.course.next(&mut self.posed, &mut |state| {
@@ -282,13 +295,13 @@ impl<T: Scalar> Table<'_, T> {
 
     /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
     pub fn report(&self, found: Value) -> Value {
-        let TableOptions { control, out, loads, .. } = self.options;
+        let (control, TableOptions { out, problem, .. }) = (self.control, self.options);
         let mut outcome = Map::from_iter([
             ("control".to_owned(), control.name().into()),
             ("rows".to_owned(), self.rows().into()),
             ("unconverged".to_owned(), self.rows.unconverged().into()),
             ("out".to_owned(), out.to_string_lossy().into()),
-            ("spring_stiffness".to_owned(), loads.spring_stiffness().into()),
+            ("spring_stiffness".to_owned(), problem.given.spring_stiffness().into()),
         ]);
         outcome.extend(found.as_object().cloned().unwrap_or_default());
         outcome.insert("warnings".to_owned(), json!(self.warnings.found()));
@@ -299,7 +312,7 @@ impl<T: Scalar> Table<'_, T> {
     pub fn converged(&self, remedy: &str) -> bool {
         let (count, rows, path) = (self.rows.unconverged(), self.rows(), self.options.out.display());
         if count > 0 {
-            let precise = match self.options.problem.solver.precision {
+            let precise = match self.options.problem.scene.precision {
                 Precision::F32 => "use --precision f64, as f32 ends where its rounding does, ",
                 Precision::F64 => "",
             };

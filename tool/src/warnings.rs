@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use asperity::{Error, Solution, Surface};
-use asperity_scene::{Told, warnings_of, warnings_of_input};
+use asperity_scene::{Elastic, Told, warnings_of, warnings_of_input};
 use clap::Args;
 
 use crate::adhesion::Adhesion;
 use crate::heights::Origin;
-use crate::options::{ProblemOptions, Scalar};
+use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_free, with_suffix, write_text};
 use crate::part::Part;
@@ -81,12 +81,12 @@ impl Warnings {
         strictness: Strictness,
         (surface, origin): (&Surface, &Origin),
         adhesion: &Adhesion,
-        options: ProblemOptions<'_>,
+        elastic: &Elastic,
         units: &Units,
     ) -> Outcome<Self> {
         let (law, surface) = (adhesion.law::<T>(), (surface, origin.converted_from.as_deref()));
         let mut warnings = Self { scars_removed: origin.scars_removed, ..Self::empty(strictness, units) };
-        warnings.add(warnings_of_input(surface, &options.surface.elastic(), &*law, units))?;
+        warnings.add(warnings_of_input(surface, elastic, &*law, units))?;
         Ok(warnings)
     }
 

@@ -2,13 +2,56 @@
 
 use asperity_maps::warning::Warning;
 
+use crate::key::allowed::unit;
+use crate::key::given::Given;
 use crate::key::quantity::{
     AREA, CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH,
     PER_LENGTH, PER_PRESSURE, PRESSURE, PRESSURE_PER_LENGTH, RESISTIVITY, THERMAL_CONDUCTANCE, TRANSMISSIVITY,
     VISCOSITY,
 };
 use crate::key::told::Told;
+use crate::key::{Kind, keys};
 use crate::numbers::{plain, si};
+
+keys! {
+    /// The units of numbers that are given without them.
+    UnitKeys {
+        "Output" {
+            /// Unit of lengths that are given without one, for tables and pictures; m gets prefixes
+            length_unit: Kind::text(is_unit, &["UNIT"]),
+            /// Unit of pressures that are given without one, for tables and pictures; Pa gets prefixes
+            pressure_unit: Kind::text(is_unit, &["UNIT"]),
+            /// Unit of forces, for tables and pictures; N gets prefixes [default: that of pressure times length squared]
+            force_unit: Kind::text(is_unit, &["UNIT"]),
+        }
+    }
+}
+
+/// Whether a text may be a unit.
+pub(crate) fn is_unit(text: &str) -> Result<(), String> {
+    unit(text).map(drop)
+}
+
+impl Given {
+    /// The units of numbers beside a file with a unit of length, or none; `si` says that they were given with units.
+    ///
+    /// # Errors
+    /// A unit beside one that is known, and the remedy, for [`worded`](crate::worded).
+    pub fn units(&self, file: Option<&str>, si: bool) -> Result<Units, String> {
+        let chosen = |key: &str, known: Option<&str>| match (self.word(key), known) {
+            (Some(unit), Some(known)) if unit != known => {
+                Err(format!("{{{key}}} is {unit}, but that unit is {known} already: leave it out"))
+            }
+            (unit, known) => Ok(unit.or(known).map(str::to_owned)),
+        };
+        let of_si = |dimension: Dimension| si.then_some(dimension.si);
+        Ok(Units {
+            length: chosen("length_unit", of_si(LENGTH).or(file))?,
+            pressure: chosen("pressure_unit", of_si(PRESSURE))?,
+            force: chosen("force_unit", of_si(FORCE))?,
+        })
+    }
+}
 
 /// The units of lengths, pressures and forces, from which the others follow.
 #[derive(Clone, Debug, Default, PartialEq)]
