@@ -36,8 +36,8 @@ use std::ops::RangeInclusive;
 
 pub(crate) use self::macros::{choice, keys};
 use crate::key::allowed::{Range, THREADS};
-use crate::key::given::Value;
-use crate::key::list::parsed;
+use crate::key::given::Read;
+use crate::key::list::{Loads, parsed};
 use crate::key::quantity::{Dimension, Quantity};
 
 /// A key of a scene.
@@ -248,7 +248,7 @@ impl Key {
     ///
     /// # Errors
     /// What it must be.
-    pub fn value(&self, text: &str) -> Result<Value, String> {
+    pub fn value(&self, text: &str) -> Result<Read, String> {
         self.parsed(text, |range| range)
     }
 
@@ -257,23 +257,22 @@ impl Key {
     ///
     /// # Errors
     /// What it must be.
-    pub fn any_value(&self, text: &str) -> Result<Value, String> {
+    pub fn any_value(&self, text: &str) -> Result<Read, String> {
         self.parsed(text, |_| Range::FINITE)
     }
 
-    fn parsed(&self, text: &str, range: fn(Range) -> Range) -> Result<Value, String> {
+    fn parsed(&self, text: &str, range: fn(Range) -> Range) -> Result<Read, String> {
+        let list = |loads: Loads| Read { value: loads.values.into(), numbers: loads.given };
         Ok(match self.kind.values {
-            Values::Quantity(dimension, of) => Value::Number(dimension.within(range(of))(text)?),
-            Values::Number(of) => Value::Number(Quantity::number(range(of).number(text)?)),
-            Values::Whole(from, to, words) => Value::Whole(whole(text, from..=to, words)?),
-            Values::Switch => Value::Switch(text == "true"),
-            Values::Word(words) => Value::Text(self.word(words, text)?),
-            Values::Text(check) => check(text).map(|()| Value::Text(text.to_owned()))?,
-            Values::File => Value::Text(text.to_owned()),
-            Values::Quantities(dimension, of) => Value::Loads(parsed(text, &dimension.within(range(of)))?),
-            Values::Numbers(of) => {
-                Value::Loads(parsed(text, &|text: &str| range(of).number(text).map(Quantity::number))?)
-            }
+            Values::Quantity(dimension, of) => Read::number(dimension.within(range(of))(text)?),
+            Values::Number(of) => Read::number(Quantity::number(range(of).number(text)?)),
+            Values::Whole(from, to, words) => Read::of(whole(text, from..=to, words)?),
+            Values::Switch => Read::of(text == "true"),
+            Values::Word(words) => Read::of(self.word(words, text)?),
+            Values::Text(check) => check(text).map(|()| Read::of(text))?,
+            Values::File => Read::of(text),
+            Values::Quantities(dimension, of) => list(parsed(text, &dimension.within(range(of)))?),
+            Values::Numbers(of) => list(parsed(text, &|text| range(of).number(text).map(Quantity::number))?),
         })
     }
 

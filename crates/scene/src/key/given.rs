@@ -3,39 +3,41 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use serde::de::value::{Error, MapDeserializer, SeqDeserializer, StringDeserializer};
-use serde::de::{DeserializeOwned, Deserializer, IntoDeserializer, Visitor};
-use serde::forward_to_deserialize_any;
-use serde_json::Map;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
 
-use crate::key::list::Loads;
+use crate::key::Key;
 use crate::key::quantity::Quantity;
 use crate::key::synonyms::similar;
 use crate::key::words::{Skin, worded};
-use crate::key::{Key, Values};
 
-/// A value of a key.
+/// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// A number, in the SI if it was typed with a unit.
-    Number(Quantity),
-    /// A whole number.
-    Whole(u64),
-    /// A truth value.
-    Switch(bool),
-    /// A word, a text, or the name of a file.
-    Text(String),
-    /// A list of numbers.
-    Loads(Loads),
-    /// Several.
-    Several(Vec<Self>),
+pub struct Read {
+    /// The value as data, in the SI if it was typed with a unit.
+    pub value: Value,
+    /// Its numbers.
+    pub numbers: Vec<Quantity>,
+}
+
+impl Read {
+    /// A number.
+    pub(crate) fn number(number: Quantity) -> Self {
+        Self { value: json!(number.value), numbers: vec![number] }
+    }
+
+    /// A value that is no quantity.
+    pub(crate) fn of(value: impl Into<Value>) -> Self {
+        Self { value: value.into(), numbers: Vec::new() }
+    }
 }
 
 /// What was given for one key.
 #[derive(Clone, Debug)]
 struct Entry {
     key: &'static Key,
-    value: Value,
+    read: Read,
     typed: Vec<OsString>,
     /// Whether nobody typed it
     is_default: bool,
@@ -46,7 +48,7 @@ struct Entry {
 pub struct Given(Vec<Entry>);
 
 /// A value as keywords and forms have it.
-#[derive(Clone, Debug, PartialEq, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub enum Typed {
     /// A truth value.
@@ -72,25 +74,15 @@ impl Typed {
             Self::Several(all) => all.iter().map(Self::text).collect::<Vec<_>>().join(" "),
         }
     }
-
-    /// The value for a key, whose range is left to whoever takes it.
-    fn value(&self, key: &Key) -> Result<Value, String> {
-        match (self, key.kind.values) {
-            (Self::Switch(value), Values::Switch) => Ok(Value::Switch(*value)),
-            (Self::Number(number), Values::Quantity(..)) => Ok(Value::Number(Quantity::bare(*number))),
-            (Self::Number(number), Values::Number(_)) => Ok(Value::Number(Quantity::number(*number))),
-            (Self::Whole(number), Values::Quantity(..)) => Ok(Value::Number(Quantity::bare(*number as f64))),
-            (Self::Whole(number), Values::Number(_)) => Ok(Value::Number(Quantity::number(*number as f64))),
-            _ => key.any_value(&self.text()),
-        }
-    }
 }
 
 impl Given {
     /// What a map of keys and values gives for some of the `known` keys; a value that is empty or false gives nothing.
+    /// Whether a number lies in the range of its key is left to whoever takes it.
     ///
     /// # Errors
-    /// The key and the remedy, if it is not known, or a value is none for it.
+    /// The key and the remedy, if it is not known, a value is none for it, or it needs another one, for
+    /// [`worded`](crate::worded).
     pub fn read(known: &[&'static Key], typed: impl IntoIterator<Item = (String, Typed)>) -> Result<Self, String> {
         let mut given = Self::default();
         for (name, typed) in typed {
@@ -105,21 +97,46 @@ impl Given {
                 Typed::Switch(false) if key.name != "nested" => continue,
                 one => vec![one],
             };
-            let all: Vec<_> = all.into_iter().filter(|one| !one.text().is_empty()).collect();
-            let values =
-                all.iter().map(|one| one.value(key).map_err(|reason| format!("{name} is {}: {reason}", one.text())));
-            let values = values.collect::<Result<Vec<_>, _>>()?;
-            if !values.is_empty() {
-                given.insert(key, values, all.iter().map(|one| one.text().into()).collect(), false);
+            let texts: Vec<_> = all.iter().map(Typed::text).filter(|text| !text.is_empty()).collect();
+            let of = |text: &String| key.any_value(text).map_err(|reason| format!("{name} is {text}: {reason}"));
+            let read = texts.iter().map(of).collect::<Result<Vec<_>, _>>()?;
+            given.insert(key, read, texts.into_iter().map(Into::into).collect(), false);
+        }
+        for key in known.iter().filter(|key| key.kind.dimension().is_some()) {
+            let default = key.kind.default.filter(|_| given.get(key.name).is_none());
+            if let Some((text, read)) = default.and_then(|text| Some((text, key.value(text).ok()?))) {
+                given.insert(key, vec![read], vec![text.into()], true);
             }
+        }
+        let needs = |entry: &Entry| {
+            Some((
+                entry.key.name,
+                entry
+                    .key
+                    .kind
+                    .needs
+                    .iter()
+                    .find(|need| known.iter().any(|key| key.name == **need) && !given.has(need))?,
+            ))
+        };
+        if let Some((name, need)) = given.0.iter().find_map(needs) {
+            return Err(format!("{{{name}}} needs {{{need}}}: give both, or leave it out"));
         }
         Ok(given)
     }
 
     /// Adds what was given for a key.
-    pub(crate) fn insert(&mut self, key: &'static Key, mut values: Vec<Value>, typed: Vec<OsString>, is_default: bool) {
-        let last = if key.kind.is_several() { Some(Value::Several(values)) } else { values.pop() };
-        self.0.extend(last.map(|value| Entry { key, value, typed, is_default }));
+    pub(crate) fn insert(&mut self, key: &'static Key, mut read: Vec<Read>, typed: Vec<OsString>, is_default: bool) {
+        let read = match (key.kind.is_several(), read.len()) {
+            (_, 0) => return,
+            (false, _) => read.swap_remove(0),
+            (true, _) => {
+                let (values, numbers) =
+                    read.into_iter().map(|read| (read.value, read.numbers)).unzip::<_, _, Vec<_>, Vec<_>>();
+                Read { value: values.into(), numbers: numbers.concat() }
+            }
+        };
+        self.0.push(Entry { key, read, typed, is_default });
     }
 
     /// What was given for several lists of keys.
@@ -131,6 +148,11 @@ impl Given {
         self.0.iter().find(|entry| entry.key.name == name)
     }
 
+    /// The value of a key.
+    fn value(&self, name: &str) -> Option<&Value> {
+        self.get(name).map(|entry| &entry.read.value)
+    }
+
     /// Whether a key is given, and not by default.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.get(name).is_some_and(|entry| !entry.is_default)
@@ -140,19 +162,22 @@ impl Given {
     pub fn first(&self) -> Option<&'static str> {
         let usual = |entry: &Entry| {
             let default = entry.key.kind.default.and_then(|default| entry.key.value(default).ok());
-            default.is_some_and(|default| default == entry.value)
+            default.is_some_and(|default| default == entry.read)
         };
         self.0.iter().find(|entry| !usual(entry)).map(|entry| entry.key.name)
     }
 
     /// The numbers of a key.
     pub(crate) fn numbers(&self, name: &str) -> Option<Vec<f64>> {
-        Some(self.get(name)?.value.numbers())
+        Some(match self.value(name)? {
+            Value::Array(all) => all.iter().filter_map(Value::as_f64).collect(),
+            one => one.as_f64().into_iter().collect(),
+        })
     }
 
     /// The number of a key.
     pub(crate) fn number(&self, name: &str) -> Option<f64> {
-        self.numbers(name)?.first().copied()
+        self.value(name)?.as_f64()
     }
 
     /// The two numbers of a key.
@@ -162,17 +187,17 @@ impl Given {
 
     /// The word of a key.
     pub(crate) fn word(&self, name: &str) -> Option<&str> {
-        if let Value::Text(text) = &self.get(name)?.value { Some(text) } else { None }
-    }
-
-    /// Whether a switch is set to false, which says something else than leaving it out.
-    pub(crate) fn is_denied(&self, name: &str) -> bool {
-        self.get(name).is_some_and(|entry| entry.value == Value::Switch(false))
+        self.value(name)?.as_str()
     }
 
     /// Whether a switch is set.
     pub(crate) fn switch(&self, name: &str) -> bool {
-        self.get(name).is_some_and(|entry| entry.value == Value::Switch(true))
+        self.value(name) == Some(&Value::Bool(true))
+    }
+
+    /// Whether a switch is set to false, which says something else than leaving it out.
+    pub(crate) fn is_denied(&self, name: &str) -> bool {
+        self.value(name) == Some(&Value::Bool(false))
     }
 
     /// The file of a key.
@@ -194,52 +219,29 @@ impl Given {
     /// # Errors
     /// The value that is none for its key.
     pub fn object<T: DeserializeOwned>(&self) -> Result<T, String> {
-        let entries = self.0.iter().map(|entry| (entry.key.name, entry.value.clone()));
-        T::deserialize(MapDeserializer::<_, Error>::new(entries)).map_err(|error| error.to_string())
+        let entries: Map<_, _> =
+            self.0.iter().map(|entry| (entry.key.name.to_owned(), entry.read.value.clone())).collect();
+        serde_json::from_value(entries.into()).map_err(|error| error.to_string())
     }
 
     /// The quantities, for their units.
     pub fn quantities(&self) -> Quantities {
-        let of = |entry: &Entry| {
-            let quantities = entry.value.quantities();
-            let texts = entry.typed.iter().map(|text| text.to_string_lossy().trim().to_owned()).collect();
-            entry.key.kind.dimension().map(|_| Measured::of(entry.key.name, texts, &quantities, entry.is_default))
-        };
-        Quantities(self.0.iter().filter_map(of).collect())
+        let texts = |entry: &Entry| entry.typed.iter().map(|text| text.to_string_lossy().trim().to_owned()).collect();
+        let quantities = self.0.iter().filter(|entry| entry.key.kind.dimension().is_some());
+        let of = |entry: &Entry| Measured::of(entry.key.name, texts(entry), &entry.read.numbers, entry.is_default);
+        quantities.map(of).collect()
     }
 
     /// All that was typed, by its keys: texts, lists of texts, and `true`.
-    pub fn typed(&self) -> Map<String, serde_json::Value> {
-        let text = |text: &OsString| serde_json::Value::from(text.to_string_lossy());
-        let of = |entry: &Entry| match (&entry.value, &entry.typed[..]) {
-            (Value::Switch(value), _) => (*value).into(),
-            (Value::Several(_), all) => all.iter().map(text).collect(),
+    pub fn typed(&self) -> Map<String, Value> {
+        let text = |text: &OsString| Value::from(text.to_string_lossy());
+        let of = |entry: &Entry| match (&entry.read.value, &entry.typed[..]) {
+            (Value::Bool(value), _) => (*value).into(),
+            (_, all) if entry.key.kind.is_several() => all.iter().map(text).collect(),
             (_, all) => all.first().map(text).unwrap_or_default(),
         };
-        self.0.iter().map(|entry| (entry.key.name.to_owned(), of(entry))).collect()
-    }
-}
-
-impl Value {
-    /// The numbers of which it is made.
-    fn numbers(&self) -> Vec<f64> {
-        match self {
-            Self::Number(quantity) => vec![quantity.value],
-            Self::Whole(number) => vec![*number as f64],
-            Self::Loads(loads) => loads.values.clone(),
-            Self::Several(all) => all.iter().flat_map(Self::numbers).collect(),
-            Self::Switch(_) | Self::Text(_) => Vec::new(),
-        }
-    }
-
-    /// The quantities of which it is made, with units or without.
-    fn quantities(&self) -> Vec<Quantity> {
-        match self {
-            Self::Number(quantity) => vec![*quantity],
-            Self::Loads(loads) => loads.given.clone(),
-            Self::Several(all) => all.iter().flat_map(Self::quantities).collect(),
-            Self::Whole(_) | Self::Switch(_) | Self::Text(_) => Vec::new(),
-        }
+        let typed = self.0.iter().filter(|entry| !entry.is_default);
+        typed.map(|entry| (entry.key.name.to_owned(), of(entry))).collect()
     }
 }
 
@@ -287,68 +289,22 @@ impl Quantities {
         let with = self.0.iter().find(|given| given.has_unit);
         let without = self.0.iter().find(|given| given.is_bare);
         let (Some(with), Some(without)) = (with, without) else { return Ok(()) };
-        let (key, text) = (&without.key, without.texts.join(" "));
+        let told = |key: &str| worded(&format!("{{{key}}}"), skin);
+        let (key, other) = (told(&without.key), told(&with.key));
         let (by, remedy) = match without.is_default {
-            true => (" by default", format!("give {{{key}}} with a unit")),
+            true => (" by default", format!("give {key} with a unit")),
             false => ("", "give both units, or neither".to_owned()),
         };
-        let (other, has) = (&with.key, with.texts.join(" "));
-        let told = |text: &str| worded(text, skin);
-        let (key, other, remedy) = (told(&format!("{{{key}}}")), told(&format!("{{{other}}}")), told(&remedy));
+        let (text, has) = (without.texts.join(" "), with.texts.join(" "));
         Err(format!("{key} is {text}{by}, without a unit, but {other} {has} has one: {remedy}"))
     }
 
     /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
-    pub fn given(&self) -> Option<serde_json::Value> {
+    pub fn given(&self) -> Option<Value> {
         let entry = |given: &Measured| {
-            let texts = match &given.texts[..] {
-                [one] => one.as_str().into(),
-                all => serde_json::Value::from(all),
-            };
+            let texts = if let [one] = &given.texts[..] { json!(one) } else { json!(given.texts) };
             (given.key.clone(), texts)
         };
         self.is_si().then(|| self.0.iter().map(entry).collect::<Map<_, _>>().into())
-    }
-}
-
-impl<'de> IntoDeserializer<'de> for Value {
-    type Deserializer = Self;
-
-    fn into_deserializer(self) -> Self {
-        self
-    }
-}
-
-impl<'de> Deserializer<'de> for Value {
-    type Error = Error;
-
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        match self {
-            Self::Number(quantity) => visitor.visit_f64(quantity.value),
-            Self::Whole(number) => visitor.visit_u64(number),
-            Self::Switch(value) => visitor.visit_bool(value),
-            Self::Text(text) => visitor.visit_string(text),
-            Self::Loads(loads) => visitor.visit_seq(SeqDeserializer::new(loads.values.into_iter())),
-            Self::Several(all) => visitor.visit_seq(SeqDeserializer::new(all.into_iter())),
-        }
-    }
-
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        visitor.visit_some(self)
-    }
-
-    fn deserialize_enum<V: Visitor<'de>>(
-        self,
-        name: &'static str,
-        variants: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, Error> {
-        let text = if let Self::Text(text) = self { text } else { String::new() };
-        StringDeserializer::new(text).deserialize_enum(name, variants, visitor)
-    }
-
-    forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf unit unit_struct newtype_struct seq
-        tuple tuple_struct map struct identifier ignored_any
     }
 }

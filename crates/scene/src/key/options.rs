@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches};
 
-use crate::key::given::{Given, Value};
+use crate::key::given::{Given, Read};
 use crate::key::list::list;
 use crate::key::quantity::Quantity;
 use crate::key::words::{Skin, worded};
@@ -53,7 +53,7 @@ impl Key {
                 PossibleValuesParser::new(words().into_iter().map(value)).into()
             }
             Values::Text(check) => ValueParser::new(move |text: &str| check(text).map(|()| text.to_owned())),
-            Values::File => clap::value_parser!(PathBuf).into(),
+            Values::File => clap::value_parser!(PathBuf),
             Values::Quantities(dimension, range) => ValueParser::new(list(dimension.within(range))),
             Values::Numbers(range) => {
                 ValueParser::new(list(move |text: &str| range.number(text).map(Quantity::number)))
@@ -71,7 +71,7 @@ pub fn given(keys: &'static [Key], matches: &ArgMatches) -> Given {
         let is_default = source == ValueSource::DefaultValue;
         if let Values::Switch = key.kind.values {
             if matches.get_flag(id) {
-                given.insert(key, vec![Value::Switch(true)], Vec::new(), is_default);
+                given.insert(key, vec![Read::of(true)], Vec::new(), is_default);
             }
             continue;
         }
