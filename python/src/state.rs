@@ -222,9 +222,11 @@ impl<T: Scalar> Solves for State<T> {
             let beside = [".scene.toml", ".warnings.txt"].map(|suffix| with_suffix(&out, suffix)).to_vec();
             beside.iter().try_for_each(|file| check_free(file, force || out.exists(), "--out"))?;
             let header = self.units.columns(&names, control.name(), nodes.is_line());
-            let opening = Opening { out, format, header, fields, force, is_case: false, beside, nodes };
             let processes = Processes::start()?;
-            let (table, course) = Table::open(opening, Some(identity), course, start, &processes)?;
+            let (is_case, names, loads) = (false, Vec::new(), None);
+            let opening = Opening { out, format, names, header, identity, loads, fields, force, is_case, beside };
+            let start = start.map(|gap| gap.mapv_into_any(T::lit));
+            let (table, course) = course.open(opening, start, &nodes, &processes)?;
             let rows = table.read(&processes)?;
             Ok((course, table, processes, rows))
         };
@@ -252,7 +254,11 @@ impl<T: Scalar> Solves for State<T> {
             went_on && check_finite(&found.solution).is_ok()
         });
         if let Some((table, processes)) = &mut self.table {
-            let append = |(found, row): &(_, _)| table.append(&course, found, row, processes);
+            let posed = &mut self.posed;
+            let append = |(found, row): &(_, _)| {
+                let nodes = *posed.parts()?.1.operator().grid();
+                course.append(table, (found, row), &nodes, processes)
+            };
             let appended = py.detach(|| reached.map(append).transpose());
             if !matches!(appended, Ok(Some(()))) {
                 // for another call that goes on with it

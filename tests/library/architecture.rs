@@ -1,15 +1,23 @@
 //! The modules use one another as the architecture page of the documentation says.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The line of the page on which each module stands.
-fn layers() -> HashMap<String, usize> {
+/// The floors of a crate by its folder: the line of the page on which each module stands.
+type Floors = HashMap<String, usize>;
+
+/// The pictures of the page, each behind the name of its folder.
+fn pictures() -> Vec<(String, Floors)> {
     let page = include_str!("../../src/guide/architecture.md");
-    let picture = page.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    let lines = picture.lines().map(|line| line.split("  ").next().unwrap());
-    lines.enumerate().flat_map(|(i, line)| line.split(' ').map(move |name| (name.to_owned(), i))).collect()
+    let floors = |picture: &str| {
+        let lines = picture.lines().map(|line| line.split("  ").next().unwrap());
+        lines.enumerate().flat_map(|(i, line)| line.split(' ').map(move |name| (name.to_owned(), i))).collect()
+    };
+    let parts: Vec<_> = page.split("```text\n").collect();
+    let named = parts.windows(2).map(|two| (two[0].trim_end().rsplit('\n').next().unwrap(), two[1]));
+    let drawn = named.filter_map(|(name, rest)| Some((name.strip_suffix(":")?.rsplit('`').nth(1)?, rest)));
+    drawn.map(|(folder, rest)| (folder.to_owned(), floors(rest.split("```").next().unwrap()))).collect()
 }
 
 /// The modules that the page says are public.
@@ -48,36 +56,53 @@ fn public_modules_are_those_of_the_page() {
 }
 
 #[test]
-fn modules_use_only_what_stands_above_them() {
-    let (layers, root) = (layers(), Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
-    let (mut files, mut seen, mut uses) = (Vec::new(), Vec::new(), 0);
-    sources(&root, &mut files);
-    for file in files {
-        let inside = file.strip_prefix(&root).unwrap();
-        let first = inside.components().next().unwrap().as_os_str().to_string_lossy().into_owned();
-        let module = first.trim_end_matches(".rs").to_owned();
-        // the front door, the pages and the table of what is compiled once are no layers
-        if ["lib", "guide", "heavy"].contains(&module.as_str()) {
-            continue;
+fn modules_use_only_what_stands_above_them_and_in_no_circle() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (pictures, mut count) = (pictures(), 0);
+    for (folder, floors) in &pictures {
+        let (mut files, mut uses) = (Vec::new(), HashMap::<String, HashSet<String>>::new());
+        sources(&root.join(folder), &mut files);
+        for file in files {
+            let inside = file.strip_prefix(root).unwrap();
+            let first = file.strip_prefix(root.join(folder)).unwrap().components().next().unwrap();
+            let module = first.as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned();
+            // the front door, the pages, tests and the table of what is compiled once are no floors
+            if ["lib", "main", "guide", "heavy", "tests"].contains(&module.as_str()) {
+                continue;
+            }
+            let floor = |name: &str| {
+                let missing = || panic!("{}: {name} is not in src/guide/architecture.md: add it", inside.display());
+                *floors.get(name).unwrap_or_else(missing)
+            };
+            let text = fs::read_to_string(&file).unwrap();
+            // a group would hide what it names
+            assert!(!text.split("#[cfg(test)]").next().unwrap().contains("use crate::{"), "{}", inside.display());
+            let is_module = |name: &String| root.join(folder).join(format!("{name}.rs")).exists();
+            for name in used(&text).into_iter().filter(|name| name != "heavy" && is_module(name)) {
+                assert!(floor(&name) <= floor(&module), "{}: {module} may not use {name}", inside.display());
+                if folder == "src" {
+                    let alone = ["error", "grid", "exact"];
+                    assert!(module != "exact" || alone.contains(&name.as_str()), "exact may not use {name}");
+                }
+                count += 1;
+                if name != module {
+                    uses.entry(module.clone()).or_default().insert(name);
+                }
+            }
+            for (foreign, home) in [("rayon::", "par"), ("mpi::", "ranks")] {
+                let free = folder != "src" || module == home;
+                assert!(free || !text.contains(foreign), "{}: {foreign} is for {home}", inside.display());
+            }
+            uses.entry(module).or_default();
         }
-        let layer = |name: &str| {
-            let missing = || panic!("{}: {name} is not in src/guide/architecture.md: add it", inside.display());
-            *layers.get(name).unwrap_or_else(missing)
+        assert!(floors.keys().all(|name| uses.contains_key(name)), "{folder}: a module of the page is gone");
+        let free = |uses: &HashMap<String, HashSet<String>>| {
+            uses.iter().find(|(_, used)| used.iter().all(|name| !uses.contains_key(name))).map(|(name, _)| name.clone())
         };
-        let text = fs::read_to_string(&file).unwrap();
-        // a group would hide what it names
-        assert!(!text.split("#[cfg(test)]").next().unwrap().contains("use crate::{"), "{}", inside.display());
-        for name in used(&text).into_iter().filter(|name| name != "heavy") {
-            assert!(layer(&name) <= layer(&module), "{}: {module} may not use {name}", inside.display());
-            let alone = ["error", "grid", "exact"];
-            assert!(module != "exact" || alone.contains(&name.as_str()), "exact may not use {name}");
-            uses += 1;
+        while let Some(module) = free(&uses) {
+            uses.remove(&module);
         }
-        for (foreign, home) in [("rayon::", "par"), ("mpi::", "ranks")] {
-            assert!(module == home || !text.contains(foreign), "{}: {foreign} is for {home}", inside.display());
-        }
-        seen.push(module);
+        assert!(uses.is_empty(), "{folder}: a circle in {uses:?}");
     }
-    assert!(layers.keys().all(|name| seen.contains(name)), "a module of the page is gone");
-    assert!(uses > 100, "{uses}");
+    assert!(pictures.len() == 5 && count > 200, "{} pictures, {count} uses", pictures.len());
 }

@@ -134,13 +134,15 @@ impl<'a> TableOptions<'a> {
         let opening = Opening {
             out: out.to_owned(),
             format: self.format,
+            names: Vec::new(),
             header: units.columns(&course.columns(), control.name(), grid.is_line()),
             fields: self.fields.map(Path::to_owned),
             force,
             // a study has the lock of its case: a former run of that is about to end
             is_case: study::is_worker(),
             beside: vec![scene::beside(out), warnings::beside(out)],
-            nodes,
+            identity: Map::new(),
+            loads: None,
         };
         let (first, whole) = (start.as_ref().map(|start| grid.whole(start)), surface.whole());
         let warnings =
@@ -165,7 +167,8 @@ impl<'a> TableOptions<'a> {
             Ok(())
         })?;
         let (identity, scene_file) = opened.unzip();
-        let (rows, course) = asperity_scene::Table::open(opening, identity, course, start.or(afar), processes)?;
+        let opening = Opening { identity: identity.unwrap_or_default(), ..opening };
+        let (rows, course) = course.open(opening, start.or(afar).map(T::field), &nodes, processes)?;
         let count = rows.rows();
         processes.first(|| {
             scene_file.flatten().map_or(Ok(()), OutputFile::commit)?;
@@ -255,7 +258,8 @@ impl<T: Scalar> Table<'_, T> {
         processes.agree(self.warnings.look_at(&found.solution.whole(), &self.part))?;
         let account = found.account(self.course.command(), &self.inputs, None, Vec::new())?;
         let row = self.course.row(&mut found, account, self.seed)?;
-        self.rows.append(&self.course, &found, &row, processes)?;
+        let nodes = *self.posed.parts()?.1.operator().grid();
+        self.course.append(&mut self.rows, (&found, &row), &nodes, processes)?;
         self.stands();
         Ok(Some(row))
     }

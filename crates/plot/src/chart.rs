@@ -1,11 +1,11 @@
 //! The chart: curves over two axes.
 
-use super::Picture;
-use super::frame::{
+use crate::Picture;
+use crate::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, room,
 };
-use super::scale::{Axis, Part};
-use super::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Shape};
+use crate::scale::{Axis, Part};
+use crate::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Shape};
 use asperity::Result;
 
 /// Curves over two axes, such as the loads on a path over its mean gaps.

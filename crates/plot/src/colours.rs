@@ -3,9 +3,9 @@
 use colorous::{RED_BLUE, TABLEAU10, VIRIDIS};
 use ndarray::ArrayView2;
 
-use super::load::LoadScale;
-use super::scale::{TINY, three_digits};
-use super::shape::{BLACK, Colour, GREY, WHITE};
+use crate::load::LoadScale;
+use crate::scale::{TINY, drawable, three_digits};
+use crate::shape::{BLACK, Colour, GREY, WHITE};
 
 /// The colour of values that are not finite, which is on none of the colour maps.
 pub(super) const MISSING: Colour = [201, 120, 199];
@@ -228,11 +228,6 @@ impl Colours {
         let space = 0.05 * (high - low);
         (low - space, high + space)
     }
-}
-
-/// Whether a value has a place on a scale: it is finite, and so are sums of it and its neighbours.
-pub(super) fn drawable(value: f64) -> bool {
-    value.abs() < 1.0 / TINY
 }
 
 /// The nearest whole number to a part of a colour, a half rounded up: `f64::round` is a call of a function.

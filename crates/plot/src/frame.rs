@@ -1,9 +1,10 @@
 //! The frame of a map or chart: title, caption, axes and legend.
 
-use super::font::width;
-use super::scale::Axis;
-use super::shape::{Anchor, Area, BLACK, Colour, HAIRLINE};
-use super::{Picture, font};
+use crate::Picture;
+use crate::font;
+use crate::font::width;
+use crate::scale::Axis;
+use crate::shape::{Anchor, Area, BLACK, Colour, HAIRLINE};
 
 /// The sizes of the font.
 pub(super) const TITLE: f64 = 10.0;

@@ -1,6 +1,6 @@
 //! The scale of a pressure: its ends, and the load on nodes beyond them.
 
-use super::colours::drawable;
+use crate::scale::drawable;
 
 /// The end of the scale of a pressure, in lower quartiles of the load: a Hertz contact presses up to 1.6 times the
 /// pressure below which a quarter of the load is carried, and a rough contact of Gaussian heights up to some 4 times.

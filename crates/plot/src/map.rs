@@ -2,14 +2,14 @@
 
 use ndarray::ArrayView2;
 
-use super::Picture;
-use super::chart::{COLOURS, WIDTH, pieces};
-use super::colours::{ATTRACTIVE, Colouring, Colours, MISSING, YIELDED, cluster_colour, drawable};
-use super::frame::{
+use crate::Picture;
+use crate::chart::{COLOURS, WIDTH, pieces};
+use crate::colours::{ATTRACTIVE, Colouring, Colours, MISSING, YIELDED, cluster_colour};
+use crate::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, label_length, room,
 };
-use super::scale::{Axis, Part, three_digits};
-use super::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Image, Shape, WHITE};
+use crate::scale::{Axis, Part, drawable, three_digits};
+use crate::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Image, Shape, WHITE};
 use asperity::Grid;
 use asperity::{Error, Result};
 

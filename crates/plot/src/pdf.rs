@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::shape::{Colour, Shape};
-use super::svg::number;
-use super::{Picture, font, png};
+use crate::Picture;
+use crate::font;
+use crate::png;
+use crate::shape::{Colour, Shape};
+use crate::svg::number;
 
 /// The numbers of the objects; images come after them.
 const CATALOGUE: usize = 1;

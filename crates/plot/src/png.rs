@@ -1,6 +1,6 @@
 //! PNG: whole pictures, and the maps in SVG and PDF.
 
-use super::shape::Colour;
+use crate::shape::Colour;
 
 /// A PNG file of 8-bit RGB pixels, row by row; `dpi` of them to an inch.
 pub(super) fn encode(columns: usize, pixels: &[Colour], dpi: f64) -> std::io::Result<Vec<u8>> {

@@ -3,9 +3,10 @@
 use ab_glyph_rasterizer::{Point, Rasterizer, point};
 use ttf_parser::OutlineBuilder;
 
-use super::colours::rounded;
-use super::shape::{Area, Colour, Curve, Image, Shape, Text, WHITE};
-use super::{Picture, font};
+use crate::Picture;
+use crate::colours::rounded;
+use crate::font;
+use crate::shape::{Area, Colour, Curve, Image, Shape, Text, WHITE};
 
 /// A frame buffer; what lies outside of it is dropped.
 pub(super) struct Raster {

@@ -182,6 +182,11 @@ impl Axis {
     }
 }
 
+/// Whether a value has a place on a scale: it is finite, and so are sums of it and its neighbours.
+pub(super) fn drawable(value: f64) -> bool {
+    value.abs() < 1.0 / TINY
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

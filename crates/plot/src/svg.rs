@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
-use super::shape::{Anchor, Colour, Shape};
-use super::{Picture, font, png};
+use crate::Picture;
+use crate::font;
+use crate::png;
+use crate::shape::{Anchor, Colour, Shape};
 
 /// The content of an SVG file, which needs no other file.
 pub(super) fn encode(picture: &Picture) -> std::io::Result<String> {

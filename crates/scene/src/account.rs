@@ -9,6 +9,7 @@ pub mod interface;
 pub(crate) mod leaked;
 pub(crate) mod pulled_off;
 pub(crate) mod record;
+pub(crate) mod row;
 pub(crate) mod rows;
 pub(crate) mod sentences;
 pub(crate) mod slopes;

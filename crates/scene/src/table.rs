@@ -11,17 +11,15 @@ pub mod output;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::{Error, Grid, Status};
-use ndarray::Array2;
+use asperity::{Error, Solution};
 use serde_json::{Map, Value};
 
-use crate::account::found::Found;
+use crate::account::row::Row;
 use crate::key::scalar::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
-use crate::session::course::{Course, Place, Row};
 use crate::table::identity::Identity;
-use crate::table::journal::{Journal, Row as Line, Seen, damaged, refused, state_path};
+use crate::table::journal::{Journal, Row as Line, Seen, state_path};
 use crate::table::kept::Kept;
 
 /// The format of a table.
@@ -42,8 +40,14 @@ pub struct Opening {
     pub out: PathBuf,
     /// Its format.
     pub format: Format,
-    /// The names of the columns, with their units where these are known.
+    /// The names of the columns.
+    pub names: Vec<&'static str>,
+    /// The same with their units, where these are known.
     pub header: Vec<String>,
+    /// The inputs on which the rows depend, which the first of several processes knows.
+    pub identity: Identity,
+    /// The loads of the rows, where these are known before.
+    pub loads: Option<Vec<f64>>,
     /// The folder for the fields of the rows, if they are kept.
     pub fields: Option<PathBuf>,
     /// Whether to start over, and to replace files that are there.
@@ -52,8 +56,6 @@ pub struct Opening {
     pub is_case: bool,
     /// The files that may stand beside the table and its state.
     pub beside: Vec<PathBuf>,
-    /// The grid of the fields from which the next row starts.
-    pub nodes: Grid,
 }
 
 /// A table on disk, new or continued, whose file the first of several processes has.
@@ -61,9 +63,6 @@ pub struct Opening {
 /// One that ends without a row, as by an error at the first one, leaves no file behind that it made.
 pub struct Table {
     opening: Opening,
-    names: Vec<&'static str>,
-    identity: Identity,
-    loads: Option<Vec<f64>>,
     journal: Option<Journal>,
     rows: usize,
     unconverged: usize,
@@ -106,34 +105,33 @@ impl Format {
 }
 
 impl Table {
-    /// Opens the table of a course whose problem has an identity, which the first of several processes knows, and returns
-    /// it with the course from where its last row leads, or from a start.
+    /// Opens a table, and returns it with the place from which its next row follows, if it has rows.
     ///
     /// # Errors
     /// A table of another run, one that was changed or is being written, and files that are not to be replaced or
     /// cannot be written.
-    pub fn open<T: Scalar>(
-        opening: Opening,
-        identity: Option<Identity>,
-        course: Course<T>,
-        start: Option<Array2<f64>>,
-        processes: &Processes,
-    ) -> Outcome<(Self, Course<T>)> {
-        let mut identity = identity.unwrap_or_default();
-        identity.extend(course.identity());
-        identity.insert("fields".to_owned(), if opening.fields.is_some() { "kept" } else { "left out" }.into());
-        let loads = course.loads();
+    pub fn open(mut opening: Opening, processes: &Processes) -> Outcome<(Self, Option<Vec<u8>>)> {
+        let Opening { identity, fields, loads, format, .. } = &mut opening;
+        identity.insert("fields".to_owned(), if fields.is_some() { "kept" } else { "left out" }.into());
         if loads.is_some() {
-            identity.insert("format".to_owned(), opening.format.name().into());
+            identity.insert("format".to_owned(), format.name().into());
         }
-        let (names, journal, made) = (course.columns(), None, Vec::new());
-        let mut table =
-            Self { opening, names, identity, loads, journal, rows: 0, unconverged: 0, had_event: false, made };
+        let mut table = Self { opening, journal: None, rows: 0, unconverged: 0, had_event: false, made: Vec::new() };
         let begun = processes.agree(processes.is_first().then(|| table.begin()).transpose())?;
         // what the first process has open by now
         let place = processes.agree(begun.map_or_else(|| table.see(), Ok))?;
-        let course = table.resume(course, &place, start, processes)?;
-        Ok((table, course))
+        let text = table.text(processes)?;
+        if table.rows == 0 {
+            return Ok((table, None));
+        }
+        let mut rows = text.lines().rev().map(|line| table.opening.format.parsed(&table.opening.names, line));
+        let [last, before] = [rows.next(), rows.next()].map(Option::unwrap_or_default);
+        table.had_event = !last["event"].is_null();
+        // a run that was killed may have left them
+        if table.opening.loads.is_none() && !table.had_event && before["event"].is_null() && table.journal.is_some() {
+            table.kept().forget(table.rows - 1);
+        }
+        Ok((table, Some(place)))
     }
 
     /// Begins the table, or goes on with it, in the first process.
@@ -158,9 +156,9 @@ impl Table {
     }
 
     fn lock(&mut self, force: bool, is_case: bool) -> Outcome<Vec<u8>> {
-        let Opening { out, format, header, .. } = &self.opening;
+        let Opening { out, format, header, identity, loads, .. } = &self.opening;
         let header = if *format == Format::Csv { csv::header(header) + "\n" } else { String::new() };
-        let (identity, loads) = (self.identity.clone(), self.loads.as_deref());
+        let (identity, loads) = (identity.clone(), loads.as_deref());
         let (journal, place) = Journal::open(out, &header, identity, loads, (force, is_case))?;
         (self.rows, self.unconverged) = (journal.rows(), journal.unconverged());
         self.journal = Some(journal);
@@ -172,50 +170,24 @@ impl Table {
         Kept(self.opening.fields.as_deref())
     }
 
-    /// The course from the place that was saved with the last row.
-    fn resume<T: Scalar>(
-        &mut self,
-        course: Course<T>,
-        place: &[u8],
-        start: Option<Array2<f64>>,
-        processes: &Processes,
-    ) -> Outcome<Course<T>> {
-        let text = self.text(processes)?;
-        if self.rows == 0 {
-            return Ok(course.starting_from(start.map(T::field)));
-        }
-        let mut rows = text.lines().rev().map(|line| self.opening.format.parsed(&self.names, line));
-        let [last, before] = [rows.next(), rows.next()].map(Option::unwrap_or_default);
-        self.had_event = !last["event"].is_null();
-        // a run that was killed may have left them
-        if self.loads.is_none() && !self.had_event && before["event"].is_null() && self.journal.is_some() {
-            self.kept().forget(self.rows - 1);
-        }
-        let out = &self.opening.out;
-        let place: Place<T> = postcard::from_bytes(place).map_err(|_| refused(out, damaged(out)))?;
-        Ok(course.continuing(place.shared(&self.opening.nodes)))
-    }
-
-    /// Appends the row of the state that its course found last, with the fields on the part of a mirrored map, if they
-    /// are kept: those of a cycle where the row or the next one has an event, and of the last row.
+    /// Appends a row with the place from which the next one follows, which the first of several processes has, and the
+    /// fields of its solution on the part of a mirrored map, if they are kept: those of a cycle where the row or the
+    /// next one has an event, and of the last row.
     ///
     /// # Errors
     /// Files that cannot be written, or were changed meanwhile.
     pub fn append<T: Scalar>(
         &mut self,
-        course: &Course<T>,
-        found: &Found<T>,
         row: &Row,
+        place: Vec<u8>,
+        solution: &Solution<T>,
         processes: &Processes,
     ) -> Outcome<()> {
-        self.kept().write(self.rows + 1, &*found.part()?, processes)?;
-        let place = course.place().whole(&self.opening.nodes);
-        let load = row.wanted_contact_fraction.unwrap_or(row.account.control_value);
-        let converged = row.account.status == Status::Converged && row.reached != Some(false);
+        self.kept().write(self.rows + 1, solution, processes)?;
         processes.first(|| {
             let Some(journal) = &mut self.journal else { return Ok(()) };
-            let text = self.opening.format.line(&row.cells(&self.names));
-            journal.append(Line { text: &text, load, converged, place: postcard::to_stdvec(&place)? })
+            let text = self.opening.format.line(&row.cells(&self.opening.names));
+            journal.append(Line { text: &text, load: row.load(), converged: row.converged(), place })
         })?;
         if let Some(step) = &row.step {
             let has_event = step.event.is_some();
@@ -225,7 +197,7 @@ impl Table {
             self.had_event = has_event;
         }
         self.rows += 1;
-        self.unconverged += usize::from(!converged);
+        self.unconverged += usize::from(!row.converged());
         Ok(())
     }
 
@@ -261,7 +233,7 @@ impl Table {
 
     /// The number of rows when the table is complete, where that is known before.
     pub fn of_rows(&self) -> Option<usize> {
-        self.loads.as_ref().map(Vec::len)
+        self.opening.loads.as_ref().map(Vec::len)
     }
 
     /// The number of rows that did not converge.
@@ -276,7 +248,7 @@ impl Table {
     pub fn read(&self, processes: &Processes) -> Outcome<Vec<Value>> {
         let text = self.text(processes)?;
         let lines = text.lines().skip(usize::from(self.opening.format == Format::Csv));
-        Ok(lines.map(|line| self.opening.format.parsed(&self.names, line)).collect())
+        Ok(lines.map(|line| self.opening.format.parsed(&self.opening.names, line)).collect())
     }
 
     fn text(&self, processes: &Processes) -> Outcome<String> {

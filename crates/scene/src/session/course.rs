@@ -1,29 +1,32 @@
 //! The course of a sweep or a cycle, and the rows of its table.
 
 use std::borrow::Cow;
-use std::ffi::OsStr;
 use std::ops::ControlFlow;
-use std::path::Path as File;
 
 use asperity::path::{Event, Path, PathSettings};
 use asperity::solver::Iteration;
 use asperity::{Branch, ContactSearch, Control, Grid, Real, Result, Sweep};
 use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
 use crate::account::entries::{Search, Step};
 use crate::account::found::Found;
-use crate::account::interface;
+use crate::account::row::{Kind, Row};
 use crate::account::{Account, stiffness};
 use crate::clock::Instant;
 use crate::key::adhesion::Adhesion;
 use crate::key::after::After;
 use crate::key::boundary::Boundary;
+use crate::key::scalar::Scalar;
+use crate::outcome::Outcome;
+use crate::processes::Processes;
 use crate::session::pace::Pace;
 use crate::session::posed::Posed;
 use crate::session::way::Way;
 use crate::table::identity::Identity;
+use crate::table::journal::{damaged, refused};
+use crate::table::{Opening, Table};
 
 /// The course of a sweep or a cycle: its way, and the place on it from which the next state follows.
 #[derive(Clone, Debug)]
@@ -60,45 +63,6 @@ enum Strategy<T> {
     Search(ContactSearch<T>),
     Cycle(Box<Path<T>>),
 }
-
-/// The row of a state in a table: its account, and the figures that tables alone have.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row {
-    /// The account, complete.
-    #[serde(flatten)]
-    pub account: Account,
-    /// The approach of the mean planes since first touch, in the table of an interface.
-    pub closure: Option<f64>,
-    /// The number of separate contacts.
-    pub clusters: usize,
-    /// The nodes of the largest one.
-    pub largest_cluster: usize,
-    /// The name of the file of the heights, in the place of its path.
-    pub heights: Option<String>,
-    /// The seed of a random surface.
-    pub seed: Option<u64>,
-    /// The contact fraction that was wanted, if its load was searched for.
-    pub wanted_contact_fraction: Option<f64>,
-    /// Whether it was reached.
-    pub reached: Option<bool>,
-    /// The place on a cycle.
-    #[serde(flatten)]
-    pub step: Option<Step>,
-    /// The cells of the columns for what is asked for after each state.
-    #[serde(flatten)]
-    pub after: Map<String, Value>,
-}
-
-const STATE: &str = "control control_value mean_pressure mean_contact_pressure mean_gap normal_force approach \
-                     edge_traction contact_fraction corrected_contact_fraction perimeter clusters largest_cluster \
-                     repulsive_fraction attractive_fraction elastic_energy adhesive_energy min_gap";
-const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
-pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
-const BALANCE: &str = "work dissipated imbalance event energy_drop";
-const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth_mean plastic_energy";
-
-/// The contact by the adhesive energy, and in the limit of no range, of a law that has the range of the grid.
-const LIMIT: &str = "adhesive_contact_fraction jkr_contact_fraction";
 
 const WITHDRAWAL: &str = "withdrawal";
 
@@ -194,33 +158,76 @@ impl<T: Real> Course<T> {
         Ok(())
     }
 
+    /// Opens a table of the course, whose problem has an identity and fields on a grid, and returns it with the course
+    /// from where its last row leads, or from a start.
+    ///
+    /// # Errors
+    /// Those of [`Table::open`].
+    pub fn open(
+        self,
+        opening: Opening,
+        start: Option<Array2<T>>,
+        nodes: &Grid,
+        processes: &Processes,
+    ) -> Outcome<(Table, Self)>
+    where
+        T: Scalar,
+    {
+        let identity = opening.identity.into_iter().chain(self.identity()).collect();
+        let (out, names, loads) = (opening.out.clone(), self.columns(), self.loads());
+        let (table, place) = Table::open(Opening { names, identity, loads, ..opening }, processes)?;
+        let Some(place) = place else { return Ok((table, self.starting_from(start))) };
+        let place: Place<T> = postcard::from_bytes(&place).map_err(|_| refused(&out, damaged(&out)))?;
+        Ok((table, self.continuing(place.shared(nodes))))
+    }
+
+    /// Appends the row of the state that was found last to a table of fields on a grid.
+    ///
+    /// # Errors
+    /// Those of [`Table::append`].
+    pub fn append(
+        &self,
+        table: &mut Table,
+        (found, row): (&Found<T>, &Row),
+        nodes: &Grid,
+        processes: &Processes,
+    ) -> Outcome<()>
+    where
+        T: Scalar,
+    {
+        let place = self.place.whole(nodes);
+        let bytes = processes.is_first().then(|| Ok(postcard::to_stdvec(&place)?)).transpose();
+        let place = processes.agree(bytes)?.unwrap_or_default();
+        table.append(row, place, &*found.part()?, processes)
+    }
+
     /// The place from which the next state follows.
     pub fn place(&self) -> &Place<T> {
         &self.place
     }
 
+    /// The kind of its table.
+    fn kind(&self) -> Kind {
+        match self.way {
+            Way::Cycle(..) => Kind::Cycle,
+            _ if self.touch.is_some() => Kind::Interface,
+            Way::Sweep(_) => Kind::Sweep,
+            Way::Search(_) => Kind::Search,
+        }
+    }
+
     /// The name of the command.
     pub fn command(&self) -> &'static str {
-        match self.way {
-            Way::Cycle(..) => "cycle",
-            _ if self.touch.is_some() => "interface",
-            _ => "sweep",
+        match self.kind() {
+            Kind::Sweep | Kind::Search => "sweep",
+            Kind::Cycle => "cycle",
+            Kind::Interface => "interface",
         }
     }
 
     /// The names of the columns of its table.
     pub fn columns(&self) -> Vec<&'static str> {
-        let stiffness = if self.after.stiffness { "contact_stiffness normal_stiffness" } else { "" };
-        let (before, behind) = match self.way {
-            _ if self.touch.is_some() => (vec![interface::COLUMNS], interface::OUTCOME),
-            Way::Sweep(_) => (vec![STATE, OUTCOME, INPUTS, stiffness], ""),
-            Way::Search(_) => (vec![STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", stiffness], ""),
-            Way::Cycle(..) => (vec!["leg direction", STATE, BALANCE, OUTCOME, INPUTS, stiffness], ""),
-        };
-        let plastic = if self.yields { PLASTIC } else { "" };
-        let limit = if self.of_grid { LIMIT } else { "" };
-        let before = before.into_iter().chain([limit, plastic]).flat_map(str::split_whitespace);
-        before.chain(self.after.columns()).chain(behind.split_whitespace()).collect()
+        self.kind().columns(&self.after, self.of_grid, self.yields)
     }
 
     /// The loads of the rows, where these are known before.
@@ -324,40 +331,19 @@ impl<T: Real> Course<T> {
     /// Those of [`Sight::look`](crate::Sight::look).
     pub fn row(&mut self, found: &mut Found<T>, mut account: Account, seed: Option<u64>) -> Result<Row> {
         let statistics = found.sight.look_at(&mut account, &found.solution)?;
-        let (sizes, step) = (&statistics.cluster_sizes, found.step.clone());
         if self.touch.is_some() {
             // its own, or that of the first state, on which the others follow
             self.place.branch = account.branch.or(self.place.branch);
             account.branch = self.place.branch;
         }
         let shares = [Some(account.contact_fraction), account.attractive_fraction];
-        let apart = step.as_ref().is_some_and(|step| step.direction == WITHDRAWAL) && shares == [Some(0.0); 2];
+        let apart = found.step.as_ref().is_some_and(|step| step.direction == WITHDRAWAL) && shares == [Some(0.0); 2];
         if let Strategy::Cycle(path) = &mut self.place.strategy
             && apart
         {
             path.end_leg();
         }
-        let heights = account.inputs.heights.as_deref().and_then(|path| File::new(path).file_name());
-        Ok(Row {
-            closure: self.touch.map(|touch| touch - account.mean_gap),
-            clusters: sizes.len(),
-            largest_cluster: sizes.first().copied().unwrap_or(0),
-            heights: heights.map(OsStr::to_string_lossy).map(Into::into),
-            seed,
-            wanted_contact_fraction: account.search.map(|search| search.wanted),
-            reached: account.search.map(|search| search.reached),
-            step,
-            after: found.after.cells(),
-            account,
-        })
-    }
-}
-
-impl Row {
-    /// The cells of the columns of these names. None of them depends on the clock.
-    pub fn cells(&self, names: &[&str]) -> Map<String, Value> {
-        let all = serde_json::to_value(self).unwrap_or_default();
-        names.iter().map(|&name| (name.to_owned(), all[name].clone())).collect()
+        Ok(Row::of(found, account, &statistics.cluster_sizes, self.touch, seed))
     }
 }
 
