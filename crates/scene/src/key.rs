@@ -15,6 +15,7 @@ pub(crate) mod elastic;
 pub(crate) mod formula;
 pub(crate) mod given;
 pub(crate) mod laws;
+pub(crate) mod leak;
 pub mod list;
 pub(crate) mod load;
 mod macros;
@@ -243,7 +244,43 @@ impl Kind {
     }
 }
 
+/// All lists of keys.
+static LISTS: [&[Key]; 22] = [
+    elastic::SurfaceKeys::KEYS,
+    load::LoadKeys::KEYS,
+    load::LoadsKeys::KEYS,
+    load::FractionsKeys::KEYS,
+    adhesion::AdhesionKeys::KEYS,
+    scene::SolverKeys::KEYS,
+    asked::NestedKeys::KEYS,
+    accuracy::AccuracyKeys::KEYS,
+    accuracy::PullOffKeys::KEYS,
+    asked::PathKeys::KEYS,
+    after::FindingsKeys::KEYS,
+    after::StiffnessKeys::KEYS,
+    after::ConductorKeys::KEYS,
+    after::PercolationKeys::KEYS,
+    after::LeakageKeys::KEYS,
+    units::UnitKeys::KEYS,
+    leak::LeakKeys::KEYS,
+    body::GridKeys::KEYS,
+    body::FormKeys::KEYS,
+    body::RoughnessKeys::KEYS,
+    preparation::StepKeys::KEYS,
+    preparation::CutOffKeys::KEYS,
+];
+
 impl Key {
+    /// All keys.
+    pub fn all() -> impl Iterator<Item = &'static Self> {
+        LISTS.iter().copied().flatten()
+    }
+
+    /// The key of a name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        Self::all().find(|key| key.name == name)
+    }
+
     /// The value of a text, within the range of the key.
     ///
     /// # Errors

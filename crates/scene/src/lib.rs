@@ -14,10 +14,11 @@ mod table;
 
 pub use asperity_maps::numbers;
 
+pub use account::dimensions::{dimension_of, dimension_of_key};
 pub use account::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step};
 pub use account::findings::{Conducted, Findings};
 pub use account::found::{Found, Sight, check_finite, warnings_of};
-pub use account::leaked::{Along, Enclosed, LeakAsked, LeakKeys, Leaked, Narrowest, Transmissivity};
+pub use account::leaked::{Along, Enclosed, Leaked, Narrowest, Transmissivity};
 pub use account::pulled_off::PulledOff;
 pub use account::row::Row;
 pub use account::rows::{corrected, rows};
@@ -38,6 +39,7 @@ pub use key::elastic::{Elastic, LengthsKeys, SurfaceKeys};
 pub use key::formula::{AnyLaw, Formula, tabulated};
 pub use key::given::{Given, Measured, Quantities, Typed};
 pub use key::laws::{LAWS, Law, PARAMETERS, Parameter};
+pub use key::leak::{LeakAsked, LeakKeys};
 pub use key::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
 pub use key::pair::between;
 pub use key::preparation::{CutOffKeys, Log, NewLengthsKeys, Preparation, StepKeys, in_unit};
