@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::page::escaped;
 use super::shape::{Anchor, Colour, Shape};
 use super::{Picture, font, png};
 
@@ -79,11 +80,6 @@ fn path(points: &[(f64, f64)]) -> String {
         let _ = write!(path, "{}{} {}", if k == 0 { 'M' } else { 'L' }, number(*x), number(*y));
     }
     if points.len() == 1 { path + "h0" } else { path }
-}
-
-/// A text without characters that mean something in XML.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Bytes in the 64 characters of RFC 4648.
