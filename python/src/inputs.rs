@@ -1,7 +1,7 @@
 //! The inputs of a problem by the names of their keywords. The law has a file of its own.
 
-use asperity_scene::dimension_of_key;
 use asperity_scene::allowed::Range;
+use asperity_scene::dimension_of_key;
 use asperity_scene::{Adhesion, After, Conductors, Elastic, Goal, Keys, Load, LoadKeys, Typed};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

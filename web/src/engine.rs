@@ -4,6 +4,7 @@ use asperity::Grid;
 use asperity_maps::io::{channels, check_memory, map_as_npz, read_bytes};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
+use asperity_plot::distribution;
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
@@ -13,7 +14,6 @@ use asperity_scene::{
 use serde_json::{Value, json};
 
 use crate::given::{keys, read, reason};
-use crate::histogram::Histogram;
 use crate::lines::{Origin, Source};
 use crate::problem::{Observe, Problem, of_problem};
 
@@ -170,7 +170,7 @@ impl Engine {
     pub fn statistics(&self) -> Outcome<Value> {
         let map = self.surface()?;
         check_memory("the statistics of a map", map.heights.dim(), 40)?;
-        let histogram = Histogram::of(map.heights.iter().copied(), 60);
+        let histogram = distribution(map.heights.iter().copied(), 60);
         let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
         let found = match &surface {
             Some(surface) => Some((surface.statistics(), knee_wavelength(surface))),

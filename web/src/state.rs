@@ -7,7 +7,7 @@ use asperity::contact::{Original, Region};
 use asperity::solver::Iteration;
 use asperity::{Control, Grid, Solution, Surface};
 use asperity_maps::io::npz;
-use asperity_plot::LoadScale;
+use asperity_plot::{LoadScale, distribution};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
@@ -19,7 +19,6 @@ use serde_json::{Map, Value, json};
 
 use crate::engine::extremes;
 use crate::given::reason;
-use crate::histogram::Histogram;
 use crate::lines::START;
 
 /// The observer of a solve: it sees the nodes of the grid, each iteration, and the tolerance of the solve on it.
@@ -335,8 +334,7 @@ impl<T: Scalar> Solves for State<T> {
     fn histograms(&self, bins: usize) -> Outcome<Value> {
         let part = self.last()?.found.part()?;
         let positive = |field: &Array2<T>| {
-            let values: Vec<f64> = field.iter().map(|value| value.widen()).filter(|value| *value > 0.0).collect();
-            Histogram::of(values.into_iter(), bins)
+            distribution(field.iter().map(|value| value.widen()).filter(|value| *value > 0.0), bins)
         };
         Ok(json!({ "gap": positive(&part.gap), "contact_pressure": positive(&part.contact_pressure) }))
     }
