@@ -1,12 +1,11 @@
 //! The adhesion between the surfaces, with what its files hold.
 
 use std::path::Path;
-use std::sync::Arc;
 
-use asperity::{AdhesionLaw, Error, Grid, Tabulated};
+use asperity::{Error, Grid, Tabulated};
 use asperity_maps::io::read_field;
-use asperity_scene::{Adhesion as Described, Files, Formula, Scalar, tabulated};
-use ndarray::{Array2, ArrayView2};
+use asperity_scene::{Adhesion as Described, Files, Formula, tabulated};
+use ndarray::Array2;
 
 use crate::heights;
 use crate::outcome::Outcome;
@@ -14,7 +13,8 @@ use crate::processes::Processes;
 
 /// The law that options choose, with what their files hold.
 pub struct Adhesion {
-    formula: Formula,
+    /// The law
+    pub formula: Formula,
     /// The numbers of the table of the law
     pub table: Option<Array2<f64>>,
     /// The works of adhesion of the map, at all nodes
@@ -58,20 +58,5 @@ impl Adhesion {
             _ => formula,
         };
         Ok(Self { formula, table, works, hardness })
-    }
-
-    /// The law.
-    pub fn law<T: Scalar>(&self) -> Arc<dyn AdhesionLaw<T>> {
-        self.formula.clone().law()
-    }
-
-    /// The hardness at each node, where it varies.
-    pub fn hardness(&self) -> Option<ArrayView2<'_, f64>> {
-        self.hardness.as_ref().map(|hardness| hardness.view())
-    }
-
-    /// The node with the largest work of adhesion, where that varies: μ_ρ is that of this node.
-    pub fn strongest(&self) -> Option<(usize, usize)> {
-        self.formula.strongest()
     }
 }

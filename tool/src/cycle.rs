@@ -98,7 +98,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 }
 
 impl Fill for Options {
-    fn way<T: Scalar>(&self, loads: &[Load], full: f64) -> Outcome<Way> {
+    fn way(&self, loads: &[Load], full: f64) -> Outcome<Way> {
         Ok(Way::cycle(loads, full, self.path.0.path())?)
     }
 
@@ -126,7 +126,7 @@ impl Options {
 
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>) -> Outcome<()> {
-        let (rows, units) = (table.read()?, &table.units);
+        let (rows, units) = (table.read()?, table.units());
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
         let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
         let tension = -least("mean_pressure");

@@ -5,22 +5,24 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{Amplitude, Grid, Jkr, NoAdhesion, SelfAffine, Status};
+use asperity::{Amplitude, Grid, SelfAffine, Status};
 use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map};
-use asperity_scene::Inputs;
 use clap::{Args, CommandFactory};
 use serde_json::json;
 
+use crate::adhesion::Adhesion;
 use crate::allowed::threads;
+use crate::heights::Origin;
 use crate::outcome::Outcome;
 use crate::output::{at_destination, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::{Printing, in_options, name, on_terminal};
+use crate::processes::Processes;
 use crate::progress::Progress;
-use crate::report;
 use crate::scene::{self, SceneFile};
+use crate::session::{Strictness, session};
 use crate::solve;
 use crate::summary::{table, warn};
 use crate::threads::use_threads;
@@ -67,7 +69,7 @@ const GIVEN: &str = "--lengths 1um --modulus 1GPa --mean-pressure 5MPa";
 const CASES: [(&str, &str); 2] = [("without adhesion", ""), ("with adhesion", "--law jkr --work-of-adhesion 50mJ/m2")];
 
 /// Runs the command; whether both solves converged.
-pub fn run(options: &Options) -> Outcome<bool> {
+pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
     let &Options { ref out, printing, picture_format, resolution: Resolution { dpi }, .. } = options;
     let [ending] = picture_format.of([[".png"], [".svg"], [".pdf"]]);
     let cases = CASES.map(|(name, _)| name.replace(' ', "-"));
@@ -86,27 +88,24 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let surface = spectrum.surface(grid)?;
     printing.say(TOLD);
     let heights = surface.heights().clone();
-    let law = Jkr::new(0.05)?;
-    let part = Part::all(grid);
-    let solved = |surface, law, name, options: &solve::Options, scene| -> Outcome<_> {
-        let problem = options.problem()?;
-        let tolerance = problem.scene.tolerance();
-        let mut progress = Progress::new(name, tolerance, grid.nodes(), printing.without_bars());
+    let (part, surface) = (Part::all(grid), Arc::new(surface));
+    let solved = |name, options: &solve::Options, scene| -> Outcome<_> {
+        let problem = &options.problem()?;
+        let mut progress = Progress::new(name, problem.scene.tolerance(), grid.nodes(), printing.without_bars());
+        let adhesion = Adhesion::read(&problem.scene.adhesion, &problem.files, &grid, processes)?;
+        let of = (&adhesion, &Origin::default(), &part);
+        let session = session::<f64>(problem, surface.clone(), of, (&units, scene), Strictness::default(), processes)?;
+        let mut session = session.with_slopes()?.for_one_solve();
         let asked = in_options(problem.given.load().and_then(|load| problem.given.asked(load, 1.0)))?;
-        let mut posed = problem.scene.posed::<f64>(surface, law, None, part.wanted())?;
-        let slopes = posed.slopes()?;
-        let mut found = posed.solve_last(&asked, None, &mut |grid, state, tolerance| {
+        let mut solved = session.solve(&asked, None, &mut |grid, state, tolerance| {
             progress.update_on(grid, state, tolerance);
             ControlFlow::Continue(())
         })?;
-        let inputs = Inputs { slopes, ..report::inputs(&problem, &part, &units, scene) };
-        let mut account = found.account("solve", &inputs, None, Vec::new())?;
-        found.sight.look_at(&mut account, &found.solution)?;
-        Ok((found.solution, account))
+        solved.look()?;
+        Ok((solved.found.solution, solved.account))
     };
-    let none = Arc::new(NoAdhesion);
-    let (bare, without) = solved(surface.clone(), none, "without adhesion", &bare_options, &bare_scene)?;
-    let (sticky, with) = solved(surface, Arc::new(law), "with adhesion", &sticky_options, &scene)?;
+    let (bare, without) = solved("without adhesion", &bare_options, &bare_scene)?;
+    let (sticky, with) = solved("with adhesion", &sticky_options, &scene)?;
 
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {

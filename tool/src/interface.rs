@@ -6,7 +6,7 @@ use asperity::Error;
 use asperity_scene::interface::Code;
 use asperity_scene::{
     AdhesionKeys, After, Boundary, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys,
-    UnitKeys, Way,
+    UnitKeys,
 };
 use clap::{ArgGroup, Args};
 use serde_json::{Value, json};
@@ -17,7 +17,6 @@ use crate::output::{OutputFile, check_apart, check_free, write_text};
 use crate::printing::{complain, in_options};
 use crate::processes::Processes;
 use crate::scene::SceneFile;
-use crate::sweep::sweep_of;
 use crate::table::{Fill, Manner, Table, TableOptions};
 
 /// Tabulate the law of an interface over the load, for finite elements.
@@ -107,7 +106,7 @@ impl Options {
 
     /// Writes the files of all rows for the codes, and tells their names.
     fn write<T: Scalar>(&self, rows: &[Value], table: &Table<'_, T>) -> Outcome<Vec<String>> {
-        let (adhesive, units) = (table.adheres(), &table.units);
+        let (adhesive, units) = (table.adheres(), table.units());
         let name = self.out.file_stem().unwrap_or_default().to_string_lossy();
         let mut written = Vec::new();
         for code in &self.codes {
@@ -124,10 +123,6 @@ impl Options {
 }
 
 impl Fill for Options {
-    fn way<T: Scalar>(&self, loads: &[Load], full: f64) -> Outcome<Way> {
-        sweep_of::<T>(loads, full)
-    }
-
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve(&self.out, self.manner.printing)?;
         let converged = table.converged("or use a larger --tolerance or finer steps");

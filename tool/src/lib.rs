@@ -34,7 +34,6 @@ mod sweep;
 mod adhesion;
 mod citation;
 mod entries;
-mod fields;
 mod heights;
 mod hints;
 mod interruption;
@@ -45,17 +44,19 @@ mod printing;
 mod progress;
 mod report;
 mod scene;
+mod session;
 mod solved;
 mod summary;
 mod table;
 mod threads;
 mod units;
-mod warnings;
 
 use std::error::Error;
 use std::ffi::OsString;
 
-use asperity_scene::{allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms};
+use asperity_scene::{
+    allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms, warnings,
+};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -190,7 +191,7 @@ fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: 
         return agreed(processes, Err(error));
     }
     let converged = match command {
-        Command::Demo(options) => demo::run(&options),
+        Command::Demo(options) => demo::run(&options, processes),
         Command::Solve(options) => solve::run(&options, scene, processes),
         Command::Sweep(options) => sweep::run(&options, scene, processes),
         Command::Cycle(options) => cycle::run(&options, scene, processes),

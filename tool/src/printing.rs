@@ -29,11 +29,6 @@ impl Printing {
         !self.quiet && !self.json
     }
 
-    /// Whether nothing but warnings is wanted, in all processes alike.
-    pub fn is_quiet(self) -> bool {
-        self.quiet
-    }
-
     /// Whether bars are unwanted.
     pub fn without_bars(self) -> bool {
         self.quiet || is_silent()

@@ -1,13 +1,13 @@
 //! `asperity pull-off`: the greatest tension under which the surfaces stay together.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use asperity::Status;
-use asperity_scene::{AdhesionKeys, Inputs, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
+use asperity_scene::{AdhesionKeys, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
 use clap::Args;
 use serde_json::json;
 
-use crate::fields::check_finite;
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::printing::{Printing, complain, in_options, say};
@@ -15,8 +15,8 @@ use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::report;
 use crate::scene::SceneFile;
+use crate::session::{Strictness, say_new, session};
 use crate::summary::warn;
-use crate::warnings::{Strictness, Warnings};
 
 /// Find the pull-off, the greatest tension that surfaces bear.
 ///
@@ -82,24 +82,21 @@ impl Options {
         let Problem { surface, adhesion, origin, part, start } = given;
         let (printing, nodes) = (self.printing, surface.grid().nodes());
         let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
-        let mut warnings =
-            Warnings::of_input::<T>(self.strictness, (&surface, &origin), &adhesion, &problem.scene.elastic, &units)?;
-        warnings.say()?;
-        let mut posed = problem.scene.posed::<T>(surface, adhesion.law(), None, part.wanted())?;
-        let slopes = posed.slopes()?;
+        let (surface, of) = (Arc::new(surface), (&adhesion, &origin, &part));
+        let session = session::<T>(problem, surface, of, (&units, scene), self.strictness, processes)?;
+        let mut session = session.with_slopes()?.for_one_solve();
+        say_new(&mut session.warnings);
         let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
-        let mut progress = Progress::new("", posed.tolerance(None)?, nodes, printing.without_bars());
-        let (mut found, pulled_off) =
-            posed.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
-                progress.update_on(grid, state, tolerance);
-                ControlFlow::Continue(())
-            })?;
-        drop((posed, progress));
-        check_finite(&found.solution)?;
-        warnings.look_at(&found.solution, &part)?;
-        let inputs = Inputs { slopes, ..report::inputs(problem, &part, &units, scene) };
-        let mut last = found.account("pull-off", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
-        found.sight.look_at(&mut last, &found.solution)?;
+        let mut progress = Progress::new("", session.tolerance(None)?, nodes, printing.without_bars());
+        let found = session.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
+            progress.update_on(grid, state, tolerance);
+            ControlFlow::Continue(())
+        });
+        drop(progress);
+        let (mut solved, pulled_off) = found?;
+        say_new(&mut session.warnings);
+        solved.look()?;
+        let last = solved.account;
 
         if printing.for_people() {
             let rows = pulled_off.rows(&last, &units);
@@ -109,7 +106,7 @@ impl Options {
         printing.report(|| {
             let mut outcome = json!(pulled_off);
             outcome["last"] = json!(last);
-            report::report("pull-off", outcome, &inputs)
+            report::report("pull-off", outcome, &session.inputs)
         });
         warn("", &last);
         if let Some(text) = pulled_off.shortfall(&last, Skin::Options) {

@@ -5,22 +5,20 @@ mod distribution;
 mod problem;
 mod written;
 
-use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::Status;
 use asperity_scene::{
-    AccuracyKeys, AdhesionKeys, Asked, ConductorKeys, FindingsKeys, Inputs, Load, LoadKeys, NestedKeys,
-    PercolationKeys, Precision, Slopes, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
+    AccuracyKeys, AdhesionKeys, Asked, ConductorKeys, FindingsKeys, Load, LoadKeys, NestedKeys, PercolationKeys,
+    Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
 };
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
 use self::beside::{BESIDE, Beside};
 use crate::allowed::bins;
-use crate::fields::check_finite;
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, commit, output_folder};
@@ -29,11 +27,10 @@ use crate::pictures::{MapColours, PictureFormat, Resolution};
 use crate::printing::{Printing, complain, in_options, name, say};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
-use crate::report;
 use crate::scene::{self, SceneFile};
+use crate::session::{Strictness, say_new, session};
 use crate::summary::{table, warn};
 use crate::units::Units;
-use crate::warnings::{Strictness, Warnings};
 
 /// Solve a contact problem under one load.
 ///
@@ -234,42 +231,34 @@ impl Job<'_> {
             self.leave_out_what_takes_whole_fields()?;
         }
         let start = start.map(T::field);
-        let strictness = self.options.strictness;
-        let mut warnings = processes.agree(if fits {
-            let given = (&*surface.whole(), &origin);
-            Warnings::of_input::<T>(strictness, given, &adhesion, &self.problem.scene.elastic, &self.units)
-        } else {
-            Warnings::none(strictness, &self.units)
-        })?;
-        warnings.say()?;
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
-        let mut posed =
-            self.problem.scene.posed::<T>(surface, adhesion.law(), adhesion.hardness(), self.part.wanted())?;
-        let slopes = if fits { posed.slopes()? } else { Slopes::default() };
-        let tolerance = posed.tolerance(self.asked.goal)?;
+        let of = (&adhesion, &origin, &self.part);
+        let about = (&self.units, self.scene);
+        let session = session::<T>(self.problem, surface, of, about, self.options.strictness, processes)?;
+        let mut session = session.with_slopes()?.for_one_solve();
+        say_new(&mut session.warnings);
+        let tolerance = session.tolerance(self.asked.goal)?;
         let mut progress = Progress::new("", tolerance, grid.nodes(), printing.without_bars());
         if let Some(goal) = self.asked.goal {
-            let (plan, time) = posed.plan(self.asked.control, goal)?;
+            let (plan, time) = session.plan(self.asked.control, goal)?;
             printing.say(&goal.announced(&plan, time));
         }
-        let mut found = posed.solve_last(&self.asked, start, &mut |grid, state, tolerance| {
+        let solved = session.solve(&self.asked, start, &mut |grid, state, tolerance| {
             progress.update_on(grid, state, tolerance);
             ControlFlow::Continue(())
-        })?;
+        });
         drop(progress);
-        check_finite(&found.solution)?;
-        let refined = found.refined.take().map(Arc::new);
+        let mut solved = solved?;
+        say_new(&mut session.warnings);
+        let refined = solved.found.refined.take().map(Arc::new);
         if refined.is_some() {
-            grid = found.solution.grid;
+            grid = solved.found.solution.grid;
             self.part = self.part.on(grid)?;
         }
+        solved.look()?;
+        let Solved { found, account } = solved;
         let whole = fits.then(|| found.solution.whole());
-        let look = |whole: &Cow<'_, _>| warnings.look_at(whole, &self.part);
-        processes.agree(whole.as_ref().map_or(Ok(()), look))?;
-        let inputs = Inputs { slopes, ..report::inputs(self.problem, &self.part, &self.units, self.scene) };
-        let mut account = found.account("solve", &inputs, adhesion.strongest(), warnings.found().to_vec())?;
-        found.sight.look_at(&mut account, &found.solution)?;
         let surface = kept.map(|kept| refined.unwrap_or(kept));
         let mut beside = self.options.fields_beside(&found, &self.problem.scene.elastic, surface.as_deref())?;
         let solution = &found.solution;

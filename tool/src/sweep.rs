@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::Error;
 use asperity_scene::{
     AdhesionKeys, ConductorKeys, Format, FractionsKeys, LeakageKeys, Load, LoadsKeys, SolverKeys, StiffnessKeys,
-    SurfaceKeys, UnitKeys, Way,
+    SurfaceKeys, UnitKeys,
 };
 use clap::{ArgGroup, Args};
 use serde_json::json;
@@ -107,24 +107,10 @@ impl Options {
     }
 }
 
-/// The sweep of loads, which the precision of its solves has to hold.
-pub fn sweep_of<T: Scalar>(loads: &[Load], full: f64) -> Outcome<Way> {
-    let way = Way::sweep(loads, full);
-    if let Some(value) = way.loads().iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
-        let (name, requirement) = ("load", "finite in the precision of the fields");
-        return Err(Error::Value { name, value, requirement }.into());
-    }
-    Ok(way)
-}
-
 impl Fill for Options {
-    fn way<T: Scalar>(&self, loads: &[Load], full: f64) -> Outcome<Way> {
-        sweep_of::<T>(loads, full)
-    }
-
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve(&self.out, self.manner.printing)?;
-        table.first(|| self.plot.draw(&rows, &table.units))?;
+        table.first(|| self.plot.draw(&rows, table.units()))?;
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {
             true => "or leave out the contact fractions past which the contact jumps",

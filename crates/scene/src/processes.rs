@@ -1,6 +1,9 @@
 //! The processes of a run: one, or with the feature `mpi` those that `mpiexec` started.
 
 #[cfg(feature = "mpi")]
+use std::sync::Arc;
+
+#[cfg(feature = "mpi")]
 use asperity::World;
 use asperity::{Error, Grid};
 
@@ -11,9 +14,10 @@ use crate::outcome::Outcome;
 pub const WHOLE: usize = 4096 * 4096;
 
 /// The processes that solve one problem, and which of them this one is.
+#[derive(Clone)]
 pub struct Processes {
     #[cfg(feature = "mpi")]
-    world: World,
+    world: Arc<World>,
 }
 
 impl Processes {
@@ -21,7 +25,7 @@ impl Processes {
     pub fn start() -> Outcome<Self> {
         Ok(Self {
             #[cfg(feature = "mpi")]
-            world: World::start()?,
+            world: Arc::new(World::start()?),
         })
     }
 

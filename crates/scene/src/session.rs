@@ -1,8 +1,453 @@
-//! The session of a problem: it is posed, solved under one load or along many, and stopped.
+//! The session of a contact problem: it is posed, solved under one load or along many, and stopped.
 
 pub(crate) mod course;
 pub mod fall;
 pub mod pace;
-pub(crate) mod plan;
-pub(crate) mod posed;
+mod posed;
+mod solves;
 pub(crate) mod way;
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use asperity::contact::{ContactStatistics, Original};
+use asperity::solver::Iteration;
+use asperity::{AdhesionLaw, Error, Grid, PullOff, Real, Result, Solver, Status, Surface};
+use ndarray::Array2;
+use serde_json::Value;
+
+use crate::account::found::{Found, check_finite, warnings_of};
+use crate::account::interface::touch;
+use crate::account::pulled_off::PulledOff;
+use crate::account::row::Row;
+use crate::account::slopes::Slopes;
+use crate::account::warnings::warnings_of_input;
+use crate::account::{Account, Inputs};
+use crate::key::accuracy::Goal;
+use crate::key::after::After;
+use crate::key::asked::Asked;
+use crate::key::formula::Formula;
+use crate::key::scalar::Scalar;
+use crate::key::scene::Scene;
+use crate::key::told::Told;
+use crate::key::units::Units;
+use crate::key::wall::Constraint;
+use crate::key::words::{Skin, worded};
+use crate::outcome::Outcome;
+use crate::processes::{Processes, WHOLE};
+use crate::session::course::Course;
+use crate::session::pace::Pace;
+use crate::session::posed::Body;
+use crate::session::way::Way;
+use crate::table::identity::{Fields, Identity, identity};
+use crate::table::output::with_suffix;
+use crate::table::warnings::{Warnings, beside};
+use crate::table::{Format, Opening, Table};
+
+/// The observer of a solve: it sees each iteration with the grid and the tolerance of the solve on it, and may end the
+/// solve.
+pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> + Send);
+
+/// The input of a session beside its scene.
+pub struct Input {
+    /// The surface; of several processes each has its rows.
+    pub surface: Arc<Surface>,
+    /// The law of adhesion.
+    pub formula: Formula,
+    /// The hardness at all nodes, where it varies.
+    pub hardness: Option<Array2<f64>>,
+    /// The original of a mirrored surface, if results are of it.
+    pub original: Option<Original>,
+    /// The unit of the file of the heights, if they were converted from it.
+    pub converted_from: Option<String>,
+    /// The threshold of the scars that were removed from the heights.
+    pub scars_removed: Option<f64>,
+    /// Whether warnings are errors.
+    pub is_strict: bool,
+    /// The words of errors.
+    pub skin: Skin,
+}
+
+/// The file of a table, with the fields of the law on which its rows depend.
+#[derive(Default)]
+pub struct TableFile {
+    /// The file.
+    pub out: PathBuf,
+    /// The format, if it does not follow from the name.
+    pub format: Option<Format>,
+    /// The folder for the fields of the rows, if they are kept.
+    pub fields: Option<PathBuf>,
+    /// Whether to start over, and to replace files that are there.
+    pub force: bool,
+    /// Whether it is that of a case of a study.
+    pub is_case: bool,
+    /// The gaps and tractions of a law, a pair in each row.
+    pub law_table: Option<Array2<f64>>,
+    /// The works of adhesion, where they vary.
+    pub works: Option<Array2<f64>>,
+    /// Whether the law is another one than those of its name and parameters.
+    pub law_differs: bool,
+}
+
+/// The session of a contact problem in one precision: the problem with its solver, the inputs of its reports, its
+/// warnings, and the table that is filled.
+pub struct Session<T: Scalar> {
+    /// The inputs of its reports.
+    pub inputs: Inputs,
+    /// The seed of a random surface.
+    pub seed: Option<u64>,
+    /// The warnings so far.
+    pub warnings: Warnings,
+    scene: Scene,
+    body: Body<T>,
+    law: Arc<dyn AdhesionLaw<T>>,
+    strongest: Option<(usize, usize)>,
+    hardness: Option<Array2<f64>>,
+    solver: Solver<Constraint<T>>,
+    original: Option<Original>,
+    units: Units,
+    scars_removed: Option<f64>,
+    skin: Skin,
+    processes: Processes,
+    /// The grid of the surface.
+    grid: Grid,
+    /// Whether no solve follows the next one.
+    last: bool,
+    course: Option<Course<T>>,
+    table: Option<Table>,
+}
+
+/// A solution with its account.
+pub struct Solved<T: Real> {
+    /// The findings.
+    pub found: Found<T>,
+    /// The account, which a look completes.
+    pub account: Account,
+}
+
+/// A state on a course that is not kept yet.
+pub struct Next<T: Scalar> {
+    /// The findings.
+    pub found: Found<T>,
+    /// The row.
+    pub row: Row,
+    course: Course<T>,
+}
+
+impl<T: Real> Solved<T> {
+    /// Looks at the fields: fills in the keys of the account that are found of them.
+    ///
+    /// # Errors
+    /// Those of [`Sight::look`](crate::Sight::look).
+    pub fn look(&mut self) -> Result<ContactStatistics> {
+        self.found.sight.look_at(&mut self.account, &self.found.solution)
+    }
+}
+
+impl<T: Scalar> Session<T> {
+    /// The session of a scene on a surface, with the inputs of its reports in units, on processes.
+    ///
+    /// # Errors
+    /// Those of [`Adhesion::constraint`](crate::Adhesion::constraint), and warnings, if they are errors.
+    pub fn new(scene: &Scene, input: Input, inputs: Inputs, units: Units, processes: &Processes) -> Outcome<Self> {
+        let Input { surface, formula, hardness, original, converted_from, scars_removed, is_strict, skin } = input;
+        let (grid, strongest, law) = (*surface.grid(), formula.strongest(), formula.law::<T>());
+        let warn = || match is_whole(&grid) {
+            true => {
+                let surface = (&*surface.whole(), converted_from.as_deref());
+                Warnings::new(warnings_of_input(surface, &scene.elastic, &*law, &units), is_strict)
+            }
+            false if is_strict => Err("--strict has no form for several processes and more than 4096 x 4096 nodes: \
+                                       leave it out"
+                .into()),
+            false => Warnings::new(Vec::new(), is_strict),
+        };
+        let warnings = processes.agree(warn())?;
+        let constraint = scene.adhesion.constraint(hardness.as_ref().map(|hardness| hardness.view()))?;
+        let solver = Solver { settings: scene.settings(), constraint };
+        let (body, scene, processes) = (Body::Surface(surface), scene.clone(), processes.clone());
+        let (seed, course, table, last) = (None, None, None, false);
+        Ok(Self {
+            inputs,
+            warnings,
+            scene,
+            body,
+            law,
+            strongest,
+            hardness,
+            solver,
+            original,
+            units,
+            scars_removed,
+            seed,
+            skin,
+            processes,
+            grid,
+            last,
+            course,
+            table,
+        })
+    }
+
+    /// The session with the slopes of its surface among the inputs, where a process has all of it.
+    ///
+    /// # Errors
+    /// [`Error::Unsuited`] after the first solve.
+    pub fn with_slopes(mut self) -> Result<Self> {
+        if is_whole(&self.grid) {
+            self.inputs.slopes = Slopes::of(self.surface()?, self.scene.elastic.boundary);
+        }
+        Ok(self)
+    }
+
+    /// The session of one solve: heights that nothing else holds leave before the solve on the finest grid, and the
+    /// problem after it.
+    pub fn for_one_solve(self) -> Self {
+        Self { last: true, ..self }
+    }
+
+    /// Poses the problem anew on its surface, as one that has solved nothing yet.
+    ///
+    /// # Errors
+    /// Those of [`Session::new`].
+    pub fn renew(&mut self, surface: Arc<Surface>) -> Result<()> {
+        let hardness = self.hardness.as_ref().map(|hardness| hardness.view());
+        self.solver.constraint = self.scene.adhesion.constraint(hardness)?;
+        (self.body, self.course, self.table) = (Body::Surface(surface), None, None);
+        Ok(())
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The units of its numbers, as far as they are known.
+    pub fn units(&self) -> &Units {
+        &self.units
+    }
+
+    /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it, and its
+    /// account.
+    ///
+    /// # Errors
+    /// Those of the solvers of the library, a solve that ran away, and warnings, if they are errors.
+    pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
+        let found = self.find(asked, start, observe)?;
+        if self.last {
+            self.body = Body::Spent;
+        }
+        self.solved("solve", found)
+    }
+
+    /// The pull-off, to an accuracy if one is asked for, from a gap or the default start, with the last state that
+    /// holds.
+    ///
+    /// # Errors
+    /// Those of [`Session::solve`].
+    pub fn pull_off(
+        &mut self,
+        asked: PullOff,
+        goal: Option<Goal>,
+        start: Option<Array2<T>>,
+        observe: Observe<'_>,
+    ) -> Outcome<(Solved<T>, PulledOff)> {
+        let (found, pulled_off) = self.find_pull_off(asked, goal, start, observe)?;
+        if self.last {
+            self.body = Body::Spent;
+        }
+        Ok((self.solved("pull-off", found)?, pulled_off))
+    }
+
+    /// What a command found, with its account. A solve that an observer ended has run away no less.
+    fn solved(&mut self, command: &'static str, found: Found<T>) -> Outcome<Solved<T>> {
+        if found.solution.report.status != Status::Stopped {
+            self.worded(check_finite(&found.solution))?;
+        }
+        let warnings = self.look(&found);
+        let warnings = self.processes.agree(warnings)?;
+        let account = found.account(command, &self.inputs, self.strongest, warnings)?;
+        Ok(Solved { found, account })
+    }
+
+    /// The warnings of the input and of a state.
+    fn look(&mut self, found: &Found<T>) -> Outcome<Vec<Told>> {
+        let new = match is_whole(&self.grid) {
+            true => {
+                let of_input = (self.warnings.of_input(), self.scars_removed);
+                warnings_of(&*found.solution.whole(), found.sight.original, of_input)?
+            }
+            false => Vec::new(),
+        };
+        self.warnings.add(new.iter().map(|warning| self.units.told(warning)).collect())
+    }
+
+    /// A result whose reason has keys in braces.
+    fn worded<V>(&self, result: std::result::Result<V, String>) -> Outcome<V> {
+        Ok(result.map_err(|reason| worded(&reason, self.skin))?)
+    }
+
+    /// Begins a way through loads, from a gap or the default start, with what is asked for after each state, or goes on
+    /// with its table in a file; that of an interface, if it is one.
+    ///
+    /// # Errors
+    /// A way that the problem does not have, and those of [`Table::open`].
+    pub fn begin(
+        &mut self,
+        way: Way,
+        after: After,
+        is_interface: bool,
+        start: Option<Array2<f64>>,
+        file: Option<TableFile>,
+    ) -> Outcome<()> {
+        let loads = way.loads();
+        let control = way.control(&self.scene);
+        self.worded(Asked { after, ..Asked::under(control) }.check(&self.scene.adhesion, self.scene.method, false))?;
+        if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
+            let (name, requirement) = ("load", "finite in the precision of the fields");
+            return Err(Error::Value { name, value, requirement }.into());
+        }
+        let afar = if start.is_none() { self.start_afar(loads) } else { None };
+        let touch = if is_interface { Some(touch(self.surface()?)) } else { None };
+        let mut course = Course::new(way, after)?.of(&self.scene.adhesion, touch);
+        course.expect(self)?;
+        let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;
+        course.check(self)?;
+        let start = start.or(afar).map(T::field);
+        // the one before, if there is one, may have the same file
+        self.table = None;
+        self.course = Some(match file.zip(identity) {
+            None => course.starting_from(start),
+            Some((file, identity)) => {
+                let TableFile { out, format, fields, force, is_case, .. } = file;
+                let known = format.or_else(|| Format::of(&out));
+                let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
+                let header = self.units.columns(&course.columns(), control.name(), self.grid.is_line());
+                let beside = vec![with_suffix(&out, ".scene.toml"), beside(&out)];
+                let (names, loads) = (course.columns(), course.loads());
+                let opening = Opening { out, format, names, header, identity, loads, fields, force, is_case, beside };
+                let nodes = self.nodes()?;
+                let (table, course) = course.open(opening, start, &nodes, &self.processes)?;
+                self.table = Some(table);
+                course
+            }
+        });
+        Ok(())
+    }
+
+    /// The identity of the problem with the fields of a table, of which the first of several processes knows it, from a
+    /// start that is given.
+    fn identity(&self, file: &TableFile, start: Option<&Array2<f64>>) -> Outcome<Identity> {
+        let (start, surface) = (start.map(|start| self.grid.whole(start)), self.surface()?.whole());
+        if !self.processes.is_first() {
+            return Ok(Identity::new());
+        }
+        let given = Fields {
+            surface: &surface,
+            law_table: file.law_table.as_deref(),
+            works: file.works.as_deref(),
+            hardness: self.hardness.as_deref(),
+            start: start.as_deref(),
+            law_differs: file.law_differs,
+        };
+        Ok(identity(&self.inputs, self.solver.settings.branch, &self.units.of_table(), given, &*self.law))
+    }
+
+    /// The names of the columns of the table, once it was begun.
+    pub fn columns(&self) -> Vec<&'static str> {
+        self.course.as_ref().map_or(Vec::new(), Course::columns)
+    }
+
+    /// The command of the table, once it was begun.
+    pub fn command(&self) -> &'static str {
+        self.course.as_ref().map_or("", Course::command)
+    }
+
+    /// Finds the next state of the way that was begun last; none at its end. The way goes on from it once it is
+    /// [kept](Self::keep): a state that was stopped, or ran away, is looked for again.
+    ///
+    /// # Errors
+    /// Those of the solvers of the library, a solve that ran away, warnings, if they are errors, and rows that another
+    /// run has written since [`Self::release`].
+    pub fn seek(
+        &mut self,
+        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
+    ) -> Outcome<Option<Next<T>>> {
+        let Some(mut course) = self.course.clone() else {
+            return Err("there are no loads to follow: begin first".into());
+        };
+        if let Some(table) = &mut self.table {
+            self.processes.first(|| table.claim())?;
+        }
+        let Some(found) = course.next(self, observe)? else { return Ok(None) };
+        let Solved { mut found, account } = self.solved(course.command(), found)?;
+        let row = course.row(&mut found, account, self.seed)?;
+        Ok(Some(Next { found, row, course }))
+    }
+
+    /// Appends the row of a state, and goes on from there, unless its solve was stopped.
+    ///
+    /// # Errors
+    /// Those of [`Table::append`].
+    pub fn keep(&mut self, next: Next<T>) -> Outcome<(Found<T>, Row)> {
+        let Next { found, row, course } = next;
+        if found.solution.report.status != Status::Stopped {
+            let nodes = self.nodes()?;
+            if let Some(table) = &mut self.table {
+                course.append(table, (&found, &row), &nodes, &self.processes)?;
+            }
+            self.course = Some(course);
+        }
+        Ok((found, row))
+    }
+
+    /// Finds and keeps the next state; none at the end of the way.
+    ///
+    /// # Errors
+    /// Those of [`Self::seek`] and [`Self::keep`].
+    pub fn next(
+        &mut self,
+        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
+    ) -> Outcome<Option<(Found<T>, Row)>> {
+        self.seek(observe)?.map(|next| self.keep(next)).transpose()
+    }
+
+    /// Lets other runs write the table until the next state.
+    pub fn release(&mut self) {
+        self.table.iter_mut().for_each(Table::release);
+    }
+
+    /// The number of rows that the table has.
+    pub fn rows(&self) -> usize {
+        self.table.as_ref().map_or(0, Table::rows)
+    }
+
+    /// The number of rows when the table is complete, where there is one, and that is known before.
+    pub fn of_rows(&self) -> Option<usize> {
+        self.table.as_ref().and_then(Table::of_rows)
+    }
+
+    /// The number of rows of the table that did not converge.
+    pub fn unconverged(&self) -> usize {
+        self.table.as_ref().map_or(0, Table::unconverged)
+    }
+
+    /// The pace of a cycle.
+    pub fn pace(&self) -> Option<&Pace> {
+        self.course.as_ref().and_then(Course::pace)
+    }
+
+    /// All rows of the file of the table; every process gets them.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn read(&self) -> Outcome<Vec<Value>> {
+        self.table.as_ref().map_or(Ok(Vec::new()), |table| table.read(&self.processes))
+    }
+}
+
+/// Whether a process has, or may have, the whole of the fields on a grid.
+fn is_whole(grid: &Grid) -> bool {
+    !grid.is_shared() || grid.nodes() <= WHOLE
+}

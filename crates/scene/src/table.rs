@@ -7,6 +7,7 @@ pub mod journal;
 pub(crate) mod kept;
 pub mod legs;
 pub mod output;
+pub mod warnings;
 
 use std::fs;
 use std::path::{Path, PathBuf};

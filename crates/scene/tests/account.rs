@@ -5,12 +5,15 @@ use std::ops::ControlFlow;
 use asperity::accuracy::Quantity;
 use asperity::path::PathSettings;
 use asperity::solver::Method;
-use asperity::{Control, Grid, SelfAffine, Status};
+use asperity::{Control, Grid, SelfAffine, Status, Surface};
+use asperity_scene::outcome::Outcome;
+use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
 use asperity_scene::{
-    Account, Adhesion, After, Asked, Boundary, Course, Elastic, Found, Goal, Inputs, Posed, Precision, Scene, Skin,
-    Way, check_finite, rows, shortfalls, worded,
+    Account, Adhesion, After, Asked, Boundary, Elastic, Found, Goal, Input, Precision, Row, Scene, Session, Skin,
+    Solved, TableFile, Way, check_finite, rows, shortfalls, worded,
 };
+use ndarray::Array2;
 use serde_json::{Value, json};
 
 /// The keys of a report, in their order.
@@ -50,24 +53,36 @@ fn scene() -> Scene {
     Scene { adhesion, ..Scene::default() }
 }
 
-fn inputs() -> Inputs {
-    scene().inputs((0, 0), (0.0, 0.0), 1)
-}
-
 /// A rough surface with adhesion.
-fn posed() -> Posed<f64> {
-    posed_by(scene())
+fn posed() -> Session<f64> {
+    posed_by(&scene())
 }
 
-fn posed_by(scene: Scene) -> Posed<f64> {
-    let surface = SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap();
-    scene.posed(surface, scene.adhesion.formula(None).unwrap().law(), None, None).unwrap()
+fn posed_by(scene: &Scene) -> Session<f64> {
+    session(scene, SelfAffine::default().k_s(8.0).surface(Grid::square(32, 1.0).unwrap()).unwrap(), false).unwrap()
 }
 
-fn solved(asked: &Asked) -> (Found<f64>, Account) {
-    let found = posed().solve(asked, None, &mut |_, _, _| ControlFlow::Continue(())).unwrap();
-    let account = found.account("solve", &inputs(), None, Vec::new()).unwrap();
-    (found, account)
+fn session(scene: &Scene, surface: Surface, is_strict: bool) -> Outcome<Session<f64>> {
+    let inputs = scene.inputs((0, 0), (0.0, 0.0), 1);
+    let input = Input {
+        surface: surface.into(),
+        formula: scene.adhesion.formula(None)?,
+        hardness: None,
+        original: None,
+        converted_from: None,
+        scars_removed: None,
+        is_strict,
+        skin: Skin::Keywords,
+    };
+    Session::new(scene, input, inputs, Units::default(), &Processes::start()?)
+}
+
+fn solved(asked: &Asked) -> Solved<f64> {
+    posed().solve(asked, None, &mut |_, _, _| ControlFlow::Continue(())).unwrap()
+}
+
+fn next(session: &mut Session<f64>) -> Option<(Found<f64>, Row)> {
+    session.next(&mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// The contact stiffness alone.
@@ -99,8 +114,8 @@ fn an_account_has_the_keys_of_a_report() {
         after: After { stiffness: true, percolation: true, ..After::default() },
         ..Asked::under(Control::MeanPressure(0.01))
     };
-    let (mut found, mut account) = solved(&asked);
-    let report = json!(account);
+    let mut solved = solved(&asked);
+    let report = json!(solved.account);
     assert_eq!(keys(&report), [words(OUTCOME), words(INPUTS)].concat());
     assert_eq!(keys(&report["other_branch"]), words(OTHER_BRANCH));
     assert_eq!(keys(&report["stability"]), words(STABILITY));
@@ -110,23 +125,23 @@ fn an_account_has_the_keys_of_a_report() {
     // the keys that are found of the fields
     let open = ["corrected_contact_fraction", "perimeter", "patches", "min_pressure", "max_pressure"];
     assert!(open.iter().all(|key| report[key].is_null()));
-    let statistics = found.sight.look_at(&mut account, &found.solution).unwrap();
-    assert_eq!(account.corrected_contact_fraction, Some(statistics.corrected_contact_fraction));
-    assert!(open.iter().all(|key| !json!(account)[key].is_null()));
+    let statistics = solved.look().unwrap();
+    assert_eq!(solved.account.corrected_contact_fraction, Some(statistics.corrected_contact_fraction));
+    assert!(open.iter().all(|key| !json!(solved.account)[key].is_null()));
 }
 
 #[test]
 fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once() {
     let under = Asked::under(Control::MeanPressure(0.01));
-    let (mut found, mut account) = solved(&Asked { nested: Some(true), ..under });
-    assert!(account.grid_error.is_none());
-    found.sight.look_at(&mut account, &found.solution).unwrap();
-    let report = json!(account);
+    let mut nested = solved(&Asked { nested: Some(true), ..under });
+    assert!(nested.account.grid_error.is_none());
+    nested.look().unwrap();
+    let report = json!(nested.account);
     assert_eq!(keys(&report["levels"][0]), words(LEVEL));
     assert_eq!(keys(&report["grid_error"]), ["area", "gap", "approach", "pressure", "stiffness"]);
 
     let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
-    let (found, account) = solved(&Asked { goal: Some(goal), ..under });
+    let Solved { found, account } = solved(&Asked { goal: Some(goal), ..under });
     let report = json!(account);
     assert_eq!(keys(&report["accuracy"]), ["wanted", "of", "reached"]);
     assert_eq!(keys(&report["grid_error"]["area"]), ["relative", "order", "rough"]);
@@ -137,15 +152,42 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
 #[test]
 fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
     let asked = Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) };
-    let (_, account) = solved(&asked);
+    let Solved { account, .. } = solved(&asked);
     let wanted = ["wanted", "reached", "below", "above", "solves", "operator_applications"];
     assert_eq!(keys(&json!(account)["search"]), wanted);
 
     let asked = Asked { stability: true, after: stiff(), ..Asked::under(Control::MeanPressure(0.01)) };
-    let found = posed().solve(&asked, None, &mut |_, _, _| ControlFlow::Break(())).unwrap();
-    let report = json!(found.account("solve", &inputs(), None, Vec::new()).unwrap());
+    let solved = posed().solve(&asked, None, &mut |_, _, _| ControlFlow::Break(())).unwrap();
+    let report = json!(solved.account);
     assert_eq!(report["status"], "stopped");
     assert!(report["stability"].is_null() && report["contact_stiffness"].is_null());
+}
+
+/// The rows of a way with the findings of each state, each row found by a session that goes on with the file of the
+/// one before, as cells and depths.
+fn continued(scene: &Scene, way: &Way, after: After) -> Vec<(Value, Option<Array2<f64>>)> {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rows = Vec::new();
+    loop {
+        let file = TableFile { out: folder.path().join("table.jsonl"), ..TableFile::default() };
+        let mut session = posed_by(scene);
+        session.begin(way.clone(), after, false, None, Some(file)).unwrap();
+        assert_eq!(session.rows(), rows.len());
+        let Some((found, row)) = next(&mut session) else { return rows };
+        rows.push((row.cells(&session.columns()).into(), found.solution.plastic_depth));
+        assert_eq!(session.read().unwrap().last(), rows.last().map(|(row, _)| row));
+    }
+}
+
+/// The same by one session without a file.
+fn at_once(session: &mut Session<f64>, way: &Way, after: After) -> Vec<(Value, Option<Array2<f64>>)> {
+    session.begin(way.clone(), after, false, None, None).unwrap();
+    let names = session.columns();
+    let cells = |(found, row): (Found<f64>, Row)| {
+        assert!(names.iter().all(|name| json!(row).as_object().unwrap().contains_key(*name)));
+        (row.cells(&names).into(), found.solution.plastic_depth)
+    };
+    std::iter::from_fn(|| next(session)).map(cells).collect()
 }
 
 #[test]
@@ -153,58 +195,78 @@ fn a_course_goes_on_from_its_place_with_the_same_rows() {
     let gaps = [0.02, 0.01, 0.04].map(Control::MeanGap).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(gaps.clone()), Way::Search(vec![0.1, 0.2, 0.15]), Way::Cycle(gaps, settings)] {
-        let names = Course::<f64>::new(way.clone(), stiff()).unwrap().columns();
-        let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
-            let mut found = course.next(posed, &mut |_| ControlFlow::Continue(())).unwrap()?;
-            let account = found.account(course.command(), &inputs(), None, Vec::new()).unwrap();
-            let row = course.row(&mut found, account, Some(7)).unwrap();
-            assert!(names.iter().all(|name| json!(row).as_object().unwrap().contains_key(*name)));
-            Some(row.cells(&names))
-        };
-        let (mut whole, mut problem) = (Course::new(way.clone(), stiff()).unwrap(), posed());
-        let (mut place, mut rows) = (whole.place().clone(), 0);
-        while let Some(row) = next(&mut whole, &mut problem) {
-            let mut course = Course::new(way.clone(), stiff()).unwrap().continuing(place);
-            assert_eq!(next(&mut course, &mut posed()).unwrap(), row);
-            (place, rows) = (course.place().clone(), rows + 1);
-        }
-        assert!(rows >= 3);
+        let whole = at_once(&mut posed(), &way, stiff());
+        assert!(whole.len() >= 3);
+        assert_eq!(continued(&scene(), &way, stiff()), whole);
     }
 }
 
 #[test]
 fn a_course_of_a_surface_that_yields_goes_on_with_its_depth() {
     let scene = Scene { adhesion: Adhesion { hardness: Some(0.08), ..Adhesion::of("none") }, ..Scene::default() };
-    let inputs = scene.inputs((0, 0), (0.0, 0.0), 1);
     let loads = [0.01, 0.05, 0.01, 0.05].map(Control::MeanPressure).to_vec();
     let settings = PathSettings::default().steps(3);
     for way in [Way::Sweep(loads.clone()), Way::Search(vec![0.1, 0.3, 0.1]), Way::Cycle(loads, settings)] {
-        let new = || Course::<f64>::new(way.clone(), After::default()).unwrap().with(&scene.adhesion);
-        let names = new().columns();
-        assert!(names.ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
-        let next = |course: &mut Course<f64>, posed: &mut Posed<f64>| {
-            let mut found = course.next(posed, &mut |_| ControlFlow::Continue(())).unwrap()?;
-            let account = found.account(course.command(), &inputs, None, Vec::new()).unwrap();
-            Some((course.row(&mut found, account, None).unwrap().cells(&names), found.solution.plastic_depth.unwrap()))
-        };
-        let (mut whole, mut problem) = (new(), posed_by(scene.clone()));
-        let (mut place, mut rows, mut deepest) = (whole.place().clone(), 0, 0.0_f64);
-        while let Some((row, depth)) = next(&mut whole, &mut problem) {
-            let mut course = new().continuing(place);
-            assert_eq!(
-                next(&mut course, &mut posed_by(scene.clone())).unwrap(),
-                (row, depth.clone()),
-                "{way:?} {rows}"
-            );
-            (place, rows) = (course.place().clone(), rows + 1);
-            deepest = deepest.max(depth.sum());
-        }
-        assert!(rows >= 3 && deepest > 0.0, "{way:?}");
-        // another course on the same problem finds the surface as it was made
-        let mut first = [new(), new()];
-        let [again, anew] = first.each_mut();
-        assert_eq!(next(again, &mut problem), next(anew, &mut posed_by(scene.clone())));
+        let mut session = posed_by(&scene);
+        let whole = at_once(&mut session, &way, After::default());
+        assert!(session.columns().ends_with(&["plastic_depth_max", "plastic_depth_mean", "plastic_energy"]));
+        assert!(whole.len() >= 3 && whole.iter().any(|(_, depth)| depth.as_ref().unwrap().sum() > 0.0), "{way:?}");
+        assert_eq!(continued(&scene, &way, After::default()), whole, "{way:?}");
     }
+}
+
+#[test]
+fn a_state_that_was_stopped_is_found_again_and_has_no_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = || Some(TableFile { out: folder.path().join("table.csv"), ..TableFile::default() });
+    let way = Way::Sweep([0.02, 0.01].map(Control::MeanGap).to_vec());
+    let whole = at_once(&mut posed(), &way, After::default());
+    let mut session = posed();
+    session.begin(way.clone(), After::default(), false, None, file()).unwrap();
+    let (stopped, _) = session.next(&mut |_| ControlFlow::Break(())).unwrap().unwrap();
+    assert_eq!((stopped.solution.report.status, session.rows()), (Status::Stopped, 0));
+    for (row, _) in &whole {
+        assert_eq!(&json!(next(&mut session).unwrap().1.cells(&session.columns())), row);
+    }
+    assert!(next(&mut session).is_none());
+    // another run may go on with the file once it is released
+    assert!(posed().begin(way.clone(), After::default(), false, None, file()).is_err());
+    session.release();
+    posed().begin(way, After::default(), false, None, file()).unwrap();
+}
+
+#[test]
+fn a_way_that_the_problem_does_not_have_is_refused_with_a_file_and_without_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = TableFile { out: folder.path().join("table.csv"), ..TableFile::default() };
+    let refused = |way, file| posed().begin(way, After::default(), false, None, file).unwrap_err().to_string();
+    let cycle = Way::Cycle([0.02, -0.01].map(Control::MeanGap).to_vec(), PathSettings::default());
+    let told = refused(cycle.clone(), None);
+    assert_eq!(refused(cycle, Some(file)), told);
+    assert!(told.contains("-0.01"), "{told}");
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+    let infinite = refused(Way::Sweep(vec![Control::MeanPressure(f64::INFINITY)]), None);
+    assert!(infinite.contains("load") && infinite.contains("finite"), "{infinite}");
+}
+
+#[test]
+fn warnings_of_the_input_stand_in_accounts_and_rows_and_may_be_errors() {
+    let grid = Grid::square(16, 1.0).unwrap();
+    let tilted = || Surface::new(grid, Array2::from_shape_fn((16, 16), |(i, _)| 0.1 * i as f64)).unwrap();
+    let scene = Scene::default();
+    let mut session = session(&scene, tilted(), false).unwrap();
+    let of_input: Vec<_> = session.warnings.tell().iter().map(|told| told.code.clone()).collect();
+    assert!(!of_input.is_empty());
+    let load = Control::MeanPressure(0.01);
+    session.begin(Way::Sweep(vec![load]), After::default(), false, None, None).unwrap();
+    let (_, row) = next(&mut session).unwrap();
+    let codes: Vec<_> = row.account.warnings.iter().map(|told| told.code.clone()).collect();
+    assert!(codes.starts_with(&of_input), "{codes:?}");
+    // each is told once
+    let new: Vec<_> = session.warnings.tell().iter().map(|told| told.code.clone()).collect();
+    assert_eq!([of_input.clone(), new].concat(), codes);
+    let refused = self::session(&scene, tilted(), true).err().unwrap().to_string();
+    assert!(refused.starts_with(&of_input[0]), "{refused}");
 }
 
 #[test]
@@ -218,7 +280,7 @@ fn a_scene_with_a_hardness_is_data_and_one_without_still_reads() {
 
 #[test]
 fn fields_that_are_not_finite_are_refused() {
-    let (mut found, _) = solved(&Asked::under(Control::MeanPressure(0.01)));
+    let Solved { mut found, .. } = solved(&Asked::under(Control::MeanPressure(0.01)));
     check_finite(&found.solution).unwrap();
     found.solution.pressure[(3, 4)] = f64::NAN;
     let told = check_finite(&found.solution).unwrap_err();
@@ -229,7 +291,7 @@ fn fields_that_are_not_finite_are_refused() {
 
 #[test]
 fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_skin() {
-    let (_, account) = solved(&Asked::under(Control::MeanPressure(0.01)));
+    let Solved { account, .. } = solved(&Asked::under(Control::MeanPressure(0.01)));
     assert!(shortfalls(&account, Skin::Options).is_empty());
     let iterations = account.iterations;
     for (status, relative_error, load_error, errors, remedy) in [
@@ -257,7 +319,7 @@ fn shortfalls_say_which_error_is_too_large_and_have_remedies_in_the_words_of_a_s
 
 #[test]
 fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_they_say_nothing() {
-    let (_, account) = solved(&Asked::under(Control::MeanPressure(0.01)));
+    let Solved { account, .. } = solved(&Asked::under(Control::MeanPressure(0.01)));
     let summary = |solves: &[&Account], unit| rows(solves, &Units::of_map(unit), Skin::Options);
     let text = |rows: &[(String, Vec<String>)], name: &str| {
         rows.iter().find(|(row, _)| row == name).map(|(_, texts)| texts.join(", "))
@@ -270,7 +332,8 @@ fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_the
     assert_eq!(text(&metres, "side lengths"), Some("1 m x 1 m".to_owned()));
     assert!(text(&metres, "mean gap").unwrap().ends_with(" mm") && text(&metres, "branch").is_some());
     assert_eq!((text(&bare, "wanted"), text(&bare, "stability"), text(&bare, "approach")), (None, None, None));
-    let (_, searched) = solved(&Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) });
+    let Solved { account: searched, .. } =
+        solved(&Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) });
     let both = summary(&[&account, &searched], None);
     assert!(text(&both, "wanted").unwrap().starts_with(", 20.0 %, after "), "{both:?}");
 }

@@ -20,7 +20,7 @@ use crate::journal::{is_whole, state_path};
 use crate::outcome::Outcome;
 use crate::output::{with_suffix, write_text};
 use crate::printing::{Printing, complain};
-use crate::table::UNCONVERGED;
+use crate::session::UNCONVERGED;
 use crate::threads;
 use crate::warnings;
 

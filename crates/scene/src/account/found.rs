@@ -122,15 +122,6 @@ impl<T: Real> Found<T> {
         Self { levels: Some(levels), equivalent_applications: Some(applications), stiffness, ..self }
     }
 
-    /// The probable mistakes that the solution shows, beside those of its input, on heights from which scars may have
-    /// been removed beyond a threshold.
-    ///
-    /// # Errors
-    /// [`Error::Shape`](asperity::Error::Shape) if the solution is not one of the whole of an original.
-    pub fn warnings(&self, of_input: &[Told], scars_removed: Option<f64>) -> Result<Vec<Warning>> {
-        warnings_of(&self.solution, self.sight.original, (of_input, scars_removed))
-    }
-
     /// The solution on the part of a mirrored map of which results are.
     ///
     /// # Errors

@@ -21,8 +21,8 @@ use crate::key::boundary::Boundary;
 use crate::key::scalar::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
+use crate::session::Session;
 use crate::session::pace::Pace;
-use crate::session::posed::Posed;
 use crate::session::way::Way;
 use crate::table::identity::Identity;
 use crate::table::journal::{damaged, refused};
@@ -30,7 +30,7 @@ use crate::table::{Opening, Table};
 
 /// The course of a sweep or a cycle: its way, and the place on it from which the next state follows.
 #[derive(Clone, Debug)]
-pub struct Course<T> {
+pub(crate) struct Course<T> {
     way: Way,
     /// Whether the surface yields
     yields: bool,
@@ -47,7 +47,7 @@ pub struct Course<T> {
 
 /// The place on a course from which the next state follows. As data it goes on bit for bit.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Place<T> {
+pub(crate) struct Place<T> {
     strategy: Strategy<T>,
     /// The number of states so far, and of events
     states: usize,
@@ -99,7 +99,7 @@ impl<T: Real> Place<T> {
     }
 }
 
-impl<T: Real> Course<T> {
+impl<T: Scalar> Course<T> {
     /// A course from its beginning, with the findings that are asked for after each state.
     ///
     /// # Errors
@@ -115,15 +115,11 @@ impl<T: Real> Course<T> {
         Ok(Self { way, after, touch: None, yields: false, of_grid: false, place, pace })
     }
 
-    /// The course with the table of an interface whose surfaces first touch at a mean gap.
-    pub fn of_interface(self, touch: f64) -> Self {
-        Self { touch: Some(touch), ..self }
-    }
-
-    /// The course of surfaces with this adhesion, which may yield.
-    pub fn with(self, adhesion: &Adhesion) -> Self {
+    /// The course of surfaces with this adhesion, which may yield, and with the table of an interface, if the mean gap of
+    /// first touch is given.
+    pub fn of(self, adhesion: &Adhesion, touch: Option<f64>) -> Self {
         let of_grid = adhesion.law().is_some_and(|law| law.of_grid);
-        Self { yields: adhesion.yields(), of_grid, ..self }
+        Self { yields: adhesion.yields(), of_grid, touch, ..self }
     }
 
     /// The course from a gap in the place of the default start.
@@ -151,10 +147,10 @@ impl<T: Real> Course<T> {
     /// Takes the time of an operator application of the problem for what a cycle is likely to take.
     ///
     /// # Errors
-    /// Those of [`Posed::seconds_of_application`].
-    pub fn expect(&mut self, posed: &Posed<T>) -> Result<()> {
+    /// Those of [`Session::seconds_of_application`].
+    pub fn expect(&mut self, session: &Session<T>) -> Result<()> {
         let Some(pace) = &mut self.pace else { return Ok(()) };
-        pace.expect(posed.seconds_of_application()?);
+        pace.expect(session.seconds_of_application()?);
         Ok(())
     }
 
@@ -169,10 +165,7 @@ impl<T: Real> Course<T> {
         start: Option<Array2<T>>,
         nodes: &Grid,
         processes: &Processes,
-    ) -> Outcome<(Table, Self)>
-    where
-        T: Scalar,
-    {
+    ) -> Outcome<(Table, Self)> {
         let identity = opening.identity.into_iter().chain(self.identity()).collect();
         let (out, names, loads) = (opening.out.clone(), self.columns(), self.loads());
         let (table, place) = Table::open(Opening { names, identity, loads, ..opening }, processes)?;
@@ -191,19 +184,11 @@ impl<T: Real> Course<T> {
         (found, row): (&Found<T>, &Row),
         nodes: &Grid,
         processes: &Processes,
-    ) -> Outcome<()>
-    where
-        T: Scalar,
-    {
+    ) -> Outcome<()> {
         let place = self.place.whole(nodes);
         let bytes = processes.is_first().then(|| Ok(postcard::to_stdvec(&place)?)).transpose();
         let place = processes.agree(bytes)?.unwrap_or_default();
         table.append(row, place, &*found.part()?, processes)
-    }
-
-    /// The place from which the next state follows.
-    pub fn place(&self) -> &Place<T> {
-        &self.place
     }
 
     /// The kind of its table.
@@ -264,9 +249,9 @@ impl<T: Real> Course<T> {
     /// Refuses a cycle that the problem does not have.
     ///
     /// # Errors
-    /// Those of [`Posed::parts`] and [`Path::new`].
-    pub fn check(&self, posed: &mut Posed<T>) -> Result<()> {
-        let (solver, problem) = posed.parts()?;
+    /// Those of [`Session::parts`] and [`Path::new`].
+    pub fn check(&self, session: &mut Session<T>) -> Result<()> {
+        let (solver, problem) = session.parts()?;
         if let Strategy::Cycle(path) = &self.place.strategy { path.check(solver, problem) } else { Ok(()) }
     }
 
@@ -276,11 +261,11 @@ impl<T: Real> Course<T> {
     /// Those of the solvers of the library; after one the place is lost.
     pub fn next(
         &mut self,
-        posed: &mut Posed<T>,
+        session: &mut Session<T>,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Result<Option<Found<T>>> {
-        let (clock, boundary) = (Instant::now(), posed.boundary());
-        let (solver, problem) = posed.parts()?;
+        let (clock, boundary) = (Instant::now(), session.scene().elastic.boundary);
+        let (solver, problem) = session.parts()?;
         let Place { strategy, states, events, .. } = &mut self.place;
         if self.yields && *states == 0 {
             // another course, or a state that was not kept, may have flattened it
@@ -320,8 +305,8 @@ impl<T: Real> Course<T> {
             }
         };
         *states += 1;
-        let found = Found { search, step, ..posed.found(solution, clock)? };
-        posed.followed(found, &self.after).map(Some)
+        let found = Found { search, step, ..session.found(solution, clock)? };
+        session.followed(found, &self.after).map(Some)
     }
 
     /// The row of the state that was found last, with its account, which a look completes. A withdrawal in which it is

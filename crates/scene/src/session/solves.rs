@@ -7,24 +7,26 @@ use asperity::constraint::Wall;
 use asperity::nested::NestedSolution;
 use asperity::solver::Iteration;
 use asperity::stability::{ContactStiffness, Departure, StabilityTest, Verdict};
-use asperity::{ContactConstraint, ContactSearch, Grid, Nested, Real, Result, Solution, Start, Status};
+use asperity::{ContactConstraint, ContactSearch, Grid, Nested, Result, Solution, Start, Status};
 use ndarray::Array2;
 
-use super::{Body, Observe, Posed};
 use crate::account::entries::{Left, OtherBranch, Reached, Search, Steadiness};
 use crate::account::found::{Found, Waves};
 use crate::clock::Instant;
 use crate::key::accuracy::Goal;
 use crate::key::asked::Asked;
+use crate::key::scalar::Scalar;
+use crate::session::posed::Body;
+use crate::session::{Observe, Session};
 
 /// The largest number of departures from unstable equilibria; a sane problem takes a few.
 const MOST_DEPARTURES: usize = 10;
 
-impl<T: Real> Posed<T> {
+impl<T: Scalar> Session<T> {
     pub(super) fn by_accuracy(&mut self, goal: Goal, asked: &Asked, observe: Observe<'_>) -> Result<Found<T>> {
         let (clock, surface) = (Instant::now(), Arc::clone(self.surface()?));
         let (wanted, tolerance) = (goal.wanted(asked.after.stiffness), self.tolerance(Some(goal))?);
-        let elastic = |grid| self.elastic.operator(grid);
+        let elastic = |grid| self.scene.elastic.operator(grid);
         let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
         let found = wanted.solve_observed(
             &mut self.solver,
@@ -59,12 +61,12 @@ impl<T: Real> Posed<T> {
         }
         let clock = Instant::now();
         let (finest, tolerance) = (grid.nodes(), settings.tolerance_in::<T>());
-        let waves = match self.slopes.nodes_per_wave {
+        let waves = match self.inputs.slopes.nodes_per_wave {
             Some(nodes_per_wave) => Waves::Known(nodes_per_wave),
             _ => Waves::Of(surface.clone()),
         };
         let surface = surface.clone();
-        if self.last {
+        if self.last && !asked.other_branch {
             self.body = Body::Spent;
         }
         let found = Nested::default()
@@ -73,7 +75,7 @@ impl<T: Real> Posed<T> {
             .solve_observed(
                 &mut self.solver,
                 surface,
-                |grid| self.elastic.operator(grid),
+                |grid| self.scene.elastic.operator(grid),
                 Arc::clone(&self.law),
                 control,
                 |grid: &Grid, state: &Iteration| {
@@ -96,7 +98,11 @@ impl<T: Real> Posed<T> {
         observe: Observe<'_>,
     ) -> Result<Found<T>> {
         let clock = Instant::now();
+        let presses_again = self.scene.adhesion.yields() && matches!(self.body, Body::Problem(_));
         let (solver, problem) = self.parts()?;
+        if presses_again {
+            problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
+        }
         let (grid, tolerance) = (*problem.grid(), solver.settings.tolerance_in::<T>());
         let mut observe = |state: &Iteration| observe(&grid, state, tolerance);
         let (mut solution, search) = match asked.fraction {
