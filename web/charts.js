@@ -33,25 +33,13 @@ export class Curves {
     ].filter(([, points]) => points.length);
     if (curves.length === 1) curves[0][0] = "";
     const x_log = curves.every(([, points]) => points[0][0] > 0);
-    return { ...AREA, x_label: "mean pressure", x_unit: this.unit, x_log, curves, jumps: [] };
+    return { ...AREA, x_label: "mean pressure", x_unit: this.unit, x_log, curves };
   }
 }
 
 /* The distribution of a quantity over the nodes, as shares of those that have it. */
-export function distribution({ from, to, density }, x_label, x_unit, y_label) {
-  const width = (to - from) / density.length;
-  const sum = density.reduce((sum, value) => sum + value, 0);
-  const points = Array.from(density, (value, k) => [from + (k + 0.5) * width, (100 * value) / sum]);
-  return {
-    x_label,
-    x_unit,
-    x_log: false,
-    y_label,
-    y_unit: "%",
-    y_log: false,
-    curves: [["", sum > 0 ? points : []]],
-    jumps: [],
-  };
+export function distribution(points, x_label, x_unit, y_label) {
+  return { x_label, x_unit, y_label, y_unit: "%", curves: [["", points]] };
 }
 
 /* The power spectral density of a surface, averaged over directions. */
@@ -69,7 +57,6 @@ export function spectrum({ wave_numbers, densities }, unit) {
     y_unit: unit && `${unit}⁴`,
     y_log: true,
     curves: [["", points]],
-    jumps: [],
   };
 }
 
@@ -93,10 +80,8 @@ export function loop(rows, isFree, units) {
   return {
     x_label: x.replace("_", " "),
     x_unit: units.length,
-    x_log: false,
     y_label: y.replace("_", " "),
     y_unit: isFree ? units.force : units.pressure,
-    y_log: false,
     curves: [...curves],
     jumps,
   };

@@ -1,6 +1,7 @@
 /* The map: a field on its rectangle, x to the right and y upwards, in the colours of the pictures. */
 
 import { read } from "./quantity.js";
+import { Zoom } from "./zoom.js";
 
 const element = (name, className, parent) => {
   const made = document.createElement(name);
@@ -66,15 +67,20 @@ export class FieldMap {
   constructor(parent, title, onprobe) {
     this.figure = element("figure", "map", parent);
     this.title = title;
-    element("figcaption", "", this.figure).textContent = title;
+    const caption = element("figcaption", "", this.figure);
     this.field = element("div", "field", this.figure);
-    this.field.tabIndex = 0;
     this.field.setAttribute("role", "img");
     this.field.setAttribute("aria-label", `Map: ${title}. Arrow keys read it node by node.`);
     this.canvas = element("canvas", "", this.field);
-    this.scale = element("div", "scale", this.field);
     this.cross = element("div", "cross", this.field);
-    this.cross.hidden = this.scale.hidden = true;
+    this.zoom = new Zoom(this.field, ([x, y], share) => {
+      this.canvas.style.transform = `scale(${1 / share}) translate(${-100 * x}%, ${-100 * y}%)`;
+      this.smooth();
+      this.mark(this.node);
+    });
+    this.zoom.bar.hidden = this.cross.hidden = true;
+    caption.append(title, this.zoom.buttons);
+    this.field.append(this.zoom.bar);
     this.key = element("div", "key", this.figure);
     this.node = null;
     const under = event => {
@@ -118,8 +124,8 @@ export class FieldMap {
     // up to 5 : 1, as the pictures
     this.aspect = Math.min(5, Math.max(0.2, ny === 1 ? 5 : lx / ly));
     canvas.style.aspectRatio = this.aspect;
-    canvas.style.imageRendering = nx > canvas.clientWidth * devicePixelRatio ? "auto" : "pixelated";
-    this.measure(lx, unit);
+    this.smooth();
+    this.zoom.measure(lx, unit);
     this.entries = colours.key(found);
     this.key.replaceChildren(
       ...this.entries.flatMap(entry => {
@@ -138,15 +144,10 @@ export class FieldMap {
     );
   }
 
-  /* The bar: the longest of 1, 2, 5, 10, … that takes at most a quarter of the side. */
-  measure(lx, unit) {
-    const most = 0.25 * lx,
-      power = 10 ** Math.floor(Math.log10(most));
-    const nice = [5, 2, 1].find(step => step * power <= most * (1 + 1e-9)) * power;
-    this.bar = { share: nice / lx, text: read(nice, unit) };
-    this.scale.hidden = !Number.isFinite(nice);
-    this.scale.style.width = `${100 * this.bar.share}%`;
-    this.scale.textContent = this.bar.text;
+  /* Smooths the pixels where there are more than the screen has. */
+  smooth() {
+    const shown = this.zoom.share * this.canvas.width;
+    this.canvas.style.imageRendering = shown > this.field.clientWidth * devicePixelRatio ? "auto" : "pixelated";
   }
 
   /* Marks a node, or none. */
@@ -154,7 +155,10 @@ export class FieldMap {
     this.node = node;
     this.cross.hidden = !node || !this.shape;
     if (this.cross.hidden) return;
-    this.cross.style.left = `${(100 * (node[0] + 0.5)) / this.shape[0]}%`;
-    this.cross.style.top = `${100 * (1 - (node[1] + 0.5) / this.shape[1])}%`;
+    const { share } = this.zoom,
+      [x, y] = this.zoom.corner;
+    const [u, v] = node.map((at, k) => (at + 0.5) / this.shape[k]);
+    this.cross.style.left = `${(100 * (u - x)) / share}%`;
+    this.cross.style.top = `${(100 * (1 - v - y)) / share}%`;
   }
 }

@@ -1,5 +1,7 @@
 /* The maps as one picture, to be saved. */
 
+import { scaleBar } from "./zoom.js";
+
 const SIDE = 512,
   MARGIN = 24,
   LINE = 22;
@@ -29,7 +31,7 @@ export async function picture(maps, text) {
     context.drawImage(map.canvas, left, top, width, height);
     context.strokeStyle = "#8a8a8a";
     context.strokeRect(left + 0.5, top + 0.5, width - 1, height - 1);
-    drawScale(context, map.bar, left + 12, top + height - 12, width, write);
+    drawScale(context, scaleBar(map.zoom.length, map.zoom.unit), left + 12, top + height - 12, width, write);
     drawKey(context, map.entries, left, below, width, write);
   });
   write(text, MARGIN, canvas.height - 0.8 * LINE);

@@ -1,7 +1,7 @@
 //! The numbers of a law as they were typed, with a unit or without one.
 
+use asperity_scene::dimension_of_key;
 use asperity_scene::numbers::plain;
-use asperity_scene::units::dimension_of_key;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -1,7 +1,8 @@
 //! The inputs of a problem by the names of their keywords. The law has a file of its own.
 
-use asperity_scene::units::dimension_of_key;
-use asperity_scene::{Adhesion, After, Conductors, Elastic, Goal, Load};
+use asperity_scene::allowed::Range;
+use asperity_scene::dimension_of_key;
+use asperity_scene::{Adhesion, After, Conductors, Elastic, Goal, Keys, Load, LoadKeys, Typed};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -40,7 +41,7 @@ pub fn quantity(key: &str, text: &str) -> PyResult<f64> {
     let refused = |expected| PyValueError::new_err(format!("{key} is {text}: {expected}"));
     let dimension =
         dimension_of_key(key).ok_or_else(|| refused("it must be a number, which has no unit".to_owned()))?;
-    let found = dimension.finite()(text).map_err(refused)?;
+    let found = dimension.within(Range::FINITE)(text).map_err(refused)?;
     let number = || refused(format!("give a number, or a text with a unit of {}", dimension.what));
     if found.has_unit { Ok(found.value) } else { Err(number()) }
 }
@@ -50,8 +51,10 @@ pub type Given = (String, Vec<f64>);
 
 /// The load of a keyword.
 pub fn load((name, numbers): &Given) -> PyResult<Load> {
-    let refused = || PyValueError::new_err(format!("{name} is no load with {} numbers", numbers.len()));
-    Load::of(name, numbers).ok_or_else(refused)
+    let keys = if name == "spring" { vec!["spring_stiffness", "spring_position"] } else { vec![name.as_str()] };
+    let typed = keys.into_iter().zip(numbers).map(|(key, number)| (key.to_owned(), Typed::Number(*number)));
+    let known: Vec<_> = LoadKeys::KEYS.iter().collect();
+    asperity_scene::Given::read(&known, typed).and_then(|given| given.load()).map_err(reason)
 }
 
 /// The gap from which to start as Python passes it: a word for it, or an array.

@@ -22,11 +22,6 @@ use crate::pools::Pool;
 use crate::refusal::{reason, refusal, refusal_of_heights, refusal_of_session};
 use crate::state::{self, At, Columns, File, Pace};
 
-/// The words of Python for a key.
-fn word(key: &str) -> String {
-    if key == "wall_stiffness" { "a stiffness, as of asperity.Penalty(stiffness)" } else { key }.to_owned()
-}
-
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
@@ -123,7 +118,7 @@ impl Problem {
         };
         let hardness_map = map.as_ref().map(|_| "array".to_owned());
         let adhesion = Adhesion { wall, wall_stiffness, hardness, hardness_map, ..adhesion };
-        adhesion.check_wall(word).map_err(PyValueError::new_err)?;
+        adhesion.check_wall().map_err(reason)?;
         let elastic = Elastic { boundary, symbol: symbol.map(crate::symbol::symbol), ..keys(body)? };
         elastic.check().map_err(reason)?;
         elastic.body().map_err(refusal)?;

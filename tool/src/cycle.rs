@@ -2,17 +2,13 @@
 
 use std::path::PathBuf;
 
-use asperity::path::PathSettings;
-use asperity::{Control, Error};
-use asperity_scene::{After, Boundary, Format, Way};
+use asperity::Error;
+use asperity_scene::{AdhesionKeys, After, Format, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
-use crate::adhesion::AdhesionOptions;
-use crate::allowed::positive;
-use crate::boundary::{LOADS, LoadsOptions};
 use crate::columns::Columns;
-use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
 use crate::printing::{self, say};
@@ -20,7 +16,6 @@ use crate::processes::Processes;
 use crate::quantity::{FORCE, PRESSURE};
 use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
-use crate::units::UnitOptions;
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -37,33 +32,18 @@ use crate::units::UnitOptions;
 /// FILE.scene.toml beside it repeats or continues the cycle by asperity run. Exits with 0 if all rows converged, 2 if
 /// not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceOptions,
-
+    surface: SurfaceKeys,
     #[command(flatten)]
-    loads: LoadsOptions,
-    /// Least number of steps from one turning point to the next
-    #[arg(long, value_name = "N", default_value_t = 50, allow_hyphen_values = true, help_heading = "Loads")]
-    steps: usize,
-    /// Step to which jumps are located, as a share of the way from one turning point to the next
-    #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
-    #[arg(help_heading = "Loads")]
-    smallest_step: f64,
-    /// Imbalance of energy that a step may have, as a share of how much the energy has changed, and of twenty
-    /// times what jumps have dissipated so far: jumps that are smaller are not located one by one
-    #[arg(long, value_name = "SHARE", default_value = "1e-4", allow_hyphen_values = true, value_parser = positive)]
-    #[arg(help_heading = "Loads")]
-    imbalance: f64,
-    /// Do not smooth a law whose traction jumps: the grid then holds the edge of the adhesive zone back
-    #[arg(long, help_heading = "Adhesion")]
-    sharp: bool,
-
+    loads: LoadsKeys,
     #[command(flatten)]
-    adhesion: AdhesionOptions,
+    path: PathKeys,
     #[command(flatten)]
-    solver: SolverOptions,
+    adhesion: AdhesionKeys,
+    #[command(flatten)]
+    solver: SolverKeys,
 
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -79,7 +59,7 @@ pub struct Options {
     #[command(flatten)]
     resolution: Resolution,
     #[command(flatten)]
-    units: UnitOptions,
+    units: UnitKeys,
     #[command(flatten)]
     manner: Manner,
 }
@@ -102,15 +82,12 @@ const MOST_EVENTS: usize = 8;
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     processes.first(|| options.check_files())?;
-    let Options { surface, loads, adhesion, solver, units, out, .. } = options;
+    let Options { surface, loads, path, adhesion, solver, units, out, .. } = options;
     let table = TableOptions {
-        problem: ProblemOptions { surface, adhesion, solver },
-        loads,
-        control: loads.control(0.0),
+        problem: &ProblemOptions::of([&surface.0, &loads.0, &path.0, &adhesion.0, &solver.0, &units.0])?,
         out,
         format: options.format()?,
         fields: options.fields.as_deref(),
-        units,
         scene,
         processes,
         manner: &options.manner,
@@ -121,12 +98,8 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 }
 
 impl Fill for Options {
-    fn way(&self, loads: Vec<Control>) -> Outcome<Way> {
-        if loads.len() < 2 {
-            return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
-        }
-        let settings = PathSettings::default().steps(self.steps).smallest_step(self.smallest_step);
-        Ok(Way::Cycle(loads, settings.imbalance(self.imbalance).smooth(!self.sharp)))
+    fn way(&self, loads: &[Load], full: f64) -> Outcome<Way> {
+        Ok(Way::cycle(loads, full, self.path.0.path())?)
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
@@ -161,7 +134,7 @@ impl Options {
         let mut events: Vec<usize> = (0..rows.len()).filter(|&k| !rows[k]["event"].is_null()).collect();
         let drop = |k: usize| rows[k]["energy_drop"].as_f64().unwrap_or(f64::NEG_INFINITY);
         events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
-        let free = self.surface.beyond.boundary == Boundary::Free;
+        let free = table.is_free();
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         self.manner.printing.report(|| {
             let last = rows.last().cloned().unwrap_or_default();

@@ -5,21 +5,20 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::{Amplitude, Grid, SelfAffine, Status, Surface};
+use asperity::{Amplitude, Grid, SelfAffine, Status};
 use asperity_maps::io::{OutputFolder, write_npy};
-use asperity_plot::{Colouring, Map, Picture};
-use clap::{Args, Command, FromArgMatches};
-use ndarray::Array2;
+use asperity_plot::{Colouring, Map};
+use clap::{Args, CommandFactory};
 use serde_json::json;
 
+use crate::adhesion::Adhesion;
 use crate::allowed::threads;
 use crate::heights::Origin;
-use crate::numbers::si;
 use crate::outcome::Outcome;
 use crate::output::{at_destination, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
-use crate::printing::{Printing, name, on_terminal};
+use crate::printing::{Printing, in_options, name, on_terminal};
 use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::scene::{self, SceneFile};
@@ -28,6 +27,7 @@ use crate::solve;
 use crate::summary::{table, warn};
 use crate::threads::use_threads;
 use crate::units::Units;
+use crate::{Command, Tool, parsed};
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///
@@ -58,55 +58,46 @@ const EXAMPLES: &str = "\
     asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --out lighter
     asperity run asperity-demo/scene.toml --mean-pressure 2.5MPa --law none --out bare";
 
-const SIDE: f64 = 1e-6;
-const NODES: usize = 512;
-const RMS_HEIGHT: f64 = 5e-9;
-const MODULUS: f64 = 1e9;
-const PRESSURE: f64 = 5e6;
-const WORK_OF_ADHESION: f64 = 0.05;
+/// The contact, as people read it, and as options of `asperity solve`.
+const TOLD: &str = "\
+A rough surface of 1 µm by 1 µm (512 x 512 nodes, rms height 5 nm) pressed with 5 MPa
+against a half-space of contact modulus 1 GPa, without adhesion and with a work of adhesion of 50 mJ/m².
+";
+const GIVEN: &str = "--lengths 1um --modulus 1GPa --mean-pressure 5MPa";
 
-/// The names of the maps, as yet without endings.
-const MAPS: [&str; 5] = [
-    "heights",
-    "contact-without-adhesion",
-    "contact-with-adhesion",
-    "pressure-without-adhesion",
-    "pressure-with-adhesion",
-];
+/// The two cases, with the options that one of them has more.
+const CASES: [(&str, &str); 2] = [("without adhesion", ""), ("with adhesion", "--law jkr --work-of-adhesion 50mJ/m2")];
 
 /// Runs the command; whether both solves converged.
 pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
     let &Options { ref out, printing, picture_format, resolution: Resolution { dpi }, .. } = options;
     let [ending] = picture_format.of([[".png"], [".svg"], [".pdf"]]);
-    let maps = MAPS.map(|name| format!("{name}{ending}"));
-    let names: Vec<_> = maps.iter().map(String::as_str).chain(["heights.npy", scene::NAME]).collect();
-    let (bare_options, bare_scene) = solve_options(out, false)?;
-    let (sticky_options, scene) = solve_options(out, true)?;
+    let cases = CASES.map(|(name, _)| name.replace(' ', "-"));
+    let map = |what: &str| cases.each_ref().map(|case| format!("{what}-{case}{ending}"));
+    let (contacts, pressures, heights_map) = (map("contact"), map("pressure"), format!("heights{ending}"));
+    let maps = [&heights_map].into_iter().chain(&contacts).chain(&pressures).map(String::as_str);
+    let names: Vec<_> = maps.chain(["heights.npy", scene::NAME]).collect();
+    let (bare_options, bare_scene) = solve_options(out, 0)?;
+    let (sticky_options, scene) = solve_options(out, 1)?;
     scene.check(&out.join(scene::NAME))?;
     drop(OutputFolder::create(out, &names, true)?);
     use_threads(options.threads)?;
 
-    let (grid, units) = (Grid::square(NODES, SIDE)?, Units::si());
-    let surface = rough(grid)?;
-    printing.say(&format!(
-        "A rough surface of {side} by {side} ({NODES} x {NODES} nodes, rms height {}) pressed with {}\n\
-         against a half-space of contact modulus {}, without adhesion and with a work of adhesion of {}.\n",
-        si(RMS_HEIGHT, "m"),
-        si(PRESSURE, "Pa"),
-        si(MODULUS, "Pa"),
-        si(WORK_OF_ADHESION, "J/m²"),
-        side = si(SIDE, "m"),
-    ));
+    let (grid, units) = (Grid::square(512, 1e-6)?, Units::si());
+    let spectrum = SelfAffine::default().k_l(3.0).k_r(3.0).k_s(40.0).amplitude(Amplitude::RmsHeight(5e-9)).seed(2017);
+    let surface = spectrum.surface(grid)?;
+    printing.say(TOLD);
     let heights = surface.heights().clone();
     let (part, surface) = (Part::all(grid), Arc::new(surface));
     let solved = |name, options: &solve::Options, scene| -> Outcome<_> {
-        let problem = options.problem();
-        let mut progress = Progress::new(name, problem.scene().tolerance(), grid.nodes(), printing.without_bars());
-        let adhesion = problem.adhesion.read(&grid, processes)?;
+        let problem = &options.problem()?;
+        let mut progress = Progress::new(name, problem.scene.tolerance(), grid.nodes(), printing.without_bars());
+        let adhesion = Adhesion::read(&problem.scene.adhesion, &problem.files, &grid, processes)?;
         let of = (&adhesion, &Origin::default(), &part);
         let session = session::<f64>(problem, surface.clone(), of, (&units, scene), Strictness::default(), processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
-        let mut solved = session.solve(&options.asked(1.0), None, &mut |grid, state, tolerance| {
+        let asked = in_options(problem.given.load().and_then(|load| problem.given.asked(load, 1.0)))?;
+        let mut solved = session.solve(&asked, None, &mut |grid, state, tolerance| {
             progress.update_on(grid, state, tolerance);
             ControlFlow::Continue(())
         })?;
@@ -118,19 +109,24 @@ pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
 
     let folder = OutputFolder::create(out, &names, true)?;
     let draw = || {
-        let path = |what: &str| folder.path(&format!("{what}{ending}"));
-        draw_heights(grid, &heights, dpi)?.write(path("heights"))?;
+        let map = Map {
+            title: "Rough surface",
+            caption: "rms height 5 nm",
+            length_unit: Some("m"),
+            label: "height",
+            unit: Some("m"),
+            ..Map::new(heights.view(), grid, Colouring::Sequential)
+        };
+        map.draw(dpi)?.write(folder.path(&heights_map))?;
         write_npy(folder.path("heights.npy"), &heights)?;
         write_text(&folder.path(scene::NAME), &scene.text(out))?;
-        for (name, solution, adheres) in [("without adhesion", &bare, false), ("with adhesion", &sticky, true)] {
-            let path = |what: &str| path(&format!("{what}-{}", name.replace(' ', "-")));
+        for (k, solution) in [&bare, &sticky].into_iter().enumerate() {
+            let [contact, pressure] = ["Contact", "Pressure"].map(|what| format!("{what} {}", CASES[k].0));
             let regions = solution.regions().mapv(f64::from);
-            let contact = pictures::draw_regions(grid, &format!("Contact {name}"), &units, &regions, dpi)?;
-            contact.write(path("contact"))?;
-            let (caption, title) = (format!("mean {}", si(PRESSURE, "Pa")), format!("Pressure {name}"));
-            let pressure = pictures::pressure_to_draw(solution, adheres);
-            let pressure = pictures::draw_pressure(grid, (&title, &caption), &units, pressure, None, dpi)?;
-            pressure.write(path("pressure"))?;
+            pictures::draw_regions(grid, &contact, &units, &regions, dpi)?.write(folder.path(&contacts[k]))?;
+            let (shown, titles) = (pictures::pressure_to_draw(solution, k == 1), (&*pressure, "mean 5 MPa"));
+            let picture = pictures::draw_pressure(grid, titles, &units, shown, None, dpi)?;
+            picture.write(folder.path(&pressures[k]))?;
         }
         Ok(())
     };
@@ -139,63 +135,33 @@ pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
 
     printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], &units));
     printing.say(&format!("\nmaps in {}: {}\n", name(out), names.join(", ")));
-    let command: Vec<_> = arguments(out, true).iter().map(|word| quoted(word)).collect();
+    let command: Vec<_> = arguments(out, 1).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
     printing.say(&format!(
         "the case with adhesion again, by its options or by its scene:\n  {}\n  asperity run {}",
         on_terminal(&command),
         on_terminal(&file)
     ));
-    printing.report(|| {
-        json!({
-            "command": "demo",
-            "without_adhesion": without,
-            "with_adhesion": with,
-        })
-    });
-    warn("without adhesion", &without);
-    warn("with adhesion", &with);
+    printing.report(|| json!({ "command": "demo", "without_adhesion": without, "with_adhesion": with }));
+    CASES.iter().zip([&without, &with]).for_each(|((name, _), account)| warn(name, account));
     Ok([without, with].iter().all(|account| account.status == Status::Converged))
 }
 
-/// The surface of the demo: one of a fixed seed, on any grid that resolves its waves.
-fn rough(grid: Grid) -> asperity::Result<Surface> {
-    let amplitude = Amplitude::RmsHeight(RMS_HEIGHT);
-    SelfAffine::default().k_l(3.0).k_r(3.0).k_s(40.0).amplitude(amplitude).seed(2017).surface(grid)
+/// The arguments of `asperity solve` for a case, with the heights in `folder`.
+fn arguments(folder: &Path, case: usize) -> Vec<OsString> {
+    let (name, more) = CASES[case];
+    let given = [GIVEN, more].into_iter().flat_map(str::split_whitespace).map(OsString::from);
+    let heights = ["asperity".into(), "solve".into(), "--heights".into(), folder.join("heights.npy").into()];
+    let out = ["--out".into(), folder.join(name.replace(' ', "-")).into()];
+    heights.into_iter().chain(given).chain(out).collect()
 }
 
-fn draw_heights(grid: Grid, heights: &Array2<f64>, dpi: f64) -> asperity::Result<Picture> {
-    let map = Map {
-        title: "Rough surface",
-        caption: &format!("rms height {}", si(RMS_HEIGHT, "m")),
-        length_unit: Some("m"),
-        label: "height",
-        unit: Some("m"),
-        ..Map::new(heights.view(), grid, Colouring::Sequential)
-    };
-    map.draw(dpi)
-}
-
-/// The arguments of `asperity solve` for one of the two cases, with the heights in `folder`.
-fn arguments(folder: &Path, adhesive: bool) -> Vec<OsString> {
-    let law = "--law jkr --work-of-adhesion 50mJ/m2";
-    let given = format!("--lengths 1um --modulus 1GPa --mean-pressure 5MPa {}", if adhesive { law } else { "" });
-    let mut arguments: Vec<OsString> = ["asperity", "solve", "--heights"].map(OsString::from).into();
-    arguments.push(folder.join("heights.npy").into());
-    arguments.extend(given.split_whitespace().map(OsString::from));
-    arguments.extend(["--out".into(), folder.join(if adhesive { "with-adhesion" } else { "without-adhesion" }).into()]);
-    arguments
-}
-
-/// The options of `asperity solve` for one of the two cases, and its scene.
-fn solve_options(folder: &Path, adhesive: bool) -> Outcome<(solve::Options, SceneFile)> {
-    let mut command = solve::Options::augment_args(Command::new("solve"));
-    let matches = command.try_get_matches_from_mut(arguments(folder, adhesive).into_iter().skip(1));
-    let parsed = matches.and_then(|matches| {
-        let options = solve::Options::from_arg_matches(&matches)?;
-        Ok((options, SceneFile::of(&command, &matches)))
-    });
-    parsed.map_err(|_| format!("--out {}: is no name that solve takes, choose another", folder.display()).into())
+/// The options of `asperity solve` for a case, and its scene.
+fn solve_options(folder: &Path, case: usize) -> Outcome<(Box<solve::Options>, SceneFile)> {
+    match parsed(&mut Tool::command(), arguments(folder, case)) {
+        Ok((Command::Solve(options), scene)) => Ok((options, scene)),
+        _ => Err(format!("--out {}: is no name that solve takes, choose another", folder.display()).into()),
+    }
 }
 
 /// A word with the quotation marks that a shell needs.

@@ -7,13 +7,13 @@ use std::sync::{Mutex, PoisonError};
 use asperity::{Error, Grid, Surface};
 use asperity_maps::io::{read_rows, read_topography};
 use asperity_maps::{Topography, surface_with_absent};
-use asperity_scene::{Skin, in_unit, worded};
+use asperity_scene::{Given, Skin, in_unit, worded};
 use ndarray::Array2;
 
 use crate::outcome::Outcome;
 use crate::printing::complain;
 use crate::processes::Processes;
-use crate::quantity::{LENGTH, Quantity};
+use crate::quantity::LENGTH;
 use crate::units::Units;
 
 /// The relative difference that `--lengths` may have from the side lengths of the file, whose header rounds.
@@ -49,9 +49,9 @@ impl Origin {
 
 /// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none.
 /// Lengths that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
-pub fn map(path: &Path, lengths: Option<&[Quantity]>, si: bool) -> Outcome<(Topography, Origin)> {
+pub fn map(path: &Path, given: &Given, si: bool) -> Outcome<(Topography, Origin)> {
     let (mut map, unit) = map_in(si, path)?;
-    map.lengths = sides_of(path, &map, map.heights.dim(), lengths, si)?;
+    map.lengths = sides_of(path, &map, map.heights.dim(), given, si)?;
     let origin = Origin::of(&map, unit);
     Ok((map, origin))
 }
@@ -93,13 +93,7 @@ pub fn rows_on(option: &'static str, path: &Path, grid: &Grid) -> Outcome<Array2
 
 /// The surface of a file, of which every process reads its rows, and its origin. Its missing points become absent
 /// nodes, or are refused.
-pub fn shared(
-    path: &Path,
-    lengths: Option<&[Quantity]>,
-    si: bool,
-    absent: bool,
-    processes: &Processes,
-) -> Outcome<(Surface, Origin)> {
+pub fn shared(path: &Path, given: &Given, si: bool, absent: bool, processes: &Processes) -> Outcome<(Surface, Origin)> {
     let read = || {
         let mut refused = None;
         let (map, shape) = read_rows(path, |shape| {
@@ -113,7 +107,7 @@ pub fn shared(
             return Err(error.into());
         }
         let (map, unit) = in_metres_if(si, path, map)?;
-        let sides = or_unit_square(path, &map, sides_of(path, &map, shape, lengths, si)?);
+        let sides = or_unit_square(path, &map, sides_of(path, &map, shape, given, si)?);
         Ok((Grid::new(shape, sides)?, map, unit))
     };
     let (grid, map, unit) = processes.agree(read())?;
@@ -132,15 +126,16 @@ fn sides_of(
     path: &Path,
     map: &Topography,
     shape: (usize, usize),
-    lengths: Option<&[Quantity]>,
+    given: &Given,
     si: bool,
 ) -> Outcome<Option<(f64, f64)>> {
-    if si && map.lengths.is_none() && lengths.is_none() {
+    let given = given.lengths(shape);
+    if si && map.lengths.is_none() && given.is_none() {
         let text = "the numbers have units, but nothing says how large the map is: give --lengths, as 20um";
         return Err(format!("{}: {text}", path.display()).into());
     }
     let mut known = map.lengths;
-    if let Some(given) = lengths.map(|lengths| both_sides(shape, lengths)) {
+    if let Some(given) = given {
         if let Some(found) = known {
             let near = |a: f64, b: f64| (a / b - 1.0).abs() <= ROUNDING;
             // a line has no width
@@ -182,20 +177,6 @@ pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
             names.join(", ")
         );
         complain("warning", &text);
-    }
-}
-
-/// The side lengths that `--lengths` means for a map.
-pub fn given(map: &Topography, lengths: Option<&[Quantity]>) -> Option<(f64, f64)> {
-    lengths.map(|lengths| both_sides(map.heights.dim(), lengths))
-}
-
-/// The side lengths of a map of a shape by one of them, which means square cells, or two.
-pub fn both_sides((nx, ny): (usize, usize), lengths: &[Quantity]) -> (f64, f64) {
-    match lengths {
-        [lx, ly, ..] => (lx.value, ly.value),
-        [lx] => (lx.value, lx.value / nx as f64 * ny as f64),
-        [] => (1.0, 1.0),
     }
 }
 

@@ -2,23 +2,22 @@
 
 use std::path::PathBuf;
 
-use asperity::{Control, Error};
+use asperity::Error;
 use asperity_scene::interface::Code;
-use asperity_scene::{After, Boundary, Format, Way};
+use asperity_scene::{
+    AdhesionKeys, After, Boundary, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys,
+    UnitKeys,
+};
 use clap::{ArgGroup, Args};
 use serde_json::{Value, json};
 
-use crate::adhesion::AdhesionOptions;
-use crate::after::{ConductorOptions, LeakageOptions};
-use crate::boundary::{LOADS, LoadsOptions};
-use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, check_free, write_text};
 use crate::printing::{complain, in_options};
 use crate::processes::Processes;
 use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
-use crate::units::{UnitOptions, Units};
 
 /// Tabulate the law of an interface over the load, for finite elements.
 ///
@@ -30,18 +29,16 @@ use crate::units::{UnitOptions, Units};
 /// adhesion the rows are those of one branch, and one of them needs a pressure of zero, or less. Exits with 0 if all
 /// rows converged, 2 if not (then there is the table alone), and 1 if the input is refused.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS)))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceOptions,
-
+    surface: SurfaceKeys,
     #[command(flatten)]
-    loads: LoadsOptions,
-
+    loads: LoadsKeys,
     #[command(flatten)]
-    adhesion: AdhesionOptions,
+    adhesion: AdhesionKeys,
     #[command(flatten)]
-    solver: SolverOptions,
+    solver: SolverKeys,
 
     /// File for the table, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -51,11 +48,11 @@ pub struct Options {
     #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
     codes: Vec<Code>,
     #[command(flatten)]
-    conductors: ConductorOptions,
+    conductors: ConductorKeys,
     #[command(flatten)]
-    leakage: LeakageOptions,
+    leakage: LeakageKeys,
     #[command(flatten)]
-    units: UnitOptions,
+    units: UnitKeys,
     #[command(flatten)]
     manner: Manner,
 }
@@ -72,36 +69,29 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let Options { surface, loads, adhesion, solver, units, out, .. } = options;
-    if surface.beyond.boundary == Boundary::Free {
+    let Options { surface, loads, adhesion, solver, conductors, leakage, units, out, .. } = options;
+    let problem = [&surface.0, &loads.0, &adhesion.0, &solver.0, &conductors.0, &leakage.0, &units.0];
+    let problem = &ProblemOptions::of(problem)?;
+    if problem.scene.elastic.boundary == Boundary::Free {
         return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
     }
-    adhesion.check_elastic("the contact stiffness of an interface is known of elastic contact alone")?;
+    problem.check_elastic("the contact stiffness of an interface is known of elastic contact alone")?;
     if Format::of(out) != Some(Format::Csv) {
         return Err(Error::file(out, "does not end in .csv: rename it").into());
     }
-    let problem = ProblemOptions { surface, adhesion, solver };
     for (_, path) in options.files() {
         check_apart(&path, problem.files().chain([out.as_path()]))?;
         check_free(&path, options.manner.force || out.exists(), "--out")?;
     }
     let table = TableOptions {
         problem,
-        loads,
-        control: loads.control(0.0),
         out,
         format: Format::Csv,
         fields: None,
-        units,
         scene,
         processes,
         manner: &options.manner,
-        after: After {
-            stiffness: true,
-            conductors: options.conductors.conductors(),
-            percolation: false,
-            leakage: options.leakage.leakage,
-        },
+        after: After { stiffness: true, ..in_options(problem.given.after())? },
         interface: true,
     };
     table.fill(options)
@@ -115,8 +105,8 @@ impl Options {
     }
 
     /// Writes the files of all rows for the codes, and tells their names.
-    fn write(&self, rows: &[Value], units: &Units) -> Outcome<Vec<String>> {
-        let adhesive = self.adhesion.adheres();
+    fn write<T: Scalar>(&self, rows: &[Value], table: &Table<'_, T>) -> Outcome<Vec<String>> {
+        let (adhesive, units) = (table.adheres(), table.units());
         let name = self.out.file_stem().unwrap_or_default().to_string_lossy();
         let mut written = Vec::new();
         for code in &self.codes {
@@ -133,10 +123,6 @@ impl Options {
 }
 
 impl Fill for Options {
-    fn way(&self, loads: Vec<Control>) -> Outcome<Way> {
-        Ok(Way::Sweep(loads))
-    }
-
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve(&self.out, self.manner.printing)?;
         let converged = table.converged("or use a larger --tolerance or finer steps");
@@ -144,7 +130,7 @@ impl Fill for Options {
             complain("warning", "there are no files --for codes of finite elements, as rows have not converged");
         }
         table.first(|| {
-            let written = if converged { self.write(&rows, table.units())? } else { Vec::new() };
+            let written = if converged { self.write(&rows, table)? } else { Vec::new() };
             if !written.is_empty() {
                 self.manner.printing.say(&format!("for finite elements: {}", written.join(", ")));
             }

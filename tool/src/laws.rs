@@ -5,16 +5,15 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use asperity_scene::{LAWS, Law};
+use asperity_scene::{AdhesionKeys, LAWS, Law, Skin, UnitKeys, worded};
 use clap::Args;
 
-use crate::adhesion::{AdhesionOptions, option};
+use crate::adhesion::uniform;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
 use crate::pictures::Resolution;
-use crate::printing::{bold, say};
+use crate::printing::{bold, in_options, say};
 use crate::scene::SceneFile;
-use crate::units::UnitOptions;
 
 /// List the adhesion laws, with formula, parameters and source.
 ///
@@ -25,14 +24,14 @@ use crate::units::UnitOptions;
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    adhesion: AdhesionOptions,
+    adhesion: AdhesionKeys,
     /// File for a picture of the traction over the gap, .png, .svg or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
     #[command(flatten)]
     resolution: Resolution,
     #[command(flatten)]
-    units: UnitOptions,
+    units: UnitKeys,
     /// Replace a file that is there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -50,9 +49,10 @@ const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
-    options.adhesion.check_elastic("a law has none")?;
-    let units = options.units.units(None, scene.is_si())?;
-    let chosen = Law::named(&options.adhesion.law).filter(|_| options.adhesion.adheres());
+    let adhesion = options.adhesion.0.scene()?.adhesion;
+    in_options(adhesion.check_elastic("a law has none"))?;
+    let units = in_options(options.units.0.units(None, scene.is_si()))?;
+    let chosen = Law::named(&adhesion.law).filter(|_| adhesion.adheres());
     let Some(path) = &options.plot else {
         match chosen {
             Some(law) => list(law),
@@ -64,13 +64,14 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         return Err("--plot needs a law: choose one by --law, with its parameters".into());
     };
     Format::of(path)?;
-    options.adhesion.check()?;
+    in_options(adhesion.check())?;
     if chosen.of_grid {
         let name = chosen.name;
         return Err(format!("--law {name} has the range of a grid, so that there is no curve without one").into());
     }
-    let law = options.adhesion.uniform()?.0.law::<f64>();
-    check_apart(path, options.adhesion.law_table.as_deref())?;
+    let table = options.adhesion.0.files().law_table;
+    let law = uniform(&adhesion, table.as_deref())?.0.law::<f64>();
+    check_apart(path, table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;
     list(chosen);
     let Hints { range, rest, .. } = law.hints();
@@ -100,5 +101,11 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
 }
 
 fn list(law: &Law) {
-    say(&format!("{}\n  {}\n  {}\n  {}", bold(law.name), law.formula, law.parameters(option), law.source));
+    say(&format!(
+        "{}\n  {}\n  {}\n  {}",
+        bold(law.name),
+        law.formula,
+        law.parameters(|key| worded(&format!("{{{key}}}"), Skin::Options)),
+        law.source
+    ));
 }

@@ -4,22 +4,21 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use asperity::Grid;
-use asperity_flow::{Axis, Flow, Gap, Leak, Leakage};
+use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
 use asperity_maps::io::{OutputFolder, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
-use asperity_scene::{Boundary, LeakAsked, Skin};
+use asperity_scene::{Boundary, LeakKeys, LengthsKeys, Skin};
 use clap::Args;
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use crate::allowed::share;
 use crate::heights::{self, check_room, converted, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, commit, output_folder, write_text};
 use crate::pictures::{PictureFormat, Resolution};
 use crate::printing::{Printing, complain, name, say};
-use crate::quantity::{LENGTH, Quantity, VISCOSITY};
+use crate::quantity::LENGTH;
 use crate::report;
 use crate::scene::{self, SceneFile};
 use crate::solved::{GAP, Solved};
@@ -39,27 +38,10 @@ pub struct Options {
     /// matrix
     #[arg(value_name = "GAP")]
     gap: PathBuf,
-    /// Side lengths of the map, in the unit of the gaps; LX alone means square cells [default: the file's]
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
-    #[arg(value_parser = LENGTH.positive())]
-    lengths: Option<Vec<Quantity>>,
-    /// What is beyond the map: of a free one each axis is fed at one side and drained at the other [default: that of
-    /// the folder, or periodic]
-    #[arg(long, value_enum, value_name = "BOUNDARY")]
-    boundary: Option<Boundary>,
-    /// Gap of absent nodes, where the file has no number; without it they are closed
-    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = LENGTH.positive())]
-    absent_gap: Option<Quantity>,
-    /// Dynamic viscosity of the fluid, for the flow per pressure
-    #[arg(long, value_name = "ETA", allow_hyphen_values = true, value_parser = VISCOSITY.positive())]
-    viscosity: Option<Quantity>,
-    /// Distance of the bounds at which to stop, relative to the upper one
-    #[arg(long, value_name = "T", default_value = "1e-6", allow_hyphen_values = true, value_parser = share)]
-    #[arg(help_heading = "Solver")]
-    tolerance: f64,
-    /// The most iterations along each axis
-    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, help_heading = "Solver")]
-    max_iterations: usize,
+    #[command(flatten)]
+    lengths: LengthsKeys,
+    #[command(flatten)]
+    leak: LeakKeys,
 
     /// Folder for report.json, scene.toml, and for each axis along which the gap is open pressure_x.npy (relative to
     /// the pressure that falls), flow_x.npy (per width, over pressure and times viscosity, a length squared), and
@@ -122,14 +104,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let (map, boundary) = options.read(scene.is_si())?;
     check_room(map.heights.dim())?;
     let grid = Grid::new(map.heights.dim(), map.lengths.unwrap_or((1.0, 1.0)))?;
-    let number = |given: Option<Quantity>| given.map(|given| given.value);
-    let asked = LeakAsked {
-        boundary: options.boundary.unwrap_or(boundary),
-        absent_gap: number(options.absent_gap),
-        settings: Leakage::default().tolerance(options.tolerance).max_iterations(options.max_iterations),
-        viscosity: number(options.viscosity),
-        grid_error: true,
-    };
+    let asked = options.leak.0.leak(boundary);
     let start = Instant::now();
     let (leak, leaked) = asked.find(Gap::new(map.heights.view(), grid)?)?;
     let seconds = start.elapsed().as_secs_f64();
@@ -140,7 +115,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             "shape": grid.shape(),
             "lengths": grid.lengths(),
             "length_unit": units.length,
-            "max_iterations": options.max_iterations,
+            "max_iterations": asked.settings.max_iterations,
             "given": scene.given(),
             "seconds": seconds,
             "version": env!("CARGO_PKG_VERSION"),
@@ -171,12 +146,12 @@ impl Options {
         if path.is_dir() {
             let solved = Solved::read(path)?;
             let (map, boundary) = (solved.map(GAP)?, solved.boundary());
-            if self.lengths.is_some() {
+            if self.lengths.0.first().is_some() {
                 return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
             }
             return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
         }
-        let (map, _) = heights::map(path, self.lengths.as_deref(), si)?;
+        let (map, _) = heights::map(path, &self.lengths.0, si)?;
         warn_of_unread(path, &map, "are taken as 1 x 1");
         Ok((map, Boundary::Periodic))
     }

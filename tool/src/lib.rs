@@ -31,12 +31,7 @@ mod surface;
 mod sweep;
 
 // the parts of which commands are made
-mod accuracy;
 mod adhesion;
-mod after;
-mod against;
-mod body;
-mod boundary;
 mod citation;
 mod entries;
 mod heights;

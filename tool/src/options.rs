@@ -1,107 +1,30 @@
-//! The options that more than one command has.
+//! The contact problem that options choose, with what its files hold.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use asperity::solver::Method;
 use asperity::{Error, Surface};
 use asperity_maps::io::read_field;
 pub use asperity_scene::Scalar;
-use asperity_scene::{Branches, Elastic, Precision, Scene};
-use clap::{Args, ValueEnum};
+use asperity_scene::{After, Branches, Files, Given, Load, Scene, between};
 use ndarray::Array2;
 
-use crate::adhesion::{Adhesion, AdhesionOptions};
-use crate::against::AgainstOptions;
-use crate::allowed::{positive, threads};
-use crate::body::BodyOptions;
-use crate::boundary::BoundaryOptions;
-use crate::heights::{self, Origin};
+use crate::adhesion::Adhesion;
+use crate::heights::{self, Origin, map_in};
 use crate::outcome::Outcome;
 use crate::part::Part;
 use crate::printing::in_options;
 use crate::processes::Processes;
-use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::threads::use_threads;
 
-/// The surface and the half-space.
-#[derive(Args)]
-pub struct SurfaceOptions {
-    /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's
-    /// text export, or a text matrix
-    #[arg(long, value_name = "FILE", help_heading = "Surface")]
-    pub heights: PathBuf,
-    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else 1
-    /// 1]
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
-    #[arg(value_parser = LENGTH.positive(), help_heading = "Surface")]
-    pub lengths: Option<Vec<Quantity>>,
-    /// Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
-    /// deforms
-    #[arg(long, value_name = "E", default_value = "1", allow_hyphen_values = true, value_parser = PRESSURE.positive())]
-    #[arg(help_heading = "Surface")]
-    modulus: Quantity,
-    #[command(flatten)]
-    pub beyond: BoundaryOptions,
-    #[command(flatten)]
-    body: BodyOptions,
-    #[command(flatten)]
-    pub other: AgainstOptions,
-    /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
-    /// force are those of the original
-    #[arg(long, help_heading = "Surface")]
-    pub whole: bool,
+/// The contact problem that options choose, and its solver.
+pub struct ProblemOptions {
+    pub given: Given,
+    pub scene: Scene,
+    pub files: Files,
 }
 
-/// The method, the accuracy and the start of a solve.
-#[derive(Args)]
-pub struct SolverOptions {
-    /// Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)
-    #[arg(long, value_enum, default_value_t = Iteration::Default, help_heading = "Solver")]
-    pub method: Iteration,
-    /// Certified relative error at which to stop [default: 1e-6, in f32 1e-4]
-    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
-    pub tolerance: Option<f64>,
-    /// Iterations after which to give up [default: 2000, with rey2017 20000]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Solver")]
-    pub max_iterations: Option<usize>,
-    /// Precision of the solve, and of the fields it writes
-    #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Solver")]
-    pub precision: Precision,
-    /// Threads; the results do not depend on it [default: one per core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads, help_heading = "Solver")]
-    pub threads: Option<usize>,
-    /// Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, that of surfaces
-    /// pressed flat before, or with solve both [default: loading; unloading under a tension or at a given mean gap]
-    #[arg(long, value_enum, value_name = "BRANCH", help_heading = "Solver", conflicts_with = "initial_gap")]
-    pub branch: Option<Branches>,
-    /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
-    #[arg(long, value_name = "FILE", help_heading = "Solver")]
-    pub initial_gap: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-pub enum Iteration {
-    Default,
-    Rey2017,
-}
-
-impl Iteration {
-    /// The method of the library.
-    pub fn method(self) -> Method {
-        if self == Self::Rey2017 { Method::Rey2017 } else { Method::Preconditioned }
-    }
-}
-
-/// The options that choose a contact problem and its solver.
-#[derive(Clone, Copy)]
-pub struct ProblemOptions<'a> {
-    pub surface: &'a SurfaceOptions,
-    pub adhesion: &'a AdhesionOptions,
-    pub solver: &'a SolverOptions,
-}
-
-/// The fields that the options name, read from their files.
-pub struct Given {
+/// The problem with what its files hold.
+pub struct Problem {
     pub surface: Surface,
     pub adhesion: Adhesion,
     /// The entries of the file of the surface beside its heights
@@ -112,75 +35,43 @@ pub struct Given {
     pub start: Option<Array2<f64>>,
 }
 
-impl<'a> ProblemOptions<'a> {
-    /// Checks the options, reads their files, with all in metres if numbers are in the SI, of fields the rows that this
-    /// process holds, and starts the threads.
-    pub fn read(self, si: bool, processes: &Processes) -> Outcome<Given> {
-        self.adhesion.check()?;
-        in_options(self.surface.elastic().check())?;
-        let &SurfaceOptions { heights: ref path, ref lengths, ref beyond, whole, .. } = self.surface;
+impl ProblemOptions {
+    /// The problem of several lists of keys; refuses a law, a wall and a body without their parameters.
+    pub fn of<'a>(parts: impl IntoIterator<Item = &'a Given>) -> Outcome<Self> {
+        let given = Given::all(parts);
+        let (scene, files) = (given.scene()?, given.files());
+        in_options(scene.adhesion.check().and_then(|()| scene.elastic.check()))?;
+        Ok(Self { given, scene, files })
+    }
+
+    /// Reads the files, with all in metres if numbers are in the SI, of fields the rows that this process holds, and
+    /// starts the threads.
+    pub fn read(&self, si: bool, processes: &Processes) -> Outcome<Problem> {
+        let Self { given, scene, files } = self;
+        let (path, absent, boundary) = (&files.heights, given.absent_missing(), scene.elastic.boundary);
         let (surface, origin) = if processes.count() > 1 {
-            heights::shared(path, lengths.as_deref(), si, beyond.absent_missing, processes)?
+            heights::shared(path, given, si, absent, processes)?
         } else {
-            let (map, origin) = heights::map(path, lengths.as_deref(), si)?;
-            (heights::surface_or_absent(path, map, beyond.absent_missing)?, origin)
+            let (map, origin) = heights::map(path, given, si)?;
+            (heights::surface_or_absent(path, map, absent)?, origin)
         };
-        let sides = (beyond.boundary, beyond.absent_missing);
-        let surface = processes.agree(self.surface.other.between(surface, &origin, si, sides))?;
-        let part = processes.agree(Part::of(&origin, *surface.grid(), beyond.boundary, whole))?;
-        let adhesion = self.adhesion.read(surface.grid(), processes)?;
-        let start = processes.agree(self.solver.start(&surface, &part))?;
-        processes.agree(use_threads(self.solver.threads))?;
-        Ok(Given { surface, adhesion, origin, part, start })
-    }
-}
-
-impl SurfaceOptions {
-    /// The contact modulus.
-    pub fn modulus(&self) -> f64 {
-        self.modulus.value
+        let surface = processes.agree(match &files.against {
+            Some(against) => map_in(si, against).and_then(|(map, _)| {
+                let (first, shift) = ((&surface, origin.unit.as_deref(), origin.original), given.shift());
+                in_options(between(first, map, shift.unwrap_or_default(), (boundary, absent)))
+            }),
+            None => Ok(surface),
+        })?;
+        let part = processes.agree(Part::of(&origin, *surface.grid(), boundary, given.whole()))?;
+        let adhesion = Adhesion::read(&scene.adhesion, files, surface.grid(), processes)?;
+        let start = processes.agree(self.start(&surface, &part))?;
+        processes.agree(use_threads(given.threads()))?;
+        Ok(Problem { surface, adhesion, origin, part, start })
     }
 
-    /// The elastic body.
-    pub fn elastic(&self) -> Elastic {
-        let body = self.body.elastic(self.beyond.boundary, self.modulus());
-        Elastic { against_modulus: self.other.modulus(), ..body }
-    }
-
-    /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none is `wanted`.
-    pub fn full_pressure(&self, surface: &Surface, wanted: bool) -> Outcome<f64> {
-        if wanted { Ok(self.elastic().full_pressure(surface)?) } else { Ok(1.0) }
-    }
-}
-
-impl<'a> ProblemOptions<'a> {
-    /// The files of the problem: heights of both sides, law and works of adhesion.
-    pub fn files(self) -> impl Iterator<Item = &'a Path> {
-        let Self { surface, adhesion, .. } = self;
-        let AdhesionOptions { law_table, work_of_adhesion_map, hardness_map, .. } = adhesion;
-        let others = [&surface.other.against, law_table, work_of_adhesion_map, hardness_map];
-        std::iter::once(&*surface.heights).chain(others.into_iter().filter_map(Option::as_deref))
-    }
-
-    /// The scene that the options describe.
-    pub fn scene(self) -> Scene {
-        let &SolverOptions { method, precision, tolerance, max_iterations, branch, .. } = self.solver;
-        Scene {
-            elastic: self.surface.elastic(),
-            adhesion: self.adhesion.described(),
-            method: method.method(),
-            precision,
-            tolerance,
-            max_iterations,
-            branch,
-        }
-    }
-}
-
-impl SolverOptions {
     /// The gap from which to start, if it is given, of the whole surface or of the `part` of which results are.
     fn start(&self, surface: &Surface, part: &Part) -> Outcome<Option<Array2<f64>>> {
-        let Some(path) = &self.initial_gap else { return Ok(None) };
+        let Some(path) = &self.files.initial_gap else { return Ok(None) };
         let grid = surface.grid();
         // a mirrored map, which one process has as a whole, may start from the gap of its original
         let start = if part.has_original() {
@@ -210,11 +101,41 @@ impl SolverOptions {
 
     /// Refuses both branches of equilibria where each state starts from the one before.
     pub fn check_table(&self) -> Outcome<()> {
-        match self.branch {
+        match self.scene.branch {
             Some(Branches::Both) => {
                 Err("--branch both compares two solves under one load: use asperity solve, or give one branch".into())
             }
             _ => Ok(()),
         }
+    }
+
+    /// Refuses loads that the boundary does not have.
+    pub fn check_loads(&self, loads: &[Load]) -> Outcome<()> {
+        in_options(loads.iter().try_for_each(|load| load.check(self.scene.elastic.boundary, false)))
+    }
+
+    /// Refuses findings that the problem does not have, and those that have no form for several processes.
+    pub fn check_after(&self, after: &After, processes: &Processes) -> Outcome<()> {
+        let Scene { elastic, adhesion, .. } = &self.scene;
+        in_options(after.check(elastic, adhesion))?;
+        after.takes_whole_fields(adhesion.adheres()).map_or(Ok(()), |name| processes.alone(name))
+    }
+
+    /// Refuses a surface that yields, for a reason.
+    pub fn check_elastic(&self, reason: &str) -> Outcome<()> {
+        in_options(self.scene.adhesion.check_elastic(reason))
+    }
+
+    /// The pressure E* h'rms, of which a reduced pressure is a part; 1 where none of the loads is one.
+    pub fn full_pressure(&self, surface: &Surface, loads: &[Load]) -> Outcome<f64> {
+        match loads.iter().any(|load| matches!(load, Load::Reduced(_))) {
+            true => Ok(self.scene.elastic.full_pressure(surface)?),
+            false => Ok(1.0),
+        }
+    }
+
+    /// The files of the problem but for the gap from which to start.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.files.of_problem()
     }
 }

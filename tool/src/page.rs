@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use asperity::Error;
+use asperity_plot::page::{LOOK, QUANTITY, ZOOM, escaped};
 use clap::Args;
 
 use crate::citation::{PAPER, PROGRAM};
@@ -21,7 +22,7 @@ mod maps;
 mod of_solve;
 mod of_table;
 
-use figures::{escaped, spaced};
+use figures::spaced;
 pub use of_table::draw_loads;
 
 /// Put the results of a run on one page for a browser.
@@ -91,8 +92,9 @@ impl Page {
         let title = escaped(title);
         let text = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width\"/>\n<title>{title}</title>\n<style>\n{}</style>\n</head>\n\
-             <body>\n<h1>{title}</h1>\n<p>{}</p>\n",
+             <meta name=\"viewport\" content=\"width=device-width\"/>\n\
+             <meta name=\"color-scheme\" content=\"light dark\"/>\n<title>{title}</title>\n\
+             <style>\n{LOOK}{}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<p>{}</p>\n",
             include_str!("page/style.css"),
             escaped(subtitle)
         );
@@ -150,10 +152,13 @@ impl Page {
             );
         }
         let (program, paper) = (escaped(PROGRAM), escaped(PAPER));
+        // one script, in which what a file exports is there for the next one
+        let lines = [QUANTITY, ZOOM, include_str!("page/maps.js")].into_iter().flat_map(str::lines);
+        let lines = lines.filter(|line| !line.starts_with("import "));
+        let script: String = lines.flat_map(|line| [line.strip_prefix("export ").unwrap_or(line), "\n"]).collect();
         let _ = write!(
             self.text,
-            "<h2>How to cite</h2>\n<p>{program}</p>\n<p>{paper}</p>\n<script>\n{}</script>\n</body>\n</html>\n",
-            include_str!("page/zoom.js")
+            "<h2>How to cite</h2>\n<p>{program}</p>\n<p>{paper}</p>\n<script>\n{script}</script>\n</body>\n</html>\n"
         );
         self.text
     }

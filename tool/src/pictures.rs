@@ -10,6 +10,7 @@ use clap::{Args, ValueEnum};
 use ndarray::{Array2, ArrayView2};
 use serde_json::Value;
 
+use crate::allowed::Range;
 use crate::allowed::resolution;
 use crate::columns::Columns;
 use crate::numbers::{percent, plain};
@@ -57,7 +58,7 @@ pub struct MapColours {
     /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the
     /// largest tension, negative, and that of the largest compression [default: as far as most of the load is carried]
     #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
-    #[arg(value_parser = PRESSURE.finite(), help_heading = "Output")]
+    #[arg(value_parser = PRESSURE.within(Range::FINITE), help_heading = "Output")]
     colour_limits: Option<Vec<Quantity>>,
     /// Give each cluster of contact a colour of its own, nine in turn, the largest clusters first
     #[arg(long, help_heading = "Output")]

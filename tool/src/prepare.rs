@@ -5,15 +5,14 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity_maps::Topography;
 use asperity_maps::io::{read_channel, read_topography, write_topography};
-use asperity_scene::{Log, Preparation, Skin, worded};
-use clap::Args;
+use asperity_scene::{CutOffKeys, Given, Log, NewLengthsKeys, StepKeys};
+use clap::{ArgGroup, Args};
 use serde_json::json;
 
-use crate::heights::{check_room, given, warn_of_unread};
+use crate::heights::{check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, complain, name, say};
-use crate::quantity::{LENGTH, Quantity};
+use crate::printing::{Printing, complain, in_options, name, say};
 use crate::scene::SceneFile;
 
 /// Make a measured map into a surface that can be solved.
@@ -25,6 +24,7 @@ use crate::scene::SceneFile;
 /// --cut-off-wavelength, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
+#[command(group(ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true)))]
 pub struct Options {
     /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
     #[arg(value_name = "IN")]
@@ -34,17 +34,12 @@ pub struct Options {
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
 
-    /// Side lengths, instead of the file's; LX alone means square cells. With a unit, as 20um, the result is in the
-    /// --unit or the file's, or else in m
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
-    #[arg(value_parser = LENGTH.positive())]
-    lengths: Option<Vec<Quantity>>,
     #[command(flatten)]
-    steps: Preparation,
-    /// Leave out the waves shorter than this, as where they are noise: stats has the wavelength of the knee of the
-    /// spectrum, from which on it is flat. The map should be periodic by then
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = LENGTH.positive())]
-    cut_off_wavelength: Option<Quantity>,
+    lengths: NewLengthsKeys,
+    #[command(flatten)]
+    steps: StepKeys,
+    #[command(flatten)]
+    cut_off: CutOffKeys,
 
     /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights
     /// alone)
@@ -117,16 +112,10 @@ fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
         None => read_topography(&options.input)?,
     };
     check_room(map.heights.dim())?;
-    let mut steps = options.steps.clone();
-    if let Some(lengths) = given(&map, options.lengths.as_deref()) {
-        let found = steps.set_lengths(lengths, si, map.unit.as_deref());
-        found.map_err(|text| worded(&text, Skin::Options))?;
-    } else {
+    let given = Given::all([&options.lengths.0, &options.steps.0, &options.cut_off.0]);
+    let steps = in_options(given.steps(map.heights.dim(), si, map.unit.as_deref()))?;
+    if steps.lengths.is_none() {
         warn_of_unread(&options.input, &map, "stay unknown");
-    }
-    if let Some(cut_off) = options.cut_off_wavelength {
-        let found = steps.set_cut_off_wavelength(cut_off.value, si, map.unit.as_deref());
-        found.map_err(|text| worded(&text, Skin::Options))?;
     }
     let map = steps.run(map, log);
     log.warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));

@@ -3,25 +3,20 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use asperity::accuracy::Quantity as Of;
-use asperity::{PullOff, Status};
-use asperity_scene::{Goal, Precision, Skin};
+use asperity::Status;
+use asperity_scene::{AdhesionKeys, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
 use clap::Args;
 use serde_json::json;
 
-use crate::adhesion::AdhesionOptions;
-use crate::allowed::{positive, share};
-use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::printing::{Printing, complain, say};
+use crate::printing::{Printing, complain, in_options, say};
 use crate::processes::Processes;
 use crate::progress::Progress;
-use crate::quantity::{PRESSURE, Quantity};
 use crate::report;
 use crate::scene::SceneFile;
 use crate::session::{Strictness, say_new, session};
 use crate::summary::warn;
-use crate::units::UnitOptions;
 
 /// Find the pull-off, the greatest tension that surfaces bear.
 ///
@@ -35,33 +30,15 @@ use crate::units::UnitOptions;
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceOptions,
-
-    /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed flat, or
-    /// were as --branch or --initial-gap says
-    #[arg(long, value_name = "P", allow_hyphen_values = true, value_parser = PRESSURE.finite(), help_heading = "Load")]
-    preload: Option<Quantity>,
-    /// Relative tolerance of the pull-off
-    #[arg(long, value_name = "T", default_value = "0.02", allow_hyphen_values = true, value_parser = share)]
-    #[arg(help_heading = "Load")]
-    rtol: f64,
-    /// Relative error of the pull-off that is wanted, as 0.05, with the law jkr: interpolates the surface on finer grids
-    /// until the estimated error is as small
-    #[arg(long, value_name = "A", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
-    #[arg(conflicts_with = "initial_gap")]
-    accuracy: Option<f64>,
-    /// Memory that --accuracy may take, in GiB [default: all that is free]
-    #[arg(long, value_name = "GIB", allow_hyphen_values = true, value_parser = positive, help_heading = "Solver")]
-    #[arg(requires = "accuracy")]
-    memory: Option<f64>,
-
+    surface: SurfaceKeys,
     #[command(flatten)]
-    adhesion: AdhesionOptions,
+    load: PullOffKeys,
     #[command(flatten)]
-    solver: SolverOptions,
-
+    adhesion: AdhesionKeys,
     #[command(flatten)]
-    units: UnitOptions,
+    solver: SolverKeys,
+    #[command(flatten)]
+    units: UnitKeys,
     #[command(flatten)]
     strictness: Strictness,
     #[command(flatten)]
@@ -81,32 +58,35 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; whether the pull-off was found.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    options.solver.check_table()?;
-    options.adhesion.check_elastic(
+    let Options { surface, load, adhesion, solver, units, .. } = options;
+    let problem = &ProblemOptions::of([&surface.0, &load.0, &adhesion.0, &solver.0, &units.0])?;
+    problem.check_table()?;
+    problem.check_elastic(
         "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
     )?;
-    let given = options.problem().read(scene.is_si(), processes)?;
-    match options.solver.precision {
-        Precision::F32 => options.find::<f32>(given, scene, processes),
-        Precision::F64 => options.find::<f64>(given, scene, processes),
+    let given = problem.read(scene.is_si(), processes)?;
+    match problem.scene.precision {
+        Precision::F32 => options.find::<f32>(problem, given, scene, processes),
+        Precision::F64 => options.find::<f64>(problem, given, scene, processes),
     }
 }
 
 impl Options {
-    fn problem(&self) -> ProblemOptions<'_> {
-        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
-    }
-
-    fn find<T: Scalar>(&self, given: Given, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-        let Given { surface, adhesion, origin, part, start } = given;
-        let (problem, printing, nodes) = (self.problem(), self.printing, surface.grid().nodes());
-        let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
+    fn find<T: Scalar>(
+        &self,
+        problem: &ProblemOptions,
+        given: Problem,
+        scene: &SceneFile,
+        processes: &Processes,
+    ) -> Outcome<bool> {
+        let Problem { surface, adhesion, origin, part, start } = given;
+        let (printing, nodes) = (self.printing, surface.grid().nodes());
+        let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
         let (surface, of) = (Arc::new(surface), (&adhesion, &origin, &part));
         let session = session::<T>(problem, surface, of, (&units, scene), self.strictness, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
-        let asked = PullOff::default().tolerance(self.rtol).preload(self.preload.map(|preload| preload.value));
-        let goal = self.accuracy.map(|accuracy| Goal { accuracy, of: Of::Area, memory: self.memory });
+        let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
         let mut progress = Progress::new("", session.tolerance(None)?, nodes, printing.without_bars());
         let found = session.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
             progress.update_on(grid, state, tolerance);

@@ -13,19 +13,19 @@ use crate::threads;
 use crate::units::Units;
 
 /// The inputs of a command, as every report has them.
-pub fn inputs(problem: ProblemOptions<'_>, part: &Part, units: &Units, scene: &SceneFile) -> Inputs {
+pub fn inputs(problem: &ProblemOptions, part: &Part, units: &Units, scene: &SceneFile) -> Inputs {
     let path = |file: Option<&Path>| file.map(|path| path.to_string_lossy().into_owned());
     Inputs {
-        heights: path(Some(&problem.surface.heights)),
-        against: path(problem.surface.other.against.as_deref()),
-        shift: problem.surface.other.shift(),
-        initial_gap: path(problem.solver.initial_gap.as_deref()),
+        heights: path(Some(&problem.files.heights)),
+        against: path(problem.files.against.as_deref()),
+        shift: problem.given.shift(),
+        initial_gap: path(problem.files.initial_gap.as_deref()),
         part: part.name().map(str::to_owned),
         solved_shape: part.solved(),
         length_unit: units.length.clone(),
         pressure_unit: units.pressure.clone(),
         given: scene.given(),
-        ..problem.scene().inputs(part.grid().shape(), part.grid().lengths(), threads::count())
+        ..problem.scene.inputs(part.grid().shape(), part.grid().lengths(), threads::count())
     }
 }
 

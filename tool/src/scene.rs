@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use asperity::Error;
+use asperity_scene::{Measured, Quantities, Skin};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use serde_json::Map;
 use toml::Value;
 
 use crate::loads::Loads;
@@ -20,18 +20,7 @@ use crate::quantity::Quantity;
 pub struct SceneFile {
     command: String,
     entries: Vec<Entry>,
-    quantities: Vec<Given>,
-}
-
-/// The quantities of an option.
-struct Given {
-    key: String,
-    /// As they were typed
-    texts: Vec<String>,
-    has_unit: bool,
-    is_bare: bool,
-    /// Whether nobody typed them
-    is_default: bool,
+    quantities: Quantities,
 }
 
 struct Entry {
@@ -65,46 +54,23 @@ impl SceneFile {
     /// The scene of a command with the options in `matches`.
     pub fn of(command: &Command, matches: &ArgMatches) -> Self {
         let entries = command.get_arguments().filter_map(|arg| entry(arg, matches)).collect();
-        let quantities = command.get_arguments().filter_map(|arg| Given::of(arg, matches)).collect();
+        let quantities = command.get_arguments().filter_map(|arg| measured(arg, matches)).collect();
         Self { command: command.get_name().to_owned(), entries, quantities }
     }
 
     /// Whether quantities have units; then all numbers are in the SI.
     pub fn is_si(&self) -> bool {
-        self.quantities.iter().any(|given| given.has_unit)
+        self.quantities.is_si()
     }
 
     /// Refuses numbers without units beside quantities with units.
     pub fn check_units(&self) -> Result<(), String> {
-        let with = self.quantities.iter().find(|given| given.has_unit);
-        let without = self.quantities.iter().find(|given| given.is_bare);
-        let (Some(with), Some(without)) = (with, without) else { return Ok(()) };
-        let (key, text) = (&without.key, without.texts.join(" "));
-        let (by, remedy) = if without.is_default {
-            (" by default", format!("give --{key} with a unit"))
-        } else {
-            ("", "give both units, or neither".to_owned())
-        };
-        Err(format!(
-            "--{key} is {text}{by}, without a unit, but --{} {} has one: {remedy}",
-            with.key,
-            with.texts.join(" ")
-        ))
+        self.quantities.check(Skin::Options)
     }
 
     /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
     pub fn given(&self) -> Option<serde_json::Value> {
-        if !self.is_si() {
-            return None;
-        }
-        let entry = |given: &Given| {
-            let texts = match &given.texts[..] {
-                [one] => one.as_str().into(),
-                all => serde_json::Value::from(all),
-            };
-            (given.key.replace('-', "_"), texts)
-        };
-        Some(self.quantities.iter().map(entry).collect::<Map<_, _>>().into())
+        self.quantities.given()
     }
 
     /// The scene file, to be put into `folder`.
@@ -198,22 +164,17 @@ pub fn section(arg: &Arg) -> String {
     arg.get_help_heading().unwrap_or_default().to_lowercase()
 }
 
-impl Given {
-    fn of(arg: &Arg, matches: &ArgMatches) -> Option<Self> {
-        let id = arg.get_id().as_str();
-        let quantities: Vec<Quantity> = match arg.get_value_parser().type_id() {
-            parser if parser == TypeId::of::<Quantity>() => matches.get_many(id)?.copied().collect(),
-            parser if parser == TypeId::of::<Loads>() => matches.get_one::<Loads>(id)?.given.clone(),
-            _ => return None,
-        };
-        Some(Self {
-            key: key(arg)?,
-            texts: matches.get_raw(id)?.map(|raw| raw.to_string_lossy().trim().to_owned()).collect(),
-            has_unit: quantities.iter().any(|given| given.has_unit),
-            is_bare: quantities.iter().any(|given| given.is_bare()),
-            is_default: matches.value_source(id) == Some(ValueSource::DefaultValue),
-        })
-    }
+/// The quantities of an argument, if it has some.
+fn measured(arg: &Arg, matches: &ArgMatches) -> Option<Measured> {
+    let id = arg.get_id().as_str();
+    let quantities: Vec<Quantity> = match arg.get_value_parser().type_id() {
+        parser if parser == TypeId::of::<Quantity>() => matches.get_many(id)?.copied().collect(),
+        parser if parser == TypeId::of::<Loads>() => matches.get_one::<Loads>(id)?.given.clone(),
+        _ => return None,
+    };
+    let texts = matches.get_raw(id)?.map(|raw| raw.to_string_lossy().trim().to_owned()).collect();
+    let is_default = matches.value_source(id) == Some(ValueSource::DefaultValue);
+    Some(Measured::of(&key(arg)?.replace('-', "_"), texts, &quantities, is_default))
 }
 
 fn entry(arg: &Arg, matches: &ArgMatches) -> Option<Entry> {

@@ -36,7 +36,7 @@ pub fn say_new(warnings: &mut Warnings) {
 
 /// The session of a problem on a surface, with what was read of its files.
 pub fn session<T: Scalar>(
-    problem: ProblemOptions<'_>,
+    problem: &ProblemOptions,
     surface: Arc<Surface>,
     (adhesion, origin, part): (&Adhesion, &Origin, &Part),
     (units, scene): (&Units, &SceneFile),
@@ -53,8 +53,8 @@ pub fn session<T: Scalar>(
         is_strict: strictness.strict,
         skin: Skin::Options,
     };
-    let (scene, inputs) = (problem.scene(), report::inputs(problem, part, units, scene));
-    let mut session = Session::new(&scene, input, inputs, units.clone(), processes)?;
+    let (scene, inputs) = (&problem.scene, report::inputs(problem, part, units, scene));
+    let mut session = Session::new(scene, input, inputs, units.clone(), processes)?;
     session.seed = origin.seed;
     Ok(session)
 }

@@ -10,17 +10,16 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::Status;
-use asperity_scene::{Asked, Load, Precision, Solved, gap_to_write, write_fields};
+use asperity_scene::{
+    AccuracyKeys, AdhesionKeys, Asked, ConductorKeys, FindingsKeys, Load, LoadKeys, NestedKeys, PercolationKeys,
+    Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
+};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
 use self::beside::{BESIDE, Beside};
-use crate::accuracy::AccuracyOptions;
-use crate::adhesion::AdhesionOptions;
-use crate::after::ConductorOptions;
 use crate::allowed::bins;
-use crate::boundary::{LOAD, LoadOptions};
-use crate::options::{Given, ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, commit, output_folder};
 use crate::part::Part;
@@ -31,7 +30,7 @@ use crate::progress::Progress;
 use crate::scene::{self, SceneFile};
 use crate::session::{Strictness, say_new, session};
 use crate::summary::{table, warn};
-use crate::units::{UnitOptions, Units};
+use crate::units::Units;
 
 /// Solve a contact problem under one load.
 ///
@@ -43,26 +42,20 @@ use crate::units::{UnitOptions, Units};
 /// fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are
 /// none). Probable mistakes, as a tilt, are warnings, on a line each and in the report; --strict takes them for errors.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(LOAD)))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceOptions,
-
+    surface: SurfaceKeys,
     #[command(flatten)]
-    load: LoadOptions,
-
+    load: LoadKeys,
     #[command(flatten)]
-    adhesion: AdhesionOptions,
+    adhesion: AdhesionKeys,
     #[command(flatten)]
-    solver: SolverOptions,
-    /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
-    #[arg(long, help_heading = "Solver", conflicts_with = "initial_gap", overrides_with = "no_nested")]
-    nested: bool,
-    /// Solve on the grid of the heights alone
-    #[arg(long, help_heading = "Solver", overrides_with = "nested")]
-    no_nested: bool,
+    solver: SolverKeys,
     #[command(flatten)]
-    accuracy: AccuracyOptions,
+    nested: NestedKeys,
+    #[command(flatten)]
+    accuracy: AccuracyKeys,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -70,21 +63,12 @@ pub struct Options {
     /// Replace results that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
-    /// Find out whether the solution is stable, and write its softest mode to mode.npy
-    #[arg(long, help_heading = "Output", conflicts_with = "nested")]
-    stability: bool,
-    /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies
-    /// --stability
-    #[arg(long, help_heading = "Output", conflicts_with = "nested")]
-    leave: bool,
-    /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
-    #[arg(long, help_heading = "Output")]
-    stiffness: bool,
     #[command(flatten)]
-    conductors: ConductorOptions,
-    /// Find out whether the gap is open along x and along y, and where the widest passage is narrowest
-    #[arg(long, help_heading = "Output")]
-    percolation: bool,
+    findings: FindingsKeys,
+    #[command(flatten)]
+    conductors: ConductorKeys,
+    #[command(flatten)]
+    percolation: PercolationKeys,
     /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
     /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
     /// that of the other
@@ -121,7 +105,7 @@ pub struct Options {
     #[command(flatten)]
     colours: MapColours,
     #[command(flatten)]
-    units: UnitOptions,
+    units: UnitKeys,
 }
 
 const EXAMPLES: &str = "\
@@ -179,15 +163,14 @@ const PICTURES: [[&str; 2]; 3] =
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let problem = options.problem();
-    options.check_shared(processes)?;
-    problem.adhesion.check()?;
-    options.check_asked(processes)?;
-    in_options(options.load.load().check(problem.surface.beyond.boundary, false))?;
+    let problem = &options.problem()?;
+    let load = in_options(problem.given.load())?;
+    options.check_asked(problem, load, processes)?;
+    problem.check_loads(&[load])?;
     options.colours.check()?;
     let pictures = options.picture_format.of(PICTURES);
     let pictures = pictures.into_iter().filter(|_| !options.no_pictures);
-    let arrays = FIELDS.into_iter().chain(options.beside()).filter(|_| options.writes(Format::Npy));
+    let arrays = FIELDS.into_iter().chain(options.beside(&problem.scene)).filter(|_| options.writes(Format::Npy));
     let archives = [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
     let fields = arrays.chain(archives.map(|(_, name)| name));
     let distribution = options.distribution.map(|_| DISTRIBUTION);
@@ -201,13 +184,12 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     })?;
     let si = scene.is_si();
     let given = problem.read(si, processes)?;
-    let units = processes.agree(options.units.units(given.origin.unit.as_deref(), si))?;
-    let reduced = matches!(options.load.load(), Load::Reduced(_));
-    let full = options.surface.full_pressure(&given.surface, reduced)?;
-    let (asked, part) = (options.asked(full), given.part);
+    let units = processes.agree(in_options(problem.given.units(given.origin.unit.as_deref(), si)))?;
+    let full = problem.full_pressure(&given.surface, &[load])?;
+    let (asked, part) = (in_options(problem.given.asked(load, full))?, given.part);
     part.check(asked.control)?;
-    let job = Job { options, scene, processes, names, asked, units, part };
-    match options.solver.precision {
+    let job = Job { options, problem, scene, processes, names, asked, units, part };
+    match problem.scene.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
     }
@@ -219,14 +201,19 @@ impl Options {
     }
 
     /// The problem.
-    pub fn problem(&self) -> ProblemOptions<'_> {
-        ProblemOptions { surface: &self.surface, adhesion: &self.adhesion, solver: &self.solver }
+    pub fn problem(&self) -> Outcome<ProblemOptions> {
+        let Self {
+            surface, load, adhesion, solver, nested, accuracy, findings, conductors, percolation, units, ..
+        } = self;
+        let problem = [&surface.0, &load.0, &adhesion.0, &solver.0, &nested.0, &accuracy.0];
+        ProblemOptions::of(problem.into_iter().chain([&findings.0, &conductors.0, &percolation.0, &units.0]))
     }
 }
 
 /// A solve with all that was chosen for it.
 struct Job<'a> {
     options: &'a Options,
+    problem: &'a ProblemOptions,
     scene: &'a SceneFile,
     processes: &'a Processes,
     names: Vec<&'static str>,
@@ -236,7 +223,7 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn run<T: Scalar>(mut self, Given { surface, adhesion, origin, start, .. }: Given) -> Outcome<bool> {
+    fn run<T: Scalar>(mut self, Problem { surface, adhesion, origin, start, .. }: Problem) -> Outcome<bool> {
         let Options { out, force, printing, .. } = self.options;
         let (mut grid, processes) = (*surface.grid(), self.processes);
         let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
@@ -246,9 +233,9 @@ impl Job<'_> {
         let start = start.map(T::field);
         let surface = Arc::new(surface);
         let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
-        let (problem, of) = (self.options.problem(), (&adhesion, &origin, &self.part));
+        let of = (&adhesion, &origin, &self.part);
         let about = (&self.units, self.scene);
-        let session = session::<T>(problem, surface, of, about, self.options.strictness, processes)?;
+        let session = session::<T>(self.problem, surface, of, about, self.options.strictness, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
         let tolerance = session.tolerance(self.asked.goal)?;
@@ -273,7 +260,7 @@ impl Job<'_> {
         let Solved { found, account } = solved;
         let whole = fits.then(|| found.solution.whole());
         let surface = kept.map(|kept| refined.unwrap_or(kept));
-        let mut beside = self.options.fields_beside(&found, surface.as_deref())?;
+        let mut beside = self.options.fields_beside(&found, &self.problem.scene.elastic, surface.as_deref())?;
         let solution = &found.solution;
 
         let folder = processes.is_first().then(|| output_folder(out, &FILES, *force)).transpose();

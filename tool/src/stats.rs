@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Skin, statistics};
+use asperity_scene::{LengthsKeys, Skin, statistics};
 use clap::Args;
 use serde_json::Map;
 
@@ -15,7 +15,6 @@ use crate::heights::{self, check_complete, check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::Printing;
-use crate::quantity::{LENGTH, Quantity};
 use crate::report;
 use crate::scene::SceneFile;
 
@@ -33,10 +32,8 @@ pub struct Options {
     /// export, or a text matrix
     #[arg(value_name = "FILE")]
     heights: PathBuf,
-    /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's]
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
-    #[arg(value_parser = LENGTH.positive())]
-    lengths: Option<Vec<Quantity>>,
+    #[command(flatten)]
+    lengths: LengthsKeys,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
     /// the density, of which the integral over both wave numbers is the mean square height, and of how many waves it
     /// is the mean
@@ -59,7 +56,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let (path, psd) = (&options.heights, options.psd.as_deref());
     psd.map_or(Ok(()), |psd| check_apart(psd, [path.as_path()]))?;
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
-    let (map, _) = heights::map(path, options.lengths.as_deref(), scene.is_si())?;
+    let (map, _) = heights::map(path, &options.lengths.0, scene.is_si())?;
     check_room(map.heights.dim())?;
     warn_of_unread(path, &map, "stay unknown");
     check_complete(path, &map)?;

@@ -3,20 +3,20 @@
 
 use std::path::PathBuf;
 
-use asperity::{Grid, SelfAffine};
+use asperity::Grid;
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Body, BodyForm, Roughness, statistics};
+use asperity_scene::{Body, BodyForm, FormKeys, FourierKeys, Given, GridKeys, Roughness, RoughnessKeys, statistics};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
-use crate::allowed::{nodes, threads};
-use crate::heights::{self, both_sides};
+use crate::allowed::threads;
+use crate::heights;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
-use crate::printing::{Printing, name};
-use crate::quantity::{LENGTH, Quantity};
+use crate::printing::{Printing, in_options, name};
+use crate::quantity::LENGTH;
 use crate::report;
 use crate::scene::{self, SceneFile};
 use crate::stats::{density_table, table};
@@ -35,31 +35,14 @@ use crate::threads::use_threads;
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
 pub struct Options {
-    /// Nodes along each side of a square
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = nodes, help_heading = "Grid")]
-    size: Option<usize>,
-    /// Nodes along each side of a rectangle; NY = 1 makes a line
-    #[arg(long, value_names = ["NX", "NY"], num_args = 2, allow_negative_numbers = true, value_parser = nodes)]
-    #[arg(help_heading = "Grid")]
-    shape: Option<Vec<usize>>,
-    /// Side lengths; LX alone means square cells [default: 1 1]
-    #[arg(long, value_names = ["LX", "LY"], num_args = 1..=2, allow_negative_numbers = true)]
-    #[arg(value_parser = LENGTH.positive(), help_heading = "Grid")]
-    lengths: Option<Vec<Quantity>>,
-
     #[command(flatten)]
-    body: Body,
-
+    grid: GridKeys,
     #[command(flatten)]
-    roughness: Roughness,
-    /// Roughness by the Fourier coefficients of a text: lines of qX, qY, Re h(q), Im h(q), with whole numbers of periods
-    /// along the sides, as FFTW's inverse transform takes them; half of the waves is enough
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["rms_height", "rms_slope"], help_heading = "Roughness")]
-    fourier: Option<PathBuf>,
-    /// Length of which the coefficients are multiples [default: the unit of the side lengths, where that has no name]
-    #[arg(long, value_name = "LENGTH", requires = "fourier", conflicts_with_all = ["rms_height", "rms_slope"])]
-    #[arg(value_parser = LENGTH.positive(), allow_hyphen_values = true, help_heading = "Roughness")]
-    fourier_unit: Option<Quantity>,
+    form: FormKeys,
+    #[command(flatten)]
+    roughness: RoughnessKeys,
+    #[command(flatten)]
+    fourier: FourierKeys,
 
     /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -97,33 +80,31 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
-    let shape = match (options.size, options.shape.as_deref()) {
-        (None, Some([nx, ny])) => (*nx, *ny),
-        (size, _) => (size.unwrap_or_default(), size.unwrap_or_default()),
-    };
-    let form = options.body.form;
-    if let Some((name, lacks)) = options.body.misfits().first() {
+    let shape = in_options(options.grid.0.shape())?;
+    let (body, roughness): (Body, Roughness) = (options.form.0.object()?, options.roughness.0.object()?);
+    let (form, fourier) = (body.form, options.fourier.0.fourier());
+    if let Some((name, lacks)) = body.misfits().first() {
         let (what, remedy) = if *lacks { ("lacks", "give it") } else { ("has no", "leave it out") };
         return Err(format!("--form {form} {what} --{name}: {remedy}").into());
     }
-    let rough = options.roughness.self_affine();
-    if rough.is_none() && options.fourier.is_none() && form == BodyForm::SelfAffine {
+    let rough = roughness.self_affine();
+    if rough.is_none() && fourier.is_none() && form == BodyForm::SelfAffine {
         return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope, or --fourier".into());
     }
     let unit = scene.is_si().then_some(LENGTH.si);
-    if unit.is_some() && options.lengths.is_none() {
+    if unit.is_some() && options.grid.0.lengths(shape).is_none() {
         return Err("the numbers have units, but nothing says how large the map is: give --lengths, as 20um".into());
     }
-    if options.fourier.is_some() {
-        check_alone(&options.roughness)?;
+    if fourier.is_some() {
+        check_alone(&options.roughness.0)?;
     }
-    if unit.is_some() && options.fourier.is_some() && options.fourier_unit.is_none() {
+    if unit.is_some() && fourier.is_some() && options.fourier.0.fourier_unit().is_none() {
         let text = "the numbers have units, but the coefficients have none: give --fourier-unit, as 0.1mm";
         return Err(text.into());
     }
-    let grid = Grid::new(shape, both_sides(shape, options.lengths.as_deref().unwrap_or_default()))?;
+    let grid = Grid::new(shape, options.grid.0.lengths(shape).unwrap_or((1.0, 1.0)))?;
     for written in [Some(&options.out), options.psd.as_ref()].into_iter().flatten() {
-        check_apart(written, options.fourier.as_deref())?;
+        check_apart(written, fourier.as_deref())?;
     }
     // the next command of a worker has them from it
     let is_kept = study::is_worker();
@@ -139,11 +120,11 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     if rough.is_some() {
         check_memory("a random surface", shape, 32)?;
     }
-    let roughness = match &options.fourier {
-        Some(path) => Some(read_fourier(path, grid, options.fourier_unit.map_or(1.0, |unit| unit.value))?),
+    let roughness = match &fourier {
+        Some(path) => Some(read_fourier(path, grid, options.fourier.0.fourier_unit().unwrap_or(1.0))?),
         None => rough.map(|rough| rough.surface(grid)).transpose()?,
     };
-    let surface = options.body.surface(grid, roughness)?;
+    let surface = body.surface(grid, roughness)?;
     let absent = surface.absent_nodes();
     if psd.is_some() && absent > 0 {
         return Err(format!("the body has no height at {absent} nodes, and so no spectrum: leave --psd out").into());
@@ -195,7 +176,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             "k_s": rough.map(|rough| rough.k_s),
             "random_phase": rough.map(|rough| rough.random_phase),
             "seed": rough.map(|rough| rough.seed),
-            "fourier": options.fourier.as_deref().map(|path| path.to_string_lossy()),
+            "fourier": fourier.as_deref().map(|path| path.to_string_lossy()),
             "version": env!("CARGO_PKG_VERSION"),
         });
         report::report("surface", figures, &made)
@@ -204,19 +185,10 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
 }
 
 /// Refuses parameters of self-affine roughness beside coefficients, which are all of it.
-fn check_alone(roughness: &Roughness) -> Outcome<()> {
-    let usual = SelfAffine::default();
-    let changed = [
-        ("hurst", roughness.hurst != usual.hurst),
-        ("k-l", roughness.k_l != usual.k_l),
-        ("k-r", roughness.k_r.is_some()),
-        ("k-s", roughness.k_s != usual.k_s),
-        ("random-phase", roughness.random_phase),
-        ("seed", roughness.seed != usual.seed),
-    ];
-    match changed.into_iter().find(|(_, changed)| *changed) {
-        Some((name, _)) => {
-            Err(format!("--{name} is of random roughness, which --fourier replaces: leave it out").into())
+fn check_alone(roughness: &Given) -> Outcome<()> {
+    match roughness.first() {
+        Some(key) => {
+            in_options(Err(format!("{{{key}}} is of random roughness, which {{fourier}} replaces: leave it out")))
         }
         None => Ok(()),
     }

@@ -2,21 +2,21 @@
 
 use std::path::PathBuf;
 
-use asperity::{Control, Error};
-use asperity_scene::{After, Format, Way};
+use asperity::Error;
+use asperity_scene::{
+    AdhesionKeys, ConductorKeys, Format, FractionsKeys, LeakageKeys, Load, LoadsKeys, SolverKeys, StiffnessKeys,
+    SurfaceKeys, UnitKeys,
+};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
-use crate::adhesion::AdhesionOptions;
-use crate::after::{ConductorOptions, LeakageOptions};
-use crate::boundary::{FractionsOptions, LOADS, LoadsOptions};
-use crate::options::{ProblemOptions, Scalar, SolverOptions, SurfaceOptions};
+use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
+use crate::printing::in_options;
 use crate::processes::Processes;
 use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions};
-use crate::units::UnitOptions;
 
 /// Solve a contact problem under many loads, one after the other.
 ///
@@ -30,20 +30,18 @@ use crate::units::UnitOptions;
 /// hardness the surface keeps its plastic depth from load to load. Exits with 0 if all rows converged, 2 if not (they
 /// are written all the same), and 1 if the input is refused or the file cannot be written.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(LOADS).arg("contact_fractions")))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many()).arg("contact_fractions")))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceOptions,
-
+    surface: SurfaceKeys,
     #[command(flatten)]
-    loads: LoadsOptions,
+    loads: LoadsKeys,
     #[command(flatten)]
-    fractions: FractionsOptions,
-
+    fractions: FractionsKeys,
     #[command(flatten)]
-    adhesion: AdhesionOptions,
+    adhesion: AdhesionKeys,
     #[command(flatten)]
-    solver: SolverOptions,
+    solver: SolverKeys,
 
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -57,15 +55,13 @@ pub struct Options {
     #[command(flatten)]
     plot: PlotOptions,
     #[command(flatten)]
-    units: UnitOptions,
-    /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean pressure
-    /// grows with the approach, and normal_stiffness, how much the force does
-    #[arg(long, help_heading = "Output")]
-    stiffness: bool,
+    units: UnitKeys,
     #[command(flatten)]
-    conductors: ConductorOptions,
+    stiffness: StiffnessKeys,
     #[command(flatten)]
-    leakage: LeakageOptions,
+    conductors: ConductorKeys,
+    #[command(flatten)]
+    leakage: LeakageKeys,
     #[command(flatten)]
     manner: Manner,
 }
@@ -86,39 +82,25 @@ const EXAMPLES: &str = "\
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     let format = options.format()?;
     processes.first(|| options.plot.check(&options.out, options.manner.force))?;
-    let Options { surface, loads, adhesion, solver, units, out, .. } = options;
+    let Options { surface, loads, fractions, adhesion, solver, units, stiffness, conductors, leakage, .. } = options;
+    let asked = [&units.0, &stiffness.0, &conductors.0, &leakage.0];
+    let problem = [&surface.0, &loads.0, &fractions.0, &adhesion.0, &solver.0].into_iter().chain(asked);
+    let problem = &ProblemOptions::of(problem)?;
     let table = TableOptions {
-        problem: ProblemOptions { surface, adhesion, solver },
-        loads,
-        control: options.control(),
-        out,
+        problem,
+        out: &options.out,
         format,
         fields: options.fields.as_deref(),
-        units,
         scene,
         processes,
         manner: &options.manner,
-        after: options.after(),
+        after: in_options(problem.given.after())?,
         interface: false,
     };
     table.fill(options)
 }
 
 impl Options {
-    /// The findings that are asked for after each row.
-    fn after(&self) -> After {
-        let (conductors, leakage) = (self.conductors.conductors(), self.leakage.leakage);
-        After { stiffness: self.stiffness, conductors, percolation: false, leakage }
-    }
-
-    /// The load of the rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
-    fn control(&self) -> Control {
-        match self.fractions.values() {
-            None => self.loads.control(0.0),
-            Some(_) => self.surface.beyond.boundary.searched_by(self.adhesion.adheres()),
-        }
-    }
-
     fn format(&self) -> Outcome<Format> {
         let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it, or give --format");
         Ok(self.format.or_else(|| Format::of(&self.out)).ok_or_else(refused)?)
@@ -126,18 +108,13 @@ impl Options {
 }
 
 impl Fill for Options {
-    fn way(&self, loads: Vec<Control>) -> Outcome<Way> {
-        let searched = self.fractions.values().map(|fractions| Way::Search(fractions.to_vec()));
-        Ok(searched.unwrap_or(Way::Sweep(loads)))
-    }
-
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve(&self.out, self.manner.printing)?;
         table.first(|| self.plot.draw(&rows, table.units()))?;
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
-        Ok(table.converged(match self.fractions.values() {
-            Some(_) => "or leave out the contact fractions past which the contact jumps",
-            None => "use a larger --tolerance or finer steps, or less tension where they are detached",
+        Ok(table.converged(match table.searches() {
+            true => "or leave out the contact fractions past which the contact jumps",
+            false => "use a larger --tolerance or finer steps, or less tension where they are detached",
         }))
     }
 }

@@ -5,18 +5,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use asperity::{Control, Status};
-use asperity_scene::{Account, After, Boundary, Format, Precision, Row, Session, TableFile, Way};
+use asperity_scene::{Account, After, Boundary, Format, Load, Precision, Row, Session, TableFile, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use crate::after;
-use crate::boundary::{LoadsOptions, check_load};
 use crate::interruption;
 use crate::numbers::percent;
-use crate::options::{Given, ProblemOptions, Scalar};
+use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
-use crate::printing::{Printing, complain, name};
+use crate::printing::{Printing, complain, in_options, name};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
 use crate::quantity::{FORCE, LENGTH, PRESSURE};
@@ -24,7 +22,7 @@ use crate::report;
 use crate::scene::SceneFile;
 use crate::session::{Strictness, UNCONVERGED, say_new, session};
 use crate::study;
-use crate::units::{UnitOptions, Units};
+use crate::units::Units;
 use crate::warnings;
 
 /// The replacements, refusals and prints of a run that fills a table.
@@ -42,15 +40,11 @@ pub struct Manner {
 /// The options of a table.
 #[derive(Clone, Copy)]
 pub struct TableOptions<'a> {
-    pub problem: ProblemOptions<'a>,
-    pub loads: &'a LoadsOptions,
-    /// The kind of the loads
-    pub control: Control,
+    pub problem: &'a ProblemOptions,
     pub out: &'a Path,
     pub format: Format,
     /// The folder for the fields of the rows
     pub fields: Option<&'a Path>,
-    pub units: &'a UnitOptions,
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
     pub manner: &'a Manner,
@@ -63,7 +57,9 @@ pub struct TableOptions<'a> {
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
 pub trait Fill {
     /// The way through the loads.
-    fn way(&self, loads: Vec<Control>) -> Outcome<Way>;
+    fn way(&self, loads: &[Load], full: f64) -> Outcome<Way> {
+        Ok(Way::sweep(loads, full))
+    }
 
     /// Fills the table.
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool>;
@@ -73,45 +69,48 @@ pub trait Fill {
 pub struct Table<'a, T: Scalar> {
     options: TableOptions<'a>,
     session: Session<T>,
+    /// The kind of the loads
+    control: Control,
     nodes: usize,
 }
 
 impl<'a> TableOptions<'a> {
     /// Reads the files of the problem, opens the table, and fills it.
     pub fn fill(self, by: &impl Fill) -> Outcome<bool> {
-        let ProblemOptions { surface, solver, .. } = self.problem;
-        solver.check_table()?;
-        check_load(surface.beyond.boundary, self.loads.control(0.0))?;
-        after::check(&self.after, self.problem, self.processes)?;
-        let given = self.problem.read(self.scene.is_si(), self.processes)?;
-        match solver.precision {
-            Precision::F32 => by.fill(&mut self.open::<f32>(given, by)?),
-            Precision::F64 => by.fill(&mut self.open::<f64>(given, by)?),
+        let problem = self.problem;
+        problem.check_table()?;
+        let loads = in_options(problem.given.loads())?;
+        problem.check_loads(&loads)?;
+        problem.check_after(&self.after, self.processes)?;
+        let given = problem.read(self.scene.is_si(), self.processes)?;
+        match problem.scene.precision {
+            Precision::F32 => by.fill(&mut self.open::<f32>(given, &loads, by)?),
+            Precision::F64 => by.fill(&mut self.open::<f64>(given, &loads, by)?),
         }
     }
 
     /// Opens the table, writes the scene of the run beside it, and says the warnings so far.
-    fn open<T: Scalar>(self, given: Given, by: &impl Fill) -> Outcome<Table<'a, T>> {
-        let Given { surface, adhesion, origin, part, start } = given;
-        let Self { problem, loads, out, scene, processes, manner, .. } = self;
+    fn open<T: Scalar>(self, given: Problem, loads: &[Load], by: &impl Fill) -> Outcome<Table<'a, T>> {
+        let Problem { surface, adhesion, origin, part, start } = given;
+        let Self { problem, out, scene, processes, manner, .. } = self;
         let &Manner { force, strictness, printing } = manner;
-        let (grid, boundary) = (*surface.grid(), problem.surface.beyond.boundary);
-        let listed = loads.values(problem.surface.full_pressure(&surface, loads.are_reduced())?);
-        part.check(self.control)?;
-        let units = processes.agree(self.units.units(origin.unit.as_deref(), scene.is_si()))?;
-        let way = by.way(loads.controls(&listed))?;
+        let grid = *surface.grid();
+        let way = by.way(loads, problem.full_pressure(&surface, loads)?)?;
+        let control = way.control(&problem.scene);
+        part.check(control)?;
+        let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
         // the softest mode of a path is on the grid of the surface
-        if boundary == Boundary::Free && matches!(way, Way::Cycle(..)) {
+        if problem.scene.elastic.boundary == Boundary::Free && matches!(way, Way::Cycle(..)) {
             processes.alone("a cycle with --boundary free")?;
         }
         let of = (&adhesion, &origin, &part);
         let mut session = session::<T>(problem, Arc::new(surface), of, (&units, scene), strictness, processes)?;
         let mut scene_file = None;
         processes.first(|| {
-            check_apart(out, problem.files().chain(problem.solver.initial_gap.as_deref()))?;
+            check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
             scene.check_beside(out, force || out.exists())?;
             warnings::check_beside(out, force || out.exists())?;
             scene_file = (!study::is_worker()).then(|| scene.written_beside(out)).transpose()?;
@@ -139,7 +138,7 @@ impl<'a> TableOptions<'a> {
             let of = session.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
             printing.say(&format!("{} has {count}{of} rows already", name(out)));
         }
-        let table = Table { options: self, session, nodes: grid.nodes() };
+        let table = Table { options: self, session, control, nodes: grid.nodes() };
         table.stands();
         Ok(table)
     }
@@ -153,6 +152,21 @@ impl<T: Scalar> Table<'_, T> {
         let command = if manner.force { "the same command without --force" } else { "the same command" };
         let (rows, out) = (self.rows(), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} goes on from there"));
+    }
+
+    /// Whether the surfaces attract each other.
+    pub fn adheres(&self) -> bool {
+        self.session.adheres()
+    }
+
+    /// Whether the boundary is free.
+    pub fn is_free(&self) -> bool {
+        self.options.problem.scene.elastic.boundary == Boundary::Free
+    }
+
+    /// Whether loads are searched for.
+    pub fn searches(&self) -> bool {
+        matches!(self.options.problem.given.loads().as_deref(), Ok([Load::Fraction(_), ..]))
     }
 
     /// The number of rows.
@@ -195,7 +209,7 @@ impl<T: Scalar> Table<'_, T> {
             return Ok(None);
         }
         let name = format!("{}{}", self.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
-        let tolerance = problem.scene().tolerance();
+        let tolerance = problem.scene.tolerance();
         let mut progress = Progress::new(&name, tolerance, self.nodes, manner.printing.without_bars());
         progress.follow(self.session.pace().copied());
         let found = self.session.next(&mut |state| {
@@ -244,13 +258,13 @@ impl<T: Scalar> Table<'_, T> {
 
     /// The report on the table: the number of its rows, the figures that a command `found` in them, and the inputs.
     pub fn report(&self, found: Value) -> Value {
-        let TableOptions { control, out, loads, .. } = self.options;
+        let (control, TableOptions { out, problem, .. }) = (self.control, self.options);
         let mut outcome = Map::from_iter([
             ("control".to_owned(), control.name().into()),
             ("rows".to_owned(), self.rows().into()),
             ("unconverged".to_owned(), self.session.unconverged().into()),
             ("out".to_owned(), out.to_string_lossy().into()),
-            ("spring_stiffness".to_owned(), loads.spring_stiffness().into()),
+            ("spring_stiffness".to_owned(), problem.given.spring_stiffness().into()),
         ]);
         outcome.extend(found.as_object().cloned().unwrap_or_default());
         outcome.insert("warnings".to_owned(), json!(self.session.warnings.found()));
@@ -261,7 +275,7 @@ impl<T: Scalar> Table<'_, T> {
     pub fn converged(&self, remedy: &str) -> bool {
         let (count, rows, path) = (self.session.unconverged(), self.rows(), self.options.out.display());
         if count > 0 {
-            let precise = match self.options.problem.solver.precision {
+            let precise = match self.options.problem.scene.precision {
                 Precision::F32 => "use --precision f64, as f32 ends where its rounding does, ",
                 Precision::F64 => "",
             };

@@ -4,38 +4,19 @@ use asperity::Grid;
 use asperity_maps::io::{channels, check_memory, map_as_npz, read_bytes};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
+use asperity_plot::distribution;
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
-use asperity_scene::{Body, Log, Preparation, Roughness, Skin, statistics};
+use asperity_scene::{
+    Body, CutOffKeys, FormKeys, Given, GridKeys, Log, NewLengthsKeys, Roughness, RoughnessKeys, Skin, StepKeys,
+    statistics,
+};
 use serde_json::{Value, json};
 
-use crate::given::{Given, reason};
-use crate::histogram::{Histogram, extremes};
+use crate::given::{keys, read, reason};
 use crate::lines::{Origin, Source};
-use crate::problem::{Observe, Problem, keys};
-
-/// The keys of a surface that is made.
-const BODY: [&str; 6] = ["form", "radius", "angle", "amplitude", "periods", "tilt"];
-const ROUGHNESS: [&str; 8] = ["rms_height", "rms_slope", "hurst", "k_l", "k_r", "k_s", "random_phase", "seed"];
-const GRID: [&str; 3] = ["size", "shape", "lengths"];
-/// Those of the steps of a preparation.
-const STEPS: [&str; 14] = [
-    "missing",
-    "scale",
-    "unit",
-    "crop",
-    "flip",
-    "align_rows",
-    "scan_axis",
-    "remove_scars",
-    "despike",
-    "remove_form",
-    "detrend",
-    "fill",
-    "window",
-    "mirror",
-];
-const MORE_STEPS: [&str; 3] = ["lengths", "cut_off_wavelength", "resample"];
+use crate::problem::{Observe, Problem, of_problem};
+use crate::state::extremes;
 
 /// A map, the surface that is made of it, and the solves on that.
 #[derive(Default)]
@@ -91,29 +72,23 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the surface.
     pub fn make(&mut self, given: &str) -> Outcome<Value> {
-        let mut given = Given::read(given, &[&BODY[..], &ROUGHNESS, &GRID].concat())?;
-        let typed = given.typed().clone();
-        let si = given.is_si();
-        let (size, shape) = (given.number("size"), given.numbers("shape"));
-        let shape = match (size, shape.as_deref()) {
-            (Some(size), None) => (size as usize, size as usize),
-            (None, Some(&[nx, ny])) => (nx as usize, ny as usize),
-            _ => return Err("give size, the nodes along each side of a square, or shape, two numbers of nodes".into()),
-        };
-        if si && !given.has("lengths") {
+        let known: Vec<_> = keys::<FormKeys>().chain(keys::<RoughnessKeys>()).chain(keys::<GridKeys>()).collect();
+        let given = read(given, &known)?;
+        let (typed, si) = (given.typed(), given.quantities().is_si());
+        let shape = given.shape().map_err(reason)?;
+        if si && given.lengths(shape).is_none() {
             return Err("the numbers have units, but nothing says how large the map is: give lengths, as 20um".into());
         }
         let sides = given.lengths(shape).unwrap_or((1.0, 1.0));
-        let body: Body = given.take(&BODY, Value::Null)?;
+        let body: Body = given.object()?;
         let form = body.form;
         if let Some((name, lacks)) = body.misfits().first() {
             let (what, remedy) = if *lacks { ("lacks", "give it") } else { ("has no", "leave it out") };
             return Err(format!("form {form} {what} {name}: {remedy}").into());
         }
-        let usual = json!({ "hurst": 0.8, "k_l": 4.0, "k_s": 64.0, "random_phase": false, "seed": 0 });
-        let roughness: Roughness = given.take(&ROUGHNESS, usual)?;
+        let roughness: Roughness = given.object()?;
         let rough = roughness.self_affine();
-        if rough.is_none() && (typed.contains_key("rms_height") || form == Default::default()) {
+        if rough.is_none() && (roughness.rms_height.is_some() || form == Default::default()) {
             return Err("roughness: give rms_height or rms_slope, one of the two".into());
         }
         check_memory("a surface", shape, if rough.is_some() { 40 } else { 24 })?;
@@ -131,16 +106,11 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the steps; then the surface stays as it was.
     pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
-        let mut given = Given::read(given, &[&STEPS[..], &MORE_STEPS].concat())?;
+        let known: Vec<_> = keys::<StepKeys>().chain(keys::<NewLengthsKeys>()).chain(keys::<CutOffKeys>()).collect();
+        let given = read(given, &known)?;
         let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
-        let typed = given.typed().clone();
-        let si = given.is_si();
-        let lengths = given.lengths(map.heights.dim());
-        let cut_off = given.number("cut_off_wavelength");
-        let mut steps: Preparation = given.take(&[&STEPS[..], &["resample"]].concat(), Value::Null)?;
-        let unit = map.unit.as_deref();
-        lengths.map_or(Ok(()), |lengths| steps.set_lengths(lengths, si, unit)).map_err(reason)?;
-        cut_off.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, si, unit)).map_err(reason)?;
+        let typed = given.typed();
+        let steps = given.steps(map.heights.dim(), given.quantities().is_si(), map.unit.as_deref()).map_err(reason)?;
         // a step has the map before and after it
         check_memory("a step of preparation", map.heights.dim(), 32)?;
         let mut log = Log::default();
@@ -201,7 +171,7 @@ impl Engine {
     pub fn statistics(&self) -> Outcome<Value> {
         let map = self.surface()?;
         check_memory("the statistics of a map", map.heights.dim(), 40)?;
-        let histogram = Histogram::of(map.heights.iter().copied(), 60);
+        let histogram = distribution(map.heights.iter().copied(), 60);
         let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
         let found = match &surface {
             Some(surface) => Some((surface.statistics(), knee_wavelength(surface))),
@@ -226,8 +196,8 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the solvers.
     pub fn solve(&mut self, given: &str, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
-        let given = Given::read(given, &keys())?;
-        self.pose(&given, from_last)?.solve(given, from_last, observe)
+        let given = read(given, &of_problem())?;
+        self.pose(&given, from_last)?.solve(&given, from_last, observe)
     }
 
     /// Begins a cycle along loads.
@@ -235,8 +205,8 @@ impl Engine {
     /// # Errors
     /// The key and the remedy.
     pub fn begin(&mut self, given: &str) -> Outcome<Value> {
-        let given = Given::read(given, &keys())?;
-        self.pose(&given, false)?.begin(given)
+        let given = read(given, &of_problem())?;
+        self.pose(&given, false)?.begin(&given)
     }
 
     /// The problem that keys pose; the one before stays where they are refused.

@@ -6,7 +6,6 @@
 mod drawn;
 mod engine;
 mod given;
-mod histogram;
 mod lines;
 mod observed;
 mod problem;

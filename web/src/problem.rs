@@ -1,68 +1,27 @@
 //! The contact problem of a page: what its keys pose on a surface, in either precision.
 
 use asperity::contact::Original;
-use asperity::path::PathSettings;
-use asperity::{Control, Grid, Surface};
+use asperity::{Grid, Surface};
 use asperity_maps::{Topography, surface_with_absent};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::quantity::{LENGTH, PRESSURE};
 use asperity_scene::units::Units;
-use asperity_scene::{Asked, Boundary, Branches, Either, Input, Load, Precision, Scene, Skin, Way, either, in_unit};
+use asperity_scene::{
+    AdhesionKeys, Boundary, Either, Given, Input, Key, LoadKeys, LoadsKeys, NestedKeys, PathKeys, Precision, Skin,
+    SolverKeys, SurfaceKeys, Way, either, in_unit,
+};
 use serde_json::{Map, Value};
 
-use crate::given::{Given, reason};
+use crate::given::{keys, reason};
 use crate::state::State;
 
 pub use crate::state::Observe;
 
-/// The keys of a scene.
-const SCENE: [&str; 22] = [
-    "modulus",
-    "boundary",
-    "layer",
-    "poisson",
-    "base",
-    "coating",
-    "coating_modulus",
-    "coating_poisson",
-    "law",
-    "work_of_adhesion",
-    "range",
-    "exponent",
-    "hamaker",
-    "cut_off",
-    "wall",
-    "wall_stiffness",
-    "hardness",
-    "method",
-    "precision",
-    "tolerance",
-    "max_iterations",
-    "branch",
-];
-/// Those of a load, and of loads.
-const LOADS: [&str; 14] = [
-    "mean_pressure",
-    "mean_gap",
-    "normal_force",
-    "approach",
-    "spring_stiffness",
-    "spring_position",
-    "reduced_pressure",
-    "contact_fraction",
-    "mean_pressures",
-    "mean_gaps",
-    "normal_forces",
-    "approaches",
-    "spring_positions",
-    "reduced_pressures",
-];
-/// Those of a solve and of a cycle.
-const OTHERS: [&str; 7] = ["absent_missing", "lengths", "nested", "steps", "smallest_step", "imbalance", "sharp"];
-
 /// The keys of a solve and of a cycle.
-pub fn keys() -> Vec<&'static str> {
-    [&SCENE[..], &LOADS, &OTHERS].concat()
+pub fn of_problem() -> Vec<&'static Key> {
+    let scene = keys::<SurfaceKeys>().chain(keys::<AdhesionKeys>()).chain(keys::<SolverKeys>());
+    let loads = keys::<LoadKeys>().chain(keys::<LoadsKeys>());
+    scene.chain(loads).chain(keys::<NestedKeys>()).chain(keys::<PathKeys>()).collect()
 }
 
 /// A contact problem on a surface, with its solutions.
@@ -81,35 +40,24 @@ impl Problem {
     /// # Errors
     /// The key and the remedy, and those of the surface, the law and the body.
     pub fn of(given: &Given, map: &Topography, name: &str, before: &mut Option<Self>, goes_on: bool) -> Outcome<Self> {
-        let alone = |key: &&String| !LOADS.contains(&key.as_str()) && *key != "nested";
-        let posed: Map<_, _> = given
-            .typed()
-            .iter()
-            .filter(|(key, _)| alone(key))
-            .map(|(key, value)| (key.clone(), value.clone()))
-            .collect();
+        let asked: Vec<_> = keys::<LoadKeys>().chain(keys::<LoadsKeys>()).chain(keys::<NestedKeys>()).collect();
+        let posed: Map<_, _> =
+            given.typed().into_iter().filter(|(name, _)| asked.iter().all(|key| key.name != name)).collect();
         if let Some(same) = before.take_if(|before| goes_on && before.posed == posed) {
             return Ok(same);
         }
         let before = before.as_ref().and_then(|before| either!(state = &before.state => state.gap()));
-        let mut given = given.clone();
-        let (lengths, absent) = (given.lengths(map.heights.dim()), given.switch("absent_missing"));
-        let scene: Scene = given.take(&SCENE, Value::Null)?;
+        let (lengths, absent) = (given.lengths(map.heights.dim()), given.absent_missing());
+        let (scene, si) = (given.scene()?, given.quantities().is_si());
         let units = Units {
-            length: if given.is_si() { Some(LENGTH.si.to_owned()) } else { map.unit.clone() },
-            pressure: given.is_si().then(|| PRESSURE.si.to_owned()),
+            length: if si { Some(LENGTH.si.to_owned()) } else { map.unit.clone() },
+            pressure: si.then(|| PRESSURE.si.to_owned()),
             force: None,
         };
-        if given.is_si() && !posed.contains_key("modulus") {
-            return Err(
-                "modulus is 1 by default, without a unit, but other numbers have units: give it, as 70GPa".into()
-            );
-        }
-        scene.adhesion.check(str::to_owned)?;
-        scene.elastic.check().map_err(reason)?;
+        scene.adhesion.check().and_then(|()| scene.elastic.check()).map_err(reason)?;
         scene.elastic.body()?;
-        let (surface, converted_from) = surface(map, name, lengths, absent, given.is_si())?;
-        let original = map.original.filter(|_| scene.elastic.boundary == Boundary::Periodic);
+        let (surface, converted_from) = surface(map, name, lengths, absent, si)?;
+        let original = map.original.filter(|_| scene.elastic.boundary == Boundary::Periodic && !given.whole());
         let original = original.map(|nodes| Original::new(surface.grid(), nodes)).transpose()?;
         let shown = original.map_or(*surface.grid(), |original| *original.grid());
         let mut inputs = scene.inputs(shown.shape(), shown.lengths(), 1);
@@ -137,22 +85,14 @@ impl Problem {
     ///
     /// # Errors
     /// The key and the remedy, and those of the solvers.
-    pub fn solve(&mut self, mut given: Given, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
-        let (typed, quantities) = (given.typed().clone(), given.quantities());
-        let nested = given.has("nested").then(|| given.switch("nested"));
-        let load = load(&mut given)?;
+    pub fn solve(&mut self, given: &Given, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
+        let (typed, quantities) = (given.typed(), given.quantities().given());
+        let load = given.load().map_err(reason)?;
         let full = either!(state = &self.state => state.full_pressure(&[load]))?;
-        let scene = either!(state = &self.state => state.scene());
-        let adheres = scene.adhesion.adheres();
-        let asked = Asked {
-            fraction: load.fraction(),
-            nested,
-            other_branch: scene.branch == Some(Branches::Both),
-            ..Asked::under(load.control(full))
-        };
+        let asked = given.asked(load, full).map_err(reason)?;
         let (answer, started) =
             either!(state = &mut self.state => state.solve(&asked, from_last, quantities, observe))?;
-        self.asked = Some((typed, started && adheres));
+        self.asked = Some((typed, started));
         Ok(answer)
     }
 
@@ -160,21 +100,11 @@ impl Problem {
     ///
     /// # Errors
     /// The key and the remedy.
-    pub fn begin(&mut self, mut given: Given) -> Outcome<Value> {
-        let quantities = given.quantities();
-        let loads = loads(&mut given)?;
-        let usual = PathSettings::default();
-        let settings = usual
-            .steps(given.number("steps").map_or(usual.steps, |steps| steps as usize))
-            .smallest_step(given.number("smallest_step").unwrap_or(usual.smallest_step))
-            .imbalance(given.number("imbalance").unwrap_or(usual.imbalance))
-            .smooth(!given.switch("sharp"));
+    pub fn begin(&mut self, given: &Given) -> Outcome<Value> {
+        let loads = given.loads().map_err(reason)?;
         let full = either!(state = &self.state => state.full_pressure(&loads))?;
-        let controls: Vec<Control> = loads.iter().map(|load| load.control(full)).collect();
-        if controls.len() < 2 {
-            return Err("a cycle needs two turning points at least: give more loads, with commas between".into());
-        }
-        either!(state = &mut self.state => state.begin(Way::Cycle(controls, settings), quantities))
+        let way = Way::cycle(&loads, full, given.path())?;
+        either!(state = &mut self.state => state.begin(way, given.quantities().given()))
     }
 
     /// The next state along the loads; nothing at their end.
@@ -224,55 +154,6 @@ impl Problem {
             ("scene.toml", Some((typed, started))) => Ok(crate::lines::scene(typed, *started).into_bytes()),
             _ => either!(state = &self.state => state.file(name)),
         }
-    }
-}
-
-/// The load that is given.
-fn load(given: &mut Given) -> Outcome<Load> {
-    let keys = ["mean_pressure", "mean_gap", "normal_force", "approach", "reduced_pressure", "contact_fraction"];
-    let mut found = Vec::new();
-    for key in keys {
-        found.extend(given.number(key).and_then(|number| Load::of(key, &[number])));
-    }
-    let spring = [given.number("spring_stiffness"), given.number("spring_position")];
-    match spring {
-        [Some(stiffness), Some(position)] => found.extend(Load::of("spring", &[stiffness, position])),
-        [None, None] => {}
-        _ => {
-            return Err(
-                "a spring has a stiffness and a position: give both, spring_stiffness and spring_position".into()
-            );
-        }
-    }
-    match found[..] {
-        [load] => Ok(load),
-        [] => Err(format!("there is no load: give one of {} or a spring", keys.join(", ")).into()),
-        _ => Err("there are several loads: give one".into()),
-    }
-}
-
-/// The loads that are given, of one kind.
-fn loads(given: &mut Given) -> Outcome<Vec<Load>> {
-    let kinds = [
-        ("mean_pressures", "mean_pressure"),
-        ("mean_gaps", "mean_gap"),
-        ("normal_forces", "normal_force"),
-        ("approaches", "approach"),
-        ("reduced_pressures", "reduced_pressure"),
-    ];
-    let mut found = Vec::new();
-    for (list, one) in kinds {
-        let loads = given.numbers(list);
-        found.extend(loads.map(|loads| loads.iter().filter_map(|load| Load::of(one, &[*load])).collect::<Vec<_>>()));
-    }
-    if let Some(positions) = given.numbers("spring_positions") {
-        let stiffness = given.number("spring_stiffness").ok_or("spring_positions needs spring_stiffness: give both")?;
-        found.push(positions.iter().filter_map(|position| Load::of("spring", &[stiffness, *position])).collect());
-    }
-    match found.pop() {
-        Some(loads) if found.is_empty() => Ok(loads),
-        Some(_) => Err("there are several lists of loads: give one".into()),
-        None => Err("there are no loads: give a list, as mean_pressures".into()),
     }
 }
 

@@ -7,7 +7,7 @@ use asperity::contact::{Original, Region};
 use asperity::solver::Iteration;
 use asperity::{Grid, Solution, Surface};
 use asperity_maps::io::npz;
-use asperity_plot::LoadScale;
+use asperity_plot::{LoadScale, distribution};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
@@ -19,7 +19,6 @@ use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
 use crate::given::reason;
-use crate::histogram::{Histogram, extremes};
 use crate::lines::START;
 
 /// The observer of a solve: it sees the nodes of the grid, each iteration, and the tolerance of the solve on it.
@@ -58,11 +57,6 @@ impl<T: Scalar> State<T> {
         let session = Session::new(scene, input, inputs, units, &Processes::start()?)?.with_slopes()?;
         let before = before.filter(|gap| gap.dim() == surface.grid().shape()).map(T::field);
         Ok(Self { session, surface, original, last: None, before, table: Vec::new() })
-    }
-
-    /// The scene.
-    pub fn scene(&self) -> &Scene {
-        self.session.scene()
     }
 
     /// The gap of the last solution, or that of another problem.
@@ -169,17 +163,17 @@ impl<T: Scalar> State<T> {
         let mut answer = self.answer(&last)?;
         answer["started"] = if started { "last" } else { "default" }.into();
         self.last = Some(last);
-        Ok((answer, started))
+        Ok((answer, started && adheres))
     }
 
     /// Begins a way through loads.
     pub fn begin(&mut self, way: Way, quantities: Option<Value>) -> Outcome<Value> {
-        let control = way.loads().first().map_or("mean-pressure", |load| load.name());
+        let control = way.control(self.session.scene());
         self.session.renew()?;
         (self.session.inputs.given, self.session.inputs.initial_gap) = (quantities, None);
         self.session.begin(way, After::default(), false, None, None)?;
         let columns = self.session.columns();
-        let names = self.session.units().columns(&columns, control, self.surface.grid().is_line());
+        let names = self.session.units().columns(&columns, control.name(), self.surface.grid().is_line());
         self.table = vec![csv::header(&names)];
         Ok(json!({ "columns": columns, "names": names, "warnings": self.session.warnings.of_input() }))
     }
@@ -243,8 +237,7 @@ impl<T: Scalar> State<T> {
     pub fn histograms(&self, bins: usize) -> Outcome<Value> {
         let part = self.last()?.found.part()?;
         let positive = |field: &Array2<T>| {
-            let values: Vec<f64> = field.iter().map(|value| value.widen()).filter(|value| *value > 0.0).collect();
-            Histogram::of(values.into_iter(), bins)
+            distribution(field.iter().map(|value| value.widen()).filter(|value| *value > 0.0), bins)
         };
         Ok(json!({ "gap": positive(&part.gap), "contact_pressure": positive(&part.contact_pressure) }))
     }
@@ -266,4 +259,12 @@ impl<T: Scalar> State<T> {
             other => Err(format!("{other} is no file of this solution").into()),
         }
     }
+}
+
+/// The least and the greatest of the values that are finite; nothing of none.
+pub fn extremes(values: impl Iterator<Item = f64>) -> (Option<f64>, Option<f64>) {
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    (Some(low).filter(|low| low.is_finite()), Some(high).filter(|high| high.is_finite()))
 }

@@ -86,13 +86,19 @@ def check_drag(page):
 
 
 def check_probe(page):
-    """A map is read under the pointer and by the arrow keys."""
+    """A map is read under the pointer and by the arrow keys, and zoomed."""
     page.browser.mouse("mouseMoved", page.place("#maps .field", 0.3, 0.6))
     page.told("gap" in page.state()["probe"], "reads nothing under the pointer")
     page.browser.value("document.querySelector('#maps .field').focus()")
     before = page.state()["probe"]
     page.browser.key("ArrowRight")
     page.told(before != page.state()["probe"] != "", "an arrow key does not move what is read")
+    bar = "document.querySelector('#maps .scale').textContent"
+    whole = page.browser.value(bar)
+    page.browser.key("+")
+    page.told(page.browser.value(bar) != whole, "a map is not zoomed")
+    page.browser.key("0")
+    page.told(page.browser.value(bar) == whole, "a map is not shown whole again")
 
 
 # cancels as soon as progress is told

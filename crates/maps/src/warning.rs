@@ -4,14 +4,8 @@ use std::fmt;
 
 use crate::numbers::rounded;
 use crate::topography::{ScanAxis, Topography};
-use asperity::AdhesionLaw;
-use asperity::Grid;
-use asperity::Real;
-use asperity::Result;
-use asperity::Surface;
-use asperity::adhesion::mu_rho;
 use asperity::contact::Original;
-use asperity::{Report, Solution};
+use asperity::{AdhesionLaw, Grid, Real, Result, Solution, Surface};
 
 mod body;
 mod code;
@@ -19,16 +13,16 @@ mod extremes;
 mod heights;
 mod lines;
 mod load;
+mod part;
+mod range;
 mod relief;
 mod spikes;
-mod text;
 
 pub use code::WarningCode;
 use extremes::Extremes;
 use heights::{cells, ends_at_edges, ends_within, missing_code, open_edges, slope, spikes, tilt};
+use part::Part::{self, Figure, Length, Pressure, Word};
 use relief::Relief;
-use spikes::Spikes;
-use text::Text;
 
 /// The rms slope from which a surface is steep: linear elasticity of a half-space is for small slopes, and real
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
@@ -44,9 +38,6 @@ const FLAT: f64 = 4.0 * f64::EPSILON;
 /// The difference of contact between an original and the whole with its mirror images, as a share, from which the
 /// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
 const UNLIKE: f64 = 0.05;
-
-/// The resolution measure μ_ρ that the grid resolves.
-const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
 /// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
 ///
@@ -79,7 +70,10 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 pub struct Warning {
     /// The code.
     pub code: WarningCode,
-    text: Text,
+    severity: f64,
+    /// The message, with `{}` in the place of each part.
+    text: &'static str,
+    parts: Vec<Part>,
 }
 
 impl fmt::Display for Warning {
@@ -89,6 +83,12 @@ impl fmt::Display for Warning {
 }
 
 impl Warning {
+    fn told(code: WarningCode, severity: f64, text: &'static str, parts: impl Into<Vec<Part>>) -> Self {
+        let parts = parts.into();
+        debug_assert_eq!(text.matches("{}").count(), parts.len());
+        Self { code, severity, text, parts }
+    }
+
     /// The message: the observation, with its number, and the remedy, on one line. Lengths and pressures are in the
     /// units of the input.
     pub fn message(&self) -> String {
@@ -110,7 +110,14 @@ impl Warning {
     /// ```
     pub fn message_with(&self, length: impl Fn(f64) -> String, pressure: impl Fn(f64) -> String) -> String {
         let rounded = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
-        self.text.written(|value| length(rounded(value)), |value| pressure(rounded(value)))
+        let written = |part: &Part| match part {
+            Length(value) => length(rounded(*value)),
+            Pressure(value) => pressure(rounded(*value)),
+            Figure(value) => Self::figure(*value),
+            Word(word) => word.clone(),
+        };
+        let parts = self.parts.iter().map(written).chain([String::new()]);
+        self.text.split("{}").zip(parts).flat_map(|(piece, part)| [piece.to_owned(), part]).collect()
     }
 
     /// How bad it is, to choose the worst among warnings of one code: the figure of the message that exceeds its limit,
@@ -125,7 +132,7 @@ impl Warning {
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn severity(&self) -> f64 {
-        self.text.severity()
+        self.severity
     }
 
     /// A number as in messages: with three digits, below 1e-3 and from 1e5 on with an exponent.
@@ -155,12 +162,8 @@ impl Warning {
         found.extend(cells(surface.grid()));
         found.extend(ends_within(surface));
         if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
-            let mut text = Text::default();
-            let message = format!(
-                "all heights are {}: there is nothing that could touch first; check the file, or the map",
-                text.length(extremes.low)
-            );
-            found.push(Self { code: WarningCode::Flat, text: text.with(message) });
+            let text = "all heights are {}: there is nothing that could touch first; check the file, or the map";
+            found.push(Self::told(WarningCode::Flat, 0.0, text, [Length(extremes.low)]));
             return found;
         }
         let codes = extremes.codes();
@@ -173,7 +176,7 @@ impl Warning {
         found.extend(open_edges(&relief));
         found.extend(ends_at_edges(&relief, surface));
         found.extend(slope(relief.rms_slope(surface.grid().spacing()), STEEP));
-        found.extend(spikes(&relief, &Spikes::of(surface.heights(), &relief)));
+        found.extend(spikes(&relief));
         found
     }
 
@@ -240,35 +243,7 @@ impl Warning {
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &dyn AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
-        if law.hints().zero {
-            return Vec::new();
-        }
-        let mu_rho = mu_rho(law, surface.grid(), modulus);
-        let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
-        let mut found = Vec::new();
-        if mu_rho > RESOLVED {
-            let message = format!(
-                "adhesion is under-resolved, mu_rho = {} exceeds {RESOLVED}: the grid holds the edges of contacts, as a \
-                 work of adhesion of {} times the given one would (approach, withdrawal); use the law jkr, the limit of \
-                 no range, as the nodes cannot follow one as short as this{}",
-                Self::figure(mu_rho),
-                held(mu_rho),
-                finer(mu_rho, surface.grid())
-            );
-            let text = Text::default().with(message).of_severity(mu_rho / RESOLVED);
-            found.push(Self { code: WarningCode::Range, text });
-        }
-        if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
-            let mut text = Text::default();
-            let message = format!(
-                "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
-                 alike, as a pressure would; give it in the unit of the lengths",
-                text.length(range),
-                text.length(span)
-            );
-            found.push(Self { code: WarningCode::Range, text: text.with(message).of_severity(range / span) });
-        }
-        found
+        range::of_law(law, surface, modulus)
     }
 
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
@@ -286,16 +261,15 @@ impl Warning {
         if count == 0 || modulus <= 0.0 {
             return found;
         }
-        let (greatest, mut text) = (pressures().fold(f64::NEG_INFINITY, f64::max), Text::default());
-        let message = format!(
-            "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {count} of {} nodes: \
-             linear elasticity does not hold there; check the modulus, the load and the unit of the lengths",
-            text.pressure(greatest),
-            Self::figure(greatest / modulus),
-            solution.contact_pressure.len()
-        );
-        let text = text.with(message).of_severity(greatest / modulus);
-        found.push(Self { code: WarningCode::BeyondModulus, text });
+        let greatest = pressures().fold(f64::NEG_INFINITY, f64::max);
+        let counts = [count, solution.contact_pressure.len()].map(|nodes| Word(nodes.to_string()));
+        found.push(Self::told(
+            WarningCode::BeyondModulus,
+            greatest / modulus,
+            "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {} of {} nodes: linear \
+             elasticity does not hold there; check the modulus, the load and the unit of the lengths",
+            [vec![Pressure(greatest), Figure(greatest / modulus)], counts.into()].concat(),
+        ));
         found
     }
 
@@ -345,65 +319,20 @@ impl Warning {
         if (part - expected).abs() <= f64::max(1.0, UNLIKE * expected) {
             return Ok(None);
         }
-        let share = |contact: f64, grid: &Grid| 100.0 * contact / grid.nodes() as f64;
-        let message = format!(
+        let percent = |contact: f64, grid: &Grid| Figure(100.0 * contact / grid.nodes() as f64);
+        Ok(Some(Self::told(
+            WarningCode::Images,
+            (part - expected).abs() / expected.max(1.0),
             "{} % of the original of this mirrored map are in contact, but {} % of the whole: the contact is not that of \
              its mirror images, as adhesion may begin on one of them; look at the whole",
-            Self::figure(share(part, original.grid())),
-            Self::figure(share(whole, original.whole()))
-        );
-        let text = Text::default().with(message).of_severity((part - expected).abs() / expected.max(1.0));
-        Ok(Some(Self { code: WarningCode::Images, text }))
+            [percent(part, original.grid()), percent(whole, original.whole())],
+        )))
     }
-}
-
-/// By μ_ρ, with how many times the given work of adhesion a front acts that the grid holds, on approach and on
-/// withdrawal: the farthest from one of the exponential law and that of Maugis and Dugdale, by Johnson's wave on a line,
-/// whose straight fronts along the grid are held most (example `jkr`, table `held`).
-const HELD: [(f64, [f64; 2]); 7] = [
-    (0.5, [0.99, 1.01]),
-    (0.7, [0.98, 1.03]),
-    (1.0, [0.95, 1.17]),
-    (1.4, [0.68, 1.78]),
-    (2.0, [0.41, 3.49]),
-    (2.8, [0.32, 6.81]),
-    (4.0, [0.25, 13.8]),
-];
-
-/// The interval of this table at a μ_ρ above the least, in words.
-fn held(mu_rho: f64) -> String {
-    let told = |[low, high]: [f64; 2], [less, more]: [&str; 2]| {
-        format!("{less}{low:.2} to {more}{high:.*}", if high < 2.0 { 2 } else { 1 })
-    };
-    let Some(pair) = HELD.windows(2).find(|pair| mu_rho <= pair[1].0) else {
-        return told(HELD[HELD.len() - 1].1, ["less than ", "more than "]);
-    };
-    let share = (mu_rho / pair[0].0).ln() / (pair[1].0 / pair[0].0).ln();
-    told([0, 1].map(|k| pair[0].1[k].powf(1.0 - share) * pair[1].1[k].powf(share)), [""; 2])
-}
-
-/// The most nodes along a side of a grid to which a warning sends.
-const MOST_NODES: f64 = 16384.0;
-
-/// The grid that would resolve the range, as a second remedy, if it may be had.
-fn finer(mu_rho: f64, grid: &Grid) -> String {
-    // μ_ρ goes with the root of the spacing
-    let times = (mu_rho / RESOLVED).powi(2).ceil();
-    let (nx, ny) = grid.shape();
-    let nodes = [nx, ny].into_iter().filter(|&side| side > 1).map(|side| times * side as f64).collect::<Vec<_>>();
-    if nodes.iter().any(|&nodes| nodes > MOST_NODES) {
-        return String::new();
-    }
-    let nodes = nodes.iter().map(f64::to_string).collect::<Vec<_>>().join(" x ");
-    format!(", or a grid {times} times finer, of {nodes} nodes")
 }
 
 fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
     let share = solution.report.edge_traction.filter(|_| solution.report.reaches_edge)?;
-    let message = format!(
-        "contact or traction reaches the edge of the window, with {} of the largest traction: what lies beyond is not \
-         there; unless the body ends at this edge, take a larger window, or an adhesion of less range",
-        Warning::figure(share)
-    );
-    Some(Warning { code: WarningCode::WindowEdge, text: Text::default().with(message).of_severity(share) })
+    let text = "contact or traction reaches the edge of the window, with {} of the largest traction: what lies beyond is \
+                not there; unless the body ends at this edge, take a larger window, or an adhesion of less range";
+    Some(Warning::told(WarningCode::WindowEdge, share, text, [Figure(share)]))
 }

@@ -9,6 +9,7 @@ mod font;
 mod frame;
 mod load;
 mod map;
+pub mod page;
 mod pdf;
 mod png;
 mod raster;
@@ -19,7 +20,7 @@ mod svg;
 use std::fs;
 use std::path::Path;
 
-pub use chart::Chart;
+pub use chart::{Chart, distribution};
 pub use colours::{Colouring, cluster_colour};
 pub use load::LoadScale;
 pub use map::Map;

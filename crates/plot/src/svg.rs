@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::Picture;
 use crate::font;
+use crate::page::escaped;
 use crate::png;
 use crate::shape::{Anchor, Colour, Shape};
 
@@ -81,11 +82,6 @@ fn path(points: &[(f64, f64)]) -> String {
         let _ = write!(path, "{}{} {}", if k == 0 { 'M' } else { 'L' }, number(*x), number(*y));
     }
     if points.len() == 1 { path + "h0" } else { path }
-}
-
-/// A text without characters that mean something in XML.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Bytes in the 64 characters of RFC 4648.

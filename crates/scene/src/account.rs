@@ -1,6 +1,7 @@
 //! The account of a solve, with the keys of its report.
 
 pub mod contact;
+pub(crate) mod dimensions;
 pub(crate) mod displacement;
 pub(crate) mod entries;
 pub(crate) mod findings;
@@ -31,6 +32,7 @@ use crate::account::record::record;
 use crate::account::slopes::Slopes;
 use crate::key::adhesion::Adhesion;
 use crate::key::elastic::Elastic;
+use crate::key::quantity::{ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
 use crate::key::scene::{Precision, Scene};
 use crate::key::told::Told;
 use crate::key::units::Units;
@@ -77,19 +79,19 @@ record! {
         /// The search for the load of a contact fraction.
         search: Option<Search> = found.search,
         /// The mean gap.
-        mean_gap: f64 = report.mean_gap,
+        mean_gap: f64 [LENGTH] = report.mean_gap,
         /// The mean external pressure.
-        mean_pressure: f64 = report.mean_pressure,
+        mean_pressure: f64 [PRESSURE] = report.mean_pressure,
         /// The normal force.
-        normal_force: f64 = report.normal_force,
+        normal_force: f64 [FORCE] = report.normal_force,
         /// The approach, with a free boundary.
-        approach: Option<f64> = report.approach,
+        approach: Option<f64> [LENGTH] = report.approach,
         /// The stiffness of a spring, if the load is one.
-        spring_stiffness: Option<f64> = stiffness(report.control),
+        spring_stiffness: Option<f64> [FORCE_PER_LENGTH] = stiffness(report.control),
         /// The mean pressure that the fields carry.
-        net_pressure: f64 = report.net_pressure,
+        net_pressure: f64 [PRESSURE] = report.net_pressure,
         /// The mean contact pressure.
-        mean_contact_pressure: f64 = report.mean_contact_pressure,
+        mean_contact_pressure: f64 [PRESSURE] = report.mean_contact_pressure,
         /// The share of the nodes in contact.
         contact_fraction: f64 = report.contact_fraction,
         /// The number of nodes in contact.
@@ -105,7 +107,7 @@ record! {
         /// The contact area within its edge between the nodes, known after a look.
         corrected_contact_fraction: Option<f64> = None,
         /// The length of the edge, known after a look.
-        perimeter: Option<f64> = None,
+        perimeter: Option<f64> [LENGTH] = None,
         /// The share of the nodes with a contact pressure, known after a look.
         repulsive_fraction: Option<f64> = None,
         /// The share of the nodes that attract without contact, known after a look.
@@ -113,29 +115,29 @@ record! {
         /// The contact by works of adhesion, known after a look.
         patches: Option<Vec<Patch>> = None,
         /// The smallest gap.
-        min_gap: f64 = report.min_gap,
+        min_gap: f64 [LENGTH] = report.min_gap,
         /// The least (most tensile) elastic pressure, known after a look.
-        min_pressure: Option<f64> = None,
+        min_pressure: Option<f64> [PRESSURE] = None,
         /// The greatest elastic pressure, known after a look.
-        max_pressure: Option<f64> = None,
+        max_pressure: Option<f64> [PRESSURE] = None,
         /// The elastic energy.
-        elastic_energy: f64 = report.elastic_energy,
+        elastic_energy: f64 [ENERGY_PER_AREA] = report.elastic_energy,
         /// The adhesive energy.
-        adhesive_energy: f64 = report.adhesive_energy,
+        adhesive_energy: f64 [ENERGY_PER_AREA] = report.adhesive_energy,
         /// The share of the nodes that have yielded, at a hardness.
         plastic_fraction: Option<f64> = report.plastic.map(|plastic| plastic.fraction),
         /// The greatest plastic depth.
-        plastic_depth_max: Option<f64> = report.plastic.map(|plastic| plastic.depth_max),
+        plastic_depth_max: Option<f64> [LENGTH] = report.plastic.map(|plastic| plastic.depth_max),
         /// The mean plastic depth.
-        plastic_depth_mean: Option<f64> = report.plastic.map(|plastic| plastic.depth_mean),
+        plastic_depth_mean: Option<f64> [LENGTH] = report.plastic.map(|plastic| plastic.depth_mean),
         /// The energy that yielding has dissipated.
-        plastic_energy: Option<f64> = report.plastic.map(|plastic| plastic.energy),
+        plastic_energy: Option<f64> [ENERGY_PER_AREA] = report.plastic.map(|plastic| plastic.energy),
         /// The stability, if it was asked for.
         stability: Option<Steadiness> = found.stability,
         /// The contact stiffness, a pressure per length, if it was asked for.
-        contact_stiffness: Option<f64> = found.stiffness.map(|found| found.pressure_per_length),
+        contact_stiffness: Option<f64> [PRESSURE_PER_LENGTH] = found.stiffness.map(|found| found.pressure_per_length),
         /// The normal stiffness, a force per length, with the contact stiffness.
-        normal_stiffness: Option<f64> = found.stiffness.map(|found| share * found.force_per_length),
+        normal_stiffness: Option<f64> [FORCE_PER_LENGTH] = found.stiffness.map(|found| share * found.force_per_length),
         /// The conductance per area, if it was asked for.
         conductance: Option<Conducted> = found.after.conductance,
         /// Whether open nodes connect the sides, if the percolation was asked for.
@@ -147,7 +149,7 @@ record! {
         /// The unstable equilibria that were left, if they were to be.
         departures: Option<Vec<Left>> = found.departures.clone(),
         /// The traction in contact, of a law that has the range of the grid.
-        peak_traction: Option<f64> = report.peak_traction,
+        peak_traction: Option<f64> [PRESSURE] = report.peak_traction,
         /// The resolution measure μ_ρ.
         mu_rho: f64 = report.mu_rho,
         /// The node with the largest work of adhesion, where that varies.

@@ -305,8 +305,7 @@ impl<T: Scalar> Session<T> {
         file: Option<TableFile>,
     ) -> Outcome<()> {
         let loads = way.loads();
-        let adheres = self.scene.adhesion.adheres();
-        let control = loads.first().copied().unwrap_or_else(|| self.scene.elastic.boundary.searched_by(adheres));
+        let control = way.control(&self.scene);
         self.worded(Asked { after, ..Asked::under(control) }.check(&self.scene.adhesion, self.scene.method, false))?;
         if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
             let (name, requirement) = ("load", "finite in the precision of the fields");

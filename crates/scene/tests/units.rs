@@ -2,6 +2,7 @@
 //! legs of tables and the time that is left are read as people mean them.
 
 use asperity::path::PathSettings;
+use asperity_scene::allowed::Range;
 use asperity_scene::fall::{Fall, time};
 use asperity_scene::legs::{legs, logarithmic};
 use asperity_scene::list::{Loads, list};
@@ -50,7 +51,7 @@ fn a_quantity_has_the_bits_of_the_number_in_si_units() {
         (CONDUCTIVITY, "4W/cm K", 400.0),
         (LENGTH, "0.1", 0.1),
     ] {
-        let found = dimension.finite()(text).unwrap();
+        let found = dimension.within(Range::FINITE)(text).unwrap();
         assert_eq!((found.value, found.has_unit), (value, text != "0.1"), "{text}");
     }
     assert_eq!(["nm", "m", "Pa", "px", ""].map(power_of_length), [Some(-9), Some(0), None, None, None]);
@@ -59,7 +60,7 @@ fn a_quantity_has_the_bits_of_the_number_in_si_units() {
 
 #[test]
 fn units_of_other_dimensions_and_nonsense_are_refused() {
-    let pressure = PRESSURE.positive();
+    let pressure = PRESSURE.within(Range::POSITIVE);
     for text in ["70", "70GPa"] {
         assert!(pressure(text).is_ok(), "{text}");
     }
@@ -75,9 +76,11 @@ fn units_of_other_dimensions_and_nonsense_are_refused() {
         let error = pressure(text).unwrap_err();
         assert!(error.starts_with(mistake), "{text}: {error}");
     }
-    assert!(LENGTH.non_negative()("0nm").is_ok() && LENGTH.finite()("-6nm").is_ok());
+    assert!(LENGTH.within(Range::NON_NEGATIVE)("0nm").is_ok() && LENGTH.within(Range::FINITE)("-6nm").is_ok());
     // zero says nothing of units
-    assert!(!LENGTH.finite()("0").unwrap().is_bare() && LENGTH.finite()("1").unwrap().is_bare());
+    assert!(
+        !LENGTH.within(Range::FINITE)("0").unwrap().is_bare() && LENGTH.within(Range::FINITE)("1").unwrap().is_bare()
+    );
 }
 
 fn units(length: &str, pressure: &str) -> Units {
@@ -142,11 +145,11 @@ fn no_word_has_two_meanings() {
 }
 
 fn gaps(text: &str) -> Result<Loads, String> {
-    list(LENGTH.non_negative())(text)
+    list(LENGTH.within(Range::NON_NEGATIVE))(text)
 }
 
 fn signed(text: &str) -> Result<Loads, String> {
-    list(LENGTH.finite())(text)
+    list(LENGTH.within(Range::FINITE))(text)
 }
 
 #[test]

@@ -64,8 +64,3 @@ pub fn shown(name: &str, value: &Value, number: &dyn Fn(&str, f64) -> String) ->
 pub fn spaced(name: &str) -> String {
     name.replace('_', " ")
 }
-
-/// A text without characters that mean something in HTML.
-pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}

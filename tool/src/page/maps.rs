@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use asperity::Grid;
-use asperity::contact::PressureDistribution;
 use asperity_maps::io::read_field;
-use asperity_plot::{Chart, Colouring, Map};
-use ndarray::{Array2, Zip};
+use asperity_plot::{Chart, Colouring, Map, distribution};
+use ndarray::Zip;
 use serde_json::{Value, json};
 
 use super::{FINE, Page};
@@ -18,7 +17,7 @@ use crate::units::Units;
 const FINEST: f64 = 1200.0;
 /// The share of w/ρ from which on attraction is shown, as in the column `attractive_fraction`.
 const NOTICEABLE: f64 = 0.01;
-/// The number of classes of a histogram.
+/// The number of classes of a distribution.
 const CLASSES: usize = 60;
 
 /// Puts the maps of a solve on a page, with histograms of gap and pressure.
@@ -74,50 +73,19 @@ pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colou
         let told = json!({ "lengths": grid.lengths(), "unit": length, "key": map.key() });
         page.map(&map.svg()?, &told.to_string());
     }
-    let pressures = PressureDistribution::of_fields(gap.view(), contact_pressure.view(), CLASSES)?;
-    page.figure(&gaps_apart(&gap, length)?);
-    page.figure(&distribution(&pressures, pressure_unit)?);
-    Ok(())
-}
-
-/// The chart of a distribution of the contact pressure: the nodes of each class, as a share of those in contact.
-fn distribution(found: &PressureDistribution, unit: Option<&str>) -> asperity::Result<String> {
-    let contact = found.integral();
-    let point = |(edges, density): (&[f64], &f64)| {
-        (0.5 * (edges[0] + edges[1]), 100.0 * density * (edges[1] - edges[0]) / contact)
-    };
-    let points = found.edges.windows(2).zip(&found.density).map(point);
-    let curve = if contact > 0.0 { points.collect() } else { Vec::new() };
-    let chart = Chart {
-        title: "Distribution of the contact pressure",
-        x_label: "contact pressure",
-        x_unit: unit,
-        y_label: "nodes in contact",
-        y_unit: Some("%"),
-        curves: vec![("", curve)],
-        ..Chart::default()
-    };
-    chart.draw(FINE)?.svg()
-}
-
-/// The chart of the gaps that are open: the nodes of each class, as a share of those that are apart.
-fn gaps_apart(gap: &Array2<f64>, unit: Option<&str>) -> asperity::Result<String> {
-    let open: Vec<f64> = gap.iter().copied().filter(|gap| *gap > 0.0 && gap.is_finite()).collect();
-    let width = open.iter().copied().fold(0.0, f64::max) / CLASSES as f64;
-    let mut counts = [0_usize; CLASSES];
-    for gap in &open {
-        counts[((gap / width) as usize).min(CLASSES - 1)] += 1;
+    for (title, x_label, x_unit, field, y_label) in [
+        ("Distribution of the gap", "gap", length, &gap, "nodes apart"),
+        (
+            "Distribution of the contact pressure",
+            "contact pressure",
+            pressure_unit,
+            &contact_pressure,
+            "nodes in contact",
+        ),
+    ] {
+        let curve = distribution(field.iter().copied().filter(|value| *value > 0.0), CLASSES);
+        let axes = Chart { title, x_label, x_unit, y_label, y_unit: Some("%"), ..Chart::default() };
+        page.figure(&Chart { curves: vec![("", curve)], ..axes }.draw(FINE)?.svg()?);
     }
-    let point = |(k, count): (usize, &usize)| ((k as f64 + 0.5) * width, 100.0 * *count as f64 / open.len() as f64);
-    let curve = if open.is_empty() { Vec::new() } else { counts.iter().enumerate().map(point).collect() };
-    let chart = Chart {
-        title: "Distribution of the gap",
-        x_label: "gap",
-        x_unit: unit,
-        y_label: "nodes apart",
-        y_unit: Some("%"),
-        curves: vec![("", curve)],
-        ..Chart::default()
-    };
-    chart.draw(FINE)?.svg()
+    Ok(())
 }

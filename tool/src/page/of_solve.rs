@@ -38,7 +38,8 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     }
     let said = report["warnings"].as_array().into_iter().flatten();
     warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
-    let units = units_of_report(&report);
+    let unit = |key: &str| report[key].as_str().map(str::to_owned);
+    let units = Units { length: unit("length_unit"), pressure: unit("pressure_unit"), force: None };
     if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
     }
@@ -107,10 +108,4 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         page.figures(Some("Levels of nested grids"), &levels);
     }
     Ok(page.finish(scene.as_deref()))
-}
-
-/// The units in the report of a solve.
-fn units_of_report(report: &Value) -> Units {
-    let [length, pressure] = ["length_unit", "pressure_unit"].map(|key| report[key].as_str().map(str::to_owned));
-    Units { length, pressure, force: None }
 }

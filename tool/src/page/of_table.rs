@@ -6,11 +6,12 @@ use std::path::Path;
 
 use asperity::Error;
 use asperity_plot::Picture;
+use asperity_plot::page::escaped;
 use asperity_scene::legs::{value, varied};
 use serde_json::Value;
 use toml::Table;
 
-use super::figures::{escaped, place, shown, spaced};
+use super::figures::{place, shown, spaced};
 use super::{FINE, Page};
 use crate::columns::Columns;
 use crate::csv;

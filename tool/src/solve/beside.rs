@@ -1,7 +1,7 @@
 //! The fields that a solve may leave beside gap and pressures: the softest mode, displacements, and the plastic depth.
 
 use asperity::{Result, Surface};
-use asperity_scene::{Found, gap_to_write};
+use asperity_scene::{Elastic, Found, Scene, gap_to_write};
 use clap::ValueEnum;
 use ndarray::Array2;
 
@@ -22,21 +22,26 @@ pub type Named = (&'static str, Array2<f64>);
 
 impl Options {
     /// The files of the fields that are asked for, or come with a hardness.
-    pub fn beside(&self) -> impl Iterator<Item = &'static str> + use<> {
+    pub fn beside(&self, scene: &Scene) -> impl Iterator<Item = &'static str> + use<> {
         let displacement = self.fields == Some(Beside::Displacement);
-        let both = displacement && self.surface.other.modulus().is_some();
-        let asked = [self.stability || self.leave, displacement, both, self.adhesion.described().yields()];
+        let both = displacement && scene.elastic.against_modulus.is_some();
+        let asked = [self.findings.0.is_tested(), displacement, both, scene.adhesion.yields()];
         BESIDE.into_iter().zip(asked).filter_map(|(name, asked)| asked.then_some(name))
     }
 
     /// These fields of what was found, on its surface if displacements are asked for.
-    pub fn fields_beside<T: Scalar>(&self, found: &Found<T>, surface: Option<&Surface>) -> Result<Vec<Named>> {
+    pub fn fields_beside<T: Scalar>(
+        &self,
+        found: &Found<T>,
+        elastic: &Elastic,
+        surface: Option<&Surface>,
+    ) -> Result<Vec<Named>> {
         let mode = found.mode.as_ref().map(|mode| mode.mapv(T::widen));
         let solution = &found.solution;
         let depth = solution.plastic_depth.as_ref().map(|depth| depth.mapv(T::widen));
         let (own, other) = match surface {
             None => (None, None),
-            Some(surface) => match found.sight.displacements(&self.surface.elastic(), solution.pressure.view())? {
+            Some(surface) => match found.sight.displacements(elastic, solution.pressure.view())? {
                 Some([own, other]) => (Some(own), Some(other)),
                 None => {
                     let mut own = gap_to_write(solution).mapv(T::widen) + surface.heights();

@@ -57,7 +57,7 @@ impl Job<'_> {
                 false => pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?,
             };
             contact.write(path(contact_name))?;
-            let pressure = pictures::pressure_to_draw(solution, self.options.adhesion.adheres());
+            let pressure = pictures::pressure_to_draw(solution, self.problem.scene.adhesion.adheres());
             let limits = self.options.colours.limits();
             let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
             picture.write(path(pressure_name))?;

@@ -9,16 +9,20 @@ const FAR: f64 = 3.0;
 /// Codes for missing points that are recognised where they stand once, too.
 const CODES: [f64; 9] = [-9999.0, -99999.0, -999.0, 9999.0, 99999.0, -32768.0, 32767.0, 65535.0, -2147483648.0];
 
-/// The lowest and the highest of no heights.
-const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+/// The lowest and the highest of some heights; ∞ and −∞ of none.
+pub fn range(heights: impl Iterator<Item = f64>) -> (f64, f64) {
+    heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high): (f64, f64), h| {
+        (if h < low { h } else { low }, if h > high { h } else { high })
+    })
+}
 
 /// The lowest and the highest of the heights that are not missing, their counts, and the range of all others.
 #[derive(Clone, Copy)]
 pub struct Extremes {
     pub low: f64,
     pub high: f64,
-    pub low_count: usize,
-    pub high_count: usize,
+    /// At how many nodes the lowest and the highest stand.
+    counts: [usize; 2],
     /// The lowest and the highest of the other heights; ∞ and −∞ if there are none.
     pub rest: (f64, f64),
 }
@@ -26,17 +30,9 @@ pub struct Extremes {
 impl Extremes {
     pub fn of(heights: &Array2<f64>) -> Self {
         let finite = || heights.iter().copied().filter(|h| h.is_finite());
-        let range = |(low, high): (f64, f64), h: f64| (if h < low { h } else { low }, if h > high { h } else { high });
-        let (low, high) = finite().fold(NOTHING, range);
-        let (mut low_count, mut high_count, mut rest) = (0, 0, NOTHING);
-        for h in finite() {
-            low_count += usize::from(h == low);
-            high_count += usize::from(h == high);
-            if h != low && h != high {
-                rest = range(rest, h);
-            }
-        }
-        Self { low, high, low_count, high_count, rest }
+        let (low, high) = range(finite());
+        let counts = finite().fold([0, 0], |[a, b], h| [a + usize::from(h == low), b + usize::from(h == high)]);
+        Self { low, high, counts, rest: range(finite().filter(|h| *h != low && *h != high)) }
     }
 
     /// The highest less the lowest height; infinite if the difference is beyond `f64`.
@@ -44,18 +40,14 @@ impl Extremes {
         self.high - self.low
     }
 
-    /// The extreme values that stand for missing points, and at how many nodes.
+    /// The extreme values that stand for missing points, and at how many nodes: far outside the rest, and repeated or
+    /// well known.
     pub fn codes(&self) -> Vec<(f64, usize)> {
-        let ends = [(self.low, self.low_count), (self.high, self.high_count)];
-        ends.into_iter().filter(|&(value, count)| self.is_code(value, count)).collect()
-    }
-
-    /// Whether an extreme value stands for missing points: far outside the rest, and repeated or well known.
-    fn is_code(&self, value: f64, count: usize) -> bool {
         let (low, high) = self.rest;
-        let (span, distance) = (high - low, (low - value).max(value - high));
         // of two or three levels none is a code
-        span > 0.0 && distance > FAR * span && (count > 1 || CODES.contains(&value))
+        let is_far = |value: f64| high > low && (low - value).max(value - high) > FAR * (high - low);
+        let is_code = |&(value, count): &(f64, usize)| is_far(value) && (count > 1 || CODES.contains(&value));
+        [self.low, self.high].into_iter().zip(self.counts).filter(is_code).collect()
     }
 }
 
@@ -81,11 +73,8 @@ mod tests {
                 let count = |value: f64| sorted.iter().filter(|&&h| h == value).count();
                 let rest: Vec<f64> = sorted.iter().copied().filter(|&h| h != low && h != high).collect();
                 let found = Extremes::of(&heights);
-                assert_eq!(
-                    (found.low, found.low_count, found.high, found.high_count),
-                    (low, count(low), high, count(high))
-                );
-                let expected = rest.first().map_or(NOTHING, |&first| (first, rest[rest.len() - 1]));
+                assert_eq!((found.low, found.high, found.counts), (low, high, [low, high].map(count)));
+                let expected = rest.first().map_or(range([].into_iter()), |&first| (first, rest[rest.len() - 1]));
                 assert_eq!(found.rest, expected, "{shape:?}");
             }
         }

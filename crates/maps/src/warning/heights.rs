@@ -1,12 +1,13 @@
 //! The warnings about heights: tilt, edges, slopes, spikes, codes of missing points, and cells.
 
+use asperity::{Grid, Surface};
+use ndarray::Array2;
+
 use super::extremes::Extremes;
+use super::part::Part::{Figure, Length, Pressure, Word};
 use super::relief::{Relief, Side};
 use super::spikes::Spikes;
-use super::text::Text;
 use super::{Warning, WarningCode};
-use asperity::Grid;
-use asperity::Surface;
 
 /// The drop of a plane across the map, in rms heights about the plane, from which there is a tilt: at a few per cent
 /// of contact, some two rms heights above the mean, a fifth gives one side of Gaussian heights half as much contact
@@ -64,104 +65,89 @@ pub(super) fn cells(grid: &Grid) -> Option<Warning> {
     if nx == 1 || ny == 1 || aspect <= CELLS {
         return None;
     }
-    let mut text = Text::default();
-    let message = format!(
-        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {nx} x {ny} \
-         nodes, or resample to square cells",
-        text.length(dx),
-        text.length(dy),
-        Warning::figure(aspect),
-        text.length(grid.lengths().0),
-        text.length(grid.lengths().1)
-    );
-    Some(Warning { code: WarningCode::Cells, text: text.with(message).of_severity(aspect) })
+    let (lx, ly) = grid.lengths();
+    Some(Warning::told(
+        WarningCode::Cells,
+        aspect,
+        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {} nodes, or resample to \
+         square cells",
+        [Length(dx), Length(dy), Figure(aspect), Length(lx), Length(ly), Word(format!("{nx} x {ny}"))],
+    ))
 }
 
 pub(super) fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
     // all digits, as the remedy needs them
     let value = if (1e-3..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") };
-    let mut text = Text::default();
-    let message = format!(
-        "{value} stands at {count} {}, far outside of the other heights, {} to {}, as a code for missing points \
-         does: declare it missing, and fill (prepare --missing {value} --fill); nothing else can be told of the \
-         heights before",
-        if count == 1 { "node" } else { "nodes" },
-        text.length(extremes.rest.0),
-        text.length(extremes.rest.1)
-    );
-    Warning { code: WarningCode::MissingCode, text: text.with(message).of_severity(count as f64) }
+    let nodes = format!("{count} {}", if count == 1 { "node" } else { "nodes" });
+    let (low, high) = extremes.rest;
+    Warning::told(
+        WarningCode::MissingCode,
+        count as f64,
+        "{} stands at {}, far outside of the other heights, {} to {}, as a code for missing points does: declare it \
+         missing, and fill (prepare --missing {} --fill); nothing else can be told of the heights before",
+        [Word(value.clone()), Word(nodes), Length(low), Length(high), Word(value)],
+    )
 }
 
 pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
-    let rms = relief.rms_about_plane();
     let tilted = |side: &Side| {
         let drop = side.drop.abs();
         let missed = -side.drop.signum() * side.mean_edge;
         let stands_out = missed > TILT_STANDS_OUT * side.greatest_mean_step;
-        side.tells() && drop > TILT * rms && missed > TILT_AT_EDGE * drop && stands_out
+        side.tells() && drop > TILT * relief.rms && missed > TILT_AT_EDGE * drop && stands_out
     };
     if !relief.sides.iter().any(tilted) {
         return None;
     }
     let (lx, ly) = grid.lengths();
     let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
-    let across = (x.abs() + y.abs()) / (rms * relief.unit);
-    let mut text = Text::default();
-    let message = format!(
-        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
-         remove a plane (detrend)",
-        Warning::figure(x / lx),
-        Warning::figure(y / ly),
-        text.length(x.abs() + y.abs()),
-        Warning::figure(across)
-    );
-    Some(Warning { code: WarningCode::Tilt, text: text.with(message).of_severity(across) })
+    let across = x.abs() + y.abs();
+    let times = across / (relief.rms * relief.unit);
+    Some(Warning::told(
+        WarningCode::Tilt,
+        times,
+        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: remove \
+         a plane (detrend)",
+        [Figure(x / lx), Figure(y / ly), Length(across), Figure(times)],
+    ))
 }
 
 pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
     let factor = if relief.is_line() { OPEN_END } else { OPEN_EDGE };
     let stands_out = |side: &Side| side.edge > STANDS_OUT * side.greatest_step;
     let open = |side: &Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
-    let (mut text, mut worst) = (Text::default(), 0.0);
-    let parts: Vec<_> = relief
-        .sides
-        .iter()
-        .zip(["x", "y"])
-        .filter(|(side, _)| open(side))
-        .map(|(side, name)| {
-            worst = f64::max(worst, side.edge / side.rms_step);
-            format!(
-                "{} along {name}, {} times that between neighbours inside",
-                text.length(side.edge * relief.unit),
-                Warning::figure(side.edge / side.rms_step)
-            )
-        })
-        .collect();
-    if parts.is_empty() {
-        return None;
-    }
-    let message = format!(
-        "opposite edges do not meet, the rms step across the periodic edge is {}: make the map periodic, by mirror \
-         images (mirror) or a taper (window)",
-        parts.join(", and ")
-    );
-    Some(Warning { code: WarningCode::OpenEdges, text: text.with(message).of_severity(worst) })
+    let open = relief.sides.iter().zip(["x", "y"]).filter(|(side, _)| open(side));
+    let open: Vec<_> = open.map(|(side, name)| (side.edge * relief.unit, name, side.edge / side.rms_step)).collect();
+    let worst = open.iter().map(|(.., times)| *times).reduce(f64::max)?;
+    let text = match open[..] {
+        [_] => {
+            "opposite edges do not meet, the rms step across the periodic edge is {} along {}, {} times that between \
+             neighbours inside: make the map periodic, by mirror images (mirror) or a taper (window)"
+        }
+        _ => {
+            "opposite edges do not meet, the rms step across the periodic edge is {} along {}, {} times that between \
+             neighbours inside, and {} along {}, {} times that between neighbours inside: make the map periodic, by \
+             mirror images (mirror) or a taper (window)"
+        }
+    };
+    let parts = open.into_iter().flat_map(|(step, name, times)| [Length(step), Word(name.to_owned()), Figure(times)]);
+    Some(Warning::told(WarningCode::OpenEdges, worst, text, parts.collect::<Vec<_>>()))
 }
 
-/// The highest of the heights along the edges, without those of absent nodes; −∞ if all of these are absent.
-fn highest_at_edges(surface: &Surface) -> f64 {
-    let (nx, ny) = surface.grid().shape();
-    let is_present = |node| surface.absent().is_none_or(|absent| !absent[node]);
+/// The highest of heights along the edges, without those of absent nodes; −∞ if all of these are absent.
+fn highest_at_edges(surface: &Surface, heights: &Array2<f64>) -> f64 {
+    let (nx, ny) = heights.dim();
     let rows = [0, nx - 1].into_iter().flat_map(|i| (0..ny).map(move |j| (i, j)));
     let edges = rows.chain((0..nx).flat_map(|i| [(i, 0), (i, ny - 1)]));
-    let heights = edges.filter(|&node| is_present(node)).map(|node| surface.heights()[node]);
-    heights.fold(f64::NEG_INFINITY, f64::max)
+    let present = edges.filter(|&node| surface.absent().is_none_or(|absent| !absent[node]));
+    present.map(|node| heights[node]).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// A body that ends before the edges.
 pub(super) fn ends_within(surface: &Surface) -> Option<Warning> {
-    let ends = surface.absent().is_some() && highest_at_edges(surface) == f64::NEG_INFINITY;
-    ends.then(|| ends_as("no node along the edges has a surface, as around a punch".to_owned(), Text::default()))
+    let text = "no node along the edges has a surface, as around a punch: {}";
+    let ends = surface.absent().is_some() && highest_at_edges(surface, surface.heights()) == f64::NEG_INFINITY;
+    ends.then(|| Warning::told(WarningCode::Ends, 0.0, text, [Word(ALONE.to_owned())]))
 }
 
 /// A body that falls to the edges, which are creases between it and its images.
@@ -170,30 +156,26 @@ pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warnin
         let crease = side.falls.iter().sum::<f64>() > CREASE * side.greatest_bend;
         side.tells() && crease && side.falls.iter().all(|fall| *fall > FALLS * side.greatest_mean_step)
     };
-    let below = relief.mean - relief.scale.of(highest_at_edges(surface));
+    let below = relief.mean - highest_at_edges(surface, &relief.heights);
     if !relief.sides.iter().all(falls) || below <= 0.0 {
         return None;
     }
     let (dx, dy) = surface.grid().spacing();
     let slope = |side: &Side, spacing: f64| side.falls.iter().sum::<f64>() * relief.unit / spacing;
-    let mut text = Text::default();
-    let seen = format!(
+    let slope = slope(&relief.sides[0], dx).max(slope(&relief.sides[1], dy));
+    Some(Warning::told(
+        WarningCode::Ends,
+        0.0,
         "the heights fall to all edges, {} and more below their mean, and the slope changes by {} there, as between \
-         spheres or cones side by side",
-        text.length(below * relief.unit),
-        Warning::figure(slope(&relief.sides[0], dx).max(slope(&relief.sides[1], dy)))
-    );
-    Some(ends_as(seen, text))
+         spheres or cones side by side: {}",
+        [Length(below * relief.unit), Figure(slope), Word(ALONE.to_owned())],
+    ))
 }
 
-fn ends_as(seen: String, text: Text) -> Warning {
-    let message = format!(
-        "{seen}: in a periodic cell a body stands among images of itself; give the half-space a free boundary (boundary \
-         free), make the map wider around the body on a layer or coating, or, if the roughness alone is wanted, remove \
-         the form (remove-form)"
-    );
-    Warning { code: WarningCode::Ends, text: text.with(message) }
-}
+/// What a body that ends is in a periodic cell, and the remedies.
+const ALONE: &str = "in a periodic cell a body stands among images of itself; give the half-space a free boundary \
+                     (boundary free), make the map wider around the body on a layer or coating, or, if the roughness \
+                     alone is wanted, remove the form (remove-form)";
 
 pub(super) fn modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Warning> {
     let spacing = grid.spacing().0.min(grid.spacing().1);
@@ -201,14 +183,13 @@ pub(super) fn modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<W
     if modulus == 1.0 || modulus >= SOFTEST || !in_metres {
         return None;
     }
-    let mut text = Text::default();
-    let message = format!(
+    Some(Warning::told(
+        WarningCode::Modulus,
+        0.0,
         "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and less \
-         than the {SOFTEST:e} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
-        text.pressure(modulus),
-        text.length(spacing)
-    );
-    Some(Warning { code: WarningCode::Modulus, text: text.with(message) })
+         than the {} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
+        [Pressure(modulus), Length(spacing), Word(format!("{SOFTEST:e}"))],
+    ))
 }
 
 /// The probable mistake behind an rms slope, if a slope of more than `most` is steep.
@@ -218,30 +199,20 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
         _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}"), slope.recip()),
         _ => return None,
     };
-    let message = format!(
-        "the rms slope by differences is {}, {than}: are heights and lengths in one unit? scale the heights, or correct \
-         the side lengths",
-        Warning::figure(slope)
-    );
-    Some(Warning { code, text: Text::default().with(message).of_severity(severity) })
+    let text = "the rms slope by differences is {}, {}: are heights and lengths in one unit? scale the heights, or correct \
+                the side lengths";
+    Some(Warning::told(code, severity, text, [Figure(slope), Word(than)]))
 }
 
-pub(super) fn spikes(relief: &Relief, spikes: &Spikes) -> Option<Warning> {
-    if spikes.count == 0 {
-        return None;
-    }
-    let farthest = spikes.farthest / relief.rms_about_plane();
-    let mut text = Text::default();
-    let message = format!(
-        "{} single {} out of all neighbours, the farthest by {}, {} times the rms height, at index [{}, {}]; the \
-         kurtosis of the heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
-        spikes.count,
-        if spikes.count == 1 { "node is far" } else { "nodes are far" },
-        text.length(spikes.farthest * relief.unit),
-        Warning::figure(farthest),
-        spikes.node.0,
-        spikes.node.1,
-        Warning::figure(spikes.kurtosis)
-    );
-    Some(Warning { code: WarningCode::Spikes, text: text.with(message).of_severity(farthest) })
+pub(super) fn spikes(relief: &Relief) -> Option<Warning> {
+    let Spikes { count, farthest, node: (i, j), kurtosis } = Spikes::of(relief)?;
+    let nodes = format!("{count} single {}", if count == 1 { "node is far" } else { "nodes are far" });
+    let (times, node) = (farthest / relief.rms, format!("[{i}, {j}]"));
+    Some(Warning::told(
+        WarningCode::Spikes,
+        times,
+        "{} out of all neighbours, the farthest by {}, {} times the rms height, at index {}; the kurtosis of the heights \
+         is {} (3 if Gaussian): give such nodes the median around them (despike)",
+        [Word(nodes), Length(farthest * relief.unit), Figure(times), Word(node), Figure(kurtosis)],
+    ))
 }

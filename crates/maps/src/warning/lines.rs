@@ -1,6 +1,6 @@
 //! The warning about scan lines: the lines along the other axis have the offsets.
 
-use super::text::Text;
+use super::part::Part::{Figure, Length, Word};
 use super::{Warning, WarningCode};
 use crate::topography::{LineSteps, ScanAxis, Topography};
 
@@ -37,15 +37,13 @@ pub(super) fn scan_axis(map: &Topography, along: ScanAxis) -> Option<Warning> {
     if !(offset && RANDOM.contains(&(other.change / other.shared)) && other.single <= ALIKE * asked.single) {
         return None;
     }
-    let mut text = Text::default();
-    let message = format!(
-        "lines along {1} are offset from one to the next by {2}, {3} times as irregularly as those along {0}, which are \
-         to be brought to one height: if the instrument scanned along {1}, choose {1} for the scan axis, or exchange \
-         the axes",
-        names[0],
-        names[1],
-        text.length(other.shared),
-        if asked.change > 0.0 { Warning::figure(other.change / asked.change) } else { "infinitely many".into() }
-    );
-    Some(Warning { code: WarningCode::ScanAxis, text: text.with(message) })
+    let [along, across] = names.map(|name| Word(name.to_owned()));
+    let times = if asked.change > 0.0 { Figure(other.change / asked.change) } else { Word("infinitely many".into()) };
+    Some(Warning::told(
+        WarningCode::ScanAxis,
+        0.0,
+        "lines along {} are offset from one to the next by {}, {} times as irregularly as those along {}, which are to \
+         be brought to one height: if the instrument scanned along {}, choose {} for the scan axis, or exchange the axes",
+        [across.clone(), Length(other.shared), times, along, across.clone(), across],
+    ))
 }

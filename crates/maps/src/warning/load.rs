@@ -2,7 +2,7 @@
 
 use asperity::{Real, Solution};
 
-use super::text::Text;
+use super::part::Part::{Figure, Pressure, Word};
 use super::{Warning, WarningCode};
 
 /// How many times harder a node presses than both nodes beside it, along an axis, to stand alone: pressures change
@@ -85,29 +85,26 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>, scars_removed: Option<f64
         all.count >= LEAST_NODES && nodes.load > MUCH[usize::from(axis.is_none())] * all.load
     };
     let (nodes, axis) = kinds.into_iter().filter(much).max_by(|a, b| a.0.load.total_cmp(&b.0.load))?;
-    let (share, mut text) = (nodes.load / all.load, Text::default());
-    let (percent, greatest) = (Warning::figure(100.0 * share), text.pressure(nodes.greatest));
-    let (code, message) = match axis {
-        Some(axis) => (
+    let (share, percent) = (nodes.load / all.load, Figure(100.0 * nodes.load / all.load));
+    let (times, greatest) = (Figure(ALONE), Pressure(nodes.greatest));
+    Some(match axis.map(str::to_owned) {
+        Some(axis) => Warning::told(
             WarningCode::Scars,
-            format!(
-                "{percent} % of the load stands on single lines along {axis}, on nodes that press more than {ALONE} \
-                 times as hard as those of both lines beside them, with up to {greatest}: scars, if {axis} is the \
-                 scan axis of a measurement; look at these lines in the map, and {}",
-                remedy(axis, scars_removed)
-            ),
+            share,
+            "{} % of the load stands on single lines along {}, on nodes that press more than {} times as hard as those \
+             of both lines beside them, with up to {}: scars, if {} is the scan axis of a measurement; look at these \
+             lines in the map, and {}",
+            [percent, Word(axis.clone()), times, greatest, Word(axis.clone()), Word(remedy(&axis, scars_removed))],
         ),
-        None => (
+        None => Warning::told(
             WarningCode::Noise,
-            format!(
-                "{percent} % of the load stands on single nodes, which press more than {ALONE} times as hard as all \
-                 beside them, with up to {greatest}: noise of a measurement, or contacts that the nodes do not resolve; \
-                 leave out short waves (prepare --cut-off-wavelength), give spikes the median around them (despike), \
-                 or refine the map"
-            ),
+            share,
+            "{} % of the load stands on single nodes, which press more than {} times as hard as all beside them, with \
+             up to {}: noise of a measurement, or contacts that the nodes do not resolve; leave out short waves (prepare \
+             --cut-off-wavelength), give spikes the median around them (despike), or refine the map",
+            [percent, times, greatest],
         ),
-    };
-    Some(Warning { code, text: text.with(message).of_severity(share) })
+    })
 }
 
 /// The remedy for scars along an axis, where some may have been removed beyond a threshold.
@@ -131,12 +128,8 @@ pub(super) fn of_hardness<T: Real>(solution: &Solution<T>) -> Option<Warning> {
     if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
         return None;
     }
-    let mut text = Text::default();
-    let message = format!(
-        "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which most \
-         solids yield: if the slopes are right, give the hardness of the softer body (--hardness)",
-        Warning::figure(100.0 * above / all),
-        text.pressure(BORNE * modulus)
-    );
-    Some(Warning { code: WarningCode::Hardness, text: text.with(message).of_severity(above / all) })
+    let text = "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which \
+                most solids yield: if the slopes are right, give the hardness of the softer body (--hardness)";
+    let parts = [Figure(100.0 * above / all), Pressure(BORNE * modulus)];
+    Some(Warning::told(WarningCode::Hardness, above / all, text, parts))
 }

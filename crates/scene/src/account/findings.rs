@@ -8,10 +8,11 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::account::found::{Found, check_finite};
-use crate::account::leaked::{Along, LeakAsked, Narrowest, Transmissivity};
+use crate::account::leaked::{Along, Narrowest, Transmissivity};
 use crate::key::after::{After, Conductors, ERROR, LEAKAGE};
 use crate::key::boundary::Boundary;
 use crate::key::elastic::Elastic;
+use crate::key::leak::LeakAsked;
 
 /// The conductance of a contact, as its report has it.
 #[derive(Clone, Copy, Debug, Serialize)]

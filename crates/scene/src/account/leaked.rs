@@ -1,10 +1,11 @@
 //! The leakage through a gap, with the keys of its report and the sentences for people.
 
 use asperity::Result;
-use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak, Leakage};
+use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak};
 use serde::Serialize;
 
 use crate::key::boundary::Boundary;
+use crate::key::leak::LeakAsked;
 use crate::key::quantity::{LENGTH, VISCOSITY, times_ten_to};
 use crate::key::units::Units;
 use crate::key::words::{Skin, worded};
@@ -104,21 +105,6 @@ pub struct Transmissivity {
     pub iterations: usize,
     /// The nodes through which the fluid may flow.
     pub nodes: usize,
-}
-
-/// What is asked of a gap.
-#[derive(Clone, Copy, Debug)]
-pub struct LeakAsked {
-    /// What is beyond the map.
-    pub boundary: Boundary,
-    /// The gap of absent nodes, if they are open.
-    pub absent_gap: Option<f64>,
-    /// The settings.
-    pub settings: Leakage,
-    /// The viscosity, if it is known.
-    pub viscosity: Option<f64>,
-    /// Whether to estimate the error of the grid.
-    pub grid_error: bool,
 }
 
 impl LeakAsked {

@@ -6,6 +6,60 @@ use asperity_maps::io::available_memory;
 
 /// The bytes of a GiB.
 pub(crate) const GIB: f64 = 1_073_741_824.0;
+use crate::key::allowed::Range;
+use crate::key::given::Given;
+use crate::key::quantity::PRESSURE;
+use crate::key::{Kind, Word, keys};
+use asperity::PullOff;
+
+keys! {
+    /// The accuracy that is asked for, from which tolerance and grid follow.
+    AccuracyKeys {
+        "Solver" {
+            /// Relative error that is wanted, as 0.01: chooses the tolerance, solves on coarser grids too, and interpolates
+            /// the surface on finer ones until the estimated error is as small; the results are on the finest grid
+            accuracy: Kind::number(Range::POSITIVE, &["A"])
+                .excludes(&["initial_gap", "nested", "no_nested", "stability", "leave"]),
+            /// Quantity that has the accuracy [default: area]
+            accuracy_of: Kind::word(quantities, &["QUANTITY"]).needs(&["accuracy"]),
+            /// Memory that {accuracy} may take, in GiB [default: all that is free]
+            memory: Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
+        }
+    }
+}
+
+keys! {
+    /// The pull-off that is asked for.
+    PullOffKeys {
+        "Load" {
+            /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed flat,
+            /// or were as {branch} or {initial_gap} says
+            preload: Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
+            /// Relative tolerance of the pull-off
+            rtol: Kind::number(Range::SHARE, &["T"]).or("0.02"),
+        }
+        "Solver" {
+            /// Relative error of the pull-off that is wanted, as 0.05, with the law jkr: interpolates the surface on finer
+            /// grids until the estimated error is as small
+            accuracy: Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
+            /// Memory that {accuracy} may take, in GiB [default: all that is free]
+            memory: Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
+        }
+    }
+}
+
+/// The names of the quantities that may have an accuracy.
+fn quantities() -> Vec<Word> {
+    let help = |quantity| match quantity {
+        Quantity::Area => "Contact area, corrected for its edge",
+        Quantity::Gap => "Mean gap",
+        Quantity::Approach => "Approach, with a free boundary",
+        Quantity::Pressure => "Mean pressure",
+        Quantity::Stiffness => "Contact stiffness",
+        _ => "",
+    };
+    Quantity::ALL.iter().map(|quantity| Word { name: quantity.name(), help: help(*quantity) }).collect()
+}
 
 /// The accuracy that is asked for, from which tolerance and grid follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +70,32 @@ pub struct Goal {
     pub of: Quantity,
     /// The memory that it may take, in GiB; all that is free if none is given.
     pub memory: Option<f64>,
+}
+
+impl Given {
+    /// The accuracy, if one is asked for.
+    ///
+    /// # Errors
+    /// A quantity or a memory without an accuracy, and a memory that is none, for [`worded`](crate::worded).
+    pub fn goal(&self) -> Result<Option<Goal>, String> {
+        let (of, memory) = (self.word("accuracy_of").unwrap_or("area"), self.number("memory"));
+        let of = Quantity::ALL.into_iter().find(|quantity| quantity.name() == of).unwrap_or(Quantity::Area);
+        match (self.number("accuracy"), memory) {
+            (None, _) if memory.is_some() || self.has("accuracy_of") => {
+                Err("{accuracy_of} and {memory} are of an accuracy: give {accuracy}, as 0.01 for 1 %".to_owned())
+            }
+            (_, Some(memory)) if memory <= 0.0 || memory.is_nan() => {
+                Err(format!("{{memory}} is {memory}: it must be positive, in GiB"))
+            }
+            (accuracy, memory) => Ok(accuracy.map(|accuracy| Goal { accuracy, of, memory })),
+        }
+    }
+
+    /// The pull-off that is asked for.
+    pub fn pull_off(&self) -> PullOff {
+        let usual = PullOff::default();
+        usual.tolerance(self.number("rtol").unwrap_or(usual.tolerance)).preload(self.number("preload"))
+    }
 }
 
 impl Goal {

@@ -6,10 +6,53 @@ use asperity::{Hardness, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 
+use crate::key::allowed::Range;
 use crate::key::formula::Formula;
 use crate::key::laws::{LAWS, Law, PARAMETERS, Parameter, WORK};
+use crate::key::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
 use crate::key::wall::{Constraint, Wall};
+use crate::key::{Kind, Word, keys};
 use crate::numbers::plain;
+
+keys! {
+    /// The adhesion between the surfaces, the wall, and the hardness.
+    AdhesionKeys {
+        "Adhesion" {
+            /// Adhesion law, over the gap g; asperity laws tells what each needs and where it is from
+            law: Kind::word(laws, &["LAW"]).or("none"),
+            /// Work of adhesion, an energy per area; all that jkr needs
+            work_of_adhesion: Kind::quantity(ENERGY_PER_AREA, Range::NON_NEGATIVE, &["W"]),
+            /// Range of adhesion, a length; for lennard-jones and van-der-waals the distance of the surfaces in contact
+            range: Kind::quantity(LENGTH, Range::POSITIVE, &["RHO"]),
+            /// Exponent of the energy of a power law
+            exponent: Kind::number(Range::POSITIVE, &["N"]),
+            /// Hamaker's constant of van-der-waals, an energy
+            hamaker: Kind::quantity(ENERGY, Range::POSITIVE, &["A"]),
+            /// Table of a law: lines of a gap, rising from 0, and a traction, attraction positive, the last one 0
+            law_table: Kind::file(),
+            /// Gap at which a law that never ends is cut off, smoothly and with all of its work of adhesion
+            cut_off: Kind::quantity(LENGTH, Range::POSITIVE, &["D"]),
+            /// Work of adhesion at each node, in a file as for the heights and of their shape, in the place of one for all
+            work_of_adhesion_map: Kind::file(),
+            /// What keeps the surfaces apart: a rigid wall, the repulsion of lennard-jones or morse alone, or springs
+            wall: Kind::word(Wall::words, &["WALL"]).or("hard"),
+            /// Stiffness of the springs of a penalty or uzawa wall, a pressure per length
+            wall_stiffness: Kind::quantity(PRESSURE_PER_LENGTH, Range::POSITIVE, &["K"]),
+        }
+        "Body" {
+            /// Hardness, a pressure that caps the contact pressure: the surface yields there and stays flattened
+            hardness: Kind::quantity(PRESSURE, Range::POSITIVE, &["H"]),
+            /// Hardness at each node, in a file as for the heights and of their shape, in the place of one for all; in Pa
+            /// where other numbers have units
+            hardness_map: Kind::file(),
+        }
+    }
+}
+
+/// The names of the laws, with their formulas.
+fn laws() -> Vec<Word> {
+    LAWS.iter().map(|law| Word { name: law.name, help: law.formula }).collect()
+}
 
 /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -99,92 +142,89 @@ impl Adhesion {
     /// Refuses a law without its parameters, parameters that are not those of the law, and a wall that does not fit.
     ///
     /// # Errors
-    /// The reason with a remedy, with the names that `named` gives to keys.
-    pub fn check(&self, named: impl Fn(&str) -> String) -> std::result::Result<(), String> {
+    /// The reason with a remedy, with keys in braces, for [`worded`](crate::worded).
+    pub fn check(&self) -> std::result::Result<(), String> {
         let Some(law) = self.law() else { return Ok(()) };
         let (name, mapped) = (law.name, self.work_of_adhesion_map.is_some());
-        let chosen = format!("{} {name}", named("law"));
         if law.needs.is_empty() {
             let mut keys = PARAMETERS.iter().map(|parameter| parameter.key).chain(["cut_off", "work_of_adhesion_map"]);
             if let Some((key, value)) = keys.find_map(|key| Some((key, self.given(key)?))) {
-                let law = named("law");
                 return Err(format!(
-                    "{} is {value}, but there is no adhesion: choose {law} jkr, or {law} exponential for a work of \
-                     adhesion with a range, or leave it out",
-                    named(key)
+                    "{{{key}}} is {value}, but there is no adhesion: choose {{law}} jkr, or {{law}} exponential for a work \
+                     of adhesion with a range, or leave it out"
                 ));
             }
         }
         for Parameter { key, what, .. } in &PARAMETERS {
             let replaced = mapped && *key == WORK;
-            match self.given(key) {
+            let reason = match self.given(key) {
                 None if law.needs.contains(key) && !replaced => {
-                    return Err(format!("{chosen} lacks {}: give it, {what}", named(key)));
+                    return Err(format!("{{law}} {name} lacks {{{key}}}: give it, {what}"));
                 }
                 Some(_) if replaced => {
                     return Err(format!(
-                        "{} is given beside {}, which says it at every node: leave one of them out",
-                        named(key),
-                        named("work_of_adhesion_map")
+                        "{{{key}}} is given beside {{work_of_adhesion_map}}, which says it at every node: leave one of them \
+                         out"
                     ));
                 }
-                Some(value) if law.of_grid && *key == "range" => {
-                    return Err(format!(
-                        "{} is {value}, but {chosen} is the limit of no range, as short as the grid can resolve: leave it \
-                         out, or choose a law with a range, as {} exponential",
-                        named(key),
-                        named("law")
-                    ));
-                }
+                Some(value) if law.of_grid && *key == "range" => format!(
+                    "{value}, but {{law}} {name} is the limit of no range, as short as the grid can resolve: leave it out, or \
+                     choose a law with a range, as {{law}} exponential"
+                ),
                 Some(value) if !law.needs.contains(key) => {
-                    return Err(format!("{} is {value}, but {chosen} has no use for it: leave it out", named(key)));
+                    format!("{value}, but {{law}} {name} has no use for it: leave it out")
                 }
-                _ => {}
-            }
+                _ => continue,
+            };
+            return Err(format!("{{{key}}} is {reason}"));
         }
         if let (Some(distance), false) = (self.cut_off, law.never_ends) {
-            return Err(format!("{} is {distance}, but {chosen} ends by itself: leave it out", named("cut_off")));
+            return Err(format!("{{cut_off}} is {distance}, but {{law}} {name} ends by itself: leave it out"));
         }
-        self.check_wall(named)
+        self.check_wall()
     }
 
     /// Refuses a wall that does not fit.
     ///
     /// # Errors
     /// As of [`Adhesion::check`].
-    pub fn check_wall(&self, named: impl Fn(&str) -> String) -> std::result::Result<(), String> {
-        let (wall, repels) = (named("wall"), self.law().is_none_or(|law| law.repels));
-        if self.wall == Wall::None && !repels {
+    pub fn check_wall(&self) -> std::result::Result<(), String> {
+        let (wall, law) = (self.wall, &self.law);
+        if wall == Wall::None && !self.law().is_none_or(|law| law.repels) {
+            let repel: Vec<_> = LAWS.iter().filter(|law| law.repels).map(|law| law.name).collect();
+            let repel = repel.join(" or ");
             return Err(format!(
-                "{wall} none leaves the surfaces to the law, but {} {} does not repel: choose lennard-jones or morse, \
-                 or {wall} hard",
-                named("law"),
-                self.law
+                "{{wall}} none leaves the surfaces to the law, but {{law}} {law} does not repel: choose {repel}, or {{wall}} \
+                 hard"
             ));
         }
-        let [hardness, map] = ["hardness", "hardness_map"].map(&named);
         if let (Some(_), Some(_)) = (self.hardness, &self.hardness_map) {
-            return Err(format!(
-                "{hardness} is given beside {map}, which says it at every node: leave one of them out"
-            ));
+            let reason = "which says it at every node: leave one of them out";
+            return Err(format!("{{hardness}} is given beside {{hardness_map}}, {reason}"));
         }
-        if self.yields() && self.wall != Wall::Hard {
-            let given = if self.hardness.is_some() { hardness } else { map };
-            let chosen = self.wall;
-            return Err(format!(
-                "{given} is given, but {wall} {chosen} does not yield: leave it out, or choose {wall} hard"
-            ));
+        if wall != Wall::Hard {
+            self.check_elastic(&format!("{{wall}} {wall} does not yield"))
+                .map_err(|reason| format!("{reason}, or choose {{wall}} hard"))?;
         }
-        let stiffness = named("wall_stiffness");
-        match (self.wall.has_springs(), self.wall_stiffness) {
-            (true, None) => Err(format!("{wall} {} lacks {stiffness}: give it, a pressure per length", self.wall)),
+        match (wall.has_springs(), self.wall_stiffness) {
+            (true, None) => Err(format!("{{wall}} {wall} lacks {{wall_stiffness}}: give it, a pressure per length")),
             (false, Some(given)) => Err(format!(
-                "{stiffness} is {}, but {wall} {} has no springs: leave it out, or choose {wall} penalty or {wall} uzawa",
-                plain(given),
-                self.wall
+                "{{wall_stiffness}} is {}, but {{wall}} {wall} has no springs: leave it out, or choose {{wall}} penalty or \
+                 {{wall}} uzawa",
+                plain(given)
             )),
             _ => Ok(()),
         }
+    }
+
+    /// Refuses a surface that yields, for a reason.
+    ///
+    /// # Errors
+    /// As of [`Adhesion::check`].
+    pub fn check_elastic(&self, reason: &str) -> std::result::Result<(), String> {
+        let map = self.hardness_map.as_ref().map(|_| "hardness_map");
+        let given = self.hardness.map(|_| "hardness").or(map);
+        given.map_or(Ok(()), |key| Err(format!("{{{key}}} is given, but {reason}: leave it out")))
     }
 
     /// The wall as a solve takes it, with a hardness at the nodes of the surface where it varies.

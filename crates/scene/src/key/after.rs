@@ -1,9 +1,75 @@
 //! The findings that are asked for after a solve: the contact stiffness, and the conductance and the flow that follow.
 
 use crate::key::adhesion::Adhesion;
+use crate::key::allowed::Range;
 use crate::key::elastic::Elastic;
+use crate::key::given::Given;
+use crate::key::quantity::{CONDUCTIVITY, RESISTIVITY};
 use crate::key::quantity::{Dimension, ELECTRICAL_CONDUCTANCE, THERMAL_CONDUCTANCE};
 use crate::key::wall::Wall;
+use crate::key::{Kind, keys};
+
+keys! {
+    /// The findings beside a solution.
+    FindingsKeys {
+        "Output" {
+            /// Find out whether the solution is stable, and write its softest mode to mode.npy
+            stability: Kind::switch().excludes(&["nested"]),
+            /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies
+            /// {stability}
+            leave: Kind::switch().excludes(&["nested"]),
+            /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
+            stiffness: Kind::switch(),
+        }
+    }
+}
+
+keys! {
+    /// The contact stiffness of each row of a table.
+    StiffnessKeys {
+        "Output" {
+            /// Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean
+            /// pressure grows with the approach, and normal_stiffness, how much the force does
+            stiffness: Kind::switch(),
+        }
+    }
+}
+
+keys! {
+    /// The conductors, of which the contact stiffness tells the conductance.
+    ConductorKeys {
+        "Output" {
+            /// Electrical resistivities of both half-spaces: with {stiffness} the electrical conductance of the contact per
+            /// area, by Barber's identity, and its relative error, that of the grid included
+            resistivities: Kind::quantity(RESISTIVITY, Range::NON_NEGATIVE, &["R1", "R2"]).each()
+                .excludes(&["conductivities"]),
+            /// Thermal conductivities of both half-spaces: the same for heat
+            conductivities: Kind::quantity(CONDUCTIVITY, Range::POSITIVE, &["K1", "K2"]).each(),
+        }
+    }
+}
+
+keys! {
+    /// The percolation of a gap.
+    PercolationKeys {
+        "Output" {
+            /// Find out whether the gap is open along x and along y, and where the widest passage is narrowest
+            percolation: Kind::switch(),
+        }
+    }
+}
+
+keys! {
+    /// The leakage of a table.
+    LeakageKeys {
+        "Output" {
+            /// Enclose the transmissivity of the gap along x and y under each load between two bounds, as asperity leak, in
+            /// columns transmissivity_x_lower and so on, as close as a share of the upper one [default: 1e-3 if {leakage}
+            /// stands alone]
+            leakage: Kind::number(Range::SHARE, &["T"]).alone("1e-3"),
+        }
+    }
+}
 
 /// The findings that are asked for after a solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,6 +91,27 @@ pub enum Conductors {
     Electrical((f64, f64)),
     /// Heat, by their conductivities.
     Thermal((f64, f64)),
+}
+
+impl Given {
+    /// Whether the stability is asked for, by itself or with what implies it.
+    pub fn is_tested(&self) -> bool {
+        self.switch("stability") || self.switch("leave")
+    }
+
+    /// The findings that are asked for after a solve.
+    ///
+    /// # Errors
+    /// Those of [`Conductors::of`], and a leakage that is no share, for [`worded`](crate::worded).
+    pub fn after(&self) -> std::result::Result<After, String> {
+        let leakage = self.number("leakage");
+        if let Some(given) = leakage.filter(|share| !Range::SHARE.has(*share)) {
+            return Err(format!("{{leakage}} is {given}: it must be a share between 0 and 1"));
+        }
+        let conductors = Conductors::of(self.pair("resistivities"), self.pair("conductivities"))?;
+        let (stiffness, percolation) = (self.switch("stiffness"), self.switch("percolation"));
+        Ok(After { stiffness, conductors, percolation, leakage })
+    }
 }
 
 impl Conductors {

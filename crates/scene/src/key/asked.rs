@@ -1,11 +1,78 @@
 //! The quantities that are asked of a solve.
 
 use asperity::Control;
+use asperity::path::PathSettings;
 use asperity::solver::Method;
 
 use crate::key::accuracy::Goal;
 use crate::key::adhesion::Adhesion;
 use crate::key::after::After;
+use crate::key::allowed::Range;
+use crate::key::given::Given;
+use crate::key::load::Load;
+use crate::key::scene::Branches;
+use crate::key::{Kind, keys};
+
+keys! {
+    /// The grids of a solve.
+    NestedKeys {
+        "Solver" {
+            /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
+            nested: Kind::switch().excludes(&["initial_gap"]).replaces("no_nested"),
+            /// Solve on the grid of the heights alone
+            no_nested: Kind::switch().replaces("nested"),
+        }
+    }
+}
+
+keys! {
+    /// The steps of a cycle.
+    PathKeys {
+        "Loads" {
+            /// Least number of steps from one turning point to the next
+            steps: Kind::whole(&["N"]).or("50"),
+            /// Step to which jumps are located, as a share of the way from one turning point to the next
+            smallest_step: Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
+            /// Imbalance of energy that a step may have, as a share of how much the energy has changed, and of twenty times
+            /// what jumps have dissipated so far: jumps that are smaller are not located one by one
+            imbalance: Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
+        }
+        "Adhesion" {
+            /// Do not smooth a law whose traction jumps: the grid then holds the edge of the adhesive zone back
+            sharp: Kind::switch(),
+        }
+    }
+}
+
+impl Given {
+    /// What is asked of a solve under a load where a reduced pressure of 1 is the `full` pressure.
+    ///
+    /// # Errors
+    /// Those of [`Given::after`] and [`Given::goal`].
+    pub fn asked(&self, load: Load, full: f64) -> Result<Asked, String> {
+        let nested = self.switch("nested");
+        Ok(Asked {
+            fraction: load.fraction(),
+            nested: (nested || self.switch("no_nested") || self.is_denied("nested")).then_some(nested),
+            other_branch: self.word("branch") == Some(Branches::Both.name()),
+            stability: self.is_tested(),
+            leave: self.switch("leave"),
+            after: self.after()?,
+            goal: self.goal()?,
+            ..Asked::under(load.control(full))
+        })
+    }
+
+    /// The steps of a cycle.
+    pub fn path(&self) -> PathSettings {
+        let usual = PathSettings::default();
+        usual
+            .steps(self.number("steps").map_or(usual.steps, |steps| steps as usize))
+            .smallest_step(self.number("smallest_step").unwrap_or(usual.smallest_step))
+            .imbalance(self.number("imbalance").unwrap_or(usual.imbalance))
+            .smooth(!self.switch("sharp"))
+    }
+}
 
 /// The load of a solve, and the findings that are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,66 +1,111 @@
 //! The surfaces that are made: bodies of simple forms, and self-affine roughness.
 
 use std::f64::consts::TAU;
-use std::fmt;
 
 use asperity::{Amplitude, Error, Grid, Result, SelfAffine, Surface};
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 use serde::Deserialize;
 
-#[cfg(feature = "options")]
-use crate::key::allowed::{acute, finite, positive};
-#[cfg(feature = "options")]
+use std::path::PathBuf;
+
+use crate::key::allowed::Range;
+use crate::key::given::Given;
 use crate::key::quantity::LENGTH;
-use crate::key::quantity::Quantity;
+use crate::key::{Kind, choice, keys};
+
+keys! {
+    /// The grid of a surface that is made.
+    GridKeys {
+        "Grid" {
+            /// Nodes along each side of a square
+            size: Kind::nodes(&["N"]),
+            /// Nodes along each side of a rectangle; NY = 1 makes a line
+            shape: Kind::nodes(&["NX", "NY"]).each(),
+            /// Side lengths; LX alone means square cells [default: 1 1]
+            lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
+        }
+    }
+}
+
+impl Given {
+    /// The nodes of a surface that is made.
+    ///
+    /// # Errors
+    /// The remedy, unless either a square or a rectangle is given.
+    pub fn shape(&self) -> std::result::Result<(usize, usize), String> {
+        match (self.number("size"), self.pair("shape")) {
+            (Some(size), None) => Ok((size as usize, size as usize)),
+            (None, Some((nx, ny))) => Ok((nx as usize, ny as usize)),
+            _ => Err("give {size}, the nodes along each side of a square, or {shape}, two numbers of nodes".to_owned()),
+        }
+    }
+
+    /// The unit of the coefficients of a surface, if it is given.
+    pub fn fourier_unit(&self) -> Option<f64> {
+        self.number("fourier_unit")
+    }
+
+    /// The file of the coefficients of a surface.
+    pub fn fourier(&self) -> Option<PathBuf> {
+        self.file("fourier")
+    }
+}
+
+keys! {
+    /// A body of a simple form.
+    FormKeys {
+        "Form" {
+            /// Form of the body, with its apex on the node in the middle
+            form: Kind::word(BodyForm::words, &["FORM"]).or("self-affine"),
+            /// Radius of a sphere or a flat punch, radius of curvature of a paraboloid
+            radius: Kind::quantity(LENGTH, Range::POSITIVE, &["R"]),
+            /// Angle between the side of a cone and the half-space, in degrees: 90 less half the angle at its apex
+            angle: Kind::number(Range::ACUTE, &["DEGREES"]),
+            /// Amplitude A of a wave
+            amplitude: Kind::quantity(LENGTH, Range::POSITIVE, &["A"]),
+            /// Periods of a wave along x, and along y [default: 1 0]
+            periods: Kind::whole(&["MX", "MY"]).from(1),
+            /// Slope of a plane that is added, along x and along y [default: 0 0]
+            tilt: Kind::number(Range::FINITE, &["SX", "SY"]).from(1),
+        }
+    }
+}
 
 /// A body of a simple form.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "options", derive(clap::Args), command(next_help_heading = "Form"))]
+#[serde(default)]
 pub struct Body {
-    /// Form of the body, with its apex on the node in the middle
-    #[cfg_attr(feature = "options", arg(long, value_enum, default_value_t = BodyForm::SelfAffine))]
+    /// The form.
     pub form: BodyForm,
-    /// Radius of a sphere or a flat punch, radius of curvature of a paraboloid
-    #[cfg_attr(feature = "options", arg(long, value_name = "R", value_parser = LENGTH.positive()))]
-    #[cfg_attr(feature = "options", arg(allow_hyphen_values = true))]
-    pub radius: Option<Quantity>,
-    /// Angle between the side of a cone and the half-space, in degrees: 90 less half the angle at its apex
-    #[cfg_attr(feature = "options", arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = acute))]
+    /// The radius, or radius of curvature.
+    pub radius: Option<f64>,
+    /// The angle of a cone in degrees.
     pub angle: Option<f64>,
-    /// Amplitude A of a wave
-    #[cfg_attr(feature = "options", arg(long, value_name = "A", value_parser = LENGTH.positive()))]
-    #[cfg_attr(feature = "options", arg(allow_hyphen_values = true))]
-    pub amplitude: Option<Quantity>,
-    /// Periods of a wave along x, and along y [default: 1 0]
-    #[cfg_attr(feature = "options", arg(long, value_names = ["MX", "MY"], num_args = 1..=2))]
-    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    /// The amplitude of a wave.
+    pub amplitude: Option<f64>,
+    /// The periods of a wave along the sides.
     pub periods: Option<Vec<u32>>,
-    /// Slope of a plane that is added, along x and along y [default: 0 0]
-    #[cfg_attr(feature = "options", arg(long, value_names = ["SX", "SY"], num_args = 1..=2, value_parser = finite))]
-    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    /// The slope of a plane that is added.
     pub tilt: Option<Vec<f64>>,
 }
 
-/// The form of a body.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
-pub enum BodyForm {
-    /// flat, with roughness on it
-    #[default]
-    SelfAffine,
-    /// sqrt(R^2 - r^2) - R, absent beyond R
-    Sphere,
-    /// -r^2/2R
-    Paraboloid,
-    /// -r tan(angle)
-    Cone,
-    /// A cos(2 pi MX x/LX) cos(2 pi MY y/LY)
-    Wave,
-    /// 0 up to R, absent beyond
-    FlatPunch,
+choice! {
+    /// The form of a body.
+    BodyForm {
+        /// flat, with roughness on it
+        SelfAffine = "self-affine",
+        /// sqrt(R^2 - r^2) - R, absent beyond R
+        Sphere = "sphere",
+        /// -r^2/2R
+        Paraboloid = "paraboloid",
+        /// -r tan(angle)
+        Cone = "cone",
+        /// A cos(2 pi MX x/LX) cos(2 pi MY y/LY)
+        Wave = "wave",
+        /// 0 up to R, absent beyond
+        FlatPunch = "flat-punch",
+    }
 }
 
 impl Body {
@@ -94,7 +139,7 @@ impl Body {
 
     /// The heights of the body, NaN beyond it.
     fn heights(&self, grid: &Grid) -> Result<Array2<f64>> {
-        let length = |name, given: Option<Quantity>| given.map_or(Ok(0.0), |given| Error::positive(name, given.value));
+        let length = |name, given: Option<f64>| given.map_or(Ok(0.0), |given| Error::positive(name, given));
         let (radius, amplitude) = (length("radius", self.radius)?, length("amplitude", self.amplitude)?);
         let slope = self.angle.unwrap_or_default().to_radians().tan();
         if let Some(value) = self.angle.filter(|angle| !(*angle > 0.0 && *angle < 90.0)) {
@@ -129,19 +174,6 @@ impl Body {
     }
 }
 
-impl fmt::Display for BodyForm {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::SelfAffine => "self-affine",
-            Self::Sphere => "sphere",
-            Self::Paraboloid => "paraboloid",
-            Self::Cone => "cone",
-            Self::Wave => "wave",
-            Self::FlatPunch => "flat-punch",
-        })
-    }
-}
-
 /// One value or two, of which the second is zero if it is left out.
 fn pair<T: Copy + Default>(values: Option<&[T]>) -> Option<(T, T)> {
     match values? {
@@ -151,37 +183,71 @@ fn pair<T: Copy + Default>(values: Option<&[T]>) -> Option<(T, T)> {
     }
 }
 
+keys! {
+    /// Self-affine roughness.
+    RoughnessKeys {
+        "Roughness" {
+            /// Root mean square of the heights of the roughness, a length
+            rms_height: Kind::quantity(LENGTH, Range::POSITIVE, &["H"]).excludes(&["rms_slope"]),
+            /// Root mean square of the slope of the roughness
+            rms_slope: Kind::number(Range::POSITIVE, &["S"]),
+            /// Hurst exponent, from 0 to 1
+            hurst: Kind::number(Range::FINITE, &["H"]).or("0.8"),
+            /// Wave number of the longest waves, in units of 2 pi/LX
+            k_l: Kind::number(Range::FINITE, &["KL"]).or("4"),
+            /// Wave number up to which the spectrum is constant [default: KL, for none]
+            k_r: Kind::number(Range::FINITE, &["KR"]),
+            /// Wave number of the shortest waves, below half the number of nodes
+            k_s: Kind::number(Range::FINITE, &["KS"]).or("64"),
+            /// Let only phases be random, and not the moduli of the waves
+            random_phase: Kind::switch(),
+            /// Seed of the random numbers, from 0: each makes another surface
+            seed: Kind::whole(&["N"]).or("0"),
+        }
+    }
+}
+
+keys! {
+    /// Roughness by the waves of a file.
+    FourierKeys {
+        "Roughness" {
+            /// Roughness by the Fourier coefficients of a text: lines of qX, qY, Re h(q), Im h(q), with whole numbers of
+            /// periods along the sides, as FFTW's inverse transform takes them; half of the waves is enough
+            fourier: Kind::file().excludes(&["rms_height", "rms_slope"]),
+            /// Length of which the coefficients are multiples [default: the unit of the side lengths, where that has no name]
+            fourier_unit: Kind::quantity(LENGTH, Range::POSITIVE, &["LENGTH"])
+                .needs(&["fourier"]).excludes(&["rms_height", "rms_slope"]),
+        }
+    }
+}
+
 /// Self-affine roughness, if it has an amplitude; see [`SelfAffine`].
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "options", derive(clap::Args), command(next_help_heading = "Roughness"))]
-#[cfg_attr(feature = "options", command(group(clap::ArgGroup::new("height_or_slope").args(["rms_height", "rms_slope"]))))]
+#[serde(default)]
 pub struct Roughness {
-    /// Root mean square of the heights of the roughness, a length
-    #[cfg_attr(feature = "options", arg(long, value_name = "H", value_parser = LENGTH.positive()))]
-    #[cfg_attr(feature = "options", arg(allow_hyphen_values = true))]
-    pub rms_height: Option<Quantity>,
-    /// Root mean square of the slope of the roughness
-    #[cfg_attr(feature = "options", arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive))]
+    /// The root mean square of the heights.
+    pub rms_height: Option<f64>,
+    /// The root mean square of the slope.
     pub rms_slope: Option<f64>,
-    /// Hurst exponent, from 0 to 1
-    #[cfg_attr(feature = "options", arg(long, value_name = "H", default_value = "0.8", allow_hyphen_values = true))]
+    /// The Hurst exponent.
     pub hurst: f64,
-    /// Wave number of the longest waves, in units of 2 pi/LX
-    #[cfg_attr(feature = "options", arg(long, value_name = "KL", default_value = "4", allow_hyphen_values = true))]
+    /// The wave number of the longest waves.
     pub k_l: f64,
-    /// Wave number up to which the spectrum is constant [default: KL, for none]
-    #[cfg_attr(feature = "options", arg(long, value_name = "KR", allow_hyphen_values = true))]
+    /// The wave number up to which the spectrum is constant.
     pub k_r: Option<f64>,
-    /// Wave number of the shortest waves, below half the number of nodes
-    #[cfg_attr(feature = "options", arg(long, value_name = "KS", default_value = "64", allow_hyphen_values = true))]
+    /// The wave number of the shortest waves.
     pub k_s: f64,
-    /// Let only phases be random, and not the moduli of the waves
-    #[cfg_attr(feature = "options", arg(long))]
+    /// Whether only phases are random.
     pub random_phase: bool,
-    /// Seed of the random numbers, from 0: each makes another surface
-    #[cfg_attr(feature = "options", arg(long, value_name = "N", default_value = "0", allow_hyphen_values = true))]
+    /// The seed of the random numbers.
     pub seed: u64,
+}
+
+impl Default for Roughness {
+    fn default() -> Self {
+        let (rms_height, rms_slope, k_r, random_phase, seed) = (None, None, None, false, 0);
+        Self { rms_height, rms_slope, hurst: 0.8, k_l: 4.0, k_r, k_s: 64.0, random_phase, seed }
+    }
 }
 
 impl Roughness {
@@ -189,7 +255,7 @@ impl Roughness {
     pub fn self_affine(&self) -> Option<SelfAffine> {
         let &Self { hurst, k_l, k_s, random_phase, seed, .. } = self;
         let amplitude = match (self.rms_height, self.rms_slope) {
-            (Some(height), None) => Amplitude::RmsHeight(height.value),
+            (Some(height), None) => Amplitude::RmsHeight(height),
             (None, Some(slope)) => Amplitude::RmsSlope(slope),
             _ => return None,
         };

@@ -3,18 +3,17 @@
 use asperity::{Control, Surface};
 use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::Array2;
-use serde::{Deserialize, Serialize};
 
-/// The boundary of the elastic body, by the surroundings of the map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
-pub enum Boundary {
-    /// the same again: a piece of a surface that goes on
-    #[default]
-    Periodic,
-    /// nothing: a tip, an indenter, a chip; the half-space is free of load there
-    Free,
+use crate::key::choice;
+
+choice! {
+    /// The boundary of the elastic body, by the surroundings of the map.
+    Boundary {
+        /// the same again: a piece of a surface that goes on
+        Periodic = "periodic",
+        /// nothing: a tip, an indenter, a chip; the half-space is free of load there
+        Free = "free",
+    }
 }
 
 impl Boundary {

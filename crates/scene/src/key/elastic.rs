@@ -7,10 +7,72 @@ use asperity::{Boussinesq, ElasticOperator, Error, Grid, Real, Result, Spectral,
 use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
 
+use crate::key::allowed::Range;
 use crate::key::boundary::Boundary;
 use crate::key::quantity::{LENGTH, PRESSURE};
 use crate::key::symbol::Symbol;
 use crate::key::units::Units;
+use crate::key::{Kind, Word, keys};
+
+keys! {
+    /// The surface, the bodies, and the boundary.
+    SurfaceKeys {
+        "Surface" {
+            /// Heights of the rough surface, shape (Nx, Ny), peaks up: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz,
+            /// Gwyddion's text export, or a text matrix
+            heights: Kind::file().required(),
+            /// Side lengths of the map, in the unit of the heights; LX alone means square cells [default: the file's, else
+            /// 1 1]
+            lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
+            /// Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
+            /// deforms
+            modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]).or("1"),
+            /// What is beyond the map
+            boundary: Kind::word(Boundary::words, &["BOUNDARY"]).or("periodic"),
+            /// Take missing points of the file for absent nodes, at which nothing faces the half-space, as around a punch or
+            /// in a hole; in the files of results their gap is NaN and their pressures 0
+            absent_missing: Kind::switch(),
+        }
+        "Body" {
+            /// Thickness of an elastic layer on a rigid base, in the place of a half-space; needs {poisson}
+            layer: Kind::quantity(LENGTH, Range::POSITIVE, &["T"]).excludes(&["coating"]),
+            /// Hold of the base on the layer: bonded, or sliding without friction [default: bonded]
+            base: Kind::word(|| Word::all(&["bonded", "sliding"]), &["BASE"]),
+            /// Thickness of an elastic coating on the half-space, of which {modulus} is that of the substrate; needs
+            /// {coating_modulus}, {coating_poisson} and {poisson}
+            coating: Kind::quantity(LENGTH, Range::POSITIVE, &["T"]),
+            /// Contact modulus E/(1 - nu^2) of the coating, a pressure
+            coating_modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
+            /// Poisson's ratio of the coating
+            coating_poisson: Kind::number(Range::POISSON, &["NU"]),
+            /// Poisson's ratio of the layer, or of the substrate under a coating
+            poisson: Kind::number(Range::POISSON, &["NU"]),
+        }
+        "Surface" {
+            /// Heights of the surface on the other side, peaks up as they were measured, of as many nodes and the same
+            /// sides; it is turned over about the y axis as it faces the other one
+            against: Kind::file(),
+            /// Contact modulus E/(1 - nu^2) of the body on the other side, an elastic half-space [default: it is rigid]
+            against_modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
+            /// Shift of the surface on the other side along x and y, any part of a node [default: 0 0]; negative ones with a
+            /// unit are written --shift=-1um,0um
+            shift: Kind::quantity(LENGTH, Range::FINITE, &["X", "Y"]).from(1).commas().needs(&["against"]),
+            /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
+            /// force are those of the original
+            whole: Kind::switch(),
+        }
+    }
+}
+
+keys! {
+    /// The side lengths of a map.
+    LengthsKeys {
+        "" {
+            /// Side lengths of the map, in the unit of the file; LX alone means square cells [default: the file's]
+            lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
+        }
+    }
+}
 
 /// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,7 +118,7 @@ impl Default for Elastic {
 }
 
 /// A kind of elastic body that is no half-space.
-struct Kind {
+struct BodyKind {
     /// The key that chooses it, its thickness.
     key: &'static str,
     /// The keys that it needs beside.
@@ -68,8 +130,8 @@ struct Kind {
 }
 
 /// The kinds of elastic bodies beside the half-space.
-static BODIES: [Kind; 3] = [
-    Kind {
+static BODIES: [BodyKind; 3] = [
+    BodyKind {
         key: "layer",
         needs: &["poisson"],
         takes: &["base"],
@@ -78,7 +140,7 @@ static BODIES: [Kind; 3] = [
             Ok(Arc::new(Layer::new(material, or_nan(elastic.layer), elastic.base.unwrap_or_default())?))
         },
     },
-    Kind {
+    BodyKind {
         key: "coating",
         needs: &["coating_modulus", "coating_poisson", "poisson"],
         takes: &[],
@@ -88,7 +150,7 @@ static BODIES: [Kind; 3] = [
             Ok(Arc::new(Coating::new(coating, or_nan(elastic.coating), substrate)?))
         },
     },
-    Kind {
+    BodyKind {
         key: "symbol",
         needs: &[],
         takes: &[],
@@ -171,7 +233,7 @@ impl Elastic {
     }
 
     /// The kind of the body, unless it is a half-space.
-    fn kind(&self) -> Option<&'static Kind> {
+    fn kind(&self) -> Option<&'static BodyKind> {
         self.own().find_map(|(given, _)| BODIES.iter().find(|kind| kind.key == given))
     }
 

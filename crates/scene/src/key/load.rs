@@ -2,7 +2,165 @@
 
 use asperity::Control;
 
+use crate::key::allowed::Range;
 use crate::key::boundary::Boundary;
+use crate::key::given::Given;
+use crate::key::quantity::{FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE};
+use crate::key::{Kind, keys};
+
+keys! {
+    /// The load of a solve, of which one is given.
+    LoadKeys {
+        "Load" {
+            /// Mean gap that is held, a length; with a periodic boundary
+            mean_gap: Kind::quantity(LENGTH, Range::NON_NEGATIVE, &["G"]),
+            /// Mean external pressure that is held, over the area of the map, compression positive
+            mean_pressure: Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
+            /// Normal force that is held, compression positive: the mean pressure times the area of the map
+            normal_force: Kind::quantity(FORCE, Range::FINITE, &["F"]),
+            /// Approach that is held, with a free boundary: how far the bodies have moved towards each other since they
+            /// would first touch undeformed; negative before
+            approach: Kind::quantity(LENGTH, Range::FINITE, &["D"]),
+            /// Stiffness of a spring in series, as of a machine or a cantilever, force per length; needs {spring_position}
+            spring_stiffness:
+                Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_position"]),
+            /// Position of the spring's far end: with a free boundary the approach D at which the spring is relaxed, F = K
+            /// (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z)
+            spring_position: Kind::quantity(LENGTH, Range::FINITE, &["Z"]).needs(&["spring_stiffness"]),
+            /// Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)
+            reduced_pressure: Kind::number(Range::FINITE, &["R"]),
+            /// Share of the nodes that is to be in contact, to one node or 1 %: the mean pressure for it is searched for by
+            /// some solves, with adhesion the mean gap, with a free boundary and adhesion the approach. If the contact jumps
+            /// past it, the nearer side of the jump is written, and the exit code is 2
+            contact_fraction: Kind::number(Range::SHARE, &["A"]).excludes(&["accuracy", "nested"]),
+        }
+    }
+}
+
+keys! {
+    /// The loads of a table, a list of one kind.
+    LoadsKeys {
+        "Loads" {
+            /// Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log, with
+            /// commas between
+            mean_gaps: Kind::quantities(LENGTH, Range::NON_NEGATIVE),
+            /// Mean external pressures over the area of the map, compression positive: a list as for the gaps
+            mean_pressures: Kind::quantities(PRESSURE, Range::FINITE),
+            /// Normal forces, compression positive: a list as for the gaps
+            normal_forces: Kind::quantities(FORCE, Range::FINITE),
+            /// Approaches, with a free boundary: how far the bodies have moved towards each other since they would first
+            /// touch undeformed, negative before; a list as for the gaps. A list that grows from a negative one begins with
+            /// the bodies apart
+            approaches: Kind::quantities(LENGTH, Range::FINITE),
+            /// Stiffness of a spring in series, as of a machine or a cantilever, force per length; needs {spring_positions}
+            spring_stiffness:
+                Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_positions"]),
+            /// Positions Z of the spring's far end: with a free boundary the approach D at which the spring is relaxed, F =
+            /// K (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z); a list as for the gaps. With a
+            /// free boundary a list that grows from a negative one begins with the bodies apart
+            spring_positions: Kind::quantities(LENGTH, Range::FINITE).needs(&["spring_stiffness"]),
+            /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list as for the
+            /// gaps
+            reduced_pressures: Kind::numbers(Range::FINITE),
+        }
+    }
+}
+
+keys! {
+    /// The contact fractions of a table.
+    FractionsKeys {
+        "Loads" {
+            /// Shares of the nodes that are to be in contact: a list as for the gaps. The load of each is searched for as by
+            /// asperity solve --contact-fraction, and the columns wanted_contact_fraction and reached are added
+            contact_fractions: Kind::numbers(Range::SHARE),
+        }
+    }
+}
+
+/// A kind of load.
+struct LoadKind {
+    /// The key of one load.
+    one: &'static str,
+    /// The key of a list of them.
+    many: &'static str,
+    /// The load of its number, and of the stiffness of a spring.
+    make: fn(f64, f64) -> Load,
+}
+
+/// The kinds of loads.
+static KINDS: [LoadKind; 7] = [
+    LoadKind { one: "mean_gap", many: "mean_gaps", make: |gap, _| Load::Held(Control::MeanGap(gap)) },
+    LoadKind {
+        one: "mean_pressure",
+        many: "mean_pressures",
+        make: |pressure, _| Load::Held(Control::MeanPressure(pressure)),
+    },
+    LoadKind { one: "normal_force", many: "normal_forces", make: |force, _| Load::Held(Control::Force(force)) },
+    LoadKind { one: "approach", many: "approaches", make: |approach, _| Load::Held(Control::Approach(approach)) },
+    LoadKind {
+        one: "spring_position",
+        many: "spring_positions",
+        make: |rest, stiffness| Load::Held(Control::Spring { stiffness, rest }),
+    },
+    LoadKind { one: "reduced_pressure", many: "reduced_pressures", make: |ratio, _| Load::Reduced(ratio) },
+    LoadKind { one: "contact_fraction", many: "contact_fractions", make: |fraction, _| Load::Fraction(fraction) },
+];
+
+impl Given {
+    /// The load of a solve.
+    ///
+    /// # Errors
+    /// The remedy where none is given, or several are, for [`worded`](crate::worded).
+    pub fn load(&self) -> Result<Load, String> {
+        let found = self.loads_by(|kind| kind.one)?;
+        match found[..] {
+            [load] => Ok(load),
+            [] => {
+                let keys: Vec<_> = KINDS.iter().map(|kind| format!("{{{}}}", kind.one)).collect();
+                Err(format!("there is no load: give one of {}", keys.join(", ")))
+            }
+            _ => Err("there are several loads: give one".to_owned()),
+        }
+    }
+
+    /// The loads of a table, of one kind.
+    ///
+    /// # Errors
+    /// As of [`Given::load`].
+    pub fn loads(&self) -> Result<Vec<Load>, String> {
+        let found = self.loads_by(|kind| kind.many)?;
+        if found.is_empty() {
+            return Err("there are no loads: give a list, as {mean_pressures}".to_owned());
+        }
+        Ok(found)
+    }
+
+    /// The stiffness of the spring, if there is one.
+    pub fn spring_stiffness(&self) -> Option<f64> {
+        self.number("spring_stiffness")
+    }
+
+    fn loads_by(&self, key: fn(&LoadKind) -> &'static str) -> Result<Vec<Load>, String> {
+        let stiffness = self.number("spring_stiffness");
+        let mut given = KINDS.iter().filter(|kind| self.has(key(kind)));
+        let (kind, other) = (given.next(), given.next());
+        let spring = |kind: &LoadKind| kind.one == "spring_position";
+        if stiffness.is_some() != kind.is_some_and(spring) && other.is_none() {
+            let position = KINDS.iter().find(|kind| spring(kind)).map(key).unwrap_or_default();
+            return Err(format!(
+                "a spring has a stiffness and a position: give both, {{spring_stiffness}} and {{{position}}}"
+            ));
+        }
+        if other.is_some() {
+            return Err("there are several loads: give those of one kind".to_owned());
+        }
+        let of = |kind: &LoadKind| {
+            let numbers = self.numbers(key(kind)).unwrap_or_default();
+            numbers.into_iter().map(|number| (kind.make)(number, stiffness.unwrap_or(f64::NAN))).collect()
+        };
+        Ok(kind.map(of).unwrap_or_default())
+    }
+}
 
 /// The load of a solve: one that is held, or one that is to be found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,18 +174,15 @@ pub enum Load {
 }
 
 impl Load {
-    /// The load of a key with its number; of a `spring` with two, the stiffness and the position at rest.
-    pub fn of(key: &str, numbers: &[f64]) -> Option<Self> {
-        Some(Self::Held(match (key, numbers) {
-            ("mean_gap", &[gap]) => Control::MeanGap(gap),
-            ("mean_pressure", &[pressure]) => Control::MeanPressure(pressure),
-            ("normal_force", &[force]) => Control::Force(force),
-            ("approach", &[approach]) => Control::Approach(approach),
-            ("spring", &[stiffness, rest]) => Control::Spring { stiffness, rest },
-            ("reduced_pressure", &[ratio]) => return Some(Self::Reduced(ratio)),
-            ("contact_fraction", &[fraction]) => return Some(Self::Fraction(fraction)),
-            _ => return None,
-        }))
+    /// The keys of which one is given for a load: that of a spring is its stiffness.
+    pub fn one() -> impl Iterator<Item = &'static str> {
+        KINDS.iter().map(|kind| if kind.one == "spring_position" { "spring_stiffness" } else { kind.one })
+    }
+
+    /// The keys of which one is given for a list of loads that are held.
+    pub fn many() -> impl Iterator<Item = &'static str> {
+        let held = KINDS.iter().filter(|kind| kind.one != "contact_fraction");
+        held.map(|kind| if kind.one == "spring_position" { "spring_stiffness" } else { kind.many })
     }
 
     /// The load that is held where a reduced pressure of 1 is the `full` pressure; of no meaning for a contact

@@ -11,95 +11,146 @@ use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
 use serde::{Deserialize, Deserializer, de};
 
-#[cfg(feature = "options")]
-use crate::key::allowed::{by_name, finite, nodes, positive, unit};
+use crate::key::allowed::Range;
+use crate::key::given::Given;
 use crate::key::quantity::{LENGTH, power_of_length, times_ten_to};
 use crate::key::told::Told;
-use crate::key::units::Units;
+use crate::key::units::{Units, is_unit};
+use crate::key::{Kind, Word, keys};
 use crate::numbers::plain;
 use described::{changed, described, described_form, holes, quantity, removed, rms, sides};
 
+keys! {
+    /// The steps that make a surface of a measured map, in their order but for those with lengths.
+    StepKeys {
+        "" {
+            /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
+            missing: Kind::number(Range::FINITE, &["CODE"]).commas(),
+            /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
+            scale: Kind::number(Range::POSITIVE, &["F"]),
+            /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and
+            /// pictures
+            unit: Kind::text(is_unit, &["UNIT"]),
+            /// Keep NX x NY nodes from index [X, Y] on
+            crop: Kind::whole(&["X", "Y", "NX", "NY"]).each(),
+            /// Turn peaks into valleys: for a replica
+            flip: Kind::switch(),
+            /// Bring the scan lines of an AFM to one height: median (of each line), median-difference (from line to line,
+            /// for large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
+            align_rows: Kind::text(|text| RowAlignment::from_str(text).map(drop), &["METHOD"]),
+            /// Direction of the scan lines of {align_rows} and {remove_scars} [default: x]
+            scan_axis: Kind::word(|| Word::all(&ScanAxis::NAMES), &["SCAN_AXIS"]).needs(&["scan_lines"]),
+            /// Replace scars, by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are
+            /// all higher, or all lower, than both lines beside them, by more than this many rms differences of
+            /// neighbouring lines [default: 0.667 if {remove_scars} stands alone]
+            remove_scars: Kind::number(Range::POSITIVE, &["THRESHOLD"]).alone("0.667"),
+            /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust
+            /// standard deviations of all nodes [default: 10 if {despike} stands alone]
+            despike: Kind::number(Range::POSITIVE, &["THRESHOLD"]).alone("10"),
+            /// Subtract the sphere or the circular cylinder that fits all measured points best
+            remove_form: Kind::word(|| Word::all(&Form::NAMES), &["FORM"]),
+            /// Subtract the least-squares fit to all measured points: mean, plane, quadric (as of a sphere or a cylinder),
+            /// or a polynomial of this order, up to 12
+            detrend: Kind::text(|text| Trend::from_str(text).map(drop), &["TREND"]),
+            /// Fill missing points smoothly from their surroundings, by Laplace's equation
+            fill: Kind::switch(),
+            /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to
+            /// 0.5. Fit for spectra; under load the flat frame may come into contact, where {mirror} keeps all heights
+            window: Kind::number(Range::FINITE, &["F"]).excludes(&["mirror"]),
+            /// Make the map periodic: continue it by its mirror images, to twice the size along both sides. A .npz
+            /// remembers its original, of which solve has results then
+            mirror: Kind::switch(),
+            /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
+            resample: Kind::nodes(&["NX", "NY"]).each(),
+        }
+    }
+}
+
+keys! {
+    /// The side lengths that a preparation gives a map.
+    NewLengthsKeys {
+        "" {
+            /// Side lengths, instead of the file's; LX alone means square cells. With a unit, as 20um, the result is in the
+            /// {unit} or the file's, or else in m
+            lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
+        }
+    }
+}
+
+keys! {
+    /// The waves that a preparation leaves out.
+    CutOffKeys {
+        "" {
+            /// Leave out the waves shorter than this, as where they are noise: stats has the wavelength of the knee of the
+            /// spectrum, from which on it is flat. The map should be periodic by then
+            cut_off_wavelength: Kind::quantity(LENGTH, Range::POSITIVE, &["LENGTH"]),
+        }
+    }
+}
+
 /// The steps that make a surface of a measured map, in the order of the fields; no step by default.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "options", derive(clap::Args))]
-#[cfg_attr(
-    feature = "options",
-    command(group(clap::ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true)))
-)]
+#[serde(default)]
 pub struct Preparation {
     /// The side lengths, with the unit of the map from then on.
-    #[cfg_attr(feature = "options", arg(skip))]
+    #[serde(skip)]
     pub lengths: Option<((f64, f64), Option<String>)>,
-    /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
-    #[cfg_attr(feature = "options", arg(long, value_name = "CODE", value_delimiter = ',', value_parser = finite))]
-    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    /// The values that stand for missing points.
     pub missing: Vec<f64>,
-    /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
-    #[cfg_attr(feature = "options", arg(long, value_name = "F", allow_hyphen_values = true, value_parser = positive))]
+    /// The factor of the heights.
     pub scale: Option<f64>,
-    /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and
-    /// pictures
-    #[cfg_attr(feature = "options", arg(long, value_name = "UNIT", value_parser = unit))]
+    /// The unit of side lengths and heights.
     pub unit: Option<String>,
-    /// Keep NX x NY nodes from index [X, Y] on
-    #[cfg_attr(feature = "options", arg(long, value_names = ["X", "Y", "NX", "NY"], num_args = 4))]
-    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    /// The first node and the number of nodes to keep.
     pub crop: Option<Vec<usize>>,
-    /// Turn peaks into valleys: for a replica
-    #[cfg_attr(feature = "options", arg(long))]
+    /// Whether peaks become valleys.
     pub flip: bool,
-    /// Bring the scan lines of an AFM to one height: median (of each line), median-difference (from line to line, for
-    /// large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
-    #[cfg_attr(feature = "options", arg(long, value_name = "METHOD"))]
+    /// The alignment of scan lines.
     #[serde(deserialize_with = "align_rows")]
     pub align_rows: Option<RowAlignment>,
-    /// Direction of the scan lines of --align-rows and --remove-scars [default: x]
-    #[cfg_attr(feature = "options", arg(long, requires = "scan_lines"))]
-    #[cfg_attr(feature = "options", arg(value_parser = by_name::<ScanAxis>(&ScanAxis::NAMES)))]
+    /// The direction of the scan lines.
     #[serde(deserialize_with = "scan_axis")]
     pub scan_axis: Option<ScanAxis>,
-    /// Replace scars, by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all
-    /// higher, or all lower, than both lines beside them, by more than this many rms differences of neighbouring lines
-    /// [default: 0.667 if --remove-scars stands alone]
-    #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
-    #[cfg_attr(feature = "options", arg(default_missing_value = "0.667", allow_negative_numbers = true))]
+    /// The threshold of scars to replace.
     pub remove_scars: Option<f64>,
-    /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust
-    /// standard deviations of all nodes [default: 10 if --despike stands alone]
-    #[cfg_attr(feature = "options", arg(long, value_name = "THRESHOLD", num_args = 0..=1, value_parser = positive))]
-    #[cfg_attr(feature = "options", arg(default_missing_value = "10", allow_negative_numbers = true))]
+    /// The threshold of spikes to replace.
     pub despike: Option<f64>,
-    /// Subtract the sphere or the circular cylinder that fits all measured points best
-    #[cfg_attr(feature = "options", arg(long, value_name = "FORM", value_parser = by_name::<Form>(&Form::NAMES)))]
+    /// The form to subtract.
     #[serde(deserialize_with = "remove_form")]
     pub remove_form: Option<Form>,
-    /// Subtract the least-squares fit to all measured points: mean, plane, quadric (as of a sphere or a cylinder), or a
-    /// polynomial of this order, up to 12
-    #[cfg_attr(feature = "options", arg(long, value_name = "TREND", allow_hyphen_values = true))]
+    /// The trend to subtract.
     #[serde(deserialize_with = "detrend")]
     pub detrend: Option<Trend>,
-    /// Fill missing points smoothly from their surroundings, by Laplace's equation
-    #[cfg_attr(feature = "options", arg(long))]
+    /// Whether to fill missing points.
     pub fill: bool,
-    /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to 0.5.
-    /// Fit for spectra; under load the flat frame may come into contact, where --mirror keeps all heights
-    #[cfg_attr(
-        feature = "options",
-        arg(long, value_name = "F", allow_hyphen_values = true, conflicts_with = "mirror")
-    )]
+    /// The share of the sides that is tapered at each edge.
     pub window: Option<f64>,
-    /// Make the map periodic: continue it by its mirror images, to twice the size along both sides. A .npz remembers
-    /// its original, of which solve has results then
-    #[cfg_attr(feature = "options", arg(long))]
+    /// Whether to continue the map by its mirror images.
     pub mirror: bool,
     /// The cut-off wavelength, in the unit of the map.
-    #[cfg_attr(feature = "options", arg(skip))]
+    #[serde(skip)]
     pub cut_off_wavelength: Option<f64>,
-    /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
-    #[cfg_attr(feature = "options", arg(long, value_names = ["NX", "NY"], num_args = 2, value_parser = nodes))]
-    #[cfg_attr(feature = "options", arg(allow_negative_numbers = true))]
+    /// The nodes on which to interpolate.
     pub resample: Option<Vec<usize>>,
+}
+
+impl Given {
+    /// The steps of a preparation of a map of a shape, whose numbers are in the SI or not, and which may have a unit.
+    ///
+    /// # Errors
+    /// Those of [`Preparation::set_lengths`] and [`Preparation::set_cut_off_wavelength`].
+    pub fn steps(
+        &self,
+        shape: (usize, usize),
+        si: bool,
+        unit: Option<&str>,
+    ) -> std::result::Result<Preparation, String> {
+        let mut steps: Preparation = self.object()?;
+        self.lengths(shape).map_or(Ok(()), |lengths| steps.set_lengths(lengths, si, unit))?;
+        let cut_off = self.number("cut_off_wavelength");
+        cut_off.map_or(Ok(()), |cut_off| steps.set_cut_off_wavelength(cut_off, si, unit))?;
+        Ok(steps)
+    }
 }
 
 /// The log of a preparation.

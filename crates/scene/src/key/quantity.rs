@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Deserializer};
 
+use crate::key::allowed::Range;
+
 /// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
@@ -21,6 +23,11 @@ impl Quantity {
         !self.has_unit && !self.is_number && self.value != 0.0
     }
 
+    /// A number of a dimension, without a unit.
+    pub fn bare(value: f64) -> Self {
+        Self { value, has_unit: false, is_number: false }
+    }
+
     /// A number without a dimension.
     pub fn number(value: f64) -> Self {
         Self { value, has_unit: false, is_number: true }
@@ -30,7 +37,7 @@ impl Quantity {
 /// A number, in whatever units its user thinks in.
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Ok(Self { value: f64::deserialize(from)?, has_unit: false, is_number: false })
+        Ok(Self::bare(f64::deserialize(from)?))
     }
 }
 
@@ -102,32 +109,13 @@ pub const THERMAL_CONDUCTANCE: Dimension =
 pub const TRANSMISSIVITY: Dimension = dimension("transmissivity", "m³", 0, 3);
 
 impl Dimension {
-    /// The parser of quantities that are positive.
-    pub fn positive(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
-        self.parser(|value| value > 0.0 && value.is_finite(), "positive and finite")
-    }
-
-    /// The parser of quantities that are positive or zero.
-    pub fn non_negative(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
-        self.parser(|value| value >= 0.0 && value.is_finite(), "zero or positive and finite")
-    }
-
-    /// The parser of quantities that are finite.
-    pub fn finite(self) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
-        self.parser(f64::is_finite, "and finite")
-    }
-
-    /// The parser of quantities of this dimension.
-    fn parser(
-        self,
-        allowed: fn(f64) -> bool,
-        requirement: &'static str,
-    ) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
+    /// The parser of quantities of this dimension within a range.
+    pub fn within(self, range: Range) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
         move |text| match self.parse(text.trim()) {
-            Some(found) if allowed(found.value) => Ok(found),
+            Some(found) if range.has(found.value) => Ok(found),
             _ => {
                 let mistake = self.mistaken_unit(text.trim()).unwrap_or_default();
-                Err(format!("{mistake}it must be a number, {requirement}, alone or with a unit of {}", self.what))
+                Err(format!("{mistake}it must be {}, alone or with a unit of {}", range.words, self.what))
             }
         }
     }
@@ -149,7 +137,7 @@ impl Dimension {
 
     fn parse(self, text: &str) -> Option<Quantity> {
         if let Ok(value) = text.parse() {
-            return Some(Quantity { value, has_unit: false, is_number: false });
+            return Some(Quantity::bare(value));
         }
         let (number, unit) = number_and_unit(text)?;
         let unit = Unit::parse(unit).filter(|unit| self.has(*unit))?;

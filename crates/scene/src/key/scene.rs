@@ -5,7 +5,9 @@ use asperity::{Branch, Settings};
 use serde::{Deserialize, Serialize};
 
 use crate::key::adhesion::Adhesion;
+use crate::key::allowed::Range;
 use crate::key::elastic::Elastic;
+use crate::key::{Kind, Word, choice, keys};
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
 /// has the keys of a report, which are left out where they have their defaults.
@@ -37,34 +39,122 @@ pub struct Scene {
     pub branch: Option<Branches>,
 }
 
-/// The precision of a solve, and of its fields.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
-pub enum Precision {
-    /// 32 bits.
-    #[cfg_attr(feature = "options", value(help = None::<&str>))]
-    F32,
-    /// 64 bits.
-    #[default]
-    #[cfg_attr(feature = "options", value(help = None::<&str>))]
-    F64,
+choice! {
+    /// The precision of a solve, and of its fields.
+    Precision {
+        /// 64 bits
+        F64 = "f64",
+        /// 32 bits
+        F32 = "f32",
+    }
 }
 
-/// The branches of equilibria to solve on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
-pub enum Branches {
-    /// That of surfaces pressed together from afar.
-    #[cfg_attr(feature = "options", value(help = None::<&str>))]
-    Loading,
-    /// That of surfaces pressed flat before.
-    #[cfg_attr(feature = "options", value(help = None::<&str>))]
-    Unloading,
-    /// One after the other.
-    #[cfg_attr(feature = "options", value(help = None::<&str>))]
-    Both,
+choice! {
+    /// The branches of equilibria to solve on.
+    Branches {
+        /// that of surfaces pressed together from afar
+        Loading = "loading",
+        /// that of surfaces pressed flat before
+        Unloading = "unloading",
+        /// one after the other
+        Both = "both",
+    }
+}
+use crate::key::given::Given;
+use std::path::{Path, PathBuf};
+
+keys! {
+    /// The method, the accuracy and the start of a solve.
+    SolverKeys {
+        "Solver" {
+            /// Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)
+            method: Kind::word(|| Word::all(&["default", "rey2017"]), &["METHOD"]).or("default"),
+            /// Certified relative error at which to stop [default: 1e-6, in f32 1e-4]
+            tolerance: Kind::number(Range::POSITIVE, &["T"]),
+            /// Iterations after which to give up [default: 2000, with rey2017 20000]
+            max_iterations: Kind::whole(&["N"]),
+            /// Precision of the solve, and of the fields it writes
+            precision: Kind::word(Precision::words, &["PRECISION"]).or("f64"),
+            /// Threads; the results do not depend on it [default: one per core]
+            threads: Kind::threads(),
+            /// Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, that of
+            /// surfaces pressed flat before, or with solve both [default: loading; unloading under a tension or at a given
+            /// mean gap]
+            branch: Kind::word(Branches::words, &["BRANCH"]).excludes(&["initial_gap"]),
+            /// Gap from which to start, of the shape of the heights; scaled to the mean gap where that is given
+            initial_gap: Kind::file(),
+        }
+    }
+}
+
+/// The files of a problem.
+#[derive(Clone, Debug, Default)]
+pub struct Files {
+    /// The heights.
+    pub heights: PathBuf,
+    /// The heights on the other side.
+    pub against: Option<PathBuf>,
+    /// The table of the law.
+    pub law_table: Option<PathBuf>,
+    /// The works of adhesion at the nodes.
+    pub work_of_adhesion_map: Option<PathBuf>,
+    /// The hardness at the nodes.
+    pub hardness_map: Option<PathBuf>,
+    /// The gap from which to start.
+    pub initial_gap: Option<PathBuf>,
+}
+
+impl Files {
+    /// All but the gap from which to start.
+    pub fn of_problem(&self) -> impl Iterator<Item = &Path> {
+        let Self { against, law_table, work_of_adhesion_map, hardness_map, .. } = self;
+        let others = [against, law_table, work_of_adhesion_map, hardness_map];
+        std::iter::once(&*self.heights).chain(others.into_iter().filter_map(Option::as_deref))
+    }
+}
+
+impl Given {
+    /// The scene, without what files hold.
+    ///
+    /// # Errors
+    /// The value that is none for its key.
+    pub fn scene(&self) -> std::result::Result<Scene, String> {
+        let mut scene: Scene = self.object()?;
+        if scene.elastic.layer.is_some() {
+            scene.elastic.base.get_or_insert_default();
+        }
+        Ok(scene)
+    }
+
+    /// The files of the problem.
+    pub fn files(&self) -> Files {
+        let [against, law_table, work_of_adhesion_map, hardness_map, initial_gap] =
+            ["against", "law_table", "work_of_adhesion_map", "hardness_map", "initial_gap"].map(|key| self.file(key));
+        let heights = self.file("heights").unwrap_or_default();
+        Files { heights, against, law_table, work_of_adhesion_map, hardness_map, initial_gap }
+    }
+
+    /// The shift of the surface on the other side, if there is one.
+    pub fn shift(&self) -> Option<(f64, f64)> {
+        let shift = self.numbers("shift").unwrap_or_default();
+        let along = |axis: usize| shift.get(axis).copied().unwrap_or(0.0);
+        self.file("against").map(|_| (along(0), along(1)))
+    }
+
+    /// Whether missing points stand for absent nodes.
+    pub fn absent_missing(&self) -> bool {
+        self.switch("absent_missing")
+    }
+
+    /// Whether results are on all nodes of a mirrored map.
+    pub fn whole(&self) -> bool {
+        self.switch("whole")
+    }
+
+    /// The number of threads, if it is given.
+    pub fn threads(&self) -> Option<usize> {
+        self.number("threads").map(|threads| threads as usize)
+    }
 }
 
 impl Scene {

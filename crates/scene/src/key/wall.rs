@@ -1,27 +1,24 @@
 //! The wall between the surfaces.
 
-use std::fmt;
-
 use asperity::{ContactConstraint, Hardness, NoWall, Penalty, Projection, Real, Result, Uzawa};
-use serde::{Deserialize, Serialize};
+
+use crate::key::choice;
 
 /// The constraint of a solve, of any kind.
 pub type Constraint<T> = Box<dyn ContactConstraint<T>>;
 
-/// The wall that keeps the surfaces apart, by its name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "options", derive(clap::ValueEnum))]
-pub enum Wall {
-    /// rigid, at zero gap
-    #[default]
-    Hard,
-    /// the law itself
-    None,
-    /// springs at zero gap, into which the surfaces sink by the contact pressure over the stiffness
-    Penalty,
-    /// springs whose multipliers take over the contact pressure, in rounds, until the wall is hard
-    Uzawa,
+choice! {
+    /// The wall that keeps the surfaces apart, by its name.
+    Wall {
+        /// rigid, at zero gap
+        Hard = "hard",
+        /// the law itself
+        None = "none",
+        /// springs at zero gap, into which the surfaces sink by the contact pressure over the stiffness
+        Penalty = "penalty",
+        /// springs whose multipliers take over the contact pressure, in rounds, until the wall is hard
+        Uzawa = "uzawa",
+    }
 }
 
 impl Wall {
@@ -44,11 +41,5 @@ impl Wall {
             (Self::Penalty, _) => Box::new(Penalty::new(stiffness)?),
             (Self::Uzawa, _) => Box::new(Uzawa::new(stiffness)?),
         })
-    }
-}
-
-impl fmt::Display for Wall {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(f)
     }
 }

@@ -3,6 +3,8 @@
 use asperity::Control;
 use asperity::path::PathSettings;
 
+use crate::key::load::Load;
+use crate::key::scene::Scene;
 use crate::session::pace::Pace;
 
 /// The way through the loads of a table.
@@ -17,6 +19,29 @@ pub enum Way {
 }
 
 impl Way {
+    /// The way through loads one after the other, where a reduced pressure of 1 is the `full` pressure.
+    pub fn sweep(loads: &[Load], full: f64) -> Self {
+        let fractions: Vec<_> = loads.iter().filter_map(|load| load.fraction()).collect();
+        if fractions.is_empty() { Self::Sweep(controls(loads, full)) } else { Self::Search(fractions) }
+    }
+
+    /// The way from load to load of a cycle.
+    ///
+    /// # Errors
+    /// The remedy, if there are fewer than two.
+    pub fn cycle(loads: &[Load], full: f64, settings: PathSettings) -> Result<Self, String> {
+        if loads.len() < 2 {
+            return Err("a cycle needs two turning points at least: give more loads".to_owned());
+        }
+        Ok(Self::Cycle(controls(loads, full), settings))
+    }
+
+    /// The load of its rows, of no meaning but for its kind; a contact fraction is searched for by one of these.
+    pub fn control(&self, scene: &Scene) -> Control {
+        let searched = || scene.elastic.boundary.searched_by(scene.adhesion.adheres());
+        self.loads().first().copied().unwrap_or_else(searched)
+    }
+
     /// The loads, where they are given.
     pub fn loads(&self) -> &[Control] {
         match self {
@@ -30,4 +55,9 @@ impl Way {
         let Self::Cycle(loads, settings) = self else { return None };
         Some(Pace::new(loads.len().saturating_sub(1), settings))
     }
+}
+
+/// The loads that are held.
+fn controls(loads: &[Load], full: f64) -> Vec<Control> {
+    loads.iter().map(|load| load.control(full)).collect()
 }

@@ -1,0 +1,310 @@
+//! What was given for the keys of a scene: as it was typed, and as it is taken.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
+
+use crate::key::Key;
+use crate::key::quantity::Quantity;
+use crate::key::synonyms::similar;
+use crate::key::words::{Skin, worded};
+
+/// A value that was read: as data, and its numbers with what is known of their units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Read {
+    /// The value as data, in the SI if it was typed with a unit.
+    pub value: Value,
+    /// Its numbers.
+    pub numbers: Vec<Quantity>,
+}
+
+impl Read {
+    /// A number.
+    pub(crate) fn number(number: Quantity) -> Self {
+        Self { value: json!(number.value), numbers: vec![number] }
+    }
+
+    /// A value that is no quantity.
+    pub(crate) fn of(value: impl Into<Value>) -> Self {
+        Self { value: value.into(), numbers: Vec::new() }
+    }
+}
+
+/// What was given for one key.
+#[derive(Clone, Debug)]
+struct Entry {
+    key: &'static Key,
+    read: Read,
+    typed: Vec<OsString>,
+    /// Whether nobody typed it
+    is_default: bool,
+}
+
+/// What was given for some keys.
+#[derive(Clone, Debug, Default)]
+pub struct Given(Vec<Entry>);
+
+/// A value as keywords and forms have it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Typed {
+    /// A truth value.
+    Switch(bool),
+    /// A whole number.
+    Whole(u64),
+    /// A number.
+    Number(f64),
+    /// A text, of a quantity with its unit.
+    Text(String),
+    /// Several.
+    Several(Vec<Self>),
+}
+
+impl Typed {
+    /// The value as it was typed.
+    fn text(&self) -> String {
+        match self {
+            Self::Switch(value) => value.to_string(),
+            Self::Whole(value) => value.to_string(),
+            Self::Number(value) => format!("{value:?}"),
+            Self::Text(text) => text.trim().to_owned(),
+            Self::Several(all) => all.iter().map(Self::text).collect::<Vec<_>>().join(" "),
+        }
+    }
+}
+
+impl Given {
+    /// What a map of keys and values gives for some of the `known` keys; a value that is empty or false gives nothing.
+    /// Whether a number lies in the range of its key is left to whoever takes it.
+    ///
+    /// # Errors
+    /// The key and the remedy, if it is not known, a value is none for it, or it needs another one, for
+    /// [`worded`](crate::worded).
+    pub fn read(known: &[&'static Key], typed: impl IntoIterator<Item = (String, Typed)>) -> Result<Self, String> {
+        let mut given = Self::default();
+        for (name, typed) in typed {
+            let Some(key) = known.iter().find(|key| key.name == name) else {
+                let names: Vec<_> = known.iter().map(|key| key.dashed()).collect();
+                let meant = similar(&name, names.iter().map(String::as_str)).map(|meant| meant.replace('-', "_"));
+                let remedy = meant.map_or("leave it out".to_owned(), |meant| format!("{meant} is"));
+                return Err(format!("{name} is no key that is known here: {remedy}"));
+            };
+            let all = match typed {
+                Typed::Several(all) => all,
+                Typed::Switch(false) if key.name != "nested" => continue,
+                one => vec![one],
+            };
+            let texts: Vec<_> = all.iter().map(Typed::text).filter(|text| !text.is_empty()).collect();
+            let of = |text: &String| key.any_value(text).map_err(|reason| format!("{name} is {text}: {reason}"));
+            let read = texts.iter().map(of).collect::<Result<Vec<_>, _>>()?;
+            given.insert(key, read, texts.into_iter().map(Into::into).collect(), false);
+        }
+        for key in known.iter().filter(|key| key.kind.dimension().is_some()) {
+            let default = key.kind.default.filter(|_| given.get(key.name).is_none());
+            if let Some((text, read)) = default.and_then(|text| Some((text, key.value(text).ok()?))) {
+                given.insert(key, vec![read], vec![text.into()], true);
+            }
+        }
+        let needs = |entry: &Entry| {
+            Some((
+                entry.key.name,
+                entry
+                    .key
+                    .kind
+                    .needs
+                    .iter()
+                    .find(|need| known.iter().any(|key| key.name == **need) && !given.has(need))?,
+            ))
+        };
+        if let Some((name, need)) = given.0.iter().find_map(needs) {
+            return Err(format!("{{{name}}} needs {{{need}}}: give both, or leave it out"));
+        }
+        Ok(given)
+    }
+
+    /// Adds what was given for a key.
+    pub(crate) fn insert(&mut self, key: &'static Key, mut read: Vec<Read>, typed: Vec<OsString>, is_default: bool) {
+        let read = match (key.kind.is_several(), read.len()) {
+            (_, 0) => return,
+            (false, _) => read.swap_remove(0),
+            (true, _) => {
+                let (values, numbers) =
+                    read.into_iter().map(|read| (read.value, read.numbers)).unzip::<_, _, Vec<_>, Vec<_>>();
+                Read { value: values.into(), numbers: numbers.concat() }
+            }
+        };
+        self.0.push(Entry { key, read, typed, is_default });
+    }
+
+    /// What was given for several lists of keys.
+    pub fn all<'a>(parts: impl IntoIterator<Item = &'a Self>) -> Self {
+        Self(parts.into_iter().flat_map(|part| part.0.iter().cloned()).collect())
+    }
+
+    fn get(&self, name: &str) -> Option<&Entry> {
+        self.0.iter().find(|entry| entry.key.name == name)
+    }
+
+    /// The value of a key.
+    fn value(&self, name: &str) -> Option<&Value> {
+        self.get(name).map(|entry| &entry.read.value)
+    }
+
+    /// Whether a key is given, and not by default.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.get(name).is_some_and(|entry| !entry.is_default)
+    }
+
+    /// The first key that is given with another value than its default.
+    pub fn first(&self) -> Option<&'static str> {
+        let usual = |entry: &Entry| {
+            let default = entry.key.kind.default.and_then(|default| entry.key.value(default).ok());
+            default.is_some_and(|default| default == entry.read)
+        };
+        self.0.iter().find(|entry| !usual(entry)).map(|entry| entry.key.name)
+    }
+
+    /// The numbers of a key.
+    pub(crate) fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        Some(match self.value(name)? {
+            Value::Array(all) => all.iter().filter_map(Value::as_f64).collect(),
+            one => one.as_f64().into_iter().collect(),
+        })
+    }
+
+    /// The number of a key.
+    pub(crate) fn number(&self, name: &str) -> Option<f64> {
+        self.value(name)?.as_f64()
+    }
+
+    /// The two numbers of a key.
+    pub(crate) fn pair(&self, name: &str) -> Option<(f64, f64)> {
+        if let [first, second] = self.numbers(name)?[..] { Some((first, second)) } else { None }
+    }
+
+    /// The word of a key.
+    pub(crate) fn word(&self, name: &str) -> Option<&str> {
+        self.value(name)?.as_str()
+    }
+
+    /// Whether a switch is set.
+    pub(crate) fn switch(&self, name: &str) -> bool {
+        self.value(name) == Some(&Value::Bool(true))
+    }
+
+    /// Whether a switch is set to false, which says something else than leaving it out.
+    pub(crate) fn is_denied(&self, name: &str) -> bool {
+        self.value(name) == Some(&Value::Bool(false))
+    }
+
+    /// The file of a key.
+    pub(crate) fn file(&self, name: &str) -> Option<PathBuf> {
+        self.get(name)?.typed.first().map(PathBuf::from)
+    }
+
+    /// The side lengths of a map of a shape, by one of them, which means square cells, or two.
+    pub fn lengths(&self, (nx, ny): (usize, usize)) -> Option<(f64, f64)> {
+        match self.numbers("lengths")?[..] {
+            [lx, ly, ..] => Some((lx, ly)),
+            [lx] => Some((lx, lx / nx as f64 * ny as f64)),
+            [] => None,
+        }
+    }
+
+    /// The object whose fields have the names of keys; keys that it does not have are left out.
+    ///
+    /// # Errors
+    /// The value that is none for its key.
+    pub fn object<T: DeserializeOwned>(&self) -> Result<T, String> {
+        let entries: Map<_, _> =
+            self.0.iter().map(|entry| (entry.key.name.to_owned(), entry.read.value.clone())).collect();
+        serde_json::from_value(entries.into()).map_err(|error| error.to_string())
+    }
+
+    /// The quantities, for their units.
+    pub fn quantities(&self) -> Quantities {
+        let texts = |entry: &Entry| entry.typed.iter().map(|text| text.to_string_lossy().trim().to_owned()).collect();
+        let quantities = self.0.iter().filter(|entry| entry.key.kind.dimension().is_some());
+        let of = |entry: &Entry| Measured::of(entry.key.name, texts(entry), &entry.read.numbers, entry.is_default);
+        quantities.map(of).collect()
+    }
+
+    /// All that was typed, by its keys: texts, lists of texts, and `true`.
+    pub fn typed(&self) -> Map<String, Value> {
+        let text = |text: &OsString| Value::from(text.to_string_lossy());
+        let of = |entry: &Entry| match (&entry.read.value, &entry.typed[..]) {
+            (Value::Bool(value), _) => (*value).into(),
+            (_, all) if entry.key.kind.is_several() => all.iter().map(text).collect(),
+            (_, all) => all.first().map(text).unwrap_or_default(),
+        };
+        let typed = self.0.iter().filter(|entry| !entry.is_default);
+        typed.map(|entry| (entry.key.name.to_owned(), of(entry))).collect()
+    }
+}
+
+/// The quantities of a command or a call, which all have units, or none has.
+#[derive(Clone, Debug, Default)]
+pub struct Quantities(Vec<Measured>);
+
+/// A quantity as it was typed.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    key: String,
+    texts: Vec<String>,
+    has_unit: bool,
+    is_bare: bool,
+    /// Whether nobody typed it
+    is_default: bool,
+}
+
+impl Measured {
+    /// The numbers of a key, of a list all that stand in it.
+    pub fn of(key: &str, texts: Vec<String>, numbers: &[Quantity], is_default: bool) -> Self {
+        let has_unit = numbers.iter().any(|number| number.has_unit);
+        let is_bare = numbers.iter().any(|number| number.is_bare());
+        Self { key: key.to_owned(), texts, has_unit, is_bare, is_default }
+    }
+}
+
+impl FromIterator<Measured> for Quantities {
+    fn from_iter<I: IntoIterator<Item = Measured>>(all: I) -> Self {
+        Self(all.into_iter().collect())
+    }
+}
+
+impl Quantities {
+    /// Whether quantities have units; then all numbers are in the SI.
+    pub fn is_si(&self) -> bool {
+        self.0.iter().any(|given| given.has_unit)
+    }
+
+    /// Refuses numbers without units beside quantities with units, in the words of a skin.
+    ///
+    /// # Errors
+    /// Two of them, and the remedy.
+    pub fn check(&self, skin: Skin) -> Result<(), String> {
+        let with = self.0.iter().find(|given| given.has_unit);
+        let without = self.0.iter().find(|given| given.is_bare);
+        let (Some(with), Some(without)) = (with, without) else { return Ok(()) };
+        let told = |key: &str| worded(&format!("{{{key}}}"), skin);
+        let (key, other) = (told(&without.key), told(&with.key));
+        let (by, remedy) = match without.is_default {
+            true => (" by default", format!("give {key} with a unit")),
+            false => ("", "give both units, or neither".to_owned()),
+        };
+        let (text, has) = (without.texts.join(" "), with.texts.join(" "));
+        Err(format!("{key} is {text}{by}, without a unit, but {other} {has} has one: {remedy}"))
+    }
+
+    /// The quantities as they were typed, by the names of reports; nothing if none has a unit.
+    pub fn given(&self) -> Option<Value> {
+        let entry = |given: &Measured| {
+            let texts = if let [one] = &given.texts[..] { json!(one) } else { json!(given.texts) };
+            (given.key.clone(), texts)
+        };
+        self.is_si().then(|| self.0.iter().map(entry).collect::<Map<_, _>>().into())
+    }
+}

@@ -1,0 +1,64 @@
+//! What is asked of a gap: its leakage.
+
+use asperity_flow::Leakage;
+
+use crate::key::allowed::Range;
+use crate::key::boundary::Boundary;
+use crate::key::given::Given;
+use crate::key::quantity::{LENGTH, VISCOSITY};
+use crate::key::{Kind, keys};
+
+keys! {
+    /// The leakage through a gap.
+    LeakKeys {
+        "" {
+            /// What is beyond the map: of a free one each axis is fed at one side and drained at the other [default: that
+            /// of the folder, or periodic]
+            boundary: Kind::word(Boundary::words, &["BOUNDARY"]),
+            /// Gap of absent nodes, where the file has no number; without it they are closed
+            absent_gap: Kind::quantity(LENGTH, Range::POSITIVE, &["G"]),
+            /// Dynamic viscosity of the fluid, for the flow per pressure
+            viscosity: Kind::quantity(VISCOSITY, Range::POSITIVE, &["ETA"]),
+        }
+        "Solver" {
+            /// Distance of the bounds at which to stop, relative to the upper one
+            tolerance: Kind::number(Range::SHARE, &["T"]).or("1e-6"),
+            /// The most iterations along each axis
+            max_iterations: Kind::whole(&["N"]).or("1000"),
+        }
+    }
+}
+
+impl Given {
+    /// What is asked of a gap with a boundary, unless that is given.
+    pub fn leak(&self, boundary: Boundary) -> LeakAsked {
+        let settings = Leakage::default();
+        let tolerance = self.number("tolerance").unwrap_or(settings.tolerance);
+        let most = self.number("max_iterations").map_or(settings.max_iterations, |most| most as usize);
+        let boundary = self
+            .word("boundary")
+            .map_or(boundary, |name| if name == Boundary::Free.name() { Boundary::Free } else { Boundary::Periodic });
+        LeakAsked {
+            boundary,
+            absent_gap: self.number("absent_gap"),
+            settings: settings.tolerance(tolerance).max_iterations(most),
+            viscosity: self.number("viscosity"),
+            grid_error: true,
+        }
+    }
+}
+
+/// What is asked of a gap.
+#[derive(Clone, Copy, Debug)]
+pub struct LeakAsked {
+    /// What is beyond the map.
+    pub boundary: Boundary,
+    /// The gap of absent nodes, if they are open.
+    pub absent_gap: Option<f64>,
+    /// The settings.
+    pub settings: Leakage,
+    /// The viscosity, if it is known.
+    pub viscosity: Option<f64>,
+    /// Whether to estimate the error of the grid.
+    pub grid_error: bool,
+}

@@ -1,0 +1,80 @@
+//! Lists of keys, and enumerations of words, each written once.
+
+/// A list of keys as a type, which holds what is given for them: the names with their help, and the kinds of their
+/// values, by sections.
+macro_rules! keys {
+    ($(#[$about:meta])* $list:ident { $($section:literal { $($(#[doc = $help:literal])+ $name:ident: $kind:expr,)+ })+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, Default)]
+        pub struct $list(pub $crate::key::given::Given);
+
+        impl $crate::key::Keys for $list {
+            const KEYS: &'static [$crate::key::Key] = &[$($($crate::key::Key {
+                name: stringify!($name),
+                help: concat!($($help),+),
+                section: $section,
+                kind: $kind,
+            },)+)+];
+        }
+
+        #[cfg(feature = "options")]
+        impl clap::FromArgMatches for $list {
+            fn from_arg_matches(matches: &clap::ArgMatches) -> std::result::Result<Self, clap::Error> {
+                Ok(Self($crate::key::options::given(<Self as $crate::key::Keys>::KEYS, matches)))
+            }
+
+            fn update_from_arg_matches(&mut self, matches: &clap::ArgMatches) -> std::result::Result<(), clap::Error> {
+                *self = Self::from_arg_matches(matches)?;
+                Ok(())
+            }
+        }
+
+        #[cfg(feature = "options")]
+        impl clap::Args for $list {
+            fn augment_args(command: clap::Command) -> clap::Command {
+                command.args(<Self as $crate::key::Keys>::KEYS.iter().map($crate::key::Key::option))
+            }
+
+            fn augment_args_for_update(command: clap::Command) -> clap::Command {
+                Self::augment_args(command)
+            }
+        }
+    };
+}
+pub(crate) use keys;
+
+/// An enumeration of words: their names, with what each stands for. The first is the default.
+macro_rules! choice {
+    ($(#[$about:meta])* $name:ident { $($(#[doc = $help:literal])+ $variant:ident = $word:literal,)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        pub enum $name {
+            $($(#[doc = $help])+ #[serde(rename = $word)] $variant,)+
+        }
+
+        impl $name {
+            /// All words.
+            pub fn words() -> Vec<$crate::key::Word> {
+                vec![$($crate::key::Word { name: $word, help: concat!($($help),+) }),+]
+            }
+
+            /// The word.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $word),+ }
+            }
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                [$(Self::$variant),+][0]
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+    };
+}
+pub(crate) use choice;
