@@ -2,12 +2,11 @@
 //!
 //! [`GridError`] estimates the error of the grid, beside that of the solver; [`Accuracy`] chooses grid and tolerance.
 
-use std::fmt;
-
 use crate::contact::ContactArea;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
+use crate::names::names;
 use crate::nested::Level;
 use crate::problem::Control;
 use crate::solver::Report;
@@ -42,20 +41,11 @@ pub enum Quantity {
     Stiffness,
 }
 
+names!(Quantity { Area = "area", Gap = "gap", Approach = "approach", Pressure = "pressure", Stiffness = "stiffness" });
+
 impl Quantity {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure, Self::Stiffness];
-
-    /// The name that the tool uses: `"area"`, `"gap"`, `"approach"`, `"pressure"` or `"stiffness"`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Area => "area",
-            Self::Gap => "gap",
-            Self::Approach => "approach",
-            Self::Pressure => "pressure",
-            Self::Stiffness => "stiffness",
-        }
-    }
 
     /// Refuses a quantity that a control gives instead of finding it.
     ///
@@ -171,12 +161,6 @@ fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> [f64; 2] {
     let [contact, apart] = [nodes, nodes / area.contact_fraction - nodes].map(|nodes| edges / nodes.max(1.0));
     let alike = (0.1 * contact * (contact + 2.0 * apart)).hypot(4.0 / nodes_per_wave.powi(2));
     [(0.03 * contact / area.places.sqrt()).hypot(alike / area.places), adhesion]
-}
-
-impl fmt::Display for Quantity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
 }
 
 impl Surface {

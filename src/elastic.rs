@@ -5,6 +5,7 @@ use ndarray::{ArrayView2, ArrayViewMut2};
 use crate::error::{Error, Result};
 use crate::field::Field;
 use crate::grid::Grid;
+use crate::names::names;
 use crate::real::Real;
 
 mod body;
@@ -182,15 +183,9 @@ pub enum Boundary {
     },
 }
 
-impl Boundary {
-    /// The name that the tool and `report.json` use: `"periodic"` or `"free"`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Periodic => "periodic",
-            Self::Free { .. } => "free",
-        }
-    }
+names!(Boundary { Periodic = "periodic", Free = "free" });
 
+impl Boundary {
     /// The mean displacement of the operator's grid over the mean pressure on it; zero in a periodic cell.
     pub(crate) fn mean_compliance(self) -> f64 {
         match self {

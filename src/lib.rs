@@ -93,6 +93,7 @@ mod field;
 mod grid;
 pub mod guide;
 mod heavy;
+mod names;
 pub mod nested;
 mod par;
 pub mod path;

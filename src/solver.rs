@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::constraint::{ContactConstraint, Projection};
 use crate::error::Result;
+use crate::names::names;
 use crate::problem::{Control, Problem, ProblemMut};
 use crate::real::Real;
 use crate::setters::setters;
@@ -56,15 +57,7 @@ pub enum Method {
     Rey2017,
 }
 
-impl Method {
-    /// The name that the tool and the report use: `"default"` or `"rey2017"`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Preconditioned => "default",
-            Self::Rey2017 => "rey2017",
-        }
-    }
-}
+names!(Method { Preconditioned = "default", Rey2017 = "rey2017" });
 
 /// The settings of a solve.
 ///

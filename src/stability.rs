@@ -3,8 +3,6 @@
 //! A [`StabilityTest`] finds that eigenvalue and its mode, and a bound from below; [`Stability::leave`] leaves an
 //! equilibrium that does not last.
 
-use std::fmt;
-
 use ndarray::Array2;
 
 use crate::adhesion::AdhesionLaw;
@@ -12,6 +10,7 @@ use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
 use crate::grid::Grid;
+use crate::names::names;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Problem, ProblemMut, Window, smoothed_law};
 use crate::real::Real;
@@ -48,22 +47,7 @@ pub enum Verdict {
     Undecided,
 }
 
-impl Verdict {
-    /// The name that the tool and `report.json` use.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Stable => "stable",
-            Self::Unstable => "unstable",
-            Self::Undecided => "undecided",
-        }
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+names!(Verdict { Stable = "stable", Unstable = "unstable", Undecided = "undecided" });
 
 /// The stability test of an equilibrium, by the smallest eigenvalue of the second derivative of the energy:
 ///

@@ -1,5 +1,7 @@
 //! The control that a user gives, and the load that it is on an operator's grid.
 
+use crate::names::names;
+
 /// The control: what is held fixed while the energy is minimised.
 ///
 /// | control | periodic | free | what follows |
@@ -46,18 +48,15 @@ pub enum Control {
     },
 }
 
-impl Control {
-    /// The name in reports: `"mean-gap"`, `"mean-pressure"`, `"normal-force"`, `"approach"` or `"spring"`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MeanGap(_) => "mean-gap",
-            Self::MeanPressure(_) => "mean-pressure",
-            Self::Force(_) => "normal-force",
-            Self::Approach(_) => "approach",
-            Self::Spring { .. } => "spring",
-        }
-    }
+names!(Control {
+    MeanGap = "mean-gap",
+    MeanPressure = "mean-pressure",
+    Force = "normal-force",
+    Approach = "approach",
+    Spring = "spring",
+});
 
+impl Control {
     /// The value that is held: a length, pressure or force; of a spring its rest.
     pub fn value(self) -> f64 {
         match self {

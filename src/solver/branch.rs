@@ -1,7 +1,5 @@
 //! The branch of equilibria with adhesion.
 
-use std::fmt;
-
 use ndarray::Zip;
 
 #[cfg(doc)]
@@ -11,6 +9,7 @@ use super::{Method, Settings, Solution, Status, rey2017};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::Result;
+use crate::names::names;
 use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 
@@ -47,15 +46,9 @@ pub enum Branch {
     Unloading,
 }
 
-impl Branch {
-    /// The name in the tool and the report: `"loading"` or `"unloading"`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Loading => "loading",
-            Self::Unloading => "unloading",
-        }
-    }
+names!(Branch { Loading = "loading", Unloading = "unloading" });
 
+impl Branch {
     /// The other branch.
     pub fn other(self) -> Self {
         match self {
@@ -117,11 +110,5 @@ impl<T: Real> Solution<T> {
         // all processes that share the grid have to ask
         let distance = self.distance(other);
         found && distance <= SOFT * (a + b)
-    }
-}
-
-impl fmt::Display for Branch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }

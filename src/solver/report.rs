@@ -1,7 +1,6 @@
 //! The report of a solve: its status, its figures, and the fields of the solution.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use ndarray::Array2;
 
@@ -11,6 +10,7 @@ use crate::constraint::ContactConstraint;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
+use crate::names::names;
 use crate::problem::{Control, ProblemMut};
 use crate::real::Real;
 
@@ -35,24 +35,13 @@ pub enum Status {
     Detached,
 }
 
-impl Status {
-    /// The name that the tool and `report.json` use.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Converged => "converged",
-            Self::IterationLimit => "iteration-limit",
-            Self::Stalled => "stalled",
-            Self::Stopped => "stopped",
-            Self::Detached => "detached",
-        }
-    }
-}
-
-impl fmt::Display for Status {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+names!(Status {
+    Converged = "converged",
+    IterationLimit = "iteration-limit",
+    Stalled = "stalled",
+    Stopped = "stopped",
+    Detached = "detached",
+});
 
 /// The state of an iteration, as an observer sees it.
 #[non_exhaustive]

@@ -5,6 +5,7 @@ use super::passes::Fields;
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::field::{read, write};
+use crate::names::names;
 use crate::par::Parts;
 use crate::problem::Load;
 use crate::real::{Real, cast};
@@ -29,15 +30,7 @@ pub enum Criterion {
     Complementarity,
 }
 
-impl Criterion {
-    /// The name that the tool and the report use: `"energy-norm"` or `"complementarity"`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::EnergyNorm => "energy-norm",
-            Self::Complementarity => "complementarity",
-        }
-    }
-}
+names!(Criterion { EnergyNorm = "energy-norm", Complementarity = "complementarity" });
 
 /// The refusal of what the algorithm does not know.
 pub(super) fn refused(reason: &'static str) -> Error {

@@ -3,9 +3,9 @@
 use std::fmt;
 
 use crate::numbers::rounded;
-use crate::topography::{ScanAxis, Topography};
+use crate::topography::Topography;
 use asperity::contact::Original;
-use asperity::{AdhesionLaw, Grid, Real, Result, Solution, Surface};
+use asperity::{Grid, Real, Result, Solution, Surface};
 
 mod body;
 mod code;
@@ -158,9 +158,7 @@ impl Warning {
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let surface = &*surface.whole();
         let extremes = Extremes::of(surface.heights());
-        let mut found = Vec::new();
-        found.extend(cells(surface.grid()));
-        found.extend(ends_within(surface));
+        let mut found: Vec<_> = cells(surface.grid()).into_iter().chain(ends_within(surface)).collect();
         if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
             let text = "all heights are {}: there is nothing that could touch first; check the file, or the map";
             found.push(Self::told(WarningCode::Flat, 0.0, text, [Length(extremes.low)]));
@@ -172,11 +170,10 @@ impl Warning {
             return found;
         }
         let relief = Relief::of(surface.heights(), &extremes);
-        found.extend(tilt(&relief, surface.grid()));
-        found.extend(open_edges(&relief));
-        found.extend(ends_at_edges(&relief, surface));
-        found.extend(slope(relief.rms_slope(surface.grid().spacing()), STEEP));
-        found.extend(spikes(&relief));
+        let at_edges = [open_edges(&relief), ends_at_edges(&relief, surface)];
+        let slope = slope(relief.rms_slope(surface.grid().spacing()), STEEP);
+        found.extend(tilt(&relief, surface.grid()).into_iter().chain(at_edges.into_iter().flatten()));
+        found.extend(slope.into_iter().chain(spikes(&relief)));
         found
     }
 
@@ -200,50 +197,6 @@ impl Warning {
             return map.rms_slope().and_then(|found| slope(found, STEEP_MAP)).into_iter().collect();
         }
         codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
-    }
-
-    /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
-    /// [`Modulus`](WarningCode::Modulus): below 1 kPa beside lengths in metres. These are in metres if their `unit` is
-    /// m, and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
-    ///
-    /// ```
-    /// use asperity_maps::warning::{Warning, WarningCode};
-    /// use asperity::Grid;
-    /// let grid = Grid::square(512, 10e-6)?;
-    /// assert_eq!(Warning::of_modulus(70.0, &grid, Some("m")).map(|found| found.code), Some(WarningCode::Modulus));
-    /// assert!(Warning::of_modulus(70e9, &grid, Some("m")).is_none());
-    /// assert!(Warning::of_modulus(70.0, &Grid::square(512, 10.0)?, Some("µm")).is_none());
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
-    pub fn of_modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Self> {
-        heights::modulus(modulus, grid, unit)
-    }
-
-    /// A measured map whose scan lines, which are to be brought to one height, are probably not those along the given
-    /// axis: [`ScanAxis`](WarningCode::ScanAxis). Lines along the other axis are offset from one another by more than
-    /// half the rms step of their nodes, five times as irregularly as those along this one, neither as smoothly as the
-    /// profile of a surface nor on one that is rougher across them. Nothing where there are fewer than 64 lines.
-    ///
-    /// ```
-    /// use asperity_maps::ScanAxis;
-    /// use asperity_maps::warning::Warning;
-    /// use asperity_maps::Topography;
-    /// // an image: rows are the scan lines, and drift moves each by some height
-    /// let drift = |row: usize| ((row as f64 * 0.618).fract() - 0.5).powi(3);
-    /// let grain = |row: usize, column: usize| 1e-3 * ((row * 7 + column * 13) as f64 * 0.414).fract();
-    /// let image = ndarray::Array2::from_shape_fn((96, 96), |(row, column)| drift(row) + grain(row, column));
-    /// let map = Topography::new(image);
-    /// assert!(Warning::of_lines(&map, ScanAxis::X).is_some());
-    /// assert!(Warning::of_lines(&map, ScanAxis::Y).is_none());
-    /// ```
-    pub fn of_lines(map: &Topography, along: ScanAxis) -> Option<Self> {
-        lines::scan_axis(map, along)
-    }
-
-    /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
-    /// [`Range`](WarningCode::Range). Nothing without adhesion.
-    pub fn of_law<T: Real>(law: &dyn AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
-        range::of_law(law, surface, modulus)
     }
 
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
@@ -271,26 +224,6 @@ impl Warning {
             [vec![Pressure(greatest), Figure(greatest / modulus)], counts.into()].concat(),
         ));
         found
-    }
-
-    /// An elastic solution with most of its load above a tenth of the contact modulus E*,
-    /// [`Hardness`](WarningCode::Hardness): most solids yield there. On a steep surface only a hardness makes its
-    /// contact one of real surfaces.
-    ///
-    /// ```
-    /// use asperity_maps::warning::Warning;
-    /// use asperity::{Control, Grid, Hardness, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
-    /// let grid = Grid::square(32, 1.0)?;
-    /// let steep = Surface::wave_2d(grid, 0.2, 2)?;
-    /// let mut problem = Problem::new(&steep, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
-    /// let control = Control::MeanPressure(0.05);
-    /// assert!(Warning::of_hardness(&Solver::default().solve(&mut problem, control)?).is_some());
-    /// let mut soft = Solver { settings: Settings::default(), constraint: Hardness::new(0.3)? };
-    /// assert!(Warning::of_hardness(&soft.solve(&mut problem, control)?).is_none());
-    /// # Ok::<(), asperity::Error>(())
-    /// ```
-    pub fn of_hardness<T: Real>(solution: &Solution<T>) -> Option<Self> {
-        load::of_hardness(solution)
     }
 
     /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images):

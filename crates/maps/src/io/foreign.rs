@@ -6,49 +6,37 @@ const IMAGE: &str = "if its grey values are heights, import it in Gwyddion and s
                      else export the heights from the program of the instrument";
 const UNPACK: &str = "unpack it first";
 
-/// The first bytes of foreign formats, their names, and the ways to convert them.
-const STARTS: [(&[u8], &str, &str); 41] = [
-    (b"GWYO", "a file of Gwyddion 1 (.gwy)", GWYDDION),
-    (b"\\*File list", "a Nanoscope file (.spm)", GWYDDION),
-    (b"?*File list", "a Nanoscope file (.spm)", GWYDDION),
-    (b"\\*Force file list", "a Nanoscope file of force curves (.spm)", "save a map of heights instead"),
-    (b"DIGITAL SURF", "a Digital Surf file (.sur)", GWYDDION),
-    (b"DSCOMPRESSED", "a Digital Surf file (.sur)", GWYDDION),
-    (b"AliconaImaging\0", "an Alicona file (.al3d)", GWYDDION),
-    (b"\x01\0Directory", "a Wyko file (.opd)", GWYDDION),
-    (b"VCA DATA\x01\0", "a Bruker file (.opdx)", GWYDDION),
-    (b"\x01\xb0\x93\xff", "an NT-MDT file (.mdt)", GWYDDION),
-    (b"aBCR-", "a surface data file (.sdf)", GWYDDION),
-    (b"bBCR-", "a surface data file (.sdf)", GWYDDION),
-    (b"\x88\x1b\x03\x6f", "a MetroPro file (.dat)", GWYDDION),
-    (b"\x88\x1b\x03\x70", "a MetroPro file (.dat)", GWYDDION),
-    (b"\x88\x1b\x03\x71", "a MetroPro file (.dat)", GWYDDION),
-    (b"VK4_", "a Keyence file (.vk4)", GWYDDION),
-    (b"FRTM_", "a MicroProf file (.frt)", GWYDDION),
-    (b":NANONIS_VERSION:", "a Nanonis file (.sxm)", GWYDDION),
-    (b"WSxM file copyright", "a WSxM file", GWYDDION),
-    (b"II*\0", "a TIFF image (.tif)", TIFF),
-    (b"MM\0*", "a TIFF image (.tif)", TIFF),
-    (b"II+\0", "a TIFF image (.tif)", TIFF),
-    (b"MM\0+", "a TIFF image (.tif)", TIFF),
-    (b"\x89PNG\r\n\x1a\n", "a PNG image", IMAGE),
-    (b"\xff\xd8\xff", "a JPEG image", IMAGE),
-    (b"GIF8", "a GIF image", IMAGE),
-    (b"\x89HDF\r\n\x1a\n", "an HDF5 file", "in Python: numpy.save(\"heights.npy\", h5py.File(file)[name][()])"),
-    (b"CDF\x01", "a NetCDF file", NETCDF),
-    (b"CDF\x02", "a NetCDF file", NETCDF),
-    (b"CDF\x05", "a NetCDF file", NETCDF),
-    (b"MATLAB 5.0", "a MATLAB file (.mat)", MATLAB),
-    (b"MATLAB 7.3", "a MATLAB file (.mat)", MATLAB),
-    (b"\x80\x02", "a Python pickle", PICKLE),
-    (b"\x80\x03", "a Python pickle", PICKLE),
-    (b"\x80\x04", "a Python pickle", PICKLE),
-    (b"\x80\x05", "a Python pickle", PICKLE),
-    (b"%PDF-", "a PDF document", "give the file of the heights"),
-    (b"\x1f\x8b", "packed by gzip", UNPACK),
-    (b"BZh", "packed by bzip2", UNPACK),
-    (b"\xff\xfe", "a text in UTF-16", "save it in UTF-8"),
-    (b"\xfe\xff", "a text in UTF-16", "save it in UTF-8"),
+/// A format that is not read: the bytes with which its files may begin, its name, and the way to convert it.
+type Format = (&'static [&'static [u8]], &'static str, &'static str);
+
+/// The formats that are known by their first bytes.
+const STARTS: [Format; 26] = [
+    (&[b"GWYO"], "a file of Gwyddion 1 (.gwy)", GWYDDION),
+    (&[b"\\*File list", b"?*File list"], "a Nanoscope file (.spm)", GWYDDION),
+    (&[b"\\*Force file list"], "a Nanoscope file of force curves (.spm)", "save a map of heights instead"),
+    (&[b"DIGITAL SURF", b"DSCOMPRESSED"], "a Digital Surf file (.sur)", GWYDDION),
+    (&[b"AliconaImaging\0"], "an Alicona file (.al3d)", GWYDDION),
+    (&[b"\x01\0Directory"], "a Wyko file (.opd)", GWYDDION),
+    (&[b"VCA DATA\x01\0"], "a Bruker file (.opdx)", GWYDDION),
+    (&[b"\x01\xb0\x93\xff"], "an NT-MDT file (.mdt)", GWYDDION),
+    (&[b"aBCR-", b"bBCR-"], "a surface data file (.sdf)", GWYDDION),
+    (&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"], "a MetroPro file (.dat)", GWYDDION),
+    (&[b"VK4_"], "a Keyence file (.vk4)", GWYDDION),
+    (&[b"FRTM_"], "a MicroProf file (.frt)", GWYDDION),
+    (&[b":NANONIS_VERSION:"], "a Nanonis file (.sxm)", GWYDDION),
+    (&[b"WSxM file copyright"], "a WSxM file", GWYDDION),
+    (&[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"], "a TIFF image (.tif)", TIFF),
+    (&[b"\x89PNG\r\n\x1a\n"], "a PNG image", IMAGE),
+    (&[b"\xff\xd8\xff"], "a JPEG image", IMAGE),
+    (&[b"GIF8"], "a GIF image", IMAGE),
+    (&[b"\x89HDF\r\n\x1a\n"], "an HDF5 file", "in Python: numpy.save(\"heights.npy\", h5py.File(file)[name][()])"),
+    (&[b"CDF\x01", b"CDF\x02", b"CDF\x05"], "a NetCDF file", NETCDF),
+    (&[b"MATLAB 5.0", b"MATLAB 7.3"], "a MATLAB file (.mat)", MATLAB),
+    (&[b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"], "a Python pickle", PICKLE),
+    (&[b"%PDF-"], "a PDF document", "give the file of the heights"),
+    (&[b"\x1f\x8b"], "packed by gzip", UNPACK),
+    (&[b"BZh"], "packed by bzip2", UNPACK),
+    (&[b"\xff\xfe", b"\xfe\xff"], "a text in UTF-16", "save it in UTF-8"),
 ];
 
 const TIFF: &str = "open it in Gwyddion, and save its heights as .gsf; \
@@ -74,7 +62,8 @@ const MEMBERS: [(&str, &str, &str); 3] = [
 
 /// Why a file with such a start is not read, if it is of one of the formats.
 pub(super) fn by_start(start: &[u8]) -> Option<String> {
-    STARTS.iter().find(|(magic, ..)| start.starts_with(magic)).map(|(_, name, remedy)| format!("is {name}: {remedy}"))
+    let found = STARTS.iter().find(|(magics, ..)| magics.iter().any(|magic| start.starts_with(magic)));
+    found.map(|(_, name, remedy)| format!("is {name}: {remedy}"))
 }
 
 /// Why a file that cannot be read as a text is not read, if that is since it is binary; `ending` is that of its name.
@@ -98,9 +87,10 @@ mod tests {
     #[test]
     fn files_of_instruments_and_programs_are_named_with_a_way_to_convert_them() {
         let noise: Vec<u8> = (0..5000_u32).map(|i| (i * i / 7) as u8).collect();
-        for (magic, name, remedy) in STARTS {
-            for rest in [&[][..], &noise] {
-                assert_refused(read([magic, rest].concat()), &[name, remedy]);
+        for (magics, name, remedy) in STARTS {
+            for magic in magics {
+                assert_refused(read(magic), &[name, remedy]);
+                assert_refused(read([magic, &noise[..]].concat()), &[name, remedy]);
             }
         }
         for (ending, name, remedy) in ENDINGS {

@@ -113,7 +113,8 @@ pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
 }
 
 pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
-    let factor = if relief.is_line() { OPEN_END } else { OPEN_EDGE };
+    let (nx, ny) = relief.heights.dim();
+    let factor = if nx.min(ny) == 1 { OPEN_END } else { OPEN_EDGE };
     let stands_out = |side: &Side| side.edge > STANDS_OUT * side.greatest_step;
     let open = |side: &Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
     let open = relief.sides.iter().zip(["x", "y"]).filter(|(side, _)| open(side));
@@ -177,19 +178,34 @@ const ALONE: &str = "in a periodic cell a body stands among images of itself; gi
                      (boundary free), make the map wider around the body on a layer or coating, or, if the roughness \
                      alone is wanted, remove the form (remove-form)";
 
-pub(super) fn modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Warning> {
-    let spacing = grid.spacing().0.min(grid.spacing().1);
-    let in_metres = unit.map_or(spacing < METRES, |unit| unit == "m");
-    if modulus == 1.0 || modulus >= SOFTEST || !in_metres {
-        return None;
+impl Warning {
+    /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
+    /// [`Modulus`](WarningCode::Modulus): below 1 kPa beside lengths in metres. These are in metres if their `unit` is
+    /// m, and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
+    ///
+    /// ```
+    /// use asperity_maps::warning::{Warning, WarningCode};
+    /// use asperity::Grid;
+    /// let grid = Grid::square(512, 10e-6)?;
+    /// assert_eq!(Warning::of_modulus(70.0, &grid, Some("m")).map(|found| found.code), Some(WarningCode::Modulus));
+    /// assert!(Warning::of_modulus(70e9, &grid, Some("m")).is_none());
+    /// assert!(Warning::of_modulus(70.0, &Grid::square(512, 10.0)?, Some("µm")).is_none());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn of_modulus(modulus: f64, grid: &Grid, unit: Option<&str>) -> Option<Self> {
+        let spacing = grid.spacing().0.min(grid.spacing().1);
+        let in_metres = unit.map_or(spacing < METRES, |unit| unit == "m");
+        if modulus == 1.0 || modulus >= SOFTEST || !in_metres {
+            return None;
+        }
+        Some(Self::told(
+            WarningCode::Modulus,
+            0.0,
+            "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and less \
+             than the {} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
+            [Pressure(modulus), Length(spacing), Word(format!("{SOFTEST:e}"))],
+        ))
     }
-    Some(Warning::told(
-        WarningCode::Modulus,
-        0.0,
-        "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and less \
-         than the {} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
-        [Pressure(modulus), Length(spacing), Word(format!("{SOFTEST:e}"))],
-    ))
 }
 
 /// The probable mistake behind an rms slope, if a slope of more than `most` is steep.

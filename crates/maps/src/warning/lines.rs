@@ -22,28 +22,45 @@ const RANDOM: std::ops::Range<f64> = 1.2..2.5;
 /// The rms step of single nodes across the lines over that along them up to which the surface itself has no lay.
 const ALIKE: f64 = 2.0;
 
-/// The warning that lines across the scan lines have the offsets.
-pub(super) fn scan_axis(map: &Topography, along: ScanAxis) -> Option<Warning> {
-    let (nx, ny) = map.heights.dim();
-    if nx.min(ny) < LEAST {
-        return None;
+impl Warning {
+    /// A measured map whose scan lines, which are to be brought to one height, are probably not those along the given
+    /// axis: [`ScanAxis`](WarningCode::ScanAxis). Lines along the other axis are offset from one another by more than
+    /// half the rms step of their nodes, five times as irregularly as those along this one, neither as smoothly as the
+    /// profile of a surface nor on one that is rougher across them. Nothing where there are fewer than 64 lines.
+    ///
+    /// ```
+    /// use asperity_maps::ScanAxis;
+    /// use asperity_maps::warning::Warning;
+    /// use asperity_maps::Topography;
+    /// // an image: rows are the scan lines, and drift moves each by some height
+    /// let drift = |row: usize| ((row as f64 * 0.618).fract() - 0.5).powi(3);
+    /// let grain = |row: usize, column: usize| 1e-3 * ((row * 7 + column * 13) as f64 * 0.414).fract();
+    /// let image = ndarray::Array2::from_shape_fn((96, 96), |(row, column)| drift(row) + grain(row, column));
+    /// let map = Topography::new(image);
+    /// assert!(Warning::of_lines(&map, ScanAxis::X).is_some());
+    /// assert!(Warning::of_lines(&map, ScanAxis::Y).is_none());
+    /// ```
+    pub fn of_lines(map: &Topography, along: ScanAxis) -> Option<Self> {
+        let (nx, ny) = map.heights.dim();
+        if nx.min(ny) < LEAST {
+            return None;
+        }
+        let mut axes = [(ScanAxis::X, "x"), (ScanAxis::Y, "y")];
+        axes.sort_by_key(|(axis, _)| *axis != along);
+        let [asked, other] = axes.map(|(axis, _)| LineSteps::of(map, axis));
+        let offset = other.change > FAR * asked.change && other.shared > STANDS_OUT * other.single;
+        if !(offset && RANDOM.contains(&(other.change / other.shared)) && other.single <= ALIKE * asked.single) {
+            return None;
+        }
+        let [along, across] = axes.map(|(_, name)| Word(name.to_owned()));
+        let times =
+            if asked.change > 0.0 { Figure(other.change / asked.change) } else { Word("infinitely many".into()) };
+        Some(Self::told(
+            WarningCode::ScanAxis,
+            0.0,
+            "lines along {} are offset from one to the next by {}, {} times as irregularly as those along {}, which are to \
+             be brought to one height: if the instrument scanned along {}, choose {} for the scan axis, or exchange the axes",
+            [across.clone(), Length(other.shared), times, along, across.clone(), across],
+        ))
     }
-    let (across, names) = match along {
-        ScanAxis::X => (ScanAxis::Y, ["x", "y"]),
-        ScanAxis::Y => (ScanAxis::X, ["y", "x"]),
-    };
-    let [asked, other] = [along, across].map(|axis| LineSteps::of(map, axis));
-    let offset = other.change > FAR * asked.change && other.shared > STANDS_OUT * other.single;
-    if !(offset && RANDOM.contains(&(other.change / other.shared)) && other.single <= ALIKE * asked.single) {
-        return None;
-    }
-    let [along, across] = names.map(|name| Word(name.to_owned()));
-    let times = if asked.change > 0.0 { Figure(other.change / asked.change) } else { Word("infinitely many".into()) };
-    Some(Warning::told(
-        WarningCode::ScanAxis,
-        0.0,
-        "lines along {} are offset from one to the next by {}, {} times as irregularly as those along {}, which are to \
-         be brought to one height: if the instrument scanned along {}, choose {} for the scan axis, or exchange the axes",
-        [across.clone(), Length(other.shared), times, along, across.clone(), across],
-    ))
 }

@@ -118,18 +118,35 @@ fn remedy(axis: &str, scars_removed: Option<f64>) -> String {
     }
 }
 
-/// The warning that most of the load of an elastic solution stands above what most solids bear.
-pub(super) fn of_hardness<T: Real>(solution: &Solution<T>) -> Option<Warning> {
-    let modulus = solution.report.modulus;
-    let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
-    let (all, above) = pressures().fold((0.0, 0.0), |(all, above), pressure| {
-        (all + pressure, if pressure > BORNE * modulus { above + pressure } else { above })
-    });
-    if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
-        return None;
+impl Warning {
+    /// An elastic solution with most of its load above a tenth of the contact modulus E*,
+    /// [`Hardness`](WarningCode::Hardness): most solids yield there. On a steep surface only a hardness makes its
+    /// contact one of real surfaces.
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// use asperity::{Control, Grid, Hardness, NoAdhesion, Problem, Settings, Solver, Surface, Westergaard};
+    /// let grid = Grid::square(32, 1.0)?;
+    /// let steep = Surface::wave_2d(grid, 0.2, 2)?;
+    /// let mut problem = Problem::new(&steep, Westergaard::<f64>::new(grid, 1.0)?, NoAdhesion)?;
+    /// let control = Control::MeanPressure(0.05);
+    /// assert!(Warning::of_hardness(&Solver::default().solve(&mut problem, control)?).is_some());
+    /// let mut soft = Solver { settings: Settings::default(), constraint: Hardness::new(0.3)? };
+    /// assert!(Warning::of_hardness(&soft.solve(&mut problem, control)?).is_none());
+    /// # Ok::<(), asperity::Error>(())
+    /// ```
+    pub fn of_hardness<T: Real>(solution: &Solution<T>) -> Option<Self> {
+        let modulus = solution.report.modulus;
+        let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());
+        let (all, above) = pressures().fold((0.0, 0.0), |(all, above), pressure| {
+            (all + pressure, if pressure > BORNE * modulus { above + pressure } else { above })
+        });
+        if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
+            return None;
+        }
+        let text = "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which \
+                    most solids yield: if the slopes are right, give the hardness of the softer body (--hardness)";
+        let parts = [Figure(100.0 * above / all), Pressure(BORNE * modulus)];
+        Some(Self::told(WarningCode::Hardness, above / all, text, parts))
     }
-    let text = "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which \
-                most solids yield: if the slopes are right, give the hardness of the softer body (--hardness)";
-    let parts = [Figure(100.0 * above / all), Pressure(BORNE * modulus)];
-    Some(Warning::told(WarningCode::Hardness, above / all, text, parts))
 }

@@ -10,33 +10,37 @@ use super::{Warning, WarningCode};
 /// The resolution measure μ_ρ that the grid resolves.
 const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
-pub(super) fn of_law<T: Real>(law: &dyn AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Warning> {
-    if law.hints().zero {
-        return Vec::new();
+impl Warning {
+    /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
+    /// [`Range`](WarningCode::Range). Nothing without adhesion.
+    pub fn of_law<T: Real>(law: &dyn AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
+        if law.hints().zero {
+            return Vec::new();
+        }
+        let mu_rho = mu_rho(law, surface.grid(), modulus);
+        let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
+        let mut found = Vec::new();
+        if mu_rho > RESOLVED {
+            found.push(Self::told(
+                WarningCode::Range,
+                mu_rho / RESOLVED,
+                "adhesion is under-resolved, mu_rho = {} exceeds {}: the grid holds the edges of contacts, as a work of \
+                 adhesion of {} times the given one would (approach, withdrawal); use the law jkr, the limit of no \
+                 range, as the nodes cannot follow one as short as this{}",
+                [Figure(mu_rho), Figure(RESOLVED), Word(held(mu_rho)), Word(finer(mu_rho, surface.grid()))],
+            ));
+        }
+        if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
+            found.push(Self::told(
+                WarningCode::Range,
+                range / span,
+                "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
+                 alike, as a pressure would; give it in the unit of the lengths",
+                [Length(range), Length(span)],
+            ));
+        }
+        found
     }
-    let mu_rho = mu_rho(law, surface.grid(), modulus);
-    let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
-    let mut found = Vec::new();
-    if mu_rho > RESOLVED {
-        found.push(Warning::told(
-            WarningCode::Range,
-            mu_rho / RESOLVED,
-            "adhesion is under-resolved, mu_rho = {} exceeds {}: the grid holds the edges of contacts, as a work of \
-             adhesion of {} times the given one would (approach, withdrawal); use the law jkr, the limit of no \
-             range, as the nodes cannot follow one as short as this{}",
-            [Figure(mu_rho), Figure(RESOLVED), Word(held(mu_rho)), Word(finer(mu_rho, surface.grid()))],
-        ));
-    }
-    if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
-        found.push(Warning::told(
-            WarningCode::Range,
-            range / span,
-            "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
-             alike, as a pressure would; give it in the unit of the lengths",
-            [Length(range), Length(span)],
-        ));
-    }
-    found
 }
 
 /// By μ_ρ, with how many times the given work of adhesion a front acts that the grid holds, on approach and on

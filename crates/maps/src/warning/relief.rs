@@ -98,11 +98,6 @@ impl Relief {
         Self { unit: inverse.recip(), heights, sides, mean, rms }
     }
 
-    /// Whether there is but one row, or one column, of nodes.
-    pub fn is_line(&self) -> bool {
-        self.sides.iter().any(|side| side.nodes == 1)
-    }
-
     /// The rms slope between neighbours at a spacing along x and along y, from the steps that are known anyway.
     pub fn rms_slope(&self, (dx, dy): (f64, f64)) -> f64 {
         let along = |side: &Side, spacing: f64| side.rms_step * (self.unit / spacing);
