@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use asperity_scene::{AdhesionKeys, LAWS, Law, Skin, UnitKeys, worded};
+use asperity_scene::{AdhesionKeys, LAWS, Law, Skin, UnitKeys};
 use clap::Args;
 
 use crate::adhesion::uniform;
@@ -101,11 +101,5 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
 }
 
 fn list(law: &Law) {
-    say(&format!(
-        "{}\n  {}\n  {}\n  {}",
-        bold(law.name),
-        law.formula,
-        law.parameters(|key| worded(&format!("{{{key}}}"), Skin::Options)),
-        law.source
-    ));
+    say(&format!("{}\n  {}\n  {}\n  {}", bold(law.name), law.formula, law.parameters(Skin::Options), law.source));
 }

@@ -322,6 +322,20 @@ impl Key {
         Err(format!("it must be {} or {last}", others.join(", ")))
     }
 
+    /// What a value is, with its article.
+    pub(crate) fn what(&self) -> String {
+        match self.kind.values {
+            Values::Quantity(dimension, _) | Values::Quantities(dimension, _) => {
+                let what = dimension.what.split(',').next().unwrap_or_default();
+                format!("{} {what}", if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" })
+            }
+            Values::Number(_) | Values::Numbers(_) => "a number".to_owned(),
+            Values::Whole(..) => "a whole number".to_owned(),
+            Values::File => "a file".to_owned(),
+            Values::Switch | Values::Word(_) | Values::Text(_) => "a word".to_owned(),
+        }
+    }
+
     /// The name of the option of the key, without hyphens in front.
     pub fn dashed(&self) -> String {
         self.name.replace('_', "-")

@@ -37,7 +37,7 @@ pub use key::boundary::Boundary;
 pub use key::elastic::{Elastic, LengthsKeys, SurfaceKeys};
 pub use key::formula::{AnyLaw, Formula, tabulated};
 pub use key::given::{Given, Measured, Quantities, Typed};
-pub use key::laws::{LAWS, Law, PARAMETERS, Parameter};
+pub use key::laws::{LAWS, Law};
 pub use key::leak::{LeakAsked, LeakKeys};
 pub use key::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
 pub use key::pair::between;

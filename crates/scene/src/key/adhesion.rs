@@ -5,10 +5,11 @@ use std::sync::Arc;
 use asperity::{Hardness, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use crate::key::allowed::Range;
 use crate::key::formula::Formula;
-use crate::key::laws::{LAWS, Law, PARAMETERS, Parameter, WORK};
+use crate::key::laws::{LAWS, Law, WORK};
 use crate::key::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
 use crate::key::wall::{Constraint, Wall};
 use crate::key::{Kind, Word, keys};
@@ -125,17 +126,12 @@ impl Adhesion {
         self.hardness.is_some() || self.hardness_map.is_some()
     }
 
-    /// The value of a parameter in words, if it is given.
+    /// The value of a key in words, if it is given.
     fn given(&self, key: &str) -> Option<String> {
-        match key {
-            WORK => self.work_of_adhesion.map(plain),
-            "range" => self.range.map(plain),
-            "exponent" => self.exponent.map(|value| value.to_string()),
-            "hamaker" => self.hamaker.map(plain),
-            "law_table" => self.law_table.clone(),
-            "cut_off" => self.cut_off.map(plain),
-            "work_of_adhesion_map" => self.work_of_adhesion_map.clone(),
-            _ => None,
+        match &json!(self)[key] {
+            Value::Null => None,
+            Value::String(text) => Some(text.clone()),
+            number => number.as_f64().map(plain),
         }
     }
 
@@ -147,7 +143,7 @@ impl Adhesion {
         let Some(law) = self.law() else { return Ok(()) };
         let (name, mapped) = (law.name, self.work_of_adhesion_map.is_some());
         if law.needs.is_empty() {
-            let mut keys = PARAMETERS.iter().map(|parameter| parameter.key).chain(["cut_off", "work_of_adhesion_map"]);
+            let mut keys = Law::keys().map(|key| key.name).chain(["cut_off", "work_of_adhesion_map"]);
             if let Some((key, value)) = keys.find_map(|key| Some((key, self.given(key)?))) {
                 return Err(format!(
                     "{{{key}}} is {value}, but there is no adhesion: choose {{law}} jkr, or {{law}} exponential for a work \
@@ -155,11 +151,12 @@ impl Adhesion {
                 ));
             }
         }
-        for Parameter { key, what, .. } in &PARAMETERS {
-            let replaced = mapped && *key == WORK;
+        for parameter in Law::keys() {
+            let key = parameter.name;
+            let replaced = mapped && key == WORK;
             let reason = match self.given(key) {
-                None if law.needs.contains(key) && !replaced => {
-                    return Err(format!("{{law}} {name} lacks {{{key}}}: give it, {what}"));
+                None if law.needs.contains(&key) && !replaced => {
+                    return Err(format!("{{law}} {name} lacks {{{key}}}: give it, {}", parameter.what()));
                 }
                 Some(_) if replaced => {
                     return Err(format!(
@@ -167,11 +164,11 @@ impl Adhesion {
                          out"
                     ));
                 }
-                Some(value) if law.of_grid && *key == "range" => format!(
+                Some(value) if law.of_grid && key == "range" => format!(
                     "{value}, but {{law}} {name} is the limit of no range, as short as the grid can resolve: leave it out, or \
                      choose a law with a range, as {{law}} exponential"
                 ),
-                Some(value) if !law.needs.contains(key) => {
+                Some(value) if !law.needs.contains(&key) => {
                     format!("{value}, but {{law}} {name} has no use for it: leave it out")
                 }
                 _ => continue,
@@ -244,11 +241,7 @@ impl Adhesion {
     /// # Errors
     /// Those of the law, and those of [`CutOff::new`](asperity::adhesion::CutOff::new).
     pub fn formula(&self, table: Option<&Tabulated>) -> Result<Formula> {
-        let law = self.law().unwrap_or(&LAWS[0]);
-        let [work, range, hamaker] =
-            [self.work_of_adhesion, self.range, self.hamaker].map(|value| value.unwrap_or(1.0));
-        let values = [work, range, self.exponent.unwrap_or_default(), hamaker];
-        let law = (law.make)(values, self.wall != Wall::None, table)?;
+        let law = (self.law().unwrap_or(&LAWS[0]).make)(self, table)?;
         match self.cut_off {
             Some(distance) => law.cut_off(distance),
             None => Ok(law),

@@ -6,13 +6,14 @@ use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Series}
 use asperity::{Boussinesq, ElasticOperator, Error, Grid, Real, Result, Spectral, Surface, Westergaard};
 use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use crate::key::allowed::Range;
 use crate::key::boundary::Boundary;
 use crate::key::quantity::{LENGTH, PRESSURE};
 use crate::key::symbol::Symbol;
 use crate::key::units::Units;
-use crate::key::{Kind, Word, keys};
+use crate::key::{Keys, Kind, Word, keys};
 
 keys! {
     /// The surface, the bodies, and the boundary.
@@ -167,26 +168,17 @@ fn or_nan(number: Option<f64>) -> f64 {
 }
 
 impl Elastic {
-    /// The parameters beside the modulus by their keys, as far as they are given.
-    pub fn given(&self) -> impl Iterator<Item = (&'static str, String)> {
-        let other = self.against_modulus.map(|modulus| ("against_modulus", modulus.to_string()));
-        self.own().chain(other)
-    }
-
-    /// Those of the body itself.
+    /// Those of the body itself, in the order of its kinds.
     fn own(&self) -> impl Iterator<Item = (&'static str, String)> + use<> {
-        let base = self.base.map(|base| if base == Base::Bonded { "bonded" } else { "sliding" }.to_owned());
-        let number = |value: Option<f64>| value.map(|value| value.to_string());
-        let given = [
-            ("layer", number(self.layer)),
-            ("coating", number(self.coating)),
-            ("poisson", number(self.poisson)),
-            ("base", base),
-            ("coating_modulus", number(self.coating_modulus)),
-            ("coating_poisson", number(self.coating_poisson)),
-            ("symbol", self.symbol.as_ref().map(|symbol| symbol.0.name().to_owned())),
-        ];
-        given.into_iter().filter_map(|(key, value)| Some((key, value?)))
+        let of_half_space = ["boundary", "modulus", "against_modulus"];
+        let all = json!(self);
+        let keys = SurfaceKeys::KEYS.iter().map(|key| key.name).chain(["symbol"]);
+        let keys = keys.filter(move |key| !of_half_space.contains(key));
+        keys.filter_map(move |key| match &all[key] {
+            Value::Null => None,
+            Value::String(text) => Some((key, text.clone())),
+            number => number.as_f64().map(|number| (key, number.to_string())),
+        })
     }
 
     /// The contact modulus E* of both bodies, of one whose own is `modulus` and of the other: 1/E* = 1/E₁* + 1/E₂*.

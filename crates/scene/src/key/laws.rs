@@ -4,7 +4,11 @@ use std::sync::Arc;
 
 use asperity::{Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
 
+use crate::key::adhesion::{Adhesion, AdhesionKeys};
 use crate::key::formula::Formula;
+use crate::key::wall::Wall;
+use crate::key::words::{Skin, worded};
+use crate::key::{Key, Keys};
 
 /// An adhesion law by its name.
 pub struct Law {
@@ -12,7 +16,7 @@ pub struct Law {
     pub name: &'static str,
     /// The formula over the gap g, attraction positive.
     pub formula: &'static str,
-    /// The keys of the parameters that it needs, of [`PARAMETERS`].
+    /// The keys of the parameters that it needs, of [`AdhesionKeys`].
     pub needs: &'static [&'static str],
     /// A remark on the parameters.
     pub remark: &'static str,
@@ -24,32 +28,12 @@ pub struct Law {
     pub of_grid: bool,
     /// Whether it repels surfaces that come too close, so that they need no wall.
     pub repels: bool,
-    /// The law of its work of adhesion, range, exponent and Hamaker's constant, beside a wall or without one, or that
-    /// of its table.
-    pub(crate) make: fn([f64; 4], bool, Option<&Tabulated>) -> Result<Formula>,
-}
-
-/// A parameter of adhesion laws.
-pub struct Parameter {
-    /// The key in options and reports.
-    pub key: &'static str,
-    /// The symbol in formulas.
-    pub symbol: &'static str,
-    /// The quantity, with its article.
-    pub what: &'static str,
+    /// The law of the parameters of an adhesion, or that of its table.
+    pub(crate) make: fn(&Adhesion, Option<&Tabulated>) -> Result<Formula>,
 }
 
 /// The key of the parameter that a map may take the place of.
 pub(crate) const WORK: &str = "work_of_adhesion";
-
-/// The parameters of the laws.
-pub static PARAMETERS: [Parameter; 5] = [
-    Parameter { key: WORK, symbol: "W", what: "an energy per area" },
-    Parameter { key: "range", symbol: "RHO", what: "a length" },
-    Parameter { key: "exponent", symbol: "N", what: "a number" },
-    Parameter { key: "hamaker", symbol: "A", what: "an energy" },
-    Parameter { key: "law_table", symbol: "FILE", what: "a file of gaps and tractions" },
-];
 
 /// No law, of which the others differ in what they name.
 const NONE: Law = Law {
@@ -61,7 +45,7 @@ const NONE: Law = Law {
     never_ends: false,
     of_grid: false,
     repels: false,
-    make: |_, _, _| Ok(Arc::new(NoAdhesion)),
+    make: |_, _| Ok(Arc::new(NoAdhesion)),
 };
 
 /// The adhesion laws.
@@ -74,7 +58,7 @@ pub static LAWS: [Law; 9] = [
         remark: "; the limit of no range, with r = sqrt(13 W dx/E*) on nodes dx apart",
         source: "Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971)",
         of_grid: true,
-        make: |[w, ..], _, _| Ok(Arc::new(Jkr::new(w)?)),
+        make: |of, _| Ok(Arc::new(Jkr::new(known(of.work_of_adhesion))?)),
         ..NONE
     },
     Law {
@@ -82,7 +66,7 @@ pub static LAWS: [Law; 9] = [
         formula: "traction W/RHO for gaps below RHO, 0 beyond",
         needs: &[WORK, "range"],
         source: "Maugis, J. Colloid Interface Sci. 150 (1992)",
-        make: |[w, range, ..], _, _| Ok(Arc::new(MaugisDugdale::new(w, range)?)),
+        make: |of, _| Ok(Arc::new(MaugisDugdale::new(known(of.work_of_adhesion), known(of.range))?)),
         ..NONE
     },
     Law {
@@ -91,7 +75,7 @@ pub static LAWS: [Law; 9] = [
         needs: &[WORK, "range"],
         source: "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
         never_ends: true,
-        make: |[w, range, ..], _, _| Ok(Arc::new(Exponential::new(w, range)?)),
+        make: |of, _| Ok(Arc::new(Exponential::new(known(of.work_of_adhesion), known(of.range))?)),
         ..NONE
     },
     Law {
@@ -102,9 +86,9 @@ pub static LAWS: [Law; 9] = [
         source: "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",
         never_ends: true,
         repels: true,
-        make: |[w, range, ..], walled, _| {
-            let law = LennardJones::new(w, range)?;
-            Ok(Arc::new(if walled { law.cut() } else { law }))
+        make: |of, _| {
+            let law = LennardJones::new(known(of.work_of_adhesion), known(of.range))?;
+            Ok(Arc::new(if of.wall == Wall::None { law } else { law.cut() }))
         },
         ..NONE
     },
@@ -115,7 +99,7 @@ pub static LAWS: [Law; 9] = [
         source: "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
         never_ends: true,
         repels: true,
-        make: |[w, range, ..], _, _| Ok(Arc::new(Morse::new(w, range)?)),
+        make: |of, _| Ok(Arc::new(Morse::new(known(of.work_of_adhesion), known(of.range))?)),
         ..NONE
     },
     Law {
@@ -124,7 +108,7 @@ pub static LAWS: [Law; 9] = [
         needs: &[WORK, "range", "exponent"],
         source: "as of forces between bodies that fall with a power of their distance",
         never_ends: true,
-        make: |[w, range, n, _], _, _| Ok(Arc::new(PowerLaw::new(w, range, n)?)),
+        make: |of, _| Ok(Arc::new(PowerLaw::new(known(of.work_of_adhesion), known(of.range), known(of.exponent))?)),
         ..NONE
     },
     Law {
@@ -134,7 +118,7 @@ pub static LAWS: [Law; 9] = [
         remark: ", the distance in contact; cut off where retardation begins",
         source: "Israelachvili, Intermolecular and Surface Forces (2011), section 13",
         never_ends: true,
-        make: |[_, range, _, a], _, _| Ok(Arc::new(PowerLaw::van_der_waals(a, range)?)),
+        make: |of, _| Ok(Arc::new(PowerLaw::van_der_waals(known(of.hamaker), known(of.range))?)),
         ..NONE
     },
     Law {
@@ -143,7 +127,7 @@ pub static LAWS: [Law; 9] = [
         needs: &["law_table"],
         remark: ", lines of a gap and a traction",
         source: "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984)",
-        make: |_, _, table| match table {
+        make: |_, table| match table {
             Some(table) => Ok(Arc::new(table.clone())),
             None => Ok(Arc::new(NoAdhesion)),
         },
@@ -157,10 +141,21 @@ impl Law {
         LAWS.iter().find(|law| law.name == name)
     }
 
-    /// The parameters with their symbols, by the names that `named` gives to their keys.
-    pub fn parameters(&self, named: impl Fn(&str) -> String) -> String {
-        let needed = self.needs.iter().filter_map(|key| PARAMETERS.iter().find(|parameter| parameter.key == *key));
-        let needed: Vec<_> = needed.map(|Parameter { key, symbol, .. }| format!("{} {symbol}", named(key))).collect();
+    /// The parameters with their symbols, in the words of a skin.
+    pub fn parameters(&self, skin: Skin) -> String {
+        let needed = Self::keys().filter(|key| self.needs.contains(&key.name));
+        let told = |key: &Key| format!("{} {}", worded(&format!("{{{}}}", key.name), skin), key.kind.symbols.join(" "));
+        let needed: Vec<_> = needed.map(told).collect();
         if needed.is_empty() { "none".to_owned() } else { needed.join(", ") + self.remark }
     }
+
+    /// The keys of the parameters that laws need.
+    pub(crate) fn keys() -> impl Iterator<Item = &'static Key> {
+        AdhesionKeys::KEYS.iter().filter(|key| LAWS.iter().any(|law| law.needs.contains(&key.name)))
+    }
+}
+
+/// A parameter that is checked before; a law of one unit without it.
+fn known(parameter: Option<f64>) -> f64 {
+    parameter.unwrap_or(1.0)
 }
