@@ -82,7 +82,10 @@ pub fn run(options: &Options) -> Outcome<bool> {
     printing.say(&format!("\n{} checks in {seconds:.1} s: {outcome}", checks.len()));
     printing.report(|| {
         let (threads, version) = (threads::count(), env!("CARGO_PKG_VERSION"));
-        json!({ "command": "selftest", "ok": all, "checks": checks, "seconds": seconds, "threads": threads, "version": version })
+        json!({
+            "command": "selftest", "ok": all, "checks": checks,
+            "seconds": seconds, "threads": threads, "version": version,
+        })
     });
     for Check { what, precision, found, theory, allowed, status, .. } in checks.iter().filter(|check| !check.ok) {
         let text = format!(
@@ -119,8 +122,8 @@ fn table(checks: &[Check]) -> String {
 /// What is found in a report, and by the greatest pressure.
 type Found = fn(&Report, f64) -> f64;
 
-/// What is compared of a contact: its name, how it is found, its value in theory, the difference that the grid explains,
-/// and what share of theory's value the tolerance of the solve adds to it.
+/// What is compared of a contact: its name, how it is found, its value in theory, the difference that the grid
+/// explains, and what share of theory's value the tolerance of the solve adds to it.
 type Compared = (&'static str, Found, f64, f64, f64);
 
 /// A surface on a half-space of contact modulus 1, with its law and its load.

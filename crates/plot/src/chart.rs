@@ -161,8 +161,8 @@ impl Chart<'_> {
     }
 }
 
-/// The curve of a distribution: the middles of so many classes of equal width, from the least value to the greatest, and
-/// the share of the values in each, in per cent. Values that are not finite are left out.
+/// The curve of a distribution: the middles of so many classes of equal width, from the least value to the greatest,
+/// and the share of the values in each, in per cent. Values that are not finite are left out.
 ///
 /// ```
 /// use asperity_plot::distribution;

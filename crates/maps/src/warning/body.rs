@@ -34,9 +34,10 @@ impl Warning {
         let is_off = |finer: &f64| (growth(spacing / finer) - 2.0).abs() > 0.1;
         let finer = (0..30).map(|power| f64::from(1 << power)).find(|finer| !is_off(finer));
         let or_finer = finer.map_or(String::new(), |finer| format!(", or a grid {finer} times finer"));
-        let text = "the stiffness of the shortest waves on the grid is {} times that of waves twice as long, not 2 times \
-                    as on a half-space, as where the body is thin beside the nodes: the area corrected for its edge, its \
-                    estimated error and mu_rho are those of a half-space, and do not hold; use the contact fraction{}";
+        let text = "the stiffness of the shortest waves on the grid is {} times that of waves twice as long, not 2 \
+                    times as on a half-space, as where the body is thin beside the nodes: the area corrected for its \
+                    edge, its estimated error and mu_rho are those of a half-space, and do not hold; use the contact \
+                    fraction{}";
         let growth = growth(spacing);
         is_off(&1.0)
             .then(|| Self::told(WarningCode::ThinBody, (growth - 2.0).abs(), text, [Figure(growth), Word(or_finer)]))

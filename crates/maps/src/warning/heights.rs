@@ -106,8 +106,8 @@ pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
     Some(Warning::told(
         WarningCode::Tilt,
         times,
-        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: remove \
-         a plane (detrend)",
+        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
+         remove a plane (detrend)",
         [Figure(x / lx), Figure(y / ly), Length(across), Figure(times)],
     ))
 }
@@ -201,8 +201,8 @@ impl Warning {
         Some(Self::told(
             WarningCode::Modulus,
             0.0,
-            "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and less \
-             than the {} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
+            "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and \
+             less than the {} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
             [Pressure(modulus), Length(spacing), Word(format!("{SOFTEST:e}"))],
         ))
     }
@@ -215,8 +215,8 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
         _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}"), slope.recip()),
         _ => return None,
     };
-    let text = "the rms slope by differences is {}, {}: are heights and lengths in one unit? scale the heights, or correct \
-                the side lengths";
+    let text = "the rms slope by differences is {}, {}: are heights and lengths in one unit? scale the heights, or \
+                correct the side lengths";
     Some(Warning::told(code, severity, text, [Figure(slope), Word(than)]))
 }
 
@@ -227,8 +227,8 @@ pub(super) fn spikes(relief: &Relief) -> Option<Warning> {
     Some(Warning::told(
         WarningCode::Spikes,
         times,
-        "{} out of all neighbours, the farthest by {}, {} times the rms height, at index {}; the kurtosis of the heights \
-         is {} (3 if Gaussian): give such nodes the median around them (despike)",
+        "{} out of all neighbours, the farthest by {}, {} times the rms height, at index {}; the kurtosis of the \
+         heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
         [Word(nodes), Length(farthest * relief.unit), Figure(times), Word(node), Figure(kurtosis)],
     ))
 }

@@ -58,8 +58,9 @@ impl Warning {
         Some(Self::told(
             WarningCode::ScanAxis,
             0.0,
-            "lines along {} are offset from one to the next by {}, {} times as irregularly as those along {}, which are to \
-             be brought to one height: if the instrument scanned along {}, choose {} for the scan axis, or exchange the axes",
+            "lines along {} are offset from one to the next by {}, {} times as irregularly as those along {}, which \
+             are to be brought to one height: if the instrument scanned along {}, choose {} for the scan axis, or \
+             exchange the axes",
             [across.clone(), Length(other.shared), times, along, across.clone(), across],
         ))
     }

@@ -144,8 +144,9 @@ impl Warning {
         if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
             return None;
         }
-        let text = "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at which \
-                    most solids yield: if the slopes are right, give the hardness of the softer body (--hardness)";
+        let text = "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at \
+                    which most solids yield: if the slopes are right, give the hardness of the softer body \
+                    (--hardness)";
         let parts = [Figure(100.0 * above / all), Pressure(BORNE * modulus)];
         Some(Self::told(WarningCode::Hardness, above / all, text, parts))
     }

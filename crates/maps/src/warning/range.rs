@@ -24,8 +24,8 @@ impl Warning {
             found.push(Self::told(
                 WarningCode::Range,
                 mu_rho / RESOLVED,
-                "adhesion is under-resolved, mu_rho = {} exceeds {}: the grid holds the edges of contacts, as a work of \
-                 adhesion of {} times the given one would (approach, withdrawal); use the law jkr, the limit of no \
+                "adhesion is under-resolved, mu_rho = {} exceeds {}: the grid holds the edges of contacts, as a work \
+                 of adhesion of {} times the given one would (approach, withdrawal); use the law jkr, the limit of no \
                  range, as the nodes cannot follow one as short as this{}",
                 [Figure(mu_rho), Figure(RESOLVED), Word(held(mu_rho)), Word(finer(mu_rho, surface.grid()))],
             ));
