@@ -28,7 +28,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 /// asperity sweep, the work done by the load so far and the energy dissipated in jumps so far, per area, the imbalance
 /// of energy, and the event on the way to it: jump-in, jump-out, pull-off, limit-point, bifurcation. With a hardness
 /// the surface keeps its plastic depth, and the balance has the energy that yielding dissipates. The same command again
-/// continues an interrupted cycle; for that it keeps FILE.state.npz beside the file, which may be deleted at the end.
+/// continues an interrupted cycle; for that it keeps FILE.state beside the file, which may be deleted at the end.
 /// FILE.scene.toml beside it repeats or continues the cycle by asperity run. Exits with 0 if all rows converged, 2 if
 /// not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]

@@ -25,7 +25,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 /// energies, and how the solve ended. contact_fraction counts nodes in contact; corrected_contact_fraction is the area
 /// within the contact edge, which gap and pressure locate between the nodes; clusters counts separate contacts, and
 /// largest_cluster the nodes of the largest. The same command again continues an interrupted sweep, or one with loads
-/// added to the end of the list, to the same file, byte for byte; for that it keeps FILE.state.npz beside the file,
+/// added to the end of the list, to the same file, byte for byte; for that it keeps FILE.state beside the file,
 /// which may be deleted at the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run. With a
 /// hardness the surface keeps its plastic depth from load to load. Exits with 0 if all rows converged, 2 if not (they
 /// are written all the same), and 1 if the input is refused or the file cannot be written.

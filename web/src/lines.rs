@@ -1,5 +1,6 @@
 //! The lines that repeat what a page has done, in a shell and in Python, and the scene of the program.
 
+use asperity_scene::{GridKeys, Key, Keys, RoughnessKeys};
 use serde_json::{Map, Value};
 
 /// The file of the surface.
@@ -94,39 +95,7 @@ impl Origin {
             lines.push(format!("surface = asperity.prepare({heights}, {})", keywords(steps.iter())));
             "surface".clone_into(&mut heights);
         }
-        let of = |keys: &'static [&str]| move |(key, _): &(&String, &Value)| keys.contains(&key.as_str());
         let mut rest: Vec<String> = Vec::new();
-        let law = typed.get("law").and_then(Value::as_str).filter(|law| *law != "none");
-        if let Some(law) = law {
-            // beside a wall the program leaves out what repels of this law
-            let walled = typed.get("wall").and_then(Value::as_str) != Some("none");
-            let cut = if walled && law == "lennard-jones" { ", cut=True" } else { "" };
-            let law = format!("asperity.{}({}{cut})", class(law), keywords(typed.iter().filter(of(&LAW))));
-            lines.push(format!(
-                "law = {}",
-                match typed.get("cut_off") {
-                    Some(distance) => format!("asperity.CutOff({law}, {})", python(distance)),
-                    None => law,
-                }
-            ));
-            rest.push("law=law".to_owned());
-        }
-        for (key, name, parameters) in BODIES {
-            if typed.contains_key(key) {
-                let given = parameters
-                    .iter()
-                    .filter_map(|(key, keyword)| Some(format!("{keyword}={}", python(typed.get(*key)?))));
-                lines.push(format!("body = asperity.{name}({})", given.collect::<Vec<_>>().join(", ")));
-                rest.push("body=body".to_owned());
-            }
-        }
-        if let (Some(stiffness), Some(position)) = (typed.get("spring_stiffness"), typed.get("spring_position")) {
-            rest.push(format!("spring=({}, {})", python(stiffness), python(position)));
-        }
-        if let Some(stiffness) = typed.get("wall_stiffness") {
-            let wall = if typed.get("wall").and_then(Value::as_str) == Some("uzawa") { "Uzawa" } else { "Penalty" };
-            rest.push(format!("wall=asperity.{wall}({})", python(stiffness)));
-        }
         if started {
             lines.insert(1, "import numpy".to_owned());
             rest.push(format!("start=numpy.load({})[\"heights\"]", quoted(START)));
@@ -134,40 +103,13 @@ impl Origin {
         if !typed.contains_key("modulus") {
             rest.push("modulus=1.0".to_owned());
         }
-        let apart = |(key, _): &(&String, &Value)| {
-            let key = key.as_str();
-            let in_body = BODIES.iter().any(|(_, _, keys)| keys.iter().any(|(of_body, _)| *of_body == key));
-            let of_wall = key == "wall_stiffness" || key == "wall" && typed.contains_key("wall_stiffness");
-            !(in_body || of_wall || LAW.contains(&key) || APART.contains(&key))
-        };
-        let given = keywords(typed.iter().filter(apart));
+        let given = keywords(typed.iter());
         let all: Vec<_> = [given].into_iter().filter(|text| !text.is_empty()).chain(rest).collect();
         lines.push(format!("solution = asperity.solve({heights}, {})", all.join(", ")));
         lines.push("solution".to_owned());
         lines.join("\n") + "\n"
     }
 }
-
-/// The parameters of laws.
-const LAW: [&str; 4] = ["work_of_adhesion", "range", "exponent", "hamaker"];
-/// The keys that Python has in an object.
-const APART: [&str; 4] = ["law", "cut_off", "spring_stiffness", "spring_position"];
-/// A body: its key, its class, and the keys and keywords of its parameters.
-type BodyClass = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
-/// The classes of bodies by their keys, with the keywords of their parameters.
-const BODIES: [BodyClass; 2] = [
-    ("layer", "Layer", &[("layer", "thickness"), ("poisson", "poisson"), ("base", "base")]),
-    (
-        "coating",
-        "Coating",
-        &[
-            ("coating", "thickness"),
-            ("coating_modulus", "modulus"),
-            ("coating_poisson", "poisson"),
-            ("poisson", "substrate_poisson"),
-        ],
-    ),
-];
 
 /// The lines that make a surface in Python.
 fn made(typed: &Typed) -> Vec<String> {
@@ -177,11 +119,10 @@ fn made(typed: &Typed) -> Vec<String> {
         (_, shape) => shape.map(python).unwrap_or_default(),
     };
     let lengths = typed.get("lengths").map_or("(1.0, 1.0)".to_owned(), python);
-    let rough = ["rms_height", "rms_slope", "hurst", "k_l", "k_r", "k_s", "random_phase", "seed"];
+    let is_of = |keys: &[Key], name: &str| keys.iter().any(|key| key.name == name);
     let of = |wanted: bool| {
-        let of_rough = move |(key, _): &(&String, &Value)| {
-            let key = key.as_str();
-            !["form", "size", "shape", "lengths"].contains(&key) && rough.contains(&key) == wanted
+        let of_rough = move |(name, _): &(&String, &Value)| {
+            *name != "form" && !is_of(GridKeys::KEYS, name) && is_of(RoughnessKeys::KEYS, name) == wanted
         };
         keywords(typed.iter().filter(of_rough))
     };
@@ -202,17 +143,6 @@ fn made(typed: &Typed) -> Vec<String> {
         format!("rough = asperity.surface.self_affine({})", join(&[&shape, &lengths, &of(true)])),
         "surface = asperity.Topography(body.heights + rough.heights, body.lengths, unit=body.unit)".to_owned(),
     ]
-}
-
-/// The class of a law.
-fn class(law: &str) -> String {
-    let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
-    match law {
-        "jkr" => "JKR".to_owned(),
-        "power" => "PowerLaw".to_owned(),
-        "van-der-waals" => "VanDerWaals".to_owned(),
-        law => law.split('-').map(capital).collect(),
-    }
 }
 
 /// The options of a command.

@@ -80,7 +80,7 @@ fn another_scene_goes_on_from_the_last_solution_on_the_same_surface() {
 }
 
 #[test]
-fn the_lines_of_python_have_laws_and_bodies_as_objects() {
+fn the_lines_of_python_have_the_keys_of_the_program() {
     let mut engine = rough(json!({}));
     let scene = json!({ "modulus": "1GPa", "mean_pressure": "5MPa", "law": "lennard-jones", "work_of_adhesion": "10mJ/m2",
         "range": "3nm", "cut_off": "30nm", "layer": "100nm", "poisson": "0.3", "precision": "f32" });
@@ -90,9 +90,7 @@ fn the_lines_of_python_have_laws_and_bodies_as_objects() {
         r#"import asperity
 
 surface = asperity.surface.self_affine(64, "1um", rms_slope=0.1, k_s=16, seed=3)
-law = asperity.CutOff(asperity.LennardJones(work_of_adhesion="10mJ/m2", range="3nm", cut=True), "30nm")
-body = asperity.Layer(thickness="100nm", poisson=0.3)
-solution = asperity.solve(surface, modulus="1GPa", mean_pressure="5MPa", precision="f32", law=law, body=body)
+solution = asperity.solve(surface, modulus="1GPa", mean_pressure="5MPa", law="lennard-jones", work_of_adhesion="10mJ/m2", range="3nm", cut_off="30nm", layer="100nm", poisson=0.3, precision="f32")
 solution
 "#
     );
