@@ -128,6 +128,8 @@ struct BodyKind {
     takes: &'static [&'static str],
     /// The body of its parameters.
     make: fn(&Elastic) -> Result<Arc<dyn Body>>,
+    /// The body in words.
+    told: fn(&Elastic, &Units) -> String,
 }
 
 /// The kinds of elastic bodies beside the half-space.
@@ -140,6 +142,10 @@ static BODIES: [BodyKind; 3] = [
             let material = Material::new(elastic.modulus, or_nan(elastic.poisson))?;
             Ok(Arc::new(Layer::new(material, or_nan(elastic.layer), elastic.base.unwrap_or_default())?))
         },
+        told: |elastic, units| {
+            let hold = if elastic.base == Some(Base::Sliding) { "sliding" } else { "bonded" };
+            format!("{hold} layer of {}", units.number(or_nan(elastic.layer), LENGTH))
+        },
     },
     BodyKind {
         key: "coating",
@@ -150,6 +156,10 @@ static BODIES: [BodyKind; 3] = [
             let substrate = Material::new(elastic.modulus, or_nan(elastic.poisson))?;
             Ok(Arc::new(Coating::new(coating, or_nan(elastic.coating), substrate)?))
         },
+        told: |elastic, units| {
+            let modulus = units.number(or_nan(elastic.coating_modulus), PRESSURE);
+            format!("coating of {}, contact modulus {modulus}", units.number(or_nan(elastic.coating), LENGTH))
+        },
     },
     BodyKind {
         key: "symbol",
@@ -158,6 +168,10 @@ static BODIES: [BodyKind; 3] = [
         make: |elastic| match &elastic.symbol {
             Some(symbol) => Ok(Arc::new(symbol.clone())),
             None => Err(Error::Unsuited { what: "symbol", reason: "give the stiffness of waves" }),
+        },
+        told: |elastic, _| {
+            let name = elastic.symbol.as_ref().map_or("none", |symbol| symbol.0.name());
+            format!("by the stiffness of its waves, {name}")
         },
     },
 ];
@@ -202,26 +216,9 @@ impl Elastic {
     /// The body in words, and the other one, unless it is a half-space against a rigid one.
     pub(crate) fn in_words(&self, units: &Units) -> Option<String> {
         let against = |modulus| format!("against a half-space of contact modulus {}", units.number(modulus, PRESSURE));
-        let both = [self.own_in_words(units), self.against_modulus.map(against)];
-        let both: Vec<_> = both.into_iter().flatten().collect();
+        let own = self.kind().map(|kind| (kind.told)(self, units));
+        let both: Vec<_> = [own, self.against_modulus.map(against)].into_iter().flatten().collect();
         (!both.is_empty()).then(|| both.join(" "))
-    }
-
-    fn own_in_words(&self, units: &Units) -> Option<String> {
-        let length = |value| units.number(value, LENGTH);
-        match (self.layer, self.coating) {
-            (Some(thickness), _) => {
-                let hold = if self.base == Some(Base::Sliding) { "sliding" } else { "bonded" };
-                Some(format!("{hold} layer of {}", length(thickness)))
-            }
-            (_, Some(thickness)) => {
-                let modulus = units.number(self.coating_modulus.unwrap_or_default(), PRESSURE);
-                Some(format!("coating of {}, contact modulus {modulus}", length(thickness)))
-            }
-            (None, None) => {
-                self.symbol.as_ref().map(|symbol| format!("by the stiffness of its waves, {}", symbol.0.name()))
-            }
-        }
     }
 
     /// The kind of the body, unless it is a half-space.
