@@ -15,7 +15,7 @@ mod coarse;
 mod spectral;
 mod westergaard;
 
-pub use body::{Base, Body, Coating, HalfSpace, Layer, Material, Series};
+pub use body::{Base, Body, Coating, HalfSpace, Layer, Material, Plate, Series};
 pub use boussinesq::Boussinesq;
 pub use check::check_operator;
 pub(crate) use coarse::CoarseSpace;

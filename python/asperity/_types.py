@@ -261,6 +261,7 @@ class Report(TypedDict):
     coating: float | None
     coating_modulus: float | None
     coating_poisson: float | None
+    plate: float | None
     symbol: str | None
     against_modulus: float | None
     law: str

@@ -9,16 +9,18 @@ use crate::grid::Grid;
 mod coating;
 mod half_space;
 mod layer;
+mod plate;
 mod series;
 
 pub use coating::Coating;
 pub use half_space::HalfSpace;
 pub use layer::{Base, Layer};
+pub use plate::Plate;
 pub use series::Series;
 
 /// An elastic body whose properties do not change along its surface: a wave of displacement û needs a pressure k û.
 ///
-/// [`Spectral::of`](crate::Spectral::of) makes an operator of it. [`HalfSpace`], [`Layer`], [`Coating`] and [`Series`],
+/// [`Spectral::of`](crate::Spectral::of) makes an operator of it. [`HalfSpace`], [`Layer`], [`Coating`], [`Plate`] and [`Series`],
 /// two bodies that both deform, are bodies; one of your own is its stiffness and its modulus.
 ///
 /// ```

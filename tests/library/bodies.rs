@@ -1,7 +1,7 @@
 //! Elastic bodies by the stiffness of their waves: the equations of elasticity, limits, and contact on them.
 
 use approx::assert_relative_eq;
-use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Series, check_operator};
+use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Plate, Series, check_operator};
 use asperity::*;
 
 fn material(modulus: f64, poisson: f64) -> Material {
@@ -290,4 +290,22 @@ fn materials_and_thicknesses_that_do_not_exist_are_refused() {
         assert!(Layer::new(steel, thickness, Base::Bonded).is_err() && Coating::new(steel, thickness, steel).is_err());
     }
     assert!(HalfSpace::new(0.0).is_err());
+}
+
+/// A wavy plate is pressed flat by the amplitude of its stiffness: at p̄ = k A every node touches, and below it one gap
+/// opens.
+#[test]
+fn a_wave_on_a_plate_closes_at_its_stiffness_times_the_amplitude() {
+    let (grid, amplitude) = (Grid::square(32, 1.0).unwrap(), 0.01);
+    let plate = Plate::new(1e-3, HalfSpace::new(1.0).unwrap()).unwrap();
+    let q = std::f64::consts::TAU;
+    let closing = plate.stiffness(q, 0.0) * amplitude;
+    assert_relative_eq!(closing, (0.5 * q + 1e-3 * q.powi(4)) * amplitude, max_relative = 1e-15);
+    let surface = Surface::new(grid, grid.sample(|x, _| amplitude * (q * x).cos())).unwrap();
+    for (share, all) in [(1.01, true), (0.97, false)] {
+        let operator = Spectral::<f64>::of(grid, plate).unwrap();
+        let mut problem = Problem::new(&surface, operator, NoAdhesion).unwrap();
+        let solution = Solver::default().solve(&mut problem, Control::MeanPressure(share * closing)).unwrap();
+        assert_eq!((solution.report.status, solution.report.contact_fraction == 1.0), (Status::Converged, all));
+    }
 }

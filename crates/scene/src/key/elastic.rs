@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Series};
+use asperity::elastic::{Base, Body, Coating, HalfSpace, Layer, Material, Plate, Series};
 use asperity::{Boussinesq, ElasticOperator, Error, Grid, Real, Result, Spectral, Surface, Westergaard};
 use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::key::allowed::Range;
 use crate::key::boundary::Boundary;
-use crate::key::quantity::{LENGTH, PRESSURE};
+use crate::key::quantity::{ENERGY, LENGTH, PRESSURE};
 use crate::key::symbol::Symbol;
 use crate::key::units::Units;
 use crate::key::{Keys, Kind, Word, keys};
@@ -46,6 +46,8 @@ keys! {
             coating_modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
             /// Poisson's ratio of the coating
             coating_poisson: Kind::number(Range::POISSON, &["NU"]),
+            /// Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space, of which {modulus} is that under it
+            plate: Kind::quantity(ENERGY, Range::POSITIVE, &["D"]).excludes(&["layer", "coating"]),
             /// Poisson's ratio of the layer, or of the substrate under a coating
             poisson: Kind::number(Range::POISSON, &["NU"]),
         }
@@ -95,6 +97,8 @@ pub struct Elastic {
     pub coating_modulus: Option<f64>,
     /// Poisson's ratio of a coating.
     pub coating_poisson: Option<f64>,
+    /// The bending stiffness of a plate on a half-space, an energy.
+    pub plate: Option<f64>,
     /// The body of a user's own, by the stiffness of its waves.
     pub symbol: Option<Symbol>,
     /// The contact modulus of the other body, an elastic half-space, a pressure; the other body is rigid without it.
@@ -112,6 +116,7 @@ impl Default for Elastic {
             coating: None,
             coating_modulus: None,
             coating_poisson: None,
+            plate: None,
             symbol: None,
             against_modulus: None,
         }
@@ -133,7 +138,7 @@ struct BodyKind {
 }
 
 /// The kinds of elastic bodies beside the half-space.
-static BODIES: [BodyKind; 3] = [
+static BODIES: [BodyKind; 4] = [
     BodyKind {
         key: "layer",
         needs: &["poisson"],
@@ -160,6 +165,13 @@ static BODIES: [BodyKind; 3] = [
             let modulus = units.number(or_nan(elastic.coating_modulus), PRESSURE);
             format!("coating of {}, contact modulus {modulus}", units.number(or_nan(elastic.coating), LENGTH))
         },
+    },
+    BodyKind {
+        key: "plate",
+        needs: &[],
+        takes: &[],
+        make: |elastic| Ok(Arc::new(Plate::new(or_nan(elastic.plate), HalfSpace::new(elastic.modulus)?)?)),
+        told: |elastic, units| format!("plate of bending stiffness {}", units.number(or_nan(elastic.plate), ENERGY)),
     },
     BodyKind {
         key: "symbol",
