@@ -8,8 +8,8 @@ use asperity_maps::surface_with_absent;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{
-    Adhesion, Asked, Boundary, Branches, Either, Elastic, Input, Inputs, Load, Precision, Scene, Session, Skin, Way,
-    either,
+    Adhesion, AnySession, Asked, Boundary, Branches, Either, Elastic, Input, Inputs, Load, Precision, Scene, Session,
+    Skin, Way, either,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -25,7 +25,7 @@ use crate::state::{self, At, Columns, File, Pace};
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
-    session: Mutex<Either<Session<f32>, Session<f64>>>,
+    session: Mutex<AnySession>,
     threads: Option<usize>,
     nested: Option<bool>,
     other_branch: bool,
@@ -33,7 +33,7 @@ pub struct Problem {
 
 impl Problem {
     /// The pool of a solve, and the session.
-    fn parts(&mut self) -> PyResult<(Pool, &mut Either<Session<f32>, Session<f64>>)> {
+    fn parts(&mut self) -> PyResult<(Pool, &mut AnySession)> {
         Ok((Pool::of(self.threads)?, self.session.get_mut().unwrap_or_else(PoisonError::into_inner)))
     }
 

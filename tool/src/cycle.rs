@@ -106,7 +106,7 @@ impl Fill for Options {
         table.announce();
         while let Some(row) = table.extend()? {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
-            self.manner.printing.say(&format!("{:>4}  {}{event}", table.rows(), table.brief(&row.account)));
+            self.manner.printing.say(&format!("{:>4}  {}{event}", table.session.rows(), table.brief(&row.account)));
         }
         self.conclude(table)?;
         Ok(table.converged("or use a larger --tolerance"))
@@ -126,7 +126,7 @@ impl Options {
 
     /// Prints the summary or the report of all rows, and draws the picture.
     fn conclude<T: Scalar>(&self, table: &Table<'_, T>) -> Outcome<()> {
-        let (rows, units) = (table.read()?, table.units());
+        let (rows, units) = (table.session.read()?, table.session.units());
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
         let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
         let tension = -least("mean_pressure");
@@ -163,7 +163,7 @@ impl Options {
         if self.manner.printing.for_people() {
             let columns = Columns::new(&rows, units);
             let told = |row: &Value, name: &str| columns.number(name, columns.value(row, name));
-            say(&format!("{} rows in {}", table.rows(), printing::name(&self.out)));
+            say(&format!("{} rows in {}", table.session.rows(), printing::name(&self.out)));
             if tension > 0.0 {
                 if !free {
                     say(&format!("greatest tension        at least {}", units.number(tension, PRESSURE)));

@@ -106,7 +106,7 @@ impl Options {
 
     /// Writes the files of all rows for the codes, and tells their names.
     fn write<T: Scalar>(&self, rows: &[Value], table: &Table<'_, T>) -> Outcome<Vec<String>> {
-        let (adhesive, units) = (table.adheres(), table.units());
+        let (adhesive, units) = (table.session.adheres(), table.session.units());
         let name = self.out.file_stem().unwrap_or_default().to_string_lossy();
         let mut written = Vec::new();
         for code in &self.codes {

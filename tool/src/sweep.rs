@@ -110,7 +110,7 @@ impl Options {
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve(&self.out, self.manner.printing)?;
-        table.first(|| self.plot.draw(&rows, table.units()))?;
+        table.first(|| self.plot.draw(&rows, table.session.units()))?;
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {
             true => "or leave out the contact fractions past which the contact jumps",

@@ -22,7 +22,6 @@ use crate::report;
 use crate::scene::SceneFile;
 use crate::session::{Strictness, UNCONVERGED, say_new, session};
 use crate::study;
-use crate::units::Units;
 use crate::warnings;
 
 /// The replacements, refusals and prints of a run that fills a table.
@@ -68,7 +67,7 @@ pub trait Fill {
 /// A table on disk, new or continued, with the session that fills it.
 pub struct Table<'a, T: Scalar> {
     options: TableOptions<'a>,
-    session: Session<T>,
+    pub session: Session<T>,
     /// The kind of the loads
     control: Control,
     nodes: usize,
@@ -148,15 +147,10 @@ impl<T: Scalar> Table<'_, T> {
     /// Sets what an interruption says of the rows.
     fn stands(&self) {
         let TableOptions { out, manner, .. } = self.options;
-        let of = self.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
+        let of = self.session.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
         let command = if manner.force { "the same command without --force" } else { "the same command" };
-        let (rows, out) = (self.rows(), out.display());
+        let (rows, out) = (self.session.rows(), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} goes on from there"));
-    }
-
-    /// Whether the surfaces attract each other.
-    pub fn adheres(&self) -> bool {
-        self.session.adheres()
     }
 
     /// Whether the boundary is free.
@@ -169,29 +163,9 @@ impl<T: Scalar> Table<'_, T> {
         matches!(self.options.problem.given.loads().as_deref(), Ok([Load::Fraction(_), ..]))
     }
 
-    /// The number of rows.
-    pub fn rows(&self) -> usize {
-        self.session.rows()
-    }
-
-    /// The number of rows when the table is complete, where that is known before.
-    pub fn of_rows(&self) -> Option<usize> {
-        self.session.of_rows()
-    }
-
-    /// The units of its numbers.
-    pub fn units(&self) -> &Units {
-        self.session.units()
-    }
-
     /// Does something in the first process alone.
     pub fn first(&self, work: impl FnOnce() -> Outcome<()>) -> Outcome<()> {
         self.options.processes.first(work)
-    }
-
-    /// All rows of the file.
-    pub fn read(&self) -> Outcome<Vec<Value>> {
-        self.session.read()
     }
 
     /// Says what is asked of a cycle and what that is likely to take, before its first row.
@@ -204,11 +178,11 @@ impl<T: Scalar> Table<'_, T> {
     /// warnings; returns no row at the end of the course.
     pub fn extend(&mut self) -> Outcome<Option<Row>> {
         let TableOptions { problem, manner, .. } = self.options;
-        let of = self.of_rows();
-        if of == Some(self.rows()) {
+        let of = self.session.of_rows();
+        if of == Some(self.session.rows()) {
             return Ok(None);
         }
-        let name = format!("{}{}", self.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
+        let name = format!("{}{}", self.session.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
         let tolerance = problem.scene.tolerance();
         let mut progress = Progress::new(&name, tolerance, self.nodes, manner.printing.without_bars());
         progress.follow(self.session.pace().copied());
@@ -225,10 +199,10 @@ impl<T: Scalar> Table<'_, T> {
 
     /// Solves all rows that are left, says each in a line, and returns those of the file.
     pub fn solve(&mut self, out: &Path, printing: Printing) -> Outcome<Vec<Value>> {
-        let count = self.of_rows().unwrap_or_default();
+        let count = self.session.of_rows().unwrap_or_default();
         let width = count.to_string().len();
         while let Some(row) = self.extend()? {
-            let (rows, account) = (self.rows(), &row.account);
+            let (rows, account) = (self.session.rows(), &row.account);
             printing.say(&format!("{rows:>width$}/{count}  {}", self.brief(account)));
             let converged = account.status == Status::Converged;
             if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
@@ -236,12 +210,12 @@ impl<T: Scalar> Table<'_, T> {
             }
         }
         printing.say(&format!("{count} rows in {}", name(out)));
-        self.read()
+        self.session.read()
     }
 
     /// The row for people.
     pub fn brief(&self, account: &Account) -> String {
-        let units = self.units();
+        let units = self.session.units();
         let load = match account.approach {
             Some(approach) => {
                 let (force, approach) = (units.number(account.normal_force, FORCE), units.number(approach, LENGTH));
@@ -261,7 +235,7 @@ impl<T: Scalar> Table<'_, T> {
         let (control, TableOptions { out, problem, .. }) = (self.control, self.options);
         let mut outcome = Map::from_iter([
             ("control".to_owned(), control.name().into()),
-            ("rows".to_owned(), self.rows().into()),
+            ("rows".to_owned(), self.session.rows().into()),
             ("unconverged".to_owned(), self.session.unconverged().into()),
             ("out".to_owned(), out.to_string_lossy().into()),
             ("spring_stiffness".to_owned(), problem.given.spring_stiffness().into()),
@@ -273,7 +247,7 @@ impl<T: Scalar> Table<'_, T> {
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.
     pub fn converged(&self, remedy: &str) -> bool {
-        let (count, rows, path) = (self.session.unconverged(), self.rows(), self.options.out.display());
+        let (count, rows, path) = (self.session.unconverged(), self.session.rows(), self.options.out.display());
         if count > 0 {
             let precise = match self.options.problem.scene.precision {
                 Precision::F32 => "use --precision f64, as f32 ends where its rounding does, ",

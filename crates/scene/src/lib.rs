@@ -52,7 +52,7 @@ pub use key::words::{Skin, worded};
 pub use key::{Key, Keys, Kind, Values, Word};
 pub use key::{list, quantity, synonyms, units};
 pub use session::way::Way;
-pub use session::{Input, Next, Observe, Session, Solved, TableFile};
+pub use session::{AnySession, Input, Next, Observe, Session, Solved, TableFile};
 pub use session::{fall, pace};
 pub use table::Format;
 pub use table::fields::{gap_to_write, write_fields};

@@ -17,6 +17,7 @@ use asperity::{AdhesionLaw, Error, Grid, PullOff, Real, Result, Solver, Status, 
 use ndarray::Array2;
 use serde_json::Value;
 
+use crate::Either;
 use crate::account::found::{Found, check_finite, warnings_of};
 use crate::account::interface::touch;
 use crate::account::pulled_off::PulledOff;
@@ -136,6 +137,9 @@ pub struct Next<T: Scalar> {
     course: Course<T>,
 }
 
+/// A session in either precision.
+pub type AnySession = Either<Session<f32>, Session<f64>>;
+
 impl<T: Real> Solved<T> {
     /// Looks at the fields: fills in the keys of the account that are found of them.
     ///
@@ -238,9 +242,6 @@ impl<T: Scalar> Session<T> {
     /// Those of the solvers of the library, a solve that ran away, and warnings, if they are errors.
     pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
         let found = self.find(asked, start, observe)?;
-        if self.last {
-            self.body = Body::Spent;
-        }
         self.solved("solve", found)
     }
 
@@ -257,14 +258,14 @@ impl<T: Scalar> Session<T> {
         observe: Observe<'_>,
     ) -> Outcome<(Solved<T>, PulledOff)> {
         let (found, pulled_off) = self.find_pull_off(asked, goal, start, observe)?;
-        if self.last {
-            self.body = Body::Spent;
-        }
         Ok((self.solved("pull-off", found)?, pulled_off))
     }
 
-    /// What a command found, with its account. A solve that an observer ended has run away no less.
+    /// What a command found, with its account; a solve that an observer ended may be anywhere.
     fn solved(&mut self, command: &'static str, found: Found<T>) -> Outcome<Solved<T>> {
+        if self.last {
+            self.body = Body::Spent;
+        }
         if found.solution.report.status != Status::Stopped {
             self.worded(check_finite(&found.solution))?;
         }
@@ -295,7 +296,8 @@ impl<T: Scalar> Session<T> {
     /// with its table in a file; that of an interface, if it is one.
     ///
     /// # Errors
-    /// A way that the problem does not have, and those of [`Table::open`].
+    /// A way that the problem does not have, a table of another run, or one that was changed or is being written, and files
+    /// that are not to be replaced or cannot be written.
     pub fn begin(
         &mut self,
         way: Way,
@@ -393,7 +395,7 @@ impl<T: Scalar> Session<T> {
     /// Appends the row of a state, and goes on from there, unless its solve was stopped.
     ///
     /// # Errors
-    /// Those of [`Table::append`].
+    /// Files that cannot be written, or were changed meanwhile.
     pub fn keep(&mut self, next: Next<T>) -> Outcome<(Found<T>, Row)> {
         let Next { found, row, course } = next;
         if found.solution.report.status != Status::Stopped {
