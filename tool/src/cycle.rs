@@ -61,7 +61,7 @@ pub struct Options {
     #[command(flatten)]
     units: UnitKeys,
     #[command(flatten)]
-    manner: Manner,
+    pub manner: Manner,
 }
 
 const EXAMPLES: &str = "\
@@ -82,10 +82,9 @@ const MOST_EVENTS: usize = 8;
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     processes.first(|| options.check_files())?;
-    let Options { surface, loads, path, adhesion, solver, units, out, .. } = options;
     let table = TableOptions {
-        problem: &ProblemOptions::of([&surface.0, &loads.0, &path.0, &adhesion.0, &solver.0, &units.0])?,
-        out,
+        problem: &options.problem()?,
+        out: &options.out,
         format: options.format()?,
         fields: options.fields.as_deref(),
         scene,
@@ -114,6 +113,12 @@ impl Fill for Options {
 }
 
 impl Options {
+    /// The problem.
+    pub fn problem(&self) -> Outcome<ProblemOptions> {
+        let Self { surface, loads, path, adhesion, solver, units, .. } = self;
+        ProblemOptions::of([&surface.0, &loads.0, &path.0, &adhesion.0, &solver.0, &units.0])
+    }
+
     fn check_files(&self) -> Outcome<()> {
         self.format()?;
         check_plot(self.plot.as_deref(), &self.out, self.manner.force)

@@ -109,6 +109,10 @@ pub fn spelled(entry: &str, value: &Value, command: &Command, folder: &Path) -> 
             }
         };
     }
+    let least = option.get_num_args().map_or(1, |count| count.min_values());
+    if let (0, Value::Boolean(is_given)) = (least, value) {
+        return Ok(is_given.then(|| name.into()).into_iter().collect());
+    }
     let word = |value: &Value| match value {
         Value::String(word) if is_path(option) && !word.is_empty() => {
             Ok(folder.join(word).components().collect::<PathBuf>().into())

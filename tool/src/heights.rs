@@ -1,8 +1,7 @@
 //! Heights from files, with the side lengths and units that those may have.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::path::Path;
 
 use asperity::{Error, Grid, Surface};
 use asperity_maps::io::{read_rows, read_topography};
@@ -11,7 +10,7 @@ use asperity_scene::{Given, Skin, in_unit, worded};
 use ndarray::Array2;
 
 use crate::outcome::Outcome;
-use crate::printing::complain;
+use crate::printing::Warn;
 use crate::processes::Processes;
 use crate::quantity::LENGTH;
 use crate::units::Units;
@@ -20,9 +19,6 @@ use crate::units::Units;
 const ROUNDING: f64 = 1e-2;
 /// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
-
-/// The map that a worker of a study has made for its next command, and the name that its file would have.
-static MADE: Mutex<Option<(PathBuf, Topography)>> = Mutex::new(None);
 
 /// The entries of the file of a surface beside its heights.
 #[derive(Clone, Debug, Default)]
@@ -50,21 +46,20 @@ impl Origin {
 /// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none.
 /// Lengths that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
 pub fn map(path: &Path, given: &Given, si: bool) -> Outcome<(Topography, Origin)> {
-    let (mut map, unit) = map_in(si, path)?;
+    with_sides(path, read_topography(path)?, given, si)
+}
+
+/// The same of a map that was read or made.
+pub fn with_sides(path: &Path, map: Topography, given: &Given, si: bool) -> Outcome<(Topography, Origin)> {
+    let (mut map, unit) = in_metres_if(si, path, map)?;
     map.lengths = sides_of(path, &map, map.heights.dim(), given, si)?;
     let origin = Origin::of(&map, unit);
     Ok((map, origin))
 }
 
-/// Keeps a map in the place of a file of this name, until it is read.
-pub fn keep(path: &Path, map: Topography) {
-    *MADE.lock().unwrap_or_else(PoisonError::into_inner) = Some((path.to_owned(), map));
-}
-
 /// The map of a file, in the SI in metres, and the unit from which it was converted.
 pub fn map_in(si: bool, path: &Path) -> Outcome<(Topography, Option<String>)> {
-    let made = MADE.lock().unwrap_or_else(PoisonError::into_inner).take_if(|(name, _)| name == path);
-    in_metres_if(si, path, made.map_or_else(|| read_topography(path), |(_, map)| Ok(map))?)
+    in_metres_if(si, path, read_topography(path)?)
 }
 
 /// Refuses a map whose statistics, or a step of preparation, do not fit into memory: running out of it cannot be caught
@@ -93,8 +88,14 @@ pub fn rows_on(option: &'static str, path: &Path, grid: &Grid) -> Outcome<Array2
 
 /// The surface of a file, of which every process reads its rows, and its origin. Its missing points become absent
 /// nodes, or are refused.
-pub fn shared(path: &Path, given: &Given, si: bool, absent: bool, processes: &Processes) -> Outcome<(Surface, Origin)> {
-    let read = || {
+pub fn shared(
+    path: &Path,
+    given: &Given,
+    (si, absent): (bool, bool),
+    processes: &Processes,
+    warn: Warn<'_>,
+) -> Outcome<(Surface, Origin)> {
+    let mut read = || {
         let mut refused = None;
         let (map, shape) = read_rows(path, |shape| {
             let grid = Grid::new(shape, (1.0, 1.0)).and_then(|grid| processes.share(grid));
@@ -107,7 +108,7 @@ pub fn shared(path: &Path, given: &Given, si: bool, absent: bool, processes: &Pr
             return Err(error.into());
         }
         let (map, unit) = in_metres_if(si, path, map)?;
-        let sides = or_unit_square(path, &map, sides_of(path, &map, shape, given, si)?);
+        let sides = or_unit_square(path, &map, sides_of(path, &map, shape, given, si)?, warn);
         Ok((Grid::new(shape, sides)?, map, unit))
     };
     let (grid, map, unit) = processes.agree(read())?;
@@ -157,16 +158,16 @@ fn sides_of(
 }
 
 /// Side lengths that are known, or those of the unit square.
-fn or_unit_square(path: &Path, map: &Topography, known: Option<(f64, f64)>) -> (f64, f64) {
+fn or_unit_square(path: &Path, map: &Topography, known: Option<(f64, f64)>, warn: Warn<'_>) -> (f64, f64) {
     known.unwrap_or_else(|| {
-        warn_of_unread(path, map, "are taken as 1 x 1");
+        warn_of_unread(path, map, "are taken as 1 x 1", warn);
         (1.0, 1.0)
     })
 }
 
 /// Warns of the arrays of a file that were not read, if its side lengths are unknown and may be among them; `are` says
 /// which values are taken for these.
-pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
+pub fn warn_of_unread(path: &Path, map: &Topography, are: &str, warn: Warn<'_>) {
     if map.lengths.is_none() && !map.unread.is_empty() {
         let names: Vec<_> = map.unread.iter().take(MOST_NAMES).map(|name| format!("{name:?}")).collect();
         let more = if map.unread.len() > MOST_NAMES { ", ..." } else { "" };
@@ -176,7 +177,7 @@ pub fn warn_of_unread(path: &Path, map: &Topography, are: &str) {
             path.display(),
             names.join(", ")
         );
-        complain("warning", &text);
+        warn(text);
     }
 }
 
@@ -187,8 +188,8 @@ pub fn converted(path: &Path, map: Topography, unit: &str) -> Outcome<Topography
 
 /// The surface of a map, on the unit square if its side lengths are unknown. Its missing points become absent nodes, or
 /// are refused.
-pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool) -> Outcome<Surface> {
-    map.lengths = Some(or_unit_square(path, &map, map.lengths));
+pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool, warn: Warn<'_>) -> Outcome<Surface> {
+    map.lengths = Some(or_unit_square(path, &map, map.lengths, warn));
     let infinite = map.heights.iter().any(|h| h.is_infinite());
     let missing = !infinite && map.missing() > 0;
     if !missing || !absent {

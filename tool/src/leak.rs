@@ -17,7 +17,7 @@ use crate::heights::{self, check_room, converted, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, commit, output_folder, write_text};
 use crate::pictures::{PictureFormat, Resolution};
-use crate::printing::{Printing, complain, name, say};
+use crate::printing::{Printing, complain, name, say, warn};
 use crate::quantity::LENGTH;
 use crate::report;
 use crate::scene::{self, SceneFile};
@@ -152,7 +152,7 @@ impl Options {
             return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
         }
         let (map, _) = heights::map(path, &self.lengths.0, si)?;
-        warn_of_unread(path, &map, "are taken as 1 x 1");
+        warn_of_unread(path, &map, "are taken as 1 x 1", &mut warn);
         Ok((map, Boundary::Periodic))
     }
 

@@ -61,10 +61,12 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::hints::hinted;
+use crate::options::ProblemOptions;
 use crate::outcome::Outcome;
 use crate::printing::{check_printed, complain, on_one_line, printed};
 use crate::processes::{Processes, is_elsewhere};
 use crate::scene::SceneFile;
+use crate::session::Strictness;
 
 /// Frictionless normal contact of rough surfaces, with adhesion.
 ///
@@ -125,11 +127,10 @@ const REFUSED: u8 = 1;
 const NOT_CONVERGED: u8 = 2;
 
 /// Runs the program with the `arguments` of its process, of which the first is its name, and returns the exit code: 0 if
-/// all is well, 1 if something was refused, 2 if a solve did not converge. What starts the program again, as a study
-/// does for each of its cases, is `program`: a file, and what comes before the arguments.
+/// all is well, 1 if something was refused, 2 if a solve did not converge.
 ///
 /// A process runs it once, as its last work: an interruption ends the process, and threads are chosen for all of it.
-pub fn run(program: &[OsString], arguments: impl IntoIterator<Item = OsString>) -> u8 {
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match Processes::start() {
         Ok(processes) => {
             if !processes.is_first() {
@@ -139,31 +140,22 @@ pub fn run(program: &[OsString], arguments: impl IntoIterator<Item = OsString>) 
             interruption::listen();
             let mut tool = Tool::command();
             tool.build();
-            if study::is_worker() {
-                let served = study::serve(|arguments| run_on(&mut tool, &processes, program, arguments));
-                return agreed(&processes, served.map(|()| true));
-            }
-            run_on(&mut tool, &processes, program, arguments)
+            run_on(&mut tool, &processes, arguments)
         }
         Err(error) => refused(&*error),
     }
 }
 
-fn run_on(
-    tool: &mut clap::Command,
-    processes: &Processes,
-    program: &[OsString],
-    arguments: impl IntoIterator<Item = OsString>,
-) -> u8 {
+fn run_on(tool: &mut clap::Command, processes: &Processes, arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match parsed(tool, arguments) {
         Ok((Command::Run(options), _)) => match run::Arguments::read(tool, options) {
             Ok(read) => match parsed(tool, read.arguments.clone()) {
-                Ok((command, scene)) => execute(command, &scene, processes, program),
+                Ok((command, scene)) => execute(command, &scene, processes),
                 Err(error) => usage(&error, processes, |argument| read.blamed(argument)),
             },
             Err(error) => agreed(processes, Err(error)),
         },
-        Ok((command, scene)) => execute(command, &scene, processes, program),
+        Ok((command, scene)) => execute(command, &scene, processes),
         Err(error) => usage(&error, processes, |_| None),
     }
 }
@@ -184,7 +176,20 @@ where
     }
 }
 
-fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: &[OsString]) -> u8 {
+impl Command {
+    /// The problem of a case of a study that is a run of this command, and whether its warnings are errors.
+    fn problem(&self) -> Outcome<(ProblemOptions, Strictness)> {
+        match self {
+            Self::Solve(options) => Ok((options.problem()?, options.strictness)),
+            Self::Sweep(options) => Ok((options.problem()?, options.manner.strictness)),
+            Self::Cycle(options) => Ok((options.problem()?, options.manner.strictness)),
+            Self::PullOff(options) => Ok((options.problem()?, options.strictness)),
+            _ => Err("the command has no cases".into()),
+        }
+    }
+}
+
+fn execute(command: Command, scene: &SceneFile, processes: &Processes) -> u8 {
     if !matches!(command, Command::Solve(_) | Command::Sweep(_) | Command::Cycle(_) | Command::Interface(_))
         && let Err(error) = processes.alone("every command but solve, sweep, interface and cycle")
     {
@@ -196,7 +201,7 @@ fn execute(command: Command, scene: &SceneFile, processes: &Processes, program: 
         Command::Sweep(options) => sweep::run(&options, scene, processes),
         Command::Cycle(options) => cycle::run(&options, scene, processes),
         Command::PullOff(options) => pull_off::run(&options, scene, processes),
-        Command::Study(options) => study::run(&options, Tool::command(), program),
+        Command::Study(options) => study::run(&options, Tool::command(), processes),
         Command::Report(options) => page::run(&options),
         Command::Prepare(options) => prepare::run(&options, scene),
         Command::Surface(options) => surface::run(&options, scene),

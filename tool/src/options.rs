@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use asperity::{Error, Surface};
-use asperity_maps::io::read_field;
+use asperity_maps::Topography;
+use asperity_maps::io::{read_field, read_topography};
 pub use asperity_scene::Scalar;
 use asperity_scene::{After, Branches, Files, Given, Load, Scene, between};
 use ndarray::Array2;
@@ -12,7 +13,7 @@ use crate::adhesion::Adhesion;
 use crate::heights::{self, Origin, map_in};
 use crate::outcome::Outcome;
 use crate::part::Part;
-use crate::printing::in_options;
+use crate::printing::{Warn, in_options, warn};
 use crate::processes::Processes;
 use crate::threads::use_threads;
 
@@ -47,13 +48,20 @@ impl ProblemOptions {
     /// Reads the files, with all in metres if numbers are in the SI, of fields the rows that this process holds, and
     /// starts the threads.
     pub fn read(&self, si: bool, processes: &Processes) -> Outcome<Problem> {
+        self.with(None, si, processes, &mut warn)
+    }
+
+    /// The same with heights that were `made`, if they were, in the place of those of their file, and with a listener to
+    /// warnings.
+    pub fn with(&self, made: Option<Topography>, si: bool, processes: &Processes, warn: Warn<'_>) -> Outcome<Problem> {
         let Self { given, scene, files } = self;
         let (path, absent, boundary) = (&files.heights, given.absent_missing(), scene.elastic.boundary);
         let (surface, origin) = if processes.count() > 1 {
-            heights::shared(path, given, si, absent, processes)?
+            heights::shared(path, given, (si, absent), processes, warn)?
         } else {
-            let (map, origin) = heights::map(path, given, si)?;
-            (heights::surface_or_absent(path, map, absent)?, origin)
+            let map = made.map_or_else(|| read_topography(path), Ok)?;
+            let (map, origin) = heights::with_sides(path, map, given, si)?;
+            (heights::surface_or_absent(path, map, absent, warn)?, origin)
         };
         let surface = processes.agree(match &files.against {
             Some(against) => map_in(si, against).and_then(|(map, _)| {

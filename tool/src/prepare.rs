@@ -12,7 +12,7 @@ use serde_json::json;
 use crate::heights::{check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, complain, in_options, name, say};
+use crate::printing::{Printing, complain, in_options, name, say, warn};
 use crate::scene::SceneFile;
 
 /// Make a measured map into a surface that can be solved.
@@ -115,7 +115,7 @@ fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
     let given = Given::all([&options.lengths.0, &options.steps.0, &options.cut_off.0]);
     let steps = in_options(given.steps(map.heights.dim(), si, map.unit.as_deref()))?;
     if steps.lengths.is_none() {
-        warn_of_unread(&options.input, &map, "stay unknown");
+        warn_of_unread(&options.input, &map, "stay unknown", &mut warn);
     }
     let map = steps.run(map, log);
     log.warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));

@@ -119,6 +119,14 @@ pub fn name(path: &Path) -> String {
     on_terminal(&path.to_string_lossy())
 }
 
+/// A listener to warnings.
+pub type Warn<'a> = &'a mut dyn FnMut(String);
+
+/// Prints a warning.
+pub fn warn(text: String) {
+    complain("warning", &text);
+}
+
 /// Prints one line to standard error, whatever names with line breaks it quotes.
 pub fn complain(kind: &str, text: &str) {
     if is_silent() && kind != "error" {

@@ -40,7 +40,7 @@ pub struct Options {
     #[command(flatten)]
     units: UnitKeys,
     #[command(flatten)]
-    strictness: Strictness,
+    pub strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
 }
@@ -58,12 +58,7 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; whether the pull-off was found.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let Options { surface, load, adhesion, solver, units, .. } = options;
-    let problem = &ProblemOptions::of([&surface.0, &load.0, &adhesion.0, &solver.0, &units.0])?;
-    problem.check_table()?;
-    problem.check_elastic(
-        "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
-    )?;
+    let problem = &options.problem()?;
     let given = problem.read(scene.is_si(), processes)?;
     match problem.scene.precision {
         Precision::F32 => options.find::<f32>(problem, given, scene, processes),
@@ -72,6 +67,17 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 }
 
 impl Options {
+    /// The problem; refuses a surface that yields.
+    pub fn problem(&self) -> Outcome<ProblemOptions> {
+        let Self { surface, load, adhesion, solver, units, .. } = self;
+        let problem = ProblemOptions::of([&surface.0, &load.0, &adhesion.0, &solver.0, &units.0])?;
+        problem.check_table()?;
+        problem.check_elastic(
+            "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
+        )?;
+        Ok(problem)
+    }
+
     fn find<T: Scalar>(
         &self,
         problem: &ProblemOptions,

@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use asperity::Status;
 use asperity_scene::{
-    AccuracyKeys, AdhesionKeys, Asked, ConductorKeys, FindingsKeys, Load, LoadKeys, NestedKeys, PercolationKeys,
-    Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
+    AccuracyKeys, AdhesionKeys, Asked, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys, NestedKeys,
+    PercolationKeys, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
 };
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
@@ -69,6 +69,8 @@ pub struct Options {
     conductors: ConductorKeys,
     #[command(flatten)]
     percolation: PercolationKeys,
+    #[command(flatten)]
+    leakage: LeakageKeys,
     /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
     /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
     /// that of the other
@@ -91,7 +93,7 @@ pub struct Options {
     )]
     format: Vec<Format>,
     #[command(flatten)]
-    strictness: Strictness,
+    pub strictness: Strictness,
     #[command(flatten)]
     printing: Printing,
     /// Write no pictures
@@ -203,10 +205,22 @@ impl Options {
     /// The problem.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
         let Self {
-            surface, load, adhesion, solver, nested, accuracy, findings, conductors, percolation, units, ..
+            surface,
+            load,
+            adhesion,
+            solver,
+            nested,
+            accuracy,
+            findings,
+            conductors,
+            percolation,
+            leakage,
+            units,
+            ..
         } = self;
         let problem = [&surface.0, &load.0, &adhesion.0, &solver.0, &nested.0, &accuracy.0];
-        ProblemOptions::of(problem.into_iter().chain([&findings.0, &conductors.0, &percolation.0, &units.0]))
+        let asked = [&findings.0, &conductors.0, &percolation.0, &leakage.0, &units.0];
+        ProblemOptions::of(problem.into_iter().chain(asked))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::csv;
 use crate::heights::{self, check_complete, check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
-use crate::printing::Printing;
+use crate::printing::{Printing, warn};
 use crate::report;
 use crate::scene::SceneFile;
 
@@ -58,7 +58,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let psd = psd.map(|path| OutputFile::create(path, options.force)).transpose()?;
     let (map, _) = heights::map(path, &options.lengths.0, scene.is_si())?;
     check_room(map.heights.dim())?;
-    warn_of_unread(path, &map, "stay unknown");
+    warn_of_unread(path, &map, "stay unknown", &mut warn);
     check_complete(path, &map)?;
     let surface = map.lengths.map(|_| map.clone().surface()).transpose()?;
     if let Some(file) = psd {

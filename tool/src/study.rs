@@ -1,11 +1,10 @@
 //! `asperity study`: one problem for every combination of some options, as one table.
 
+mod case;
 mod cases;
 mod merge;
 mod work;
-mod worker;
 
-use std::ffi::OsString;
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -17,14 +16,14 @@ use serde_json::json;
 pub use self::cases::SECTIONS;
 use self::cases::Study;
 use self::merge::merge;
-use self::work::{Folder, solve};
-pub use self::worker::{is_worker, serve};
+use self::work::{folder, is_done, solve};
 use crate::allowed::threads;
 use crate::outcome::Outcome;
 use crate::output::check_free;
 use crate::page;
 use crate::pictures::PlotOptions;
 use crate::printing::{Printing, complain, name};
+use crate::processes::Processes;
 use crate::report;
 use crate::warnings;
 
@@ -49,7 +48,7 @@ pub struct Options {
     /// File for the table, .csv or .jsonl [default: the out of the study]
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: Option<PathBuf>,
-    /// Cases that are solved at the same time, by as many processes, which share the cores [default: one per core]
+    /// Cases that are solved at the same time, each on its share of the cores [default: one per core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads)]
     jobs: Option<usize>,
     /// Solve only a part of the cases: 3/16 is the third of sixteen
@@ -136,29 +135,28 @@ impl fmt::Display for Slice {
     }
 }
 
-/// Runs the command, of a `tool` with these commands and options that the `program` is; whether all rows converged.
-pub fn run(options: &Options, mut tool: clap::Command, program: &[OsString]) -> Outcome<bool> {
+/// Runs the command, of a `tool` with these commands and options; whether all rows converged.
+pub fn run(options: &Options, mut tool: clap::Command, processes: &Processes) -> Outcome<bool> {
     tool.build();
     let study = Study::read(&mut tool, &options.study, options.out.as_deref())?;
-    let folder = Folder::of(&study);
     let printing = options.printing;
     if options.list {
         for (k, case) in study.cases.iter().enumerate() {
-            let done = if folder.is_done(case) { "done" } else { "to do" };
+            let done = if is_done(&case.rows) { "done" } else { "to do" };
             printing.say(&format!("{}  {done}  {}", k + 1, study.told(case)));
         }
     } else {
-        let replaceable = folder.exists() || options.force;
+        let replaceable = folder(&study.out).exists() || options.force;
         check_free(&study.out, replaceable, "--out")?;
         warnings::check_beside(&study.out, replaceable)?;
         options.plot.check(&study.out, replaceable)?;
         let slice = options.slice.unwrap_or(Slice::WHOLE);
         let chosen: Vec<_> = (0..study.cases.len()).filter(|&case| slice.has(case)).collect();
         let jobs = options.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
-        solve(&study, &folder, &chosen, program, jobs, printing)?;
+        solve(&tool, &study, &chosen, jobs, printing, processes)?;
     }
-    let (cases, done) = (study.cases.len(), study.cases.iter().filter(|case| folder.is_done(case)).count());
-    let table = if done == cases && !options.list { Some(merge(&study, &folder)?) } else { None };
+    let (cases, done) = (study.cases.len(), study.cases.iter().filter(|case| is_done(&case.rows)).count());
+    let table = if done == cases && !options.list { Some(merge(&study)?) } else { None };
     if table.is_some() {
         page::draw_loads(&study.out, &options.plot)?;
     }

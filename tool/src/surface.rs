@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use asperity::Grid;
+use asperity::{Grid, SelfAffine, Surface};
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
@@ -12,7 +12,6 @@ use clap::{ArgGroup, Args};
 use serde_json::json;
 
 use crate::allowed::threads;
-use crate::heights;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, in_options, name};
@@ -20,7 +19,6 @@ use crate::quantity::LENGTH;
 use crate::report;
 use crate::scene::{self, SceneFile};
 use crate::stats::{density_table, table};
-use crate::study;
 use crate::threads::use_threads;
 
 /// Make a self-affine rough surface or a simple body, and print its statistics.
@@ -78,8 +76,21 @@ const EXAMPLES: &str = "\
       --lengths 0.1mm --out low.npz
     asperity prepare low.npz --flip --out challenge.npz";
 
-/// Runs the command; always successful if it ends.
-pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+/// The surface that options describe.
+struct Described {
+    grid: Grid,
+    body: Body,
+    rough: Option<SelfAffine>,
+    fourier: Option<(PathBuf, f64)>,
+    unit: Option<&'static str>,
+}
+
+/// The map of the surface, of which no file is written.
+pub fn map(options: &Options, scene: &SceneFile) -> Outcome<Topography> {
+    Ok(described(options, scene)?.make()?.1)
+}
+
+fn described(options: &Options, scene: &SceneFile) -> Outcome<Described> {
     let shape = in_options(options.grid.0.shape())?;
     let (body, roughness): (Body, Roughness) = (options.form.0.object()?, options.roughness.0.object()?);
     let (form, fourier) = (body.form, options.fourier.0.fourier());
@@ -103,12 +114,38 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         return Err(text.into());
     }
     let grid = Grid::new(shape, options.grid.0.lengths(shape).unwrap_or((1.0, 1.0)))?;
-    for written in [Some(&options.out), options.psd.as_ref()].into_iter().flatten() {
-        check_apart(written, fourier.as_deref())?;
+    let fourier = fourier.map(|path| (path, options.fourier.0.fourier_unit().unwrap_or(1.0)));
+    Ok(Described { grid, body, rough, fourier, unit })
+}
+
+impl Described {
+    /// The surface, and the same as a map.
+    fn make(&self) -> Outcome<(Surface, Topography)> {
+        let grid = self.grid;
+        if self.rough.is_some() {
+            check_memory("a random surface", grid.shape(), 32)?;
+        }
+        let roughness = match &self.fourier {
+            Some((path, unit)) => Some(read_fourier(path, grid, *unit)?),
+            None => self.rough.map(|rough| rough.surface(grid)).transpose()?,
+        };
+        let surface = self.body.surface(grid, roughness)?;
+        let mut map = Topography::from(surface.clone());
+        map.unit = self.unit.map(str::to_owned);
+        map.seed = self.rough.map(|rough| rough.seed);
+        Ok((surface, map))
     }
-    // the next command of a worker has them from it
-    let is_kept = study::is_worker();
-    let heights = (!is_kept).then(|| OutputFile::create(&options.out, options.force)).transpose()?;
+}
+
+/// Runs the command; always successful if it ends.
+pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
+    let described = described(options, scene)?;
+    let &Described { grid, rough, unit, .. } = &described;
+    let (form, fourier) = (described.body.form, described.fourier.as_ref().map(|(path, _)| path.as_path()));
+    for written in [Some(&options.out), options.psd.as_ref()].into_iter().flatten() {
+        check_apart(written, fourier)?;
+    }
+    let heights = OutputFile::create(&options.out, options.force)?;
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     let others = [options.out.clone(), scene::beside(&options.out)];
     if options.psd.as_deref().is_some_and(|psd| check_apart(psd, others.iter().map(PathBuf::as_path)).is_err()) {
@@ -117,41 +154,23 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     scene.check_beside(&options.out, options.force)?;
     use_threads(options.threads)?;
 
-    if rough.is_some() {
-        check_memory("a random surface", shape, 32)?;
-    }
-    let roughness = match &fourier {
-        Some(path) => Some(read_fourier(path, grid, options.fourier.0.fourier_unit().unwrap_or(1.0))?),
-        None => rough.map(|rough| rough.surface(grid)).transpose()?,
-    };
-    let surface = body.surface(grid, roughness)?;
+    let (surface, map) = described.make()?;
     let absent = surface.absent_nodes();
     if psd.is_some() && absent > 0 {
         return Err(format!("the body has no height at {absent} nodes, and so no spectrum: leave --psd out").into());
     }
-    let mut map = Topography::from(surface.clone());
-    map.unit = unit.map(str::to_owned);
-    map.seed = rough.map(|rough| rough.seed);
-    if let Some(file) = &heights {
-        file.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
-            Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
-            _ => write_npy(path, &map.heights),
-        })?;
-    }
+    heights.write(|path| match path.extension().map(|ending| ending.to_ascii_lowercase()) {
+        Some(ending) if ending == "gsf" || ending == "npz" => write_topography(path, &map),
+        _ => write_npy(path, &map.heights),
+    })?;
     if let Some(file) = &psd {
         let target = rough.map(|rough| rough.spectrum(grid)).transpose()?;
         let text = density_table(&surface, target.as_ref(), unit);
         file.write(|path| write_text(path, &text))?;
     }
-    let mut files = [heights, psd].into_iter().flatten();
-    if is_kept {
-        files.try_for_each(OutputFile::commit)?;
-        heights::keep(&options.out, map);
-        return Ok(true);
-    }
-    scene.written_beside(&options.out)?.commit_after(files)?;
+    scene.written_beside(&options.out)?.commit_after(std::iter::once(heights).chain(psd))?;
     // what is absent has no statistics
-    let ((nx, ny), found) = (shape, (absent == 0).then(|| (surface.statistics(), knee_wavelength(&surface))));
+    let ((nx, ny), found) = (grid.shape(), (absent == 0).then(|| (surface.statistics(), knee_wavelength(&surface))));
     options.printing.say(&match &found {
         Some(found) => table(&map, found),
         None => format!("{nx} x {ny} nodes, {absent} of them absent"),
@@ -162,7 +181,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             Some(found) => statistics::figures(&map, found, &options.out),
             None => json!({
                 "heights": options.out.to_string_lossy(),
-                "shape": shape,
+                "shape": grid.shape(),
                 "lengths": grid.lengths(),
                 "length_unit": unit,
             }),
@@ -176,7 +195,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             "k_s": rough.map(|rough| rough.k_s),
             "random_phase": rough.map(|rough| rough.random_phase),
             "seed": rough.map(|rough| rough.seed),
-            "fourier": fourier.as_deref().map(|path| path.to_string_lossy()),
+            "fourier": fourier.map(|path| path.to_string_lossy()),
             "version": env!("CARGO_PKG_VERSION"),
         });
         report::report("surface", figures, &made)

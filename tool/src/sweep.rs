@@ -63,7 +63,7 @@ pub struct Options {
     #[command(flatten)]
     leakage: LeakageKeys,
     #[command(flatten)]
-    manner: Manner,
+    pub manner: Manner,
 }
 
 const EXAMPLES: &str = "\
@@ -82,10 +82,7 @@ const EXAMPLES: &str = "\
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     let format = options.format()?;
     processes.first(|| options.plot.check(&options.out, options.manner.force))?;
-    let Options { surface, loads, fractions, adhesion, solver, units, stiffness, conductors, leakage, .. } = options;
-    let asked = [&units.0, &stiffness.0, &conductors.0, &leakage.0];
-    let problem = [&surface.0, &loads.0, &fractions.0, &adhesion.0, &solver.0].into_iter().chain(asked);
-    let problem = &ProblemOptions::of(problem)?;
+    let problem = &options.problem()?;
     let table = TableOptions {
         problem,
         out: &options.out,
@@ -101,6 +98,14 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 }
 
 impl Options {
+    /// The problem.
+    pub fn problem(&self) -> Outcome<ProblemOptions> {
+        let Self { surface, loads, fractions, adhesion, solver, units, stiffness, conductors, leakage, .. } = self;
+        let asked = [&units.0, &stiffness.0, &conductors.0, &leakage.0];
+        let problem = [&surface.0, &loads.0, &fractions.0, &adhesion.0, &solver.0].into_iter().chain(asked);
+        ProblemOptions::of(problem)
+    }
+
     fn format(&self) -> Outcome<Format> {
         let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it, or give --format");
         Ok(self.format.or_else(|| Format::of(&self.out)).ok_or_else(refused)?)

@@ -21,7 +21,6 @@ use crate::quantity::{FORCE, LENGTH, PRESSURE};
 use crate::report;
 use crate::scene::SceneFile;
 use crate::session::{Strictness, UNCONVERGED, say_new, session};
-use crate::study;
 use crate::warnings;
 
 /// The replacements, refusals and prints of a run that fills a table.
@@ -31,7 +30,7 @@ pub struct Manner {
     #[arg(long, help_heading = "Output")]
     pub force: bool,
     #[command(flatten)]
-    strictness: Strictness,
+    pub strictness: Strictness,
     #[command(flatten)]
     pub printing: Printing,
 }
@@ -112,7 +111,7 @@ impl<'a> TableOptions<'a> {
             check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
             scene.check_beside(out, force || out.exists())?;
             warnings::check_beside(out, force || out.exists())?;
-            scene_file = (!study::is_worker()).then(|| scene.written_beside(out)).transpose()?;
+            scene_file = Some(scene.written_beside(out)?);
             Ok(())
         })?;
         let file = TableFile {
@@ -120,8 +119,7 @@ impl<'a> TableOptions<'a> {
             format: Some(self.format),
             fields: self.fields.map(Path::to_owned),
             force,
-            // a study has the lock of its case: a former run of that is about to end
-            is_case: study::is_worker(),
+            is_case: false,
             law_table: adhesion.table,
             works: adhesion.works,
             law_differs: false,

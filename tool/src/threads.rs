@@ -23,16 +23,6 @@ pub fn use_threads(threads: Option<usize>) -> Outcome<()> {
     }
 }
 
-/// Makes this thread one of those of every solve: so small solves wake no other one.
-pub fn use_this_one() -> Outcome<()> {
-    #[cfg(feature = "parallel")]
-    {
-        let pool = rayon::ThreadPoolBuilder::new().use_current_thread().build_global();
-        pool.map_err(|e| format!("threads cannot be started ({e}): free some memory"))?;
-    }
-    Ok(())
-}
-
 /// The result of `work` on this number of threads, whatever number other solves use.
 #[cfg(feature = "parallel")]
 pub fn on<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Outcome<R> {

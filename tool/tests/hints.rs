@@ -67,7 +67,7 @@ fn keys_of_scenes_and_studies_by_other_names_get_the_same() {
         bench.write("scene.toml", &format!("command = \"solve\"\nout = \"r\"\nheights = \"h.npy\"\n{load}\n"));
         bench.refused_with("run scene.toml", parts);
     }
-    bench.refused_with("study scene.toml", &["it must be sweep or cycle", "'asperity run scene.toml'"]);
+    bench.refused_with("study scene.toml", &["r: does not end in .csv", "'asperity run scene.toml'"]);
     let study =
         "command = \"sweep\"\nout = \"s.csv\"\nheights = \"h.npy\"\nmean-gaps = 0.02\n[vary]\nmodulus = [1, 2]\n";
     bench.write("study.toml", study);

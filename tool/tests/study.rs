@@ -322,6 +322,101 @@ fn a_study_of_cycles_has_objects_as_well() {
 }
 
 #[test]
+fn a_study_of_solves_has_the_rows_of_sweeps_with_one_load() {
+    let bench = Bench::new();
+    let loads = "[loads]\nmean-pressures = \"1e-3:1e-2:3:log\"";
+    let after = "leakage = true\nstiffness = true\nresistivities = [1, 2]\n[loads]\nmean-pressures = 2e-3";
+    let sweep = MADE.replace(loads, after);
+    let solve = sweep.replace("sweep", "solve").replace("study.csv", "solve.csv").replace("[loads]\n", "");
+    bench.write("sweep.toml", &sweep);
+    bench.write("solve.toml", &solve.replace("mean-pressures", "no-nested = true\nmean-pressure"));
+    bench.said("study sweep.toml --quiet");
+    bench.said("study solve.toml --quiet");
+    let table = bench.read("solve.csv");
+    assert_eq!(table, bench.read("study.csv"));
+    let rows = cells(&table);
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    let [lower, upper] = [column("transmissivity_x_lower"), column("transmissivity_x_upper")];
+    let number = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
+    assert!((1..5).all(|row| number(row, lower) > 0.0 && number(row, upper) < 1.001 * number(row, lower)));
+    assert!((1..5).all(|row| number(row, column("electrical_conductance")) > 0.0));
+    // the load may vary, as what follows the solve, and contact fractions are searched for
+    let fraction = solve.replace("mean-pressures = 2e-3", "contact-fraction = 0.1").replace("leakage = true\n", "");
+    bench.write(
+        "fraction.toml",
+        &fraction.replace("[vary]", "[vary]\nstiffness = [true]").replace("stiffness = true\n", ""),
+    );
+    bench.said("study fraction.toml --quiet --force --out fraction.jsonl");
+    let first: serde_json::Value = serde_json::from_str(bench.read("fraction.jsonl").lines().next().unwrap()).unwrap();
+    assert_eq!((&first["wanted_contact_fraction"], &first["reached"]), (&0.1.into(), &true.into()));
+}
+
+#[test]
+fn a_study_of_pull_offs_has_the_keys_of_their_reports() {
+    let bench = Bench::new();
+    let study = MADE.replace("sweep", "pull-off").replace("[loads]\nmean-pressures = \"1e-3:1e-2:3:log\"\n", "");
+    let study =
+        study.replace("[[vary.adhesion]]\nlaw = \"none\"\n", "").replace("[make]", "[load]\nrtol = 0.1\n[make]");
+    bench.write("study.toml", &study);
+    let report = bench.reported("study study.toml --out study.jsonl");
+    assert_eq!((&report["rows"], &report["unconverged"]), (&2.into(), &0.into()));
+    bench.said("study study.toml --quiet");
+    let table = bench.read("study.csv");
+    assert!(table.starts_with("case,pull_off_pressure,pull_off_force,limit_pressure"), "{table}");
+    bench.said("surface --size 24 --k-l 2 --k-s 8 --rms-slope 0.1 --seed 2 --quiet --out second.npz");
+    let law = "--law exponential --work-of-adhesion 1e-4 --range 1e-2";
+    let expected = bench.reported(&format!("pull-off --heights second.npz {law} --rtol 0.1"));
+    let row: serde_json::Value = serde_json::from_str(bench.read("study.jsonl").lines().nth(1).unwrap()).unwrap();
+    for key in [
+        "pull_off_pressure",
+        "pull_off_force",
+        "limit_pressure",
+        "limit_force",
+        "limit_error",
+        "lost_pressure",
+        "reached",
+        "branch",
+        "solves",
+        "operator_applications",
+    ] {
+        assert_eq!(row[key], expected[key], "{key}");
+    }
+    for key in ["mean_gap", "mean_pressure", "contact_fraction", "corrected_contact_fraction", "status"] {
+        assert_eq!(row[key], expected["last"][key], "{key}");
+    }
+    // a search that has not come to its end is counted, and says so
+    bench.write(
+        "short.toml",
+        &study.replace("study.csv", "short.csv").replace("rtol = 0.1", "rtol = 0.1\n[solver]\nmax-iterations = 8"),
+    );
+    let output = bench.run("study short.toml --quiet");
+    let said = text(&output.stderr);
+    assert!(output.status.code() == Some(2) && said.contains("2 rows not converged"), "{said}");
+}
+
+#[test]
+fn threads_do_not_change_a_byte() {
+    // large enough for several threads of a solve
+    let study = MADE.replace("size = 24", "size = 160").replace("\"1:2:2\"", "[1]");
+    let table = |jobs: &str, threads: &str| {
+        let bench = Bench::new();
+        bench.write("study.toml", &study);
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+        command.current_dir(bench.path(".")).env("RAYON_NUM_THREADS", threads).args([
+            "study",
+            "study.toml",
+            "--jobs",
+            jobs,
+        ]);
+        assert!(command.stdout(Stdio::null()).status().unwrap().success());
+        let cases = bench.names("study.csv.cases").into_iter().map(|name| format!("study.csv.cases/{name}"));
+        cases.chain(["study.csv".to_owned()]).map(|name| bench.bytes(&name)).collect::<Vec<_>>()
+    };
+    let one = table("1", "1");
+    assert!([("1", "3"), ("2", "1"), ("2", "4")].iter().all(|(jobs, threads)| table(jobs, threads) == one));
+}
+
+#[test]
 fn rows_that_do_not_converge_are_counted() {
     let bench = Bench::new();
     bench.write("study.toml", &MADE.replace("[make]", "[solver]\nmax-iterations = 1\n[make]"));
@@ -336,9 +431,15 @@ fn studies_that_cannot_be_are_refused_before_anything_is_solved() {
     let bench = Bench::new();
     let base = "command = \"sweep\"\nout = \"study.csv\"\n[loads]\nmean-gaps = 0.02\n[make]\nsize = 16\nk-s = 6\nrms-slope = 0.1\n";
     let vary = |what: &str| format!("{base}[vary]\n{what}\n");
+    let solve =
+        |what: &str| base.replace("sweep", "solve").replace("[loads]\nmean-gaps", &format!("{what}\n[load]\nmean-gap"));
     for (study, parts) in [
         ("[loads]".to_owned(), &["study.toml", "add command"][..]),
-        (base.replace("sweep", "solve"), &["must be sweep or cycle"]),
+        (base.replace("sweep", "stats"), &["it must be one of sweep, cycle, solve, pull-off"]),
+        (
+            base.replace("sweep", "solve").replace("loads", "load"),
+            &["mean-gaps is no option", "did you mean mean-gap?"],
+        ),
         (base.replace("out = \"study.csv\"\n", ""), &["names no table", "out = \"study.csv\""]),
         (base.replace("study.csv", "study.txt"), &["study.txt", ".csv or .jsonl"]),
         (base.replace("sweep", "cycle").replace("study.csv", "study.txt"), &["study.txt", ".csv or .jsonl"]),
@@ -355,6 +456,9 @@ fn studies_that_cannot_be_are_refused_before_anything_is_solved() {
         (vary("rms-height = [0.1]"), &["case 1", "--rms-height", "--rms-slope"]),
         (vary("modulus = [0.5, -2]"), &["case 2", "--modulus"]),
         (vary("threads = [1, 2]"), &["threads is not for a study"]),
+        (vary("dpi = [75, 150]"), &["dpi is not for a study"]),
+        (vary("psd = [\"a.csv\"]"), &["psd is not for a study"]),
+        (solve("percolation = true"), &["percolation is not for a study"]),
         (base.replace("[make]", "force = true\n[make]"), &["force is not for a study"]),
         (vary("seed = \"1:100000:100000\"\nmodulus = \"1:2:100000\""), &["more cases than the 1000000"]),
         (

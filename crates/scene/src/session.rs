@@ -15,13 +15,13 @@ use asperity::contact::{ContactStatistics, Original};
 use asperity::solver::Iteration;
 use asperity::{AdhesionLaw, Error, Grid, PullOff, Real, Result, Solver, Status, Surface};
 use ndarray::Array2;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::Either;
 use crate::account::found::{Found, check_finite, warnings_of};
 use crate::account::interface::touch;
 use crate::account::pulled_off::PulledOff;
-use crate::account::row::Row;
+use crate::account::row::{Kind, Row};
 use crate::account::slopes::Slopes;
 use crate::account::warnings::warnings_of_input;
 use crate::account::{Account, Inputs};
@@ -259,6 +259,35 @@ impl<T: Scalar> Session<T> {
     ) -> Outcome<(Solved<T>, PulledOff)> {
         let (found, pulled_off) = self.find_pull_off(asked, goal, start, observe)?;
         Ok((self.solved("pull-off", found)?, pulled_off))
+    }
+
+    /// The text of a table of one row, that of a solution and of what is asked for after it, or of the pull-off that it is
+    /// the last state of. Looks at the fields.
+    ///
+    /// # Errors
+    /// Those of [`Solved::look`].
+    pub fn table_of(
+        &self,
+        solved: &mut Solved<T>,
+        after: &After,
+        pulled_off: Option<&PulledOff>,
+        format: Format,
+    ) -> Result<String> {
+        let sizes = solved.look()?.cluster_sizes;
+        let Solved { found, account } = solved;
+        let kind = match pulled_off {
+            Some(_) => Kind::PullOff,
+            None if found.search.is_some() => Kind::Search,
+            None => Kind::Sweep,
+        };
+        let adhesion = &self.scene.adhesion;
+        let names = kind.columns(after, adhesion.law().is_some_and(|law| law.of_grid), adhesion.yields());
+        let mut cells = Row::of(found, account.clone(), &sizes, None, self.seed).cells(&names);
+        for (name, value) in json!(pulled_off).as_object().into_iter().flatten() {
+            cells.get_mut(name).into_iter().for_each(|cell| *cell = value.clone());
+        }
+        let header = self.units.columns(&names, account.control, self.grid.is_line());
+        Ok(format.header(&header) + &format.line(&cells) + "\n")
     }
 
     /// What a command found, with its account; a solve that an observer ended may be anywhere.

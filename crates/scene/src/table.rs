@@ -88,6 +88,11 @@ impl Format {
         if self == Self::Csv { "csv" } else { "jsonl" }
     }
 
+    /// The first line of a table with these columns; none, if each row names them.
+    pub fn header(self, columns: &[impl AsRef<str>]) -> String {
+        if self == Self::Csv { csv::header(columns) + "\n" } else { String::new() }
+    }
+
     /// A row as a line.
     pub fn line(self, row: &Map<String, Value>) -> String {
         match self {
@@ -158,7 +163,7 @@ impl Table {
 
     fn lock(&mut self, force: bool, is_case: bool) -> Outcome<Vec<u8>> {
         let Opening { out, format, header, identity, loads, .. } = &self.opening;
-        let header = if *format == Format::Csv { csv::header(header) + "\n" } else { String::new() };
+        let header = format.header(header);
         let (identity, loads) = (identity.clone(), loads.as_deref());
         let (journal, place) = Journal::open(out, &header, identity, loads, (force, is_case))?;
         (self.rows, self.unconverged) = (journal.rows(), journal.unconverged());

@@ -6,26 +6,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity_scene::{Format, Hash};
-use clap::Command;
+use asperity_scene::{Format, Hash, Key};
+use clap::{Arg, Command};
 use toml::{Table, Value};
 
+use super::work::folder as folder_of;
 use crate::entries::{document, entries, spelled};
 use crate::loads::parsed;
 use crate::outcome::Outcome;
 use crate::printing::{on_one_line, on_terminal};
 use crate::quantity::Quantity;
-use crate::scene::{self, is_path, key};
+use crate::scene::{is_path, key, section};
 use crate::synonyms::similar;
 
 /// The commands of which a case may be a run.
-const COMMANDS: [&str; 2] = ["sweep", "cycle"];
+const COMMANDS: [&str; 4] = ["sweep", "cycle", "solve", "pull-off"];
 
 /// The sections that a study has beside those of its command.
 pub const SECTIONS: [&str; 2] = ["make", "vary"];
 
-/// Options that a study decides by itself.
-const OWN: [&str; 8] = ["out", "format", "force", "quiet", "json", "threads", "fields", "plot"];
+/// The keys that a study decides by itself, or of which a table has nothing.
+const OWN: [&str; 3] = ["threads", "stability", "percolation"];
 
 /// The largest number of cases; more are taken for a slip of the pen.
 const MOST_CASES: usize = 1_000_000;
@@ -42,16 +43,16 @@ pub struct Study {
     pub cases: Vec<Case>,
 }
 
-/// A run of a sweep or a cycle.
+/// A run of the command of a study.
 pub struct Case {
     /// The values of the columns; none where an option is not given in this case
     pub values: Vec<Option<Value>>,
-    /// The arguments of the command that makes the surface, if that is part of the case
+    /// The words of the command that makes the surface, if that is part of the case
     pub surface: Option<Vec<OsString>>,
-    /// The arguments of the command, but for those that the study adds
-    pub arguments: Vec<OsString>,
-    /// All that the rows depend on
-    pub identity: Hash,
+    /// The words of the command, whose files of results are not written
+    pub words: Vec<OsString>,
+    /// The file of the rows, named by all that they depend on
+    pub rows: PathBuf,
 }
 
 /// The values that options take together, by their keys.
@@ -62,13 +63,15 @@ impl Study {
     pub fn read(tool: &mut Command, path: &Path, out: Option<&Path>) -> Outcome<Self> {
         let refuse = |reason: String| Error::file(path, reason);
         let mut table = document(path)?;
+        let is_scene = !SECTIONS.iter().any(|name| table.contains_key(*name));
+        let run =
+            if is_scene { format!(", or run the scene by 'asperity run {}'", path.display()) } else { String::new() };
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,
             Some(other) => {
-                let is_scene = other.as_str().is_some_and(|name| scene::COMMANDS.contains(&name));
-                let hint = format!(", or run the scene by 'asperity run {}'", path.display());
-                let hint = if is_scene { hint.as_str() } else { "" };
-                return Err(refuse(format!("command is {other}: it must be sweep or cycle{hint}")).into());
+                return Err(
+                    refuse(format!("command is {other}: it must be one of {}{run}", COMMANDS.join(", "))).into()
+                );
             }
             None => return Err(refuse(lacks(&table, "command", "does not say what to do", "sweep")).into()),
         };
@@ -79,60 +82,60 @@ impl Study {
             (None, None) => return Err(refuse(lacks(&table, "out", "names no table", "study.csv")).into()),
             (None, Some(other)) => return Err(refuse(format!("out is {other}: it must be the name of a file")).into()),
         };
-        let refused = || Error::file(&out, "does not end in .csv or .jsonl: rename it");
+        let refused = || Error::file(&out, format!("does not end in .csv or .jsonl: rename it{run}"));
         let format = Format::of(&out).ok_or_else(refused)?;
-        let section = |table: &mut Table, name: &str| match table.remove(name) {
+        let [make, vary] = SECTIONS.map(|name| match table.remove(name) {
             Some(Value::Table(section)) => Ok(Some(section)),
             None => Ok(None),
             Some(other) => Err(refuse(format!("{name} is {other}: it must be a section, [{name}]"))),
-        };
-        let [make, vary] = SECTIONS.map(|name| section(&mut table, name));
-        let (make, vary) = (make?, vary?.unwrap_or_default());
+        });
+        let make = make?;
         let commands = Commands {
             command: tool.find_subcommand(&name).cloned().ok_or_else(|| refuse(format!("{name} is not built in")))?,
             surface: make.as_ref().and_then(|_| tool.find_subcommand("surface").cloned()),
         };
         let fixed = entries(table, &commands.command, &SECTIONS).map_err(refuse)?;
         let fixed: Vec<_> = fixed.into_iter().chain(make.into_iter().flatten()).collect();
-        let choices = vary.into_iter().map(|(key, value)| choices(key, value)).collect::<Result<Vec<_>, _>>();
-        let choices = choices.map_err(refuse)?;
+        let lists = vary?.into_iter().flatten().map(|(key, value)| choices(key, value));
+        let lists = lists.collect::<Result<Vec<_>, _>>().map_err(refuse)?;
 
         let mut keys: Vec<&str> = Vec::new();
-        for list in &choices {
+        for list in &lists {
             let mut here: Vec<&str> = Vec::new();
             for (key, _) in list.iter().flatten() {
                 if !here.contains(&key.as_str()) {
                     here.push(key);
                 }
             }
-            if let Some(twice) =
-                here.iter().find(|key| keys.contains(key) || fixed.iter().any(|(fixed, _)| fixed == *key))
-            {
+            let is_twice = |key: &&&str| keys.contains(key) || fixed.iter().any(|(fixed, _)| fixed == **key);
+            if let Some(twice) = here.iter().find(is_twice) {
                 return Err(refuse(format!("{twice} is there twice: remove one of them")).into());
             }
             keys.extend(here);
         }
-        for key in fixed.iter().map(|(key, _)| key.as_str()).chain(keys.iter().copied()) {
-            if OWN.contains(&key) {
-                return Err(refuse(format!("{key} is not for a study, which sees to it by itself: remove it")).into());
-            }
-            commands.check(key).map_err(refuse)?;
-        }
-        let count = choices.iter().try_fold(1_usize, |count, list| count.checked_mul(list.len()));
+        fixed
+            .iter()
+            .map(|(key, _)| key.as_str())
+            .chain(keys.iter().copied())
+            .try_for_each(|key| commands.check(key))
+            .map_err(refuse)?;
+        let count = lists.iter().try_fold(1_usize, |count, list| count.checked_mul(list.len()));
         let Some(count @ ..=MOST_CASES) = count else {
             return Err(refuse(format!("has more cases than the {MOST_CASES} that are allowed")).into());
         };
         let mut files = HashMap::new();
         let mut cases = Vec::with_capacity(count);
         for number in 0..count {
-            let chosen = combination(&choices, number);
-            let all: Vec<_> = fixed.iter().chain(chosen.iter().copied().flatten()).collect();
+            let all: Vec<_> = fixed.iter().chain(combination(&lists, number).into_iter().flatten()).collect();
             let told = |error: String| refuse(format!("case {}: {error}", number + 1));
-            let (surface, arguments) = commands.arguments(&all, folder).map_err(told)?;
             let identity = commands.identity(&all, folder, &mut files)?;
-            check(tool, &name, surface.as_deref(), &arguments).map_err(told)?;
+            let rows = folder_of(&out).join(format!("{identity}.{}", format.name()));
+            let (surface, words) = commands.words(&all, folder, &rows).map_err(told)?;
+            for words in surface.iter().chain([&words]) {
+                crate::parsed(tool, words).map_err(|error| told(on_one_line(&error)))?;
+            }
             let value = |key: &&str| all.iter().find(|(name, _)| name == key).map(|(_, value)| value.clone());
-            cases.push(Case { values: keys.iter().map(value).collect(), surface, arguments, identity });
+            cases.push(Case { values: keys.iter().map(value).collect(), surface, words, rows });
         }
         let columns = keys.iter().map(|key| key.replace('-', "_")).collect();
         Ok(Self { command: name, out, format, columns, cases })
@@ -184,8 +187,7 @@ fn choices(key: String, value: Value) -> Result<Vec<Choice>, String> {
 fn range(text: &str) -> Result<Vec<Value>, String> {
     let unit =
         |end: &str| end.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c)).to_owned();
-    let mut ends = text.split(':');
-    let units = [ends.next(), ends.next()].map(|end| end.map_or(String::new(), unit));
+    let units: Vec<_> = text.split(':').take(2).map(unit).collect();
     let number = |end: &str| match end.trim().trim_end_matches(&units[0]).trim().parse::<f64>() {
         Ok(value) if value.is_finite() && units[0] == units[1] => Ok(Quantity::number(value)),
         _ => Err("both ends of a range must be numbers, with the same unit or without one".to_owned()),
@@ -196,17 +198,12 @@ fn range(text: &str) -> Result<Vec<Value>, String> {
 }
 
 /// The combination of this number, the last list changing fastest.
-fn combination(choices: &[Vec<Choice>], mut number: usize) -> Vec<&Choice> {
-    let mut chosen: Vec<_> = choices
-        .iter()
-        .rev()
-        .map(|list| {
-            let choice = &list[number % list.len()];
-            number /= list.len();
-            choice
-        })
-        .collect();
-    chosen.reverse();
+fn combination(lists: &[Vec<Choice>], mut number: usize) -> Vec<&Choice> {
+    let mut chosen = Vec::with_capacity(lists.len());
+    for list in lists.iter().rev() {
+        chosen.insert(0, &list[number % list.len()]);
+        number /= list.len();
+    }
     chosen
 }
 
@@ -217,40 +214,58 @@ struct Commands {
 }
 
 impl Commands {
-    /// The command that has an option: that which makes the surface first.
-    fn of(&self, name: &str) -> (bool, &Command) {
-        let has = |command: &&Command| command.get_arguments().any(|arg| key(arg).as_deref() == Some(name));
-        match self.surface.as_ref().filter(has) {
-            Some(surface) => (true, surface),
-            None => (false, &self.command),
-        }
+    /// The option of a name, with its command, that which makes the surface first, and whether it is that.
+    fn option(&self, name: &str) -> Option<(bool, &Command, &Arg)> {
+        let both = self.surface.iter().map(|surface| (true, surface)).chain([(false, &self.command)]);
+        let mut options =
+            both.flat_map(|(makes, command)| command.get_arguments().map(move |arg| (makes, command, arg)));
+        options.find(|(.., arg)| key(arg).as_deref() == Some(name))
     }
 
-    /// Refuses what is no option of theirs.
+    /// Refuses what is no option of theirs, or is not for a study: results of a run beside its rows.
     fn check(&self, name: &str) -> Result<(), String> {
+        let is_own = |arg: &Arg| {
+            let is_key = Key::named(arg.get_id().as_str()).is_some() || name == "strict";
+            OWN.contains(&name) || section(arg) == "output" && !is_key
+        };
         let commands = || self.surface.iter().chain([&self.command]);
-        let known: Vec<_> = commands().flat_map(Command::get_arguments).filter_map(key).collect();
-        if known.iter().any(|known| known == name) {
-            return Ok(());
+        match self.option(name) {
+            Some((.., arg)) if is_own(arg) => {
+                Err(format!("{name} is not for a study, which sees to it by itself: remove it"))
+            }
+            Some(_) => Ok(()),
+            None => {
+                let options = commands().flat_map(Command::get_arguments).filter(|arg| !is_own(arg));
+                let known: Vec<_> = options.filter_map(key).collect();
+                let hint = similar(name, known.iter().map(String::as_str));
+                let hint = hint.map_or("remove it".to_owned(), |meant| format!("did you mean {meant}?"));
+                let names: Vec<_> = commands().map(Command::get_name).collect();
+                Err(format!("{name} is no option of {}: {hint}", names.join(" or ")))
+            }
         }
-        let commands: Vec<_> = commands().map(Command::get_name).collect();
-        let meant = similar(name, known.iter().map(String::as_str).filter(|known| !OWN.contains(known)));
-        let hint = meant.map_or("remove it".to_owned(), |meant| format!("did you mean {meant}?"));
-        Err(format!("{name} is no option of {}: {hint}", commands.join(" or ")))
     }
 
-    /// The arguments of both commands.
-    fn arguments(
+    /// The words of both commands, of which one makes the surface beside the rows.
+    fn words(
         &self,
         entries: &[&(String, Value)],
         folder: &Path,
+        rows: &Path,
     ) -> Result<(Option<Vec<OsString>>, Vec<OsString>), String> {
-        let (mut surface, mut arguments) = (Vec::new(), Vec::new());
-        for (name, value) in entries {
-            let (makes, command) = self.of(name);
-            if makes { &mut surface } else { &mut arguments }.extend(spelled(name, value, command, folder)?);
+        let begun = |command: &Command| {
+            let out = command.get_arguments().any(|arg| arg.get_id() == "out").then_some("--out=table.csv");
+            ["asperity", command.get_name()].into_iter().chain(out).map(OsString::from).collect::<Vec<_>>()
+        };
+        let (mut surface, mut words) = (self.surface.as_ref().map(begun), begun(&self.command));
+        if surface.is_some() {
+            words.extend(["--heights".into(), rows.with_extension("npz").into()]);
         }
-        Ok((self.surface.is_some().then_some(surface), arguments))
+        for (name, value) in entries {
+            let Some((makes, command, _)) = self.option(name) else { continue };
+            let of = surface.as_mut().filter(|_| makes).unwrap_or(&mut words);
+            of.extend(spelled(name, value, command, folder)?);
+        }
+        Ok((surface, words))
     }
 
     /// All that the rows depend on: options, contents of files, and the version of the tool.
@@ -262,10 +277,9 @@ impl Commands {
     ) -> asperity::Result<Hash> {
         let mut words = vec![env!("CARGO_PKG_VERSION").to_owned(), self.command.get_name().to_owned()];
         for (name, value) in entries {
-            let (makes, command) = self.of(name);
-            let option = command.get_arguments().find(|arg| key(arg).as_ref() == Some(name));
+            let Some((makes, _, option)) = self.option(name) else { continue };
             let value = match value {
-                Value::String(file) if option.is_some_and(is_path) => contents(&folder.join(file), files)?.to_string(),
+                Value::String(file) if is_path(option) => contents(&folder.join(file), files)?.to_string(),
                 value => text(value),
             };
             words.push(format!("{makes} {name} {value}"));
@@ -284,19 +298,4 @@ fn contents(path: &Path, files: &mut HashMap<PathBuf, Hash>) -> asperity::Result
     let hash = Hash::NEW.of(&bytes);
     files.insert(path.to_owned(), hash);
     Ok(hash)
-}
-
-/// Refuses arguments that the commands do not take.
-fn check(tool: &mut Command, name: &str, surface: Option<&[OsString]>, arguments: &[OsString]) -> Result<(), String> {
-    let mut parse = |words: Vec<OsString>| tool.try_get_matches_from_mut(words).map_err(|error| on_one_line(&error));
-    let words = |name: &str, added: &[&str]| -> Vec<OsString> {
-        ["asperity", name].iter().chain(added).map(|word| OsString::from(*word)).collect()
-    };
-    if let Some(surface) = surface {
-        parse([words("surface", &["--out=surface.npz"]), surface.to_vec()].concat())?;
-    }
-    let added: &[&str] =
-        if surface.is_some() { &["--out=table.csv", "--heights=surface.npz"] } else { &["--out=table.csv"] };
-    parse([words(name, added), arguments.to_vec()].concat())?;
-    Ok(())
 }

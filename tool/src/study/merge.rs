@@ -7,7 +7,6 @@ use asperity_scene::{Format, Told};
 use serde_json::{Map, Number, Value};
 
 use super::cases::{Case, Study, text};
-use super::work::Folder;
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, write_text};
@@ -21,12 +20,12 @@ pub struct Merged {
 }
 
 /// Writes the table of a study whose cases are all done.
-pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
+pub fn merge(study: &Study) -> Outcome<Merged> {
     let (mut table, mut merged) = (String::new(), Merged { rows: 0, unconverged: 0 });
     let mut columns = Vec::new();
     for (k, case) in study.cases.iter().enumerate() {
-        let path = folder.rows(case);
-        let rows = fs::read_to_string(&path).map_err(|e| Error::unreadable(&path, e))?;
+        let path = &case.rows;
+        let rows = fs::read_to_string(path).map_err(|e| Error::unreadable(path, e))?;
         let mut lines = rows.lines();
         let names: Vec<String> = match study.format {
             Format::Csv => csv::names(lines.next().unwrap_or_default()),
@@ -43,7 +42,7 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
                 table = csv::header(own.iter().map(|(name, _)| name).chain(kept)) + "\n";
             }
         } else if names != columns {
-            return Err(Error::file(&path, "has other columns than the first case: vary nothing that adds some").into());
+            return Err(Error::file(path, "has other columns than the first case: vary nothing that adds some").into());
         }
         for line in lines {
             let row = match study.format {
@@ -52,7 +51,8 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
             };
             let Value::Object(mut row) = row else { continue };
             merged.rows += 1;
-            merged.unconverged += usize::from(row.get("status").is_none_or(|status| status != "converged"));
+            let converged = row.get("status").is_some_and(|status| status == "converged");
+            merged.unconverged += usize::from(!converged || row.get("reached") == Some(&Value::Bool(false)));
             row.retain(|name, _| !is_left_out(study, name));
             let mut whole = own(study, k, case, &columns);
             whole.extend(row);
@@ -68,16 +68,16 @@ pub fn merge(study: &Study, folder: &Folder) -> Outcome<Merged> {
         synced.map_err(|e| Error::unwritable(path, e))
     })?;
     file.commit()?;
-    write_beside(&study.out, &warnings(study, folder)?)?;
+    write_beside(&study.out, &warnings(study)?)?;
     Ok(merged)
 }
 
 /// The warnings of all cases: of each code the worst, with the numbers of its cases if these are not all, and of the
 /// one that it is the text of, if the texts differ.
-fn warnings(study: &Study, folder: &Folder) -> Outcome<Vec<Told>> {
+fn warnings(study: &Study) -> Outcome<Vec<Told>> {
     let mut all: Vec<(Told, usize, Vec<usize>, bool)> = Vec::new();
     for (number, case) in (1..).zip(&study.cases) {
-        for told in read_beside(&folder.rows(case))? {
+        for told in read_beside(&case.rows)? {
             match all.iter_mut().find(|(known, ..)| known.code == told.code) {
                 Some((known, worst, cases, differ)) => {
                     cases.push(number);

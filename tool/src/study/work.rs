@@ -1,76 +1,35 @@
-//! The work on a study: its cases, solved by workers, with the rows of each in a file of a folder.
+//! The work on a study: its cases, solved on threads, with the rows of each in a file of a folder.
 
 use std::collections::{HashMap, HashSet};
-use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicUsize;
-use std::sync::atomic::Ordering::Relaxed;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use asperity::Error;
 use asperity_scene::Hash;
 
+use super::case::Run;
 use super::cases::{Case, Study};
-use super::worker::Worker;
 use crate::interruption::stands;
 use crate::journal::{is_whole, state_path};
 use crate::outcome::Outcome;
 use crate::output::{with_suffix, write_text};
-use crate::printing::{Printing, complain};
-use crate::session::UNCONVERGED;
+use crate::printing::{Printing, Warn, complain, on_terminal};
+use crate::processes::Processes;
 use crate::threads;
-use crate::warnings;
+use crate::{Command, parsed, surface, warnings};
 
 /// The folder of the cases, beside the table.
-pub struct Folder {
-    path: PathBuf,
-    extension: &'static str,
+pub fn folder(table: &Path) -> PathBuf {
+    with_suffix(table, ".cases")
 }
 
-impl Folder {
-    pub fn of(study: &Study) -> Self {
-        let path = with_suffix(&study.out, ".cases");
-        Self { path, extension: study.format.name() }
-    }
-
-    pub fn exists(&self) -> bool {
-        self.path.exists()
-    }
-
-    /// The file with the rows of a case.
-    pub fn rows(&self, case: &Case) -> PathBuf {
-        self.path.join(format!("{}.{}", case.identity, self.extension))
-    }
-
-    /// The name of the surface that is made for a case, which no file has.
-    fn surface(&self, case: &Case) -> PathBuf {
-        self.path.join(format!("{}.npz", case.identity))
-    }
-
-    /// The file that is locked as long as a run solves a case.
-    fn lock(&self, case: &Case) -> PathBuf {
-        self.path.join(format!("{}.lock", case.identity))
-    }
-
-    /// The lock of a case; nothing as long as another run has it, unless this one is to `wait` for that.
-    fn locked(&self, case: &Case, wait: bool) -> Result<Option<File>, String> {
-        let file = File::create(self.lock(case)).map_err(|e| format!("its lock cannot be written: {e}"))?;
-        match if wait { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
-            Err(TryLockError::WouldBlock) => Ok(None),
-            // not every file system has locks
-            Ok(()) | Err(TryLockError::Error(_)) => Ok(Some(file)),
-        }
-    }
-
-    /// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
-    pub fn is_done(&self, case: &Case) -> bool {
-        let rows = self.rows(case);
-        let sum = fs::read_to_string(sum_path(&rows)).ok();
-        !state_path(&rows).exists() && sum.is_some() && sum == checksum(&rows).ok()
-    }
+/// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
+pub fn is_done(rows: &Path) -> bool {
+    let sum = fs::read_to_string(sum_path(rows)).ok();
+    !state_path(rows).exists() && sum.is_some() && sum == checksum(rows).ok()
 }
 
 /// The file with the checksum of rows, beside them.
@@ -85,87 +44,70 @@ fn checksum(rows: &Path) -> asperity::Result<String> {
     Ok(format!("{of_rows} {}\n", Hash::NEW.of(&warnings)))
 }
 
+/// The lock of a case, which a run has as long as it solves it; nothing as long as another run has it, unless this one is
+/// to `wait` for that.
+fn locked(lock: &Path, wait: bool) -> Outcome<Option<File>> {
+    let file = File::create(lock).map_err(|e| format!("its lock cannot be written: {e}"))?;
+    match if wait { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
+        Err(TryLockError::WouldBlock) => Ok(None),
+        // not every file system has locks
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(Some(file)),
+    }
+}
+
+/// The work on the cases of a study.
+struct Work<'a> {
+    study: &'a Study,
+    processes: &'a Processes,
+    printing: Printing,
+    /// The cases that are to be solved, and those that were done before
+    left: Vec<usize>,
+    before: usize,
+    progress: Mutex<Progress>,
+}
+
+/// How far the work is.
+#[derive(Default)]
+struct Progress {
+    next: usize,
+    done: usize,
+    /// The cases that another run is solving
+    elsewhere: Vec<usize>,
+    /// The warnings with a code, each of which is said of one case, and not again of the next
+    said: HashSet<String>,
+    /// The first case that was refused for a reason, and how many were
+    refused: HashMap<String, (usize, usize)>,
+}
+
 /// Solves the cases with these numbers that are not done, some at a time.
 ///
 /// # Errors
 /// How many cases were refused, each reason having been said with the first case of it.
 pub fn solve(
+    tool: &clap::Command,
     study: &Study,
-    folder: &Folder,
     chosen: &[usize],
-    program: &[OsString],
     jobs: usize,
     printing: Printing,
+    processes: &Processes,
 ) -> Outcome<()> {
-    fs::create_dir_all(&folder.path).map_err(|e| Error::unwritable(&folder.path, e))?;
+    let folder = folder(&study.out);
+    fs::create_dir_all(&folder).map_err(|e| Error::unwritable(&folder, e))?;
     let jobs = jobs.min(chosen.len().max(1));
     let threads = (threads::count() / jobs).max(1);
     // equal cases are one
-    let (mut known, mut before) = (HashSet::new(), 0);
-    let is_left = |number: &usize| {
-        let case = &study.cases[*number];
-        let is_new = known.insert(case.identity.0);
-        let is_done = is_new && folder.is_done(case);
-        before += usize::from(is_done);
-        is_new && !is_done
-    };
-    let left: Vec<_> = chosen.iter().copied().filter(is_left).collect();
-    let [next, done] = [(); 2].map(|()| AtomicUsize::new(0));
-    // a warning with a code is said of one case, and not again of the next: the file of warnings has the cases
-    let (refusals, said) = (Mutex::new(HashMap::new()), Mutex::new(HashSet::new()));
-    let told = |number: usize| format!("case {}: {}", number + 1, study.told(&study.cases[number]));
-    let stand = |done: usize| {
-        let (done, all) = (before + done, before + left.len());
-        stands(format!("{done} of {all} cases are done: the same command goes on, also within those that were begun"));
-    };
-    stand(0);
-    // whether the case is over, as it is not where another run has it
-    let over = |number: usize, worker: &mut Worker<'_>, wait: bool| {
-        match solved(study, &study.cases[number], folder, worker, wait) {
-            Ok(None) => return false,
-            Ok(Some(warnings)) => {
-                let name = told(number);
-                let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
-                let new = warnings.into_iter().filter(|line| code(line).is_none() || said.insert(line.clone()));
-                new.for_each(|line| complain("warning", &format!("{name}: {line}")));
-                drop(said);
-                let done = done.fetch_add(1, Relaxed) + 1;
-                stand(done);
-                let width = left.len().to_string().len();
-                printing.say(&format!("{done:>width$}/{}  {name}", left.len()));
-            }
-            Err(error) => {
-                let mut refusals = refusals.lock().unwrap_or_else(PoisonError::into_inner);
-                let (_, count) = refusals.entry(error.clone()).or_insert((number, 0));
-                *count += 1;
-                if *count == 1 {
-                    complain("warning", &format!("{} is refused: {error}", told(number)));
-                }
-            }
-        }
-        true
-    };
-    let elsewhere = Mutex::new(Vec::new());
-    let elsewhere = || elsewhere.lock().unwrap_or_else(PoisonError::into_inner);
-    let work = || {
-        let mut worker = Worker::new(program, threads);
-        while let Some(&number) = left.get(next.fetch_add(1, Relaxed)) {
-            if !over(number, &mut worker, false) {
-                elsewhere().push(number);
-            }
-        }
-        loop {
-            let Some(number) = elsewhere().pop() else { break };
-            printing.say(&format!("{} is solved by another run: waiting for it", told(number)));
-            over(number, &mut worker, true);
-        }
-    };
+    let mut known = HashSet::new();
+    let new = chosen.iter().copied().filter(|&number| known.insert(&study.cases[number].rows));
+    let (done, left): (Vec<_>, Vec<_>) = new.partition(|&number| is_done(&study.cases[number].rows));
+    let work = Work { study, processes, printing, left, before: done.len(), progress: Mutex::default() };
+    work.stands(0);
     thread::scope(|scope| {
-        for _ in 0..jobs {
-            scope.spawn(work);
-        }
-    });
-    refused(refusals.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect(), chosen.len())
+        let begun: Vec<_> =
+            (0..jobs).map(|_| scope.spawn(|| threads::on(threads, || work.work(tool.clone())))).collect();
+        begun.into_iter().filter_map(|job| job.join().ok()).collect::<Outcome<()>>()
+    })?;
+    let reasons = work.progress.into_inner().unwrap_or_else(PoisonError::into_inner).refused;
+    refused(reasons.into_values().collect(), chosen.len())
 }
 
 /// Refuses a study of which some of all cases were refused: by each reason a first case, and how many in all.
@@ -184,58 +126,100 @@ fn refused(mut reasons: Vec<(usize, usize)>, of: usize) -> Outcome<()> {
     Err(format!("{count} of {of} cases were refused{alike}: mend the study, and run it again").into())
 }
 
-/// Solves a case that no other run has solved by then; the warnings of its runs, or the line by which one was refused.
-/// None if another run is solving the case, unless this one is to `wait`.
-fn solved(
-    study: &Study,
-    case: &Case,
-    folder: &Folder,
-    worker: &mut Worker<'_>,
-    wait: bool,
-) -> Result<Option<Vec<String>>, String> {
-    let Some(_lock) = folder.locked(case, wait)? else { return Ok(None) };
-    let mut warnings = Vec::new();
-    if !folder.is_done(case) {
-        warnings = rows_of(study, case, folder, worker)?;
+impl Work<'_> {
+    fn progress(&self) -> MutexGuard<'_, Progress> {
+        self.progress.lock().unwrap_or_else(PoisonError::into_inner)
     }
-    let _ = fs::remove_file(folder.lock(case));
-    Ok(Some(warnings))
-}
 
-/// Solves a case; the warnings of its runs, or the line by which one was refused.
-fn rows_of(study: &Study, case: &Case, folder: &Folder, worker: &mut Worker<'_>) -> Result<Vec<String>, String> {
-    let (rows, made) = (folder.rows(case), folder.surface(case));
-    let command = |name: &str, arguments: &[OsString], out: &Path| {
-        let before = ["asperity", name, "--quiet", "--out"].map(OsString::from);
-        [&before[..], &[out.into()], arguments].concat()
-    };
-    let mut warnings = Vec::new();
-    let mut fill = command(&study.command, &case.arguments, &rows);
-    if !is_whole(&rows) {
-        // a run that has just begun has neither of these yet
-        let begun = sum_path(&rows).exists() || state_path(&rows).exists();
-        if begun && fs::metadata(&rows).is_ok_and(|file| file.len() > 0) {
-            warnings.push("its rows were damaged, and it was solved again".to_owned());
+    fn told(&self, number: usize) -> String {
+        format!("case {}: {}", number + 1, self.study.told(&self.study.cases[number]))
+    }
+
+    /// Sets what an interruption says of the cases.
+    fn stands(&self, done: usize) {
+        let (done, all) = (self.before + done, self.before + self.left.len());
+        stands(format!("{done} of {all} cases are done: the same command goes on, also within those that were begun"));
+    }
+
+    /// Solves one case after the other, as long as there are some, and at the end those of other runs.
+    fn work(&self, mut tool: clap::Command) {
+        let next = || {
+            let mut progress = self.progress();
+            progress.next += 1;
+            self.left.get(progress.next - 1).copied()
+        };
+        while let Some(number) = next() {
+            self.case(&mut tool, number, false);
         }
-        fill.push("--force".into());
+        loop {
+            let Some(number) = self.progress().elsewhere.pop() else { break };
+            self.printing.say(&format!("{} is solved by another run: waiting for it", self.told(number)));
+            self.case(&mut tool, number, true);
+        }
     }
-    let mut make = None;
-    if let Some(surface) = &case.surface {
-        fill.extend(["--heights".into(), made.clone().into()]);
-        make = Some([command("surface", surface, &made), vec!["--force".into()]].concat());
-    }
-    let said = worker.run(&make.into_iter().chain([fill]).collect::<Vec<_>>())?;
-    // rows that did not converge are counted in the table
-    warnings.extend(said.into_iter().filter(|line| code(line) != Some(UNCONVERGED)));
-    checksum(&rows).and_then(|sum| write_text(&sum_path(&rows), &sum)).map_err(|error| error.to_string())?;
-    // last: what is left with it is not done
-    match fs::remove_file(state_path(&rows)) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(format!("its state cannot be removed: {error}")),
-        _ => Ok(warnings),
-    }
-}
 
-/// The code of a warning, which stands before its message.
-fn code(line: &str) -> Option<&str> {
-    line.split_once(": ").map(|(code, _)| code)
+    /// Solves a case, and says its warnings, or why it is refused; leaves one that another run is solving for later,
+    /// unless this one is to `wait`.
+    fn case(&self, tool: &mut clap::Command, number: usize, wait: bool) {
+        let (name, mut warnings) = (self.told(number), Vec::new());
+        let solved = self.solved(tool, &self.study.cases[number], wait, &mut |line| warnings.push(on_terminal(&line)));
+        let mut progress = self.progress();
+        match solved.map_err(|error| on_terminal(&error.to_string())) {
+            Ok(false) => progress.elsewhere.push(number),
+            Ok(true) => {
+                warnings.retain(|line| !line.contains(": ") || progress.said.insert(line.clone()));
+                warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
+                progress.done += 1;
+                let (done, of) = (progress.done, self.left.len());
+                self.stands(done);
+                self.printing.say(&format!("{done:>width$}/{of}  {name}", width = of.to_string().len()));
+            }
+            Err(error) => {
+                let (_, count) = progress.refused.entry(error.clone()).or_insert((number, 0));
+                *count += 1;
+                if *count == 1 {
+                    complain("warning", &format!("{name} is refused: {error}"));
+                }
+            }
+        }
+    }
+
+    /// Solves a case that no other run has solved by then; false if another run is solving it, unless this one is to
+    /// `wait`.
+    fn solved(&self, tool: &mut clap::Command, case: &Case, wait: bool, warn: Warn<'_>) -> Outcome<bool> {
+        let lock = case.rows.with_extension("lock");
+        let Some(_lock) = locked(&lock, wait)? else { return Ok(false) };
+        if !is_done(&case.rows) {
+            self.solve(tool, case, warn)?;
+        }
+        let _ = fs::remove_file(lock);
+        Ok(true)
+    }
+
+    fn solve(&self, tool: &mut clap::Command, case: &Case, warn: Warn<'_>) -> Outcome<()> {
+        let (rows, state) = (&case.rows, state_path(&case.rows));
+        let force = !is_whole(rows);
+        // a run that has just begun has neither of these yet
+        let begun = sum_path(rows).exists() || state.exists();
+        if force && begun && fs::metadata(rows).is_ok_and(|file| file.len() > 0) {
+            warn("its rows were damaged, and it was solved again".to_owned());
+        }
+        let mut run = |words: &[_]| parsed(tool, words).map_err(|error| error.to_string());
+        let made = match case.surface.as_deref().map(&mut run).transpose()? {
+            Some((Command::Surface(options), scene)) => Some(surface::map(&options, &scene)?),
+            _ => None,
+        };
+        let (command, scene) = run(&case.words)?;
+        let ((problem, strictness), format) = (command.problem()?, self.study.format);
+        let (command, processes, out) = (&*self.study.command, self.processes, rows.clone());
+        Run { command, problem, strictness, scene, processes, out, format, force }.solve(made, warn)?;
+        write_text(&sum_path(rows), &checksum(rows)?)?;
+        // last: what is left with it is not done
+        match fs::remove_file(state) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(format!("its state cannot be removed: {error}").into())
+            }
+            _ => Ok(()),
+        }
+    }
 }

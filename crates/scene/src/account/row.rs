@@ -47,6 +47,7 @@ pub(crate) enum Kind {
     Search,
     Cycle,
     Interface,
+    PullOff,
 }
 
 const STATE: &str = "control control_value mean_pressure mean_contact_pressure mean_gap normal_force approach \
@@ -55,6 +56,9 @@ const STATE: &str = "control control_value mean_pressure mean_contact_pressure m
 const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
 pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
 const BALANCE: &str = "work dissipated imbalance event energy_drop";
+/// What a search for the pull-off found, before the last state that holds; its operator applications are of all solves.
+const PULL_OFF: &str = "pull_off_pressure pull_off_force limit_pressure limit_force limit_error lost_pressure reached \
+                        branch solves";
 const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth_mean plastic_energy";
 
 /// The contact by the adhesive energy, and in the limit of no range, of a law that has the range of the grid.
@@ -69,6 +73,7 @@ impl Kind {
             Self::Interface => (vec![interface::COLUMNS], interface::OUTCOME),
             Self::Sweep => (vec![STATE, OUTCOME, INPUTS, stiffness], ""),
             Self::Search => (vec![STATE, OUTCOME, INPUTS, "wanted_contact_fraction reached", stiffness], ""),
+            Self::PullOff => (vec![PULL_OFF, STATE, OUTCOME, INPUTS], ""),
             Self::Cycle => (vec!["leg direction", STATE, BALANCE, OUTCOME, INPUTS, stiffness], ""),
         };
         let (limit, plastic) = (if of_grid { LIMIT } else { "" }, if yields { PLASTIC } else { "" });

@@ -60,12 +60,12 @@ keys! {
 }
 
 keys! {
-    /// The leakage of a table.
+    /// The leakage after a solve, or in each row of a table.
     LeakageKeys {
         "Output" {
             /// Enclose the transmissivity of the gap along x and y under each load between two bounds, as asperity leak, in
-            /// columns transmissivity_x_lower and so on, as close as a share of the upper one [default: 1e-3 if {leakage}
-            /// stands alone]
+            /// a table in columns transmissivity_x_lower and so on, as close as a share of the upper one [default: 1e-3 if
+            /// {leakage} stands alone]
             leakage: Kind::number(Range::SHARE, &["T"]).alone("1e-3"),
         }
     }

@@ -207,6 +207,7 @@ impl<T: Scalar> Course<T> {
             Kind::Sweep | Kind::Search => "sweep",
             Kind::Cycle => "cycle",
             Kind::Interface => "interface",
+            Kind::PullOff => "pull-off",
         }
     }
 

@@ -1,0 +1,109 @@
+//! The solve of a case: a file with its rows, its warnings beside it, and nothing else.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use asperity::Grid;
+use asperity::solver::Iteration;
+use asperity_maps::Topography;
+use asperity_scene::warnings::Warnings;
+use asperity_scene::{Account, After, Format, Load, Precision, Skin, TableFile, Way, shortfalls};
+
+use crate::options::{Problem, ProblemOptions, Scalar};
+use crate::outcome::Outcome;
+use crate::output::write_text;
+use crate::printing::{Warn, in_options};
+use crate::processes::Processes;
+use crate::scene::SceneFile;
+use crate::session::{Strictness, session};
+
+/// A case to solve, by a command.
+pub struct Run<'a> {
+    pub command: &'a str,
+    pub problem: ProblemOptions,
+    pub strictness: Strictness,
+    pub scene: SceneFile,
+    pub processes: &'a Processes,
+    /// The file of the rows
+    pub out: PathBuf,
+    pub format: Format,
+    /// Whether to start over
+    pub force: bool,
+}
+
+impl Run<'_> {
+    /// Solves the case, with heights that were `made`, if they were, and tells its warnings.
+    pub fn solve(&self, made: Option<Topography>, warn: Warn<'_>) -> Outcome<()> {
+        let Self { problem, scene, processes, .. } = self;
+        problem.check_table()?;
+        let loads = in_options(match self.command {
+            "solve" => problem.given.load().map(|load| vec![load]),
+            "pull-off" => Ok(Vec::new()),
+            _ => problem.given.loads(),
+        })?;
+        problem.check_loads(&loads)?;
+        let after = in_options(problem.given.after())?;
+        problem.check_after(&after, processes)?;
+        let given = problem.with(made, scene.is_si(), processes, warn)?;
+        match problem.scene.precision {
+            Precision::F32 => self.rows::<f32>(given, &loads, after, warn),
+            Precision::F64 => self.rows::<f64>(given, &loads, after, warn),
+        }
+    }
+
+    fn rows<T: Scalar>(&self, given: Problem, loads: &[Load], after: After, warn: Warn<'_>) -> Outcome<()> {
+        let Problem { surface, adhesion, origin, part, start } = given;
+        let Self { problem, scene, out, .. } = self;
+        let units = in_options(problem.given.units(origin.unit.as_deref(), scene.is_si()))?;
+        let full = problem.full_pressure(&surface, loads)?;
+        let (surface, of) = (Arc::new(surface), (&adhesion, &origin, &part));
+        let mut session = session::<T>(problem, surface, of, (&units, scene), self.strictness, self.processes)?;
+        // rows that have not converged are counted in the table
+        let mut tell = |warnings: &mut Warnings, row: usize, account: Option<&Account>| {
+            warnings.tell().iter().for_each(|told| warn(told.to_string()));
+            let short = account.into_iter().flat_map(|account| shortfalls(account, Skin::Options));
+            short.filter(|(what, _)| *what != "convergence").for_each(|(_, text)| warn(format!("row {row}: {text}")));
+        };
+        if let "sweep" | "cycle" = self.command {
+            let way = match self.command {
+                "cycle" => Way::cycle(loads, full, problem.given.path())?,
+                _ => Way::sweep(loads, full),
+            };
+            part.check(way.control(&problem.scene))?;
+            let (out, format, force) = (out.clone(), Some(self.format), self.force);
+            let (law_table, works) = (adhesion.table, adhesion.works);
+            let file = TableFile { out, format, force, is_case: true, law_table, works, ..TableFile::default() };
+            session.begin(way, after, false, start, Some(file))?;
+            tell(&mut session.warnings, 0, None);
+            session.warnings.keep_beside(&self.out, session.rows() > 0)?;
+            while let Some((_, row)) = session.next(&mut |_| ControlFlow::Continue(()))? {
+                let rows = session.rows();
+                tell(&mut session.warnings, rows, Some(&row.account));
+            }
+            return Ok(());
+        }
+        let (mut session, start) = (session.for_one_solve(), start.map(T::field));
+        let mut observe = |_: &Grid, _: &Iteration, _: f64| ControlFlow::Continue(());
+        let (mut solved, pulled_off) = match loads.first() {
+            Some(&load) => {
+                let asked = in_options(problem.given.asked(load, full))?;
+                in_options(asked.check(&problem.scene.adhesion, problem.scene.method, start.is_some()))?;
+                part.check(asked.control)?;
+                (session.solve(&asked, start, &mut observe)?, None)
+            }
+            None => {
+                let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
+                let (last, found) = session.pull_off(asked, goal, start, &mut observe)?;
+                (last, Some(found))
+            }
+        };
+        let text = session.table_of(&mut solved, &after, pulled_off.as_ref(), self.format)?;
+        tell(&mut session.warnings, 1, Some(&solved.account));
+        let short = pulled_off.and_then(|found| found.shortfall(&solved.account, Skin::Options));
+        session.warnings.keep_beside(out, false)?;
+        write_text(out, &text)?;
+        short.into_iter().for_each(warn);
+        Ok(())
+    }
+}
