@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _flow, _interface, _pair, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
+from . import _flow, _pair, _prepare, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import (
@@ -32,6 +32,7 @@ from ._asperity import (
     check_law,
 )
 from ._body import Coating, Layer, Symbol
+from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep
 from ._cycle import Cycle, Step
 from ._flow import Flow, Leakage
 from ._interface import Interface
@@ -54,14 +55,8 @@ from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
 contact_modulus = _checked(_pair.contact_modulus)
-cycle = _checked(_cycle.cycle)
-interface = _checked(_interface.interface)
 leakage = _checked(_flow.leakage)
 prepare = _checked(_prepare.prepare)
-pull_off = _checked(_pull_off.pull_off)
-solve = _checked(_solve.solve)
-stability = _checked(_stability.stability)
-sweep = _checked(_sweep.sweep)
 
 __all__ = [
     "JKR",
@@ -69,6 +64,7 @@ __all__ = [
     "Coating",
     "Conductance",
     "Constriction",
+    "Contact",
     "ContactStatistics",
     "ConvergenceWarning",
     "CutOff",

@@ -19,6 +19,7 @@ __all__ = [
     "Iteration",
     "JKR",
     "Jkr",
+    "Keywords",
     "Law",
     "LennardJones",
     "Look",
@@ -64,8 +65,6 @@ __all__ = [
 VERSION: str
 
 _Field = NDArray[np.float64]
-_Pair = tuple[float, float] | None
-_Following = tuple[bool, _Pair, _Pair, float | None]
 _Narrowest = tuple[float, tuple[int, int], NDArray[np.int64]]
 _Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
 _Origin = tuple[int | None, float | None]
@@ -232,67 +231,37 @@ class Original:
     def mirrored(self, field: _Field) -> _Field: ...
 
 @final
+class Keywords:
+    def __new__(cls, keywords: dict[str, Any], law: Any) -> Keywords: ...
+    def numbers(self, key: str) -> list[float] | None: ...
+    @property
+    def is_si(self) -> bool: ...
+
+@final
 class Problem:
     def __new__(
         cls,
-        heights: _Field,
-        against: tuple[str, tuple[float, float]] | None,
-        lengths: tuple[float, float],
-        absent_missing: bool,
-        boundary: str,
-        body: dict[str, Any],
+        map: dict[str, Any],
+        keywords: Keywords,
         symbol: tuple[Callable[..., Any], str, bool] | None,
-        law: Any,
-        wall: str,
-        wall_stiffness: float | None,
-        hardness: float | _Field | None,
-        precision: str,
-        tolerance: float | None,
-        max_iterations: int | None,
-        method: str,
-        branch: str | None,
-        nested: bool | None,
-        threads: int | None,
-        original: Original | None,
-        part: str | None,
-        unit: str | None,
-        source: str | None,
-        scars_removed: float | None,
-        given: dict[str, Any] | None,
+        is_kept: bool,
     ) -> Problem: ...
     def solve(
-        self,
-        load: tuple[str, list[float]],
-        start: str | _Field | None,
-        observe: Callable[[Iteration], object] | None,
-        stability: bool,
-        leave: bool,
-        after: _Following,
-        accuracy: tuple[float | None, str | None, float | None],
+        self, keywords: dict[str, Any], start: str | _Field | None, observe: Callable[[Iteration], object] | None
     ) -> dict[str, Any]: ...
     def pull_off(
-        self,
-        tolerance: float,
-        preload: float | None,
-        start: str | _Field | None,
-        observe: Callable[[Iteration], object] | None,
-        accuracy: tuple[float | None, str | None, float | None],
+        self, keywords: dict[str, Any], start: str | _Field | None, observe: Callable[[Iteration], object] | None
     ) -> dict[str, Any]: ...
     def begin(
         self,
-        loads: list[tuple[str, list[float]]],
+        way: str,
+        keywords: list[dict[str, Any]],
         start: str | _Field | None,
-        after: _Following,
-        interface: bool,
-        path: tuple[int, float, float, bool] | None,
-        seed: int | None,
-        table: tuple[str, str | None, bool, _Field | None, _Field | None, bool] | None,
-    ) -> tuple[list[str], list[list[Any]]]: ...
+        table: tuple[int | None, tuple[str, str | None, bool, _Field | None, _Field | None, bool] | None],
+    ) -> tuple[tuple[list[str], list[list[Any]]], int]: ...
     def pace(self) -> tuple[float | None, str] | None: ...
     def next(self, observe: Callable[[Iteration], object] | None) -> dict[str, Any] | None: ...
-    def stability(
-        self, load: tuple[str, list[float]], gap: _Field, relative_error: float
-    ) -> dict[str, Any]: ...
+    def stability(self, keywords: dict[str, Any], gap: _Field, relative_error: float) -> dict[str, Any]: ...
 
 def contact_tables(
     gap: _Field, contact_pressure: _Field, lengths: tuple[float, float], boundary: str

@@ -47,8 +47,9 @@ class Layer(Measured):
     _keys: ClassVar[dict[str, str]] = {"thickness": "layer", "poisson": "poisson"}
 
     @property
-    def _parameters(self) -> dict[str, Any]:
-        return {"layer": self.thickness, "poisson": self.poisson, "base": self.base}
+    def keys(self) -> dict[str, Any]:
+        """Its keys, with their values as they were typed."""
+        return {**super().keys, "base": self.base}
 
 
 @dataclass(frozen=True)
@@ -90,10 +91,6 @@ class Coating(Measured):
         "poisson": "coating_poisson",
         "substrate_poisson": "poisson",
     }
-
-    @property
-    def _parameters(self) -> dict[str, Any]:
-        return {key: getattr(self, name) for name, key in self._keys.items()}
 
 
 class Symbol:
@@ -162,11 +159,6 @@ def _parameters_of(function: Any) -> int:
 
 #: An elastic body as functions take it; a half-space is none of these.
 Body: TypeAlias = Layer | Coating | Symbol
-
-
-def parameters(body: Body | None) -> dict[str, Any]:
-    """The parameters of a body by the keys of reports."""
-    return {} if body is None or isinstance(body, Symbol) else body._parameters
 
 
 def symbol(body: Body | None) -> tuple[Callable[..., ArrayLike], str, bool] | None:

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from collections.abc import Iterator
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _law
-from ._control import Load, Pair, number, pair
 from ._progress import progress
-from ._scene import Scene
 from ._solution import Solution
+
+if TYPE_CHECKING:
+    from ._contact import Contact
 
 #: A file for the rows, a folder for fields, and whether to start over.
 File = tuple[str | os.PathLike[str] | None, str | os.PathLike[str] | None, bool]
-
-#: The findings after each state: whether the stiffness is one, resistivities, conductivities, and bounds of leakage.
-Following = tuple[bool, Pair, Pair, float | None]
 
 T = TypeVar("T")
 R = TypeVar("R", bound="Rows[Any]")
@@ -29,29 +28,22 @@ class Rows(Iterator[T]):
     """An iterator over states, of which the numbers are kept, and not the fields."""
 
     def __init__(
-        self,
-        scene: Scene,
-        loads: list[Load],
-        start: Any,
-        observe: Any,
-        after: Following = (False, None, None, None),
-        interface: bool = False,
-        path: tuple[int, float, float, bool] | None = None,
-        file: File = (None, None, False),
+        self, contact: Contact, way: str, keys: list[dict[str, Any]], start: Any, observe: Any, file: File
     ) -> None:
         out, fields, force = file
         if out is None and (fields is not None or force):
             raise ValueError("fields and force are of the table in a file: give out, too")
-        self._scene, self._loads, self._observe, self._ended = scene, loads, observe, False
+        self._contact, self._observe, self._ended = contact, observe, False
         kept = fields if fields is None else os.path.abspath(fields)
-        table = None if out is None else (os.path.abspath(out), kept, force, *_law.fields(scene.adhesion))
-        start, seed = scene.start(start), scene.topography.seed
-        names, rows = scene.problem.begin(loads, start, after, interface, path, seed, table)
+        table = None if out is None else (os.path.abspath(out), kept, force, *_law.fields(contact.own_law))
+        (names, rows), self._loads = contact.problem.begin(
+            way, keys, contact._start(start), (contact.topography.seed, table)
+        )
         #: the names of the columns, as in the tool's table
         self.names = tuple(names)
         self.rows: list[dict[str, Any]] = [dict(zip(self.names, row, strict=True)) for row in rows]
         self._seconds_left: float | None = None
-        self._keep(scene.problem.pace())
+        self._keep(contact.problem.pace())
 
     def __getstate__(self) -> dict[str, Any]:
         # a table travels complete, and without its view of the memory of this process
@@ -59,7 +51,7 @@ class Rows(Iterator[T]):
 
     def _solve(self) -> Solution:
         """The next solution, whose row is kept."""
-        found = None if self._ended else self._scene.problem.next(self._observe)
+        found = None if self._ended else self._contact.problem.next(self._observe)
         if found is None:
             self._ended, self._seconds_left = True, None
             raise StopIteration
@@ -68,7 +60,7 @@ class Rows(Iterator[T]):
             # ended by the observer: it goes no further
             self._ended = found["row"]["status"] == "stopped"
         self._keep(found["pace"])
-        return self._scene.solution(found)
+        return self._contact._solution(found)
 
     def _keep(self, pace: tuple[float | None, str] | None) -> None:
         """Keeps the time that is left of a cycle, and shows its pace."""
@@ -95,13 +87,19 @@ class Rows(Iterator[T]):
         self.run()
         return {name: np.array([_cell(name, row[name]) for row in self.rows]) for name in self.names}
 
+    def to_dataframe(self) -> Any:
+        """The columns as a table of pandas; solves what is left.
+
+        Returns
+        -------
+        pandas.DataFrame
+        """
+        try:
+            pandas = importlib.import_module("pandas")
+        except ImportError as error:
+            raise ImportError("to_dataframe needs pandas: python -m pip install pandas") from error
+        return pandas.DataFrame(self.columns)
+
 
 def _cell(name: str, value: Any) -> Any:
     return np.nan if value is None and name not in ("branch", "event", "part") else value
-
-
-def following(given: dict[str, Any]) -> Following:
-    """The findings after each state among the keywords of a function."""
-    first, second = (pair(name, given[name]) for name in ("resistivities", "conductivities"))
-    leakage = given["leakage"]
-    return (given["stiffness"], first, second, None if leakage is None else number("leakage", leakage))

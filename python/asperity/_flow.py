@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity
-from ._control import number
+from ._units import number
 from ._solution import Conductance, Constriction, Percolation, Solution
 from ._topography import _lengths, field_of
 from ._types import Boundary, Lengths, Quantity

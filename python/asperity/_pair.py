@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TypeAlias, overload
-
-import numpy as np
+from typing import overload
 
 from . import _asperity
-from ._control import number
+from ._units import number
 from ._topography import Heights, Topography, known, knows_axes, taken
 from ._types import AxisOrder, Boundary, Quantity
 from ._units import given
 
-#: A shift of the surface on the other side as functions take it: along x, or along x and y.
-Shift: TypeAlias = Quantity | tuple[Quantity, Quantity]
-
-
-def along_both(shift: Shift | None) -> tuple[float, float]:
+def along_both(shift: list[float] | None) -> tuple[float, float]:
     """A shift along both axes."""
-    both = (0.0,) if shift is None else tuple(number("shift", part) for part in np.ravel(np.asarray(shift, dtype=object)))
-    if len(both) not in (1, 2):
-        raise TypeError(f"shift is {shift!r}: it must be (x, y), lengths, or x alone")
-    return (both[0], both[-1] if len(both) == 2 else 0.0)
+    both = shift or [0.0]
+    return (both[0], both[1] if len(both) == 2 else 0.0)
 
 
 def between(
@@ -33,9 +25,10 @@ def between(
     axes: AxisOrder | None,
     boundary: Boundary,
     absent_missing: bool,
+    si: bool,
 ) -> tuple[Topography, str]:
     """The map between two surfaces that face each other, and the name of the second one in reports."""
-    other = taken(against, None, None if knows_axes(against) else axes)
+    other = taken(against, None, None if knows_axes(against) else axes, si)
     heights = _asperity.between(known(first), known(other), shift, boundary, absent_missing)
     periodic = False if other.periodic is False else first.periodic
     return replace(first, heights=heights, periodic=periodic), other.source or "array"

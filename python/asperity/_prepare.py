@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from . import _asperity
-from ._control import number
+from ._units import number
 from ._topography import Heights, Topography, _lengths, found, known, plain
 from ._types import AxisOrder, Lengths, Quantity, RemovedForm, RowAlignment, ScanAxis, Trend
 from ._units import given as units

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
 
@@ -14,6 +15,7 @@ from ._types import Boundary, Report, Status
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from xarray import Dataset
 
     from ._topography import Topography
 
@@ -141,8 +143,8 @@ class Solution:
         Map of the heights that were solved. Where an accuracy was asked for, it is on the grid of the solution.
     body : Layer, Coating, Symbol or None
         Body that deforms, unless it is a half-space.
-    law : object or None
-        Adhesion law.
+    law : object, str or None
+        Adhesion law, or the word for it.
     plan : Plan or None
         What the accuracy was likely to take, where one was asked for.
 
@@ -279,14 +281,15 @@ class Solution:
         >>> abs(found.per_area / (2 * solution.contact_stiffness / (2.0 * 4.0)) - 1) < 1e-4
         True
         """
-        if self.body is not None:
-            raise ValueError(f"the body is a {type(self.body).__name__.lower()}: conductance is that between half-spaces")
+        body = next((key for key in ("layer", "coating", "symbol") if self._told[key] is not None), None)
+        if body is not None:
+            raise ValueError(f"the body is a {body}: conductance is that between half-spaces")
         first, second = (float(one) for one in resistivities)
         gap = np.asarray(self.whole_gap).reshape(self.whole_gap.shape[0], -1)
         lengths = self.topography.lengths
         sides = self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
         per_area, _, error = _asperity.conductance(gap <= 0, sides, self.boundary, (first, second))
-        grids = self.report["grid_error"] if self.law is None else None
+        grids = self.report["grid_error"] if self._told["law"] == "none" else None
         grid = None if grids is None else grids["stiffness"]
         lx, ly = self.lengths
         of_grid = None if grid is None else grid["relative"]
@@ -299,6 +302,45 @@ class Solution:
         ``"heights"`` is the file that they came from, if they came from one.
         """
         return self._looked[1]
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes the fields and the report into a folder, as ``asperity solve --out``; ``asperity contact`` reads it.
+
+        Parameters
+        ----------
+        folder : str or path
+            Folder, which is made if it is not there: ``gap.npy`` and so on, and ``report.json``.
+        """
+        import json
+
+        os.makedirs(folder, exist_ok=True)
+        # absent nodes have no gap
+        gap = np.where(np.isfinite(self.gap), self.gap, np.nan)
+        fields = {"gap": gap, "pressure": self.pressure, "contact_pressure": self.contact_pressure}
+        for name, field in {**fields, "plastic_depth": self.plastic_depth, "mode": self.mode}.items():
+            if field is not None:
+                np.save(os.path.join(folder, f"{name}.npy"), field.reshape(field.shape[0], -1))
+        with open(os.path.join(folder, "report.json"), "w", encoding="utf-8") as file:
+            json.dump(self.report, file, indent=2, ensure_ascii=False)
+
+    def to_xarray(self) -> Dataset:
+        """The fields over the coordinates of the nodes, with the numbers of the report as attributes; needs xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+        """
+        try:
+            import xarray
+        except ImportError as error:
+            raise ImportError("to_xarray needs xarray: python -m pip install xarray") from error
+        dims = ("x", "y")[: self.gap.ndim]
+        coords = {
+            dim: np.arange(nodes) * (side / nodes) for dim, nodes, side in zip(dims, self.gap.shape, self.lengths)
+        }
+        fields = {"gap": self.gap, "pressure": self.pressure, "contact_pressure": self.contact_pressure}
+        data = {name: (dims, field) for name, field in {**fields, "heights": self.heights}.items()}
+        return xarray.Dataset(data, coords, {k: v for k, v in self.report.items() if isinstance(v, int | float | str)})
 
     @property
     def heights(self) -> NDArray[np.float64]:

@@ -170,11 +170,11 @@ def plain(keys: dict[str, Any]) -> dict[str, Any]:
 
 
 def taken(
-    heights: Heights, lengths: Lengths | None = None, axes: AxisOrder | None = None
+    heights: Heights, lengths: Any = None, axes: AxisOrder | None = None, si: bool | None = None
 ) -> Topography:
     """The map of whatever holds heights, with the side lengths that are given for it; in metres beside units."""
     topography = found(heights, axes)
-    if units.get() is not None:
+    if si or (si is None and units.get() is not None):
         topography = _in_metres(topography)
     return topography if lengths is None else replace(topography, lengths=_lengths(lengths, topography.heights.shape))
 

@@ -7,7 +7,6 @@ from typing import Any, Literal, Protocol, TypeAlias, TypedDict
 from numpy.typing import ArrayLike, NDArray
 
 Boundary: TypeAlias = Literal["periodic", "free"]
-RigidWall: TypeAlias = Literal["hard", "none"]
 WallName: TypeAlias = Literal["hard", "none", "penalty", "uzawa"]
 Method: TypeAlias = Literal["default", "rey2017"]
 Precision: TypeAlias = Literal["f64", "f32"]

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from . import _asperity
-from ._control import PLURALS
 
 #: The quantities of the call that runs, as they were typed; None if its numbers have no units.
 given: ContextVar[dict[str, str | list[str]] | None] = ContextVar("given", default=None)
@@ -24,17 +23,6 @@ class Quantities:
 
     def read(self, key: str, value: Any) -> Any:
         """The value of a keyword with numbers in the SI in the place of its texts with units."""
-        key = PLURALS.get(key, key)
-        if key in ("law", "wall", "body"):
-            # these have read theirs
-            texts, bare = getattr(value, "given", ({}, None))
-            self._texts.update({name: [text] for name, text in texts.items()})
-            self._bare.update([bare] if bare else [])
-            return value
-        if key == "hardness" and np.ndim(value) > 0:
-            return value
-        if key == "spring":
-            return self._spring(value)
         if value is None or isinstance(value, bytes) or not _asperity.has_dimension(key):
             return value
         if isinstance(value, str):
@@ -47,15 +35,6 @@ class Quantities:
         if value != 0:
             self._bare.setdefault(key, value)
         return value
-
-    def _spring(self, value: Any) -> Any:
-        """A spring, a stiffness and a position at rest, or several."""
-        items = _items(value)
-        if items is None or isinstance(value, str):
-            return value
-        if len(items) == 2 and all(isinstance(item, str) or _items(item) is None for item in items):
-            return tuple(self.read(f"spring_{part}", item) for part, item in zip(("stiffness", "position"), items))
-        return [self._spring(item) for item in items]
 
     def texts(self) -> dict[str, str | list[str]] | None:
         """The quantities as they were typed, by the names of reports; None if none has a unit."""
@@ -76,3 +55,13 @@ def _items(value: Any) -> Sequence[Any] | None:
     except TypeError:
         # an array without axes
         return None
+
+
+def number(name: str, value: Any) -> float:
+    """A number that a parameter has to be."""
+    try:
+        if not isinstance(value, str | bytes | bool | np.bool_):
+            return float(value)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{name} is {value!r}: it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa")

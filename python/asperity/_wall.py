@@ -1,17 +1,12 @@
-"""Walls of springs, and the hardness of a wall that yields."""
+"""Walls of springs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, TypeAlias
+from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-from ._control import number
 from ._measured import Measured
-from ._topography import field_of
-from ._types import Quantity, RigidWall
+from ._types import Quantity
 
 
 @dataclass(frozen=True)
@@ -19,6 +14,11 @@ class _Springs(Measured):
     stiffness: Quantity
 
     _keys: ClassVar[dict[str, str]] = {"stiffness": "wall_stiffness"}
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """Its keys, with their values as they were typed."""
+        return {**super().keys, "wall": type(self).__name__.lower()}
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -65,26 +65,3 @@ class Uzawa(_Springs):
     >>> solution.converged, solution.report["min_gap"] > -1e-7
     (True, True)
     """
-
-
-#: A wall as functions take it.
-Wall: TypeAlias = RigidWall | Penalty | Uzawa
-
-#: A hardness as functions take it: one number, or one at each node.
-Hardness: TypeAlias = Quantity | ArrayLike
-
-
-def parts(wall: Wall) -> tuple[str, float | None]:
-    """The name of a wall, and the stiffness of its springs, if it has some."""
-    if isinstance(wall, _Springs):
-        return type(wall).__name__.lower(), float(wall.stiffness)
-    return wall, None
-
-
-def hardness_of(hardness: Hardness | None) -> float | NDArray[np.float64] | None:
-    """A hardness as the compiled core takes it."""
-    if hardness is None or isinstance(hardness, str) or np.ndim(hardness) == 0:
-        return None if hardness is None else number("hardness", hardness)
-    if np.asarray(hardness).dtype == bool:
-        raise TypeError("hardness is an array of truth values: it must be one of pressures")
-    return field_of(hardness, "hardness")

@@ -7,11 +7,22 @@ import inspect
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, ParamSpec, TypeVar
 
-from . import _asperity, _control
+from . import _asperity
 from ._units import Quantities, given
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+#: The names of loads by the keywords of their sequences.
+_PLURALS = {
+    "mean_pressures": "mean_pressure",
+    "mean_gaps": "mean_gap",
+    "normal_forces": "normal_force",
+    "approaches": "approach",
+    "springs": "spring",
+    "reduced_pressures": "reduced_pressure",
+    "contact_fractions": "contact_fraction",
+}
 
 
 def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
@@ -22,8 +33,8 @@ def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
 
 
 def _meant(word: str, known: Sequence[str]) -> str:
-    one = _control.PLURALS.get(word)
-    many = next((plural for plural, single in _control.PLURALS.items() if single == word), None)
+    one = _PLURALS.get(word)
+    many = next((plural for plural, single in _PLURALS.items() if single == word), None)
     if one in known:
         return f"give {one}, or many loads to asperity.sweep, as {word}=[...]"
     if many in known:

@@ -12,6 +12,7 @@ mod given;
 mod inputs;
 mod interface;
 mod jumps;
+mod keywords;
 mod law;
 mod look;
 mod numbers;
@@ -48,6 +49,8 @@ mod _asperity {
     use crate::inputs::{has_dimension, quantity};
     #[pymodule_export]
     use crate::interface::interface_files;
+    #[pymodule_export]
+    use crate::keywords::Keywords;
     #[pymodule_export]
     use crate::law::{CutOff, Law, Tabulated, Varying, check_law};
     #[pymodule_export]

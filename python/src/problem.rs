@@ -1,21 +1,22 @@
 //! A contact problem, solved once, along loads, or along a path of equilibria.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use asperity::path::PathSettings;
-use asperity::{Grid, PullOff, Surface};
+use asperity::{Grid, Surface};
 use asperity_maps::surface_with_absent;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{
-    Adhesion, AnySession, Asked, Boundary, Branches, Either, Elastic, Input, Inputs, Load, Precision, Scene, Session,
-    Skin, Way, either,
+    AccuracyKeys, Adhesion, After, AnySession, Boundary, ConductorKeys, Either, FindingsKeys, FractionsKeys, Given,
+    Input, Inputs, Key, LeakageKeys, Load, LoadKeys, LoadsKeys, NestedKeys, PathKeys, Precision, PullOffKeys,
+    Quantities, Scene, Session, Skin, StiffnessKeys, Way, either,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::inputs::{Accuracy, Begin, Following, Given, Hardness, after, goal, keys, load, named};
+use crate::inputs::{Begin, Map};
+use crate::keywords::{Keywords, keys, read};
 use crate::law::Law;
 use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
@@ -26,21 +27,50 @@ use crate::state::{self, At, Columns, File, Pace};
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
     session: Mutex<AnySession>,
-    threads: Option<usize>,
-    nested: Option<bool>,
-    other_branch: bool,
+    given: Given,
+    quantities: Quantities,
+    /// The surface, if further solves are to follow the first
+    surface: Option<Arc<Surface>>,
+    is_used: bool,
 }
 
 impl Problem {
     /// The pool of a solve, and the session.
     fn parts(&mut self) -> PyResult<(Pool, &mut AnySession)> {
-        Ok((Pool::of(self.threads)?, self.session.get_mut().unwrap_or_else(PoisonError::into_inner)))
+        Ok((Pool::of(self.given.threads())?, self.session.get_mut().unwrap_or_else(PoisonError::into_inner)))
     }
 
     /// The scene.
     fn scene(&mut self) -> &Scene {
         let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner);
         either!(session = session => session.scene())
+    }
+
+    /// What was given for the problem and for several parts of a call, whose quantities all have units, or none has.
+    fn given(&mut self, parts: &[Given]) -> PyResult<Given> {
+        let of_call = parts.iter().map(Given::quantities);
+        let quantities = Quantities::all(std::iter::once(self.quantities.clone()).chain(of_call));
+        quantities.check(Skin::Keywords).map_err(reason)?;
+        let (_, session) = self.parts()?;
+        either!(session = session => session.inputs.given = quantities.given());
+        Ok(Given::all(std::iter::once(&self.given).chain(parts)))
+    }
+
+    /// Poses the problem anew where it has been solved.
+    fn renew(&mut self) -> PyResult<()> {
+        let is_used = std::mem::replace(&mut self.is_used, true);
+        match (is_used && self.surface.is_some(), self.parts()?) {
+            (true, (_, session)) => either!(session = session => session.renew()).map_err(refusal),
+            (false, _) => Ok(()),
+        }
+    }
+
+    /// The findings that are asked for after a state, of an interface with its stiffness.
+    fn after(&mut self, given: &Given, is_interface: bool) -> PyResult<After> {
+        let (after, scene) = (given.after().map_err(reason)?, self.scene());
+        let after = After { stiffness: after.stiffness || is_interface, ..after };
+        after.check(&scene.elastic, &scene.adhesion).map_err(reason)?;
+        Ok(after)
     }
 
     /// The pressure of which a reduced pressure is a part, if one is among loads that the problem has.
@@ -67,174 +97,150 @@ fn session<T: Scalar>(
 #[pymethods]
 impl Problem {
     #[new]
-    #[pyo3(signature = (
-        heights, against, lengths, absent_missing, boundary, body, symbol, law, wall, wall_stiffness, hardness, precision,
-        tolerance, max_iterations, method, branch, nested, threads, original, part, unit, source, scars_removed, given
-    ))]
-    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
+    #[pyo3(signature = (map, keywords, symbol, is_kept))]
     fn new(
         py: Python<'_>,
-        heights: Field<'_>,
-        against: Option<(String, (f64, f64))>,
-        lengths: (f64, f64),
-        absent_missing: bool,
-        boundary: &str,
-        body: Bound<'_, PyAny>,
+        map: Map<'_>,
+        keywords: &Keywords,
         symbol: Option<(Py<PyAny>, String, bool)>,
-        law: &Bound<'_, PyAny>,
-        wall: &str,
-        wall_stiffness: Option<f64>,
-        hardness: Option<Hardness<'_>>,
-        precision: &str,
-        tolerance: Option<f64>,
-        max_iterations: Option<usize>,
-        method: &str,
-        branch: Option<&str>,
-        nested: Option<bool>,
-        threads: Option<usize>,
-        original: Option<PyRef<'_, crate::original::Original>>,
-        part: Option<String>,
-        unit: Option<String>,
-        source: Option<String>,
-        scars_removed: Option<f64>,
-        given: Option<Bound<'_, PyAny>>,
+        is_kept: bool,
     ) -> PyResult<Self> {
-        let method = named("method", method, "default or rey2017")?;
-        let branch = branch.map(|name| named("branch", name, "loading, unloading or both")).transpose()?;
-        let precision = named("precision", precision, "f64 or f32")?;
-        let pool = Pool::of(threads)?;
-        let heights = heights.to_array()?;
-        let boundary = named("boundary", boundary, "periodic or free")?;
-        let wall = named("wall", wall, "hard or none, or of springs, as asperity.Penalty(stiffness)")?;
-        let original = original.map(|original| original.0);
-        let make = if absent_missing { surface_with_absent } else { Surface::new };
-        let surface = Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights));
+        let Keywords { given, law, quantities } = keywords;
+        let (given, quantities) = (given.clone(), quantities.clone());
+        let mut scene = given.scene().map_err(reason)?;
+        let pool = Pool::of(given.threads())?;
+        let heights = map.heights.to_array()?;
+        let make = if given.absent_missing() { surface_with_absent } else { Surface::new };
+        let surface = Grid::new(heights.dim(), map.lengths).and_then(|grid| make(grid, heights));
         let surface = surface.map_err(refusal_of_heights)?;
-        let Law { formula, adhesion, .. } = Law::of(law)?;
-        let (hardness, map) = match hardness {
-            Some(Hardness::Map(map)) => (None, Some(map.to_array()?)),
-            Some(Hardness::Number(hardness)) => (Some(hardness), None),
-            None => (None, None),
+        let hardness = map.hardness.map(|hardness| hardness.to_array()).transpose()?;
+        scene.adhesion.hardness_map = hardness.as_ref().map(|_| "array".to_owned());
+        let formula = match law {
+            Some(Law { formula, adhesion, .. }) => {
+                let Adhesion { wall, wall_stiffness, hardness, hardness_map, .. } = scene.adhesion;
+                scene.adhesion = Adhesion { wall, wall_stiffness, hardness, hardness_map, ..adhesion.clone() };
+                scene.adhesion.check_wall().map_err(reason)?;
+                formula.clone()
+            }
+            None => {
+                scene.adhesion.check().map_err(reason)?;
+                scene.adhesion.formula(None).map_err(refusal)?
+            }
         };
-        let hardness_map = map.as_ref().map(|_| "array".to_owned());
-        let adhesion = Adhesion { wall, wall_stiffness, hardness, hardness_map, ..adhesion };
-        adhesion.check_wall().map_err(reason)?;
-        let elastic = Elastic { boundary, symbol: symbol.map(crate::symbol::symbol), ..keys(body)? };
-        elastic.check().map_err(reason)?;
-        elastic.body().map_err(refusal)?;
-        let scene = Scene { elastic, adhesion, method, precision, tolerance, max_iterations, branch };
+        scene.elastic.symbol = symbol.map(crate::symbol::symbol);
+        scene.elastic.check().map_err(reason)?;
+        scene.elastic.body().map_err(refusal)?;
         let inputs = Inputs {
-            heights: source,
-            shift: against.as_ref().map(|(_, shift)| *shift),
-            against: against.map(|(name, _)| name),
-            part,
-            length_unit: unit,
-            pressure_unit: given.as_ref().map(|_| PRESSURE.si.to_owned()),
-            given: given.map(keys).transpose()?,
-            ..scene.inputs(surface.grid().shape(), lengths, pool.threads())
+            heights: map.source,
+            shift: map.against.as_ref().map(|(_, shift)| *shift),
+            against: map.against.map(|(name, _)| name),
+            part: map.part,
+            length_unit: map.unit,
+            pressure_unit: quantities.is_si().then(|| PRESSURE.si.to_owned()),
+            given: quantities.given(),
+            ..scene.inputs(surface.grid().shape(), map.lengths, pool.threads())
         };
+        let surface = Arc::new(surface);
+        let kept = is_kept.then(|| surface.clone());
         let input = Input {
-            surface: surface.into(),
+            surface,
             formula,
-            hardness: map,
-            original,
+            hardness,
+            original: map.original.map(|original| original.0),
             converted_from: None,
-            scars_removed,
+            scars_removed: map.scars_removed,
             is_strict: false,
             skin: Skin::Keywords,
         };
-        let session = match precision {
+        let session = match scene.precision {
             Precision::F64 => Either::F64(session(py, &pool, &scene, input, inputs)?),
             Precision::F32 => Either::F32(session(py, &pool, &scene, input, inputs)?),
         };
-        Ok(Self { session: Mutex::new(session), threads, nested, other_branch: branch == Some(Branches::Both) })
+        Ok(Self { session: Mutex::new(session), given, quantities, surface: kept, is_used: false })
     }
 
     /// The equilibrium at a load.
-    #[pyo3(signature = (load, start, observe, stability, leave, after, accuracy))]
-    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
+    #[pyo3(signature = (keywords, start, observe))]
     fn solve<'py>(
         &mut self,
         py: Python<'py>,
-        load: Given,
+        keywords: &Bound<'py, PyDict>,
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
-        stability: bool,
-        leave: bool,
-        after: Following,
-        accuracy: Accuracy,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let (load, goal, scene) = (self::load(&load)?, goal(accuracy)?, self.scene());
-        let after = self::after(after, &scene.elastic, &scene.adhesion)?;
-        let (fraction, stability, nested, other_branch) =
-            (load.fraction(), stability || leave, self.nested, self.other_branch);
-        let asked =
-            Asked { fraction, nested, other_branch, stability, leave, after, goal, ..Asked::under(load.control(1.0)) };
+        let known = keys::<LoadKeys>().chain(keys::<NestedKeys>()).chain(keys::<FindingsKeys>());
+        let known = known.chain(keys::<ConductorKeys>()).chain(keys::<AccuracyKeys>());
+        self.renew()?;
+        let given = self.given(&[read(known, keywords)?])?;
+        self.after(&given, false)?;
+        let load = given.load().map_err(reason)?;
         let scene = self.scene();
+        let asked = given.asked(load, 1.0).map_err(reason)?;
         asked.check(&scene.adhesion, scene.method, start.is_some()).map_err(reason)?;
-        let asked = Asked { control: load.control(self.full_pressure(py, &[load])?), ..asked };
-        let (threads, (pool, session)) = (self.threads, self.parts()?);
+        let asked = given.asked(load, self.full_pressure(py, &[load])?).map_err(reason)?;
+        let (threads, (pool, session)) = (self.given.threads(), self.parts()?);
         let at = At { pool: &pool, threads, observer: observe.as_ref() };
         either!(session = session => state::solve(session, py, at, &asked, start))
     }
 
     /// The pull-off, with the last state that holds.
-    #[pyo3(signature = (tolerance, preload, start, observe, accuracy))]
+    #[pyo3(signature = (keywords, start, observe))]
     fn pull_off<'py>(
         &mut self,
         py: Python<'py>,
-        tolerance: f64,
-        preload: Option<f64>,
+        keywords: &Bound<'py, PyDict>,
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
-        accuracy: Accuracy,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let goal = goal(accuracy)?;
-        let asked = PullOff::default().tolerance(tolerance).preload(preload);
-        let (threads, (pool, session)) = (self.threads, self.parts()?);
+        self.renew()?;
+        let given = self.given(&[read(keys::<PullOffKeys>(), keywords)?])?;
+        let asked = (given.pull_off(), given.goal().map_err(reason)?);
+        let (threads, (pool, session)) = (self.given.threads(), self.parts()?);
         let at = At { pool: &pool, threads, observer: observe.as_ref() };
-        either!(session = session => state::pull_off(session, py, at, (asked, goal), start))
+        either!(session = session => state::pull_off(session, py, at, asked, start))
     }
 
-    /// Begins a sweep of loads, or with the settings of a path a cycle through them, or goes on with its table in a file.
-    /// Returns the names of its columns, and the cells of the rows that the table has.
-    #[pyo3(signature = (loads, start, after, interface, path, seed, table))]
-    #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by name")]
+    /// Begins a sweep, the law of an interface or a cycle, through several lists of loads, or goes on with its table in a
+    /// file. Returns the names of its columns, the cells of the rows that the table has, and the number of loads.
+    #[pyo3(signature = (way, keywords, start, table))]
     fn begin<'py>(
         &mut self,
         py: Python<'py>,
-        loads: Vec<Given>,
+        way: &str,
+        keywords: Vec<Bound<'py, PyDict>>,
         start: Option<Begin<'py>>,
-        after: Following,
-        interface: bool,
-        path: Option<(usize, f64, f64, bool)>,
-        seed: Option<u64>,
-        table: Option<File<'py>>,
-    ) -> PyResult<Columns<'py>> {
-        let loads = loads.iter().map(load).collect::<PyResult<Vec<_>>>()?;
-        let scene = self.scene();
-        let after = self::after(after, &scene.elastic, &scene.adhesion)?;
-        let is_free = scene.elastic.boundary == Boundary::Free;
-        let full = self.full_pressure(py, &loads)?;
-        let controls = loads.iter().map(|load| load.control(full)).collect();
-        let fractions: Vec<_> = loads.iter().copied().filter_map(Load::fraction).collect();
-        let way = match path {
-            Some((steps, smallest_step, imbalance, smooth)) => {
-                let settings = PathSettings::default().steps(steps).smallest_step(smallest_step);
-                Way::Cycle(controls, settings.imbalance(imbalance).smooth(smooth))
+        table: (Option<u64>, Option<File<'py>>),
+    ) -> PyResult<(Columns<'py>, usize)> {
+        let of_state = || keys::<ConductorKeys>().chain(keys::<LeakageKeys>());
+        let known: Vec<&'static Key> = match way {
+            "cycle" => keys::<LoadsKeys>().chain(keys::<PathKeys>()).collect(),
+            "interface" => keys::<LoadsKeys>().chain(of_state()).collect(),
+            _ => {
+                let known = keys::<LoadsKeys>().chain(keys::<FractionsKeys>());
+                known.chain(keys::<StiffnessKeys>()).chain(of_state()).collect()
             }
-            None if fractions.is_empty() => Way::Sweep(controls),
-            None => Way::Search(fractions),
         };
-        if interface && is_free {
+        let parts = keywords.iter().map(|keywords| read(known.iter().copied(), keywords));
+        let parts = parts.collect::<PyResult<Vec<_>>>()?;
+        let given = self.given(&parts)?;
+        let loads = parts.iter().map(|part| part.loads().map_err(reason)).collect::<PyResult<Vec<_>>>()?.concat();
+        let is_interface = way == "interface";
+        let after = self.after(&given, is_interface)?;
+        if is_interface && self.scene().elastic.boundary == Boundary::Free {
             return Err(PyValueError::new_err(
                 "boundary is 'free': an interface has its law per area of a periodic cell",
             ));
         }
+        let full = self.full_pressure(py, &loads)?;
+        let count = loads.len();
+        let way = match way {
+            "cycle" => Way::cycle(&loads, full, given.path()).map_err(reason)?,
+            _ => Way::sweep(&loads, full),
+        };
         let (pool, session) = self.parts()?;
         either!(session = session => {
-            session.seed = seed;
-            state::begin(session, py, &pool, (way, after, interface), start, table)
+            session.seed = table.0;
+            Ok((state::begin(session, py, &pool, (way, after, is_interface), start, table.1)?, count))
         })
     }
 
@@ -246,21 +252,22 @@ impl Problem {
     /// The next state of the sweep or the cycle that was begun last; none at its end.
     #[pyo3(signature = (observe))]
     fn next<'py>(&mut self, py: Python<'py>, observe: Option<Py<PyAny>>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let (threads, (pool, session)) = (self.threads, self.parts()?);
+        let (threads, (pool, session)) = (self.given.threads(), self.parts()?);
         let at = At { pool: &pool, threads, observer: observe.as_ref() };
         either!(session = session => state::next(session, py, at))
     }
 
     /// The stability of a gap under a load, of which the certified error is known.
-    #[pyo3(signature = (load, gap, relative_error))]
+    #[pyo3(signature = (keywords, gap, relative_error))]
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
-        load: Given,
+        keywords: &Bound<'py, PyDict>,
         gap: Field<'py>,
         relative_error: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let load = self::load(&load)?;
+        self.renew()?;
+        let load = read(keys::<LoadKeys>(), keywords)?.load().map_err(reason)?;
         let control = load.control(self.full_pressure(py, &[load])?);
         let (pool, session) = self.parts()?;
         either!(session = session => state::stability(session, py, &pool, control, (gap, relative_error)))

@@ -363,15 +363,13 @@ def test_maps_beyond_the_memory_are_an_error():
 
 def test_threads_are_as_many_as_in_the_tool(rough):
     for threads in (0, 1025, 10**9):
-        with pytest.raises(ValueError, match=f"threads is {threads}: it must be from 1 to 1024, or None"):
+        with pytest.raises(ValueError, match=f"threads is {threads}: it must be from 1 to 1024"):
             gap(rough, None, threads=threads)
 
 
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda h: asperity.sweep(h, modulus=1.0, mean_pressures=2e6), r"mean_pressures is 2000000.0: .* as \[2000000"),
-        (lambda h: asperity.solve(h, modulus=1.0, mean_pressure=[1.0, 2.0]), r"asperity.sweep .* mean_pressures=\[...\]"),
         (lambda h: asperity.solve(h, modulus=1.0, mean_pressures=[1.0]), "give mean_pressure, .* asperity.sweep"),
         (lambda h: asperity.sweep(h, modulus=1.0, mean_gap=0.1), r"give mean_gaps=\[...\], or one load to asperity.solve"),
         (lambda h: asperity.solve(h, modulus=1.0, pressure=1.0), r"solve\(\) .* pressure: did you mean mean_pressure"),

@@ -88,7 +88,7 @@ def test_the_conductance_of_a_report_is_that_of_the_solution(rough):
     [
         ({"resistivities": (1.0, 2.0)}, ValueError, "resistivities needs stiffness=True"),
         ({"resistivities": (-1.0, 2.0), "stiffness": True}, ValueError, "resistivities is -1, 2: they must be zero or"),
-        ({"resistivities": 1.0, "stiffness": True}, TypeError, "resistivities is 1.0: it must be two numbers"),
+        ({"resistivities": 1.0, "stiffness": True}, ValueError, "resistivities is 1.0: it must be two values"),
         (
             {"resistivities": (1.0, 1.0), "conductivities": (1.0, 1.0), "stiffness": True},
             ValueError,

@@ -164,7 +164,7 @@ def test_without_a_wall_the_law_keeps_the_surfaces_apart(rough):
     for given, message in [
         ({"law": asperity.LennardJones(W, RANGE)}, r"wall='none', or LennardJones\(..., cut=True\)"),
         ({"law": asperity.Exponential(W, RANGE), "wall": "none"}, "does not repel"),
-        ({"law": asperity.Morse(W, RANGE), "wall": "soft"}, "wall is soft: it must be hard or none"),
+        ({"law": asperity.Morse(W, RANGE), "wall": "soft"}, "wall is soft: it must be hard, none, penalty or uzawa"),
     ]:
         with pytest.raises(ValueError, match=message):
             asperity.solve(rough, **options, **given)
@@ -543,10 +543,10 @@ def test_walls_of_springs_are_values_and_refuse_what_they_cannot_do(rough):
     assert wall == asperity.Penalty(100.0) != asperity.Uzawa(100.0) and wall.stiffness == 100.0
     assert pickle.loads(pickle.dumps(wall)) == wall and eval(repr(wall), vars(asperity)) == wall
     for stiffness in (0.0, -1.0, np.inf, np.nan):
-        with pytest.raises(ValueError, match="stiffness is .*: it must be positive and finite"):
+        with pytest.raises(ValueError, match="stiffness is .*: it must be"):
             asperity.Uzawa(stiffness)
     options = {"modulus": 1.0, "law": asperity.Exponential(W, RANGE)}
-    with pytest.raises(ValueError, match=r"wall penalty lacks a stiffness, as of asperity.Penalty\(stiffness\)"):
+    with pytest.raises(ValueError, match="wall penalty lacks wall_stiffness: give it"):
         asperity.solve(rough, mean_pressure=0.01, wall="penalty", **options)
     with pytest.raises(ValueError, match="springs .* rigid wall"):
         list(asperity.cycle(rough, mean_gaps=[0.02, 0.01], wall=wall, **options))

@@ -62,7 +62,7 @@ def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
 
 
 def test_loads_that_are_refused(rough):
-    with pytest.raises(TypeError, match="one sequence of loads"):
+    with pytest.raises(ValueError, match="there are no loads: give a list"):
         asperity.sweep(rough, modulus=1.0)
     with pytest.raises(ValueError, match="two turning points"):
         asperity.cycle(rough, modulus=1.0, mean_gaps=[0.1])

@@ -43,7 +43,7 @@ def test_the_code_of_the_guide_runs(tmp_path, monkeypatch):
     measured[4:6, 7] = np.nan
     np.savez("measured.npz", heights=measured, lengths=(2e-6, 2e-6), unit="m")
     blocks, found = run("docs/python/guide.md")
-    assert blocks == 5
+    assert blocks == 6
     assert found["solution"].converged and found["pressed"].converged and len(found["table"]) == 3
     assert found["right"].report["accuracy"]["reached"]
     assert [event["event"] for event in found["cycle"].events] == ["jump-in", "jump-out"]

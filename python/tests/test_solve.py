@@ -295,16 +295,16 @@ def test_what_is_found_later_is_about_the_solve():
 
 def test_what_is_refused_says_why(rough):
     heights = rough.heights
-    with pytest.raises(TypeError, match="mean_pressure and mean_gap given"):
+    with pytest.raises(ValueError, match="there are several loads"):
         asperity.solve(rough, modulus=1.0, mean_pressure=1.0, mean_gap=1.0)
-    with pytest.raises(TypeError, match="none given"):
+    with pytest.raises(ValueError, match="there is no load: give one of mean_gap, mean_pressure"):
         asperity.solve(rough, modulus=1.0)
     with pytest.raises(ValueError, match="give lengths"):
         asperity.solve(heights, modulus=1.0, mean_gap=0.1)
     for arguments, message in [
         ({"modulus": -1.0}, "contact modulus.* is -1: it must be positive"),
         ({"mean_gap": -0.1}, "mean gap is -0.1: it must be"),
-        ({"mean_gap": np.inf}, "mean gap is inf"),
+        ({"mean_gap": np.inf}, "mean_gap is inf"),
         ({"lengths": (1.0, -1.0)}, "side length Ly is -1"),
         ({"tolerance": 0.0}, "tolerance is 0"),
         ({"precision": "f16"}, "precision is f16: it must be f64 or f32"),
@@ -317,8 +317,8 @@ def test_what_is_refused_says_why(rough):
         with warnings.catch_warnings(), pytest.raises(ValueError, match=message):
             warnings.simplefilter("ignore")
             asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
-    for arguments in ({"tolerance": "tight"}, {"law": "exponential"}, {"mean_gap": [1.0]}):
-        with pytest.raises(TypeError):
+    for arguments in ({"tolerance": "tight"}, {"law": "exponential"}, {"mean_gap": [1.0, 2.0]}):
+        with pytest.raises(ValueError, match="tolerance is tight|lacks work_of_adhesion|must be one value"):
             asperity.solve(**{"heights": heights, "lengths": 1.0, "modulus": 1.0, "mean_gap": 0.01} | arguments)
 
 

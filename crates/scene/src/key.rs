@@ -304,7 +304,7 @@ impl Key {
             Values::Quantity(dimension, of) => Read::number(dimension.within(range(of))(text)?),
             Values::Number(of) => Read::number(Quantity::number(range(of).number(text)?)),
             Values::Whole(from, to, words) => Read::of(whole(text, from..=to, words)?),
-            Values::Switch => Read::of(text == "true"),
+            Values::Switch => Read::of(text.parse::<bool>().map_err(|_| "it must be true or false")?),
             Values::Word(words) => Read::of(self.word(words, text)?),
             Values::Text(check) => check(text).map(|()| Read::of(text))?,
             Values::File => Read::of(text),

@@ -7,10 +7,10 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use crate::key::Key;
 use crate::key::quantity::Quantity;
 use crate::key::synonyms::similar;
 use crate::key::words::{Skin, worded};
+use crate::key::{Key, Values};
 
 /// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +97,20 @@ impl Given {
                 Typed::Switch(false) if key.name != "nested" => continue,
                 one => vec![one],
             };
-            let texts: Vec<_> = all.iter().map(Typed::text).filter(|text| !text.is_empty()).collect();
+            let mut texts: Vec<_> = all.iter().map(Typed::text).filter(|text| !text.is_empty()).collect();
+            let (least, most) = key.kind.count;
+            match key.kind.values {
+                Values::Quantities(..) | Values::Numbers(_) if !texts.is_empty() => texts = vec![texts.join(",")],
+                _ if texts.is_empty() || (least..=most).contains(&texts.len()) => {}
+                _ => {
+                    let count = match (least, most) {
+                        (_, 1) => "one value",
+                        (2, _) => "two values",
+                        _ => "one value or two",
+                    };
+                    return Err(format!("{name} is {}: it must be {count}", texts.join(", ")));
+                }
+            }
             let of = |text: &String| key.any_value(text).map_err(|reason| format!("{name} is {text}: {reason}"));
             let read = texts.iter().map(of).collect::<Result<Vec<_>, _>>()?;
             given.insert(key, read, texts.into_iter().map(Into::into).collect(), false);
@@ -168,7 +181,7 @@ impl Given {
     }
 
     /// The numbers of a key.
-    pub(crate) fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+    pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         Some(match self.value(name)? {
             Value::Array(all) => all.iter().filter_map(Value::as_f64).collect(),
             one => one.as_f64().into_iter().collect(),
@@ -276,6 +289,11 @@ impl FromIterator<Measured> for Quantities {
 }
 
 impl Quantities {
+    /// Those of several parts.
+    pub fn all(parts: impl IntoIterator<Item = Self>) -> Self {
+        Self(parts.into_iter().flat_map(|part| part.0).collect())
+    }
+
     /// Whether quantities have units; then all numbers are in the SI.
     pub fn is_si(&self) -> bool {
         self.0.iter().any(|given| given.has_unit)

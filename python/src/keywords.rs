@@ -1,0 +1,94 @@
+//! What was given for the keys of a scene, as keywords.
+
+use asperity_scene::quantity::Quantity;
+use asperity_scene::{Given, Key, Keys, Measured, Quantities, Skin, Typed, Values};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+use crate::law::Law;
+use crate::refusal::reason;
+
+/// The keys of a list, but for those of files, in whose place Python has arrays and objects.
+pub fn keys<L: Keys>() -> impl Iterator<Item = &'static Key> {
+    L::KEYS.iter().filter(|key| !matches!(key.kind.values, Values::File))
+}
+
+/// What a dictionary of keywords gives for some of the `known` keys.
+pub fn read(known: impl Iterator<Item = &'static Key>, keywords: &Bound<'_, PyDict>) -> PyResult<Given> {
+    let of = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let key: String = key.extract()?;
+        let typed = typed(&key, &value)?;
+        Ok((key, typed))
+    };
+    let typed = keywords.iter().map(of).collect::<PyResult<Vec<_>>>()?;
+    Given::read(&known.collect::<Vec<_>>(), typed).map_err(reason)
+}
+
+/// The value of a keyword: a truth value, a text, a number, or several.
+fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
+    if let Ok(value) = value.extract() {
+        return Ok(Typed::Switch(value));
+    }
+    if let Ok(text) = value.extract() {
+        return Ok(Typed::Text(text));
+    }
+    if let (Ok(items), false) = (value.try_iter(), value.is_instance_of::<PyBytes>()) {
+        return items.map(|item| typed(key, &item?)).collect::<PyResult<_>>().map(Typed::Several);
+    }
+    if let Ok(value) = value.extract() {
+        return Ok(Typed::Whole(value));
+    }
+    value.extract().map(Typed::Number).or_else(|_| {
+        let value = value.repr()?;
+        let message =
+            "it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa, or a text with a unit";
+        Err(PyTypeError::new_err(format!("{key} is {value}: {message}")))
+    })
+}
+
+/// The quantities of a law.
+pub fn quantities(law: &Law) -> Quantities {
+    let texts = law.given.texts.iter().filter_map(|(key, text)| {
+        let numbers = Key::named(key)?.any_value(text).ok()?.numbers;
+        Some(Measured::of(key, vec![text.clone()], &numbers, false))
+    });
+    let bare = law.given.bare.iter();
+    let bare = bare.map(|(key, value)| {
+        Measured::of(key, vec![asperity_scene::numbers::plain(*value)], &[Quantity::bare(*value)], false)
+    });
+    texts.chain(bare).collect()
+}
+
+/// What was given for the keys of a problem.
+#[pyclass(frozen, module = "asperity._asperity")]
+pub struct Keywords {
+    pub given: Given,
+    pub law: Option<Law>,
+    pub quantities: Quantities,
+}
+
+#[pymethods]
+impl Keywords {
+    #[new]
+    #[pyo3(signature = (keywords, law))]
+    fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        use asperity_scene::{AdhesionKeys, SolverKeys, SurfaceKeys};
+        let known = keys::<SurfaceKeys>().chain(keys::<AdhesionKeys>()).chain(keys::<SolverKeys>());
+        let (given, law) = (read(known, keywords)?, law.map(Law::of).transpose()?);
+        let quantities = Quantities::all([given.quantities(), law.as_ref().map(quantities).unwrap_or_default()]);
+        quantities.check(Skin::Keywords).map_err(reason)?;
+        Ok(Self { given, law, quantities })
+    }
+
+    /// The numbers of a key, in the SI if they have units.
+    fn numbers(&self, key: &str) -> Option<Vec<f64>> {
+        self.given.numbers(key)
+    }
+
+    /// Whether quantities have units.
+    #[getter]
+    fn is_si(&self) -> bool {
+        self.quantities.is_si()
+    }
+}

@@ -1,0 +1,97 @@
+"""A contact that is solved more than once, and the keys of the program as keywords."""
+
+import json
+
+import numpy as np
+import pytest
+
+import asperity
+
+
+def same(one, other):
+    return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in ("gap", "pressure", "contact_pressure"))
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+def test_a_contact_solves_again_with_the_bits_of_the_functions(rough, law, precision):
+    given = {"modulus": 1.0, "law": law, "precision": precision}
+    contact = asperity.Contact(rough, **given)
+    for load in ({"mean_pressure": 0.01}, {"mean_gap": 0.02}, {"mean_pressure": 0.01, "stability": True}):
+        assert same(contact.solve(**load), asperity.solve(rough, **given, **load))
+    swept = contact.sweep(mean_pressures=[0.005, 0.01])
+    # a solve between the rows of a table is none of its rows
+    contact.solve(mean_gap=0.02)
+    assert same(list(swept)[1], list(asperity.sweep(rough, **given, mean_pressures=[0.005, 0.01]))[1])
+    found = contact.pull_off(rtol=0.1)
+    assert found.pressure == asperity.pull_off(rough, **given, rtol=0.1).pressure
+    held = contact.solve(mean_gap=0.02)
+    assert contact.stability(held).eigenvalue == pytest.approx(asperity.stability(held).eigenvalue, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("objects", "keys"),
+    [
+        (
+            {"law": asperity.Exponential(1e-4, 4e-3), "mean_gap": 0.02},
+            {"law": "exponential", "work_of_adhesion": 1e-4, "range": 4e-3, "mean_gap": 0.02},
+        ),
+        (
+            {"body": asperity.Layer(0.1, 0.3), "mean_pressure": 0.01},
+            {"layer": 0.1, "poisson": 0.3, "mean_pressure": 0.01},
+        ),
+        (
+            {"wall": asperity.Penalty(500.0), "mean_pressure": 0.01},
+            {"wall": "penalty", "wall_stiffness": 500.0, "mean_pressure": 0.01},
+        ),
+        ({"spring": (0.5, 0.02)}, {"spring_stiffness": 0.5, "spring_position": 0.02}),
+    ],
+)
+def test_keys_are_those_of_objects(rough, objects, keys):
+    one, other = (asperity.solve(rough, modulus=1.0, **given) for given in (objects, keys))
+    assert same(one, other)
+    numbers = {key: value for key, value in one.report.items() if key not in ("seconds", "law")}
+    assert {key: other.report[key] for key in numbers} == numbers
+
+
+def test_keys_beside_objects_that_have_them_are_refused(rough, law):
+    for wrong, match in [
+        ({"law": law, "range": 1.0}, "range is given beside law"),
+        ({"body": asperity.Layer(0.1, 0.3), "poisson": 0.3}, "poisson is given beside body"),
+        ({"wall": asperity.Penalty(1.0), "wall_stiffness": 2.0}, "wall_stiffness is given beside wall"),
+        ({"spring": (1.0, 1.0), "spring_position": 2.0}, "spring_position is given beside spring"),
+    ]:
+        with pytest.raises(TypeError, match=match):
+            asperity.solve(rough, modulus=1.0, **wrong)
+    with pytest.raises(ValueError, match="law exponential lacks range"):
+        asperity.solve(rough, modulus=1.0, mean_gap=0.01, law="exponential", work_of_adhesion=1e-4)
+
+
+def test_units_are_those_of_the_contact_and_its_calls(rough):
+    metres = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6))
+    keys = {"law": "exponential", "work_of_adhesion": "1mJ/m2", "range": "5nm"}
+    contact = asperity.Contact(metres, modulus="1GPa", **keys)
+    solution = contact.solve(mean_gap="10nm")
+    assert solution.report["given"] == {"modulus": "1GPa", "work_of_adhesion": "1mJ/m2", "range": "5nm", "mean_gap": "10nm"}
+    assert contact.solve(mean_pressure="1MPa").report["given"]["mean_pressure"] == "1MPa"
+    with pytest.raises(ValueError, match="mean_gap is .*, without a unit, but modulus 1GPa has one"):
+        contact.solve(mean_gap=1e-8)
+    with pytest.raises(ValueError, match="without a unit"):
+        asperity.Contact(metres, modulus=1e9).solve(mean_gap="10nm")
+
+
+def test_a_solution_is_saved_as_by_the_program(rough, tmp_path):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, hardness=1.0)
+    solution.save(tmp_path / "out")
+    for name in ("gap", "pressure", "contact_pressure", "plastic_depth"):
+        assert np.array_equal(np.load(tmp_path / "out" / f"{name}.npy"), getattr(solution, name))
+    assert json.loads((tmp_path / "out" / "report.json").read_text()) == solution.report
+
+
+def test_results_go_on_in_pandas_and_xarray(rough):
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    contact = asperity.Contact(rough, modulus=1.0)
+    table = contact.sweep(mean_pressures=[0.005, 0.01]).to_dataframe()
+    assert table["mean_pressure"].tolist() == pytest.approx([0.005, 0.01])
+    fields = contact.solve(mean_pressure=0.01).to_xarray()
+    assert fields["gap"].dims == ("x", "y") and fields.attrs["status"] == "converged"
