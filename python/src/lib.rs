@@ -11,7 +11,6 @@ mod functions;
 mod given;
 mod inputs;
 mod interface;
-mod jumps;
 mod law;
 mod look;
 mod numbers;
@@ -21,11 +20,9 @@ mod pools;
 mod problem;
 mod refusal;
 mod running;
-mod scales;
 mod state;
 mod surface;
 mod symbol;
-mod table;
 
 /// The compiled core.
 #[pyo3::pymodule]
