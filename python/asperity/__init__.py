@@ -13,28 +13,16 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _cycle, _flow, _interface, _pair, _prepare, _pull_off, _solve, _stability, _sweep, contact, exact, surface
+from . import _cycle, _flow, _interface, _laws, _pair, _prepare, _pull_off, _solve, _stability, _sweep
+from . import contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
-from ._asperity import (
-    JKR,
-    CutOff,
-    Exponential,
-    Iteration,
-    Law,
-    LennardJones,
-    MaugisDugdale,
-    Morse,
-    PowerLaw,
-    Tabulated,
-    VanDerWaals,
-    Varying,
-    check_law,
-)
+from ._asperity import CutOff, Iteration, Law, Tabulated, Varying, check_law
 from ._body import Coating, Layer, Symbol
 from ._cycle import Cycle, Step
 from ._flow import Flow, Leakage
 from ._interface import Interface
+from ._laws import *
 from ._progress import progress
 from ._pull_off import PullOff
 from ._solution import (
@@ -64,7 +52,6 @@ stability = _checked(_stability.stability)
 sweep = _checked(_sweep.sweep)
 
 __all__ = [
-    "JKR",
     "AccuracyWarning",
     "Coating",
     "Conductance",
@@ -73,7 +60,6 @@ __all__ = [
     "ConvergenceWarning",
     "CutOff",
     "Cycle",
-    "Exponential",
     "Flow",
     "InputWarning",
     "Interface",
@@ -81,14 +67,10 @@ __all__ = [
     "Law",
     "Layer",
     "Leakage",
-    "LennardJones",
-    "MaugisDugdale",
-    "Morse",
     "OwnLaw",
     "Penalty",
     "Percolation",
     "Plan",
-    "PowerLaw",
     "PressureDistribution",
     "PullOff",
     "Report",
@@ -100,7 +82,6 @@ __all__ = [
     "Tabulated",
     "Topography",
     "Uzawa",
-    "VanDerWaals",
     "Varying",
     "__version__",
     "check_law",
@@ -120,3 +101,4 @@ __all__ = [
     "surface",
     "sweep",
 ]
+__all__ += _laws.__all__

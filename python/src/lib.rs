@@ -39,8 +39,6 @@ mod _asperity {
     #[pymodule_export]
     use crate::flow::{conductance, leakage, percolation};
     #[pymodule_export]
-    use crate::formulas::{Exponential, JKR, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
-    #[pymodule_export]
     use crate::inputs::{has_dimension, quantity};
     #[pymodule_export]
     use crate::interface::interface_files;
@@ -63,9 +61,10 @@ mod _asperity {
 
     use pyo3::prelude::*;
 
-    /// The sphere of Maugis, whose name the law has.
+    /// The laws, and the sphere of Maugis, whose name a law has.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::formulas::add(module)?;
         module.add("MaugisSphere", module.py().get_type::<crate::exact::MaugisDugdale>())
     }
 }
