@@ -34,7 +34,7 @@ pub use maugis_dugdale::MaugisDugdale;
 pub use morse::Morse;
 pub use none::NoAdhesion;
 pub use power_law::PowerLaw;
-pub use tabulated::Tabulated;
+pub use tabulated::{Functions, Tabulated, check_functions};
 pub use values::Values;
 pub use varying::Varying;
 

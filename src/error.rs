@@ -65,7 +65,7 @@ pub enum Error {
         /// The part of the contract.
         breach: Breach,
     },
-    /// An error of a user's function, for example of a body; it is the [source](StdError::source).
+    /// An error of a user's function, for example of a body or a law; it is the [source](StdError::source).
     Raised(Cause),
     /// A control, a wall, a method or a strategy that does not suit the problem.
     Unsuited {
@@ -156,6 +156,14 @@ pub enum Breach {
     Concave(f64),
     /// A traction that falls at once, from this, has a [smoothed](crate::adhesion::Discretisation::Smooth) law.
     Jump(f64),
+    /// The traction has the sign of the derivative of the energy, which changes by this up to the next gap.
+    Sign(f64),
+    /// The traction attracts at some gap.
+    Attract,
+    /// The functions from a gap on are as smooth as a [table](crate::Tabulated::of) can be.
+    Rough,
+    /// The traction of a law of this range has decayed at large gaps.
+    Decay(f64),
     /// The functions of one gap and of many agree.
     Alike(f64),
     /// [`check_operator`](crate::elastic::check_operator) finds what it expects.
@@ -188,7 +196,7 @@ pub enum ErrorKind {
     NotFinite,
     /// An adhesion law or springs whose functions contradict one another.
     Law,
-    /// An elastic operator that lacks a property of its contract, or an error of a function of its body.
+    /// An elastic operator that lacks a property of its contract, or an error of a function of a body or a law.
     Operator,
     /// A control, a wall, a method or a strategy that does not suit the problem.
     Unsuited,

@@ -13,29 +13,16 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _flow, _pair, _prepare, contact, exact, surface
+from . import _flow, _laws, _pair, _prepare, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
-from ._asperity import (
-    JKR,
-    CutOff,
-    Exponential,
-    Iteration,
-    Law,
-    LennardJones,
-    MaugisDugdale,
-    Morse,
-    PowerLaw,
-    Tabulated,
-    VanDerWaals,
-    Varying,
-    check_law,
-)
+from ._asperity import CutOff, Iteration, Law, Tabulated, Varying, check_law
 from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep
 from ._cycle import Cycle, Step
 from ._flow import Flow, Leakage
 from ._interface import Interface
+from ._laws import *
 from ._progress import progress
 from ._pull_off import PullOff
 from ._solution import (
@@ -59,7 +46,6 @@ leakage = _checked(_flow.leakage)
 prepare = _checked(_prepare.prepare)
 
 __all__ = [
-    "JKR",
     "AccuracyWarning",
     "Coating",
     "Conductance",
@@ -69,7 +55,6 @@ __all__ = [
     "ConvergenceWarning",
     "CutOff",
     "Cycle",
-    "Exponential",
     "Flow",
     "InputWarning",
     "Interface",
@@ -77,14 +62,10 @@ __all__ = [
     "Law",
     "Layer",
     "Leakage",
-    "LennardJones",
-    "MaugisDugdale",
-    "Morse",
     "OwnLaw",
     "Penalty",
     "Percolation",
     "Plan",
-    "PowerLaw",
     "PressureDistribution",
     "PullOff",
     "Report",
@@ -96,7 +77,6 @@ __all__ = [
     "Tabulated",
     "Topography",
     "Uzawa",
-    "VanDerWaals",
     "Varying",
     "__version__",
     "check_law",
@@ -116,3 +96,4 @@ __all__ = [
     "surface",
     "sweep",
 ]
+__all__ += _laws.__all__

@@ -5,75 +5,90 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::given::{Given, Parameter};
+use crate::given::{Given, Measure};
 use crate::law::Law;
-
-/// The adhesion by a law of a work of adhesion and a range.
-fn adhesion(law: &str, work_of_adhesion: f64, range: f64) -> Adhesion {
-    Adhesion { work_of_adhesion: Some(work_of_adhesion), range: Some(range), ..Adhesion::of(law) }
-}
 
 /// The type of a parameter's name.
 macro_rules! name {
     ($parameter:ident) => { &'static str };
 }
 
-/// Refuses keywords that a class does not have, with those that they may mean.
-fn check_words(py: Python<'_>, class: &str, known: &[&str], other: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
-    let Some(other) = other else { return Ok(()) };
-    py.import("asperity._words")?.call_method1("check", (class, other, known)).map(|_| ())
-}
-
-/// The value of a parameter, refused if there is none.
-fn wanted<V>(class: &str, parameter: &str, value: Option<V>) -> PyResult<V> {
-    value.ok_or_else(|| PyTypeError::new_err(format!("{class}() is without {parameter}: give a number")))
-}
-
-/// A law of the library as a class: its parameters, and its description by them.
-macro_rules! class {
-    (
+/// Laws of the library, each a class with its parameters, a choice that is false by default, and its name in reports.
+macro_rules! laws {
+    ($(
         $(#[$doc:meta])*
-        $name:ident($($parameter:ident: $type:ty $(= $default:tt)?),*), $signature:literal, $adhesion:expr
-    ) => {
-        $(#[$doc])*
-        #[pyclass(frozen, extends = Law, module = "asperity")]
-        pub struct $name { $($parameter: $type),* }
+        $class:ident($($parameter:ident),* $(; $choice:ident)?), $signature:literal, $name:literal $(, $key:ident: $value:expr)?;
+    )*) => {
+        $(
+            $(#[$doc])*
+            #[pyclass(frozen, extends = Law, module = "asperity")]
+            pub struct $class { $($parameter: f64,)* $($choice: bool)? }
 
-        #[pymethods]
-        impl $name {
-            #[classattr]
-            #[expect(non_upper_case_globals, reason = "Python's name")]
-            const __match_args__: ($(name!($parameter),)*) = ($(stringify!($parameter),)*);
-            #[new]
-            #[pyo3(signature = ($($parameter = None,)* **other), text_signature = $signature)]
-            fn new(
-                py: Python<'_>,
-                $($parameter: Option<<$type as Parameter>::Typed>,)*
-                other: Option<&Bound<'_, PyDict>>,
-            ) -> PyResult<PyClassInitializer<Self>> {
-                let class = stringify!($name);
-                check_words(py, class, &[$(stringify!($parameter)),*], other)?;
-                $(let $parameter = wanted(class, stringify!($parameter), $parameter $(.or(Some($default)))?)?;)*
-                let mut given = Given::default();
-                $(let $parameter = <$type>::read($parameter, stringify!($parameter), &mut given)?;)*
-                let law = Law { given, ..Law::of_library($adhesion)? };
-                Ok(PyClassInitializer::from(law).add_subclass(Self { $($parameter),* }))
-            }
-            $(
-                #[getter]
-                fn $parameter(&self) -> $type {
-                    self.$parameter
+            #[pymethods]
+            impl $class {
+                #[classattr]
+                #[expect(non_upper_case_globals, reason = "Python's name")]
+                const __match_args__: ($(name!($parameter),)* $(name!($choice))?) =
+                    ($(stringify!($parameter),)* $(stringify!($choice))?);
+                #[new]
+                #[pyo3(signature = ($($parameter = None,)* $($choice = false,)? **other), text_signature = $signature)]
+                fn new(
+                    py: Python<'_>,
+                    $($parameter: Option<Measure>,)*
+                    $($choice: bool,)?
+                    other: Option<&Bound<'_, PyDict>>,
+                ) -> PyResult<PyClassInitializer<Self>> {
+                    if let Some(other) = other {
+                        let known = [$(stringify!($parameter),)* $(stringify!($choice))?];
+                        // refuses other words, with those that they may mean
+                        py.import("asperity._words")?.call_method1("check", (stringify!($class), other, known))?;
+                    }
+                    let mut given = Given::default();
+                    $(let $parameter = wanted(stringify!($class), stringify!($parameter), $parameter, &mut given)?;)*
+                    let adhesion =
+                        Adhesion { $($parameter: Some($parameter),)* $($key: $value,)? ..Adhesion::of($name) };
+                    let law = Law { given, ..Law::of_library(adhesion)? };
+                    Ok(PyClassInitializer::from(law).add_subclass(Self { $($parameter,)* $($choice)? }))
                 }
-            )*
-            fn __getnewargs__<'py>(slf: PyRef<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
-                let (py, given) = (slf.py(), &slf.as_super().given);
-                PyTuple::new(py, [$(given.typed(py, stringify!($parameter), slf.$parameter)?),*])
+                $(
+                    #[getter]
+                    fn $parameter(&self) -> f64 {
+                        self.$parameter
+                    }
+                )*
+                $(
+                    #[getter]
+                    fn $choice(&self) -> bool {
+                        self.$choice
+                    }
+                )?
+                fn __getnewargs__<'py>(slf: PyRef<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+                    let (py, given) = (slf.py(), &slf.as_super().given);
+                    PyTuple::new(py, [
+                        $(given.typed(py, stringify!($parameter), slf.$parameter)?,)*
+                        $(given.typed(py, stringify!($choice), slf.$choice)?)?
+                    ])
+                }
             }
+        )*
+
+        /// Adds the classes to the module.
+        pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+            $(module.add_class::<$class>()?;)*
+            Ok(())
         }
     };
 }
 
-class! {
+/// The value of a parameter, refused if there is none.
+fn wanted(class: &str, parameter: &str, value: Option<Measure>, given: &mut Given) -> PyResult<f64> {
+    match value {
+        Some(value) => given.read(parameter, value),
+        None => Err(PyTypeError::new_err(format!("{class}() is without {parameter}: give a number"))),
+    }
+}
+
+laws! {
     /// The exponential law, φ(g) = −w exp(−g/ρ).
     ///
     /// Parameters
@@ -89,11 +104,7 @@ class! {
     /// >>> law = asperity.Exponential(work_of_adhesion=0.05, range=2e-9)
     /// >>> law.energy(0.0)
     /// -0.05
-    Exponential(work_of_adhesion: f64, range: f64),
-    "(work_of_adhesion, range)",
-    adhesion("exponential", work_of_adhesion, range)
-}
-class! {
+    Exponential(work_of_adhesion, range), "(work_of_adhesion, range)", "exponential";
     /// The law without a range, the limit of Johnson, Kendall and Roberts, as short on each grid as its nodes can follow.
     ///
     /// For contacts of which the work of adhesion is known, and no range. `Report.range` is that of the grid,
@@ -114,11 +125,7 @@ class! {
     /// >>> abs(found.limit_force / exact - 1) < found.limit_error < 0.07
     /// True
     #[expect(clippy::upper_case_acronyms, reason = "Python's name")]
-    JKR(work_of_adhesion: f64),
-    "(work_of_adhesion)",
-    Adhesion { work_of_adhesion: Some(work_of_adhesion), ..Adhesion::of("jkr") }
-}
-class! {
+    JKR(work_of_adhesion), "(work_of_adhesion)", "jkr";
     /// The law of Maugis and Dugdale: a constant traction w/ρ where the gap is below ρ.
     ///
     /// Parameters
@@ -133,11 +140,7 @@ class! {
     /// >>> import asperity
     /// >>> asperity.MaugisDugdale(work_of_adhesion=1e-4, range=2e-3).traction([0.0, 3e-3])
     /// array([0.05, 0.  ])
-    MaugisDugdale(work_of_adhesion: f64, range: f64),
-    "(work_of_adhesion, range)",
-    adhesion("maugis-dugdale", work_of_adhesion, range)
-}
-class! {
+    MaugisDugdale(work_of_adhesion, range), "(work_of_adhesion, range)", "maugis-dugdale";
     /// The law of Lennard-Jones between two half-spaces, φ'(g) = 8w/3z₀ (x³ − x⁹) with x = z₀/g.
     ///
     /// It attracts beyond the equilibrium separation z₀, and repels below: for a solve with ``wall="none"``, where
@@ -158,14 +161,8 @@ class! {
     /// >>> law = asperity.LennardJones(work_of_adhesion=0.05, range=3e-10)
     /// >>> law.traction(3e-10), bool(law.traction(2.9e-10) < 0)
     /// (0.0, True)
-    LennardJones(work_of_adhesion: f64, range: f64, cut: bool = false),
-    "(work_of_adhesion, range, cut=False)",
-    Adhesion {
-        wall: if cut { Wall::Hard } else { Wall::None },
-        ..adhesion("lennard-jones", work_of_adhesion, range)
-    }
-}
-class! {
+    LennardJones(work_of_adhesion, range; cut), "(work_of_adhesion, range, cut=False)", "lennard-jones",
+        wall: if cut { Wall::Hard } else { Wall::None };
     /// The law of Morse, φ(g) = w (e² − 2e) with e = exp(−g/ρ): it attracts at g > 0, and repels at g < 0.
     ///
     /// With ``wall="none"`` it keeps the surfaces apart by itself; with a wall at g = 0 the attraction is what counts.
@@ -182,11 +179,7 @@ class! {
     /// >>> import asperity
     /// >>> asperity.Morse(work_of_adhesion=0.05, range=5e-10).energy(0.0)
     /// -0.05
-    Morse(work_of_adhesion: f64, range: f64),
-    "(work_of_adhesion, range)",
-    adhesion("morse", work_of_adhesion, range)
-}
-class! {
+    Morse(work_of_adhesion, range), "(work_of_adhesion, range)", "morse";
     /// A power law, φ(g) = −w (1 + g/nρ)⁻ⁿ. Its tail reaches far: `CutOff` ends it.
     ///
     /// Parameters
@@ -203,11 +196,7 @@ class! {
     /// >>> import asperity
     /// >>> asperity.PowerLaw(work_of_adhesion=0.05, range=2e-9, exponent=3).traction(0.0)
     /// 25000000.0
-    PowerLaw(work_of_adhesion: f64, range: f64, exponent: f64),
-    "(work_of_adhesion, range, exponent)",
-    Adhesion { exponent: Some(exponent), ..adhesion("power", work_of_adhesion, range) }
-}
-class! {
+    PowerLaw(work_of_adhesion, range, exponent), "(work_of_adhesion, range, exponent)", "power";
     /// The van der Waals attraction of two half-spaces, φ(g) = −A/12π(D₀ + g)². Its tail reaches far: `CutOff` ends it.
     ///
     /// Parameters
@@ -223,7 +212,5 @@ class! {
     /// >>> law = asperity.VanDerWaals(hamaker=6e-20, range=0.165e-9)
     /// >>> f"work of adhesion {-law.energy(0.0):.4f} J/m²"
     /// 'work of adhesion 0.0585 J/m²'
-    VanDerWaals(hamaker: f64, range: f64),
-    "(hamaker, range)",
-    Adhesion { hamaker: Some(hamaker), range: Some(range), ..Adhesion::of("van-der-waals") }
+    VanDerWaals(hamaker, range), "(hamaker, range)", "van-der-waals";
 }

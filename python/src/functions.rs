@@ -1,61 +1,30 @@
-//! The functions of a law that is an object of Python.
+//! Functions of Python that are asked for arrays: those of a law that is an object, and others by their names.
 
-use std::sync::{Mutex, PoisonError};
-
-use asperity::adhesion::Hints;
-use asperity::error::Breach;
-use asperity::{AdhesionLaw, Error};
+use asperity::Error;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyFloat, PyTuple};
 
 use crate::numbers::Numbers;
-use crate::refusal::refusal;
-use crate::scales::Scales;
 
-/// The three functions of a law, in the order in which each is the derivative of the one before.
-#[derive(Clone, Copy)]
-pub enum Function {
-    Energy,
-    Traction,
-    Slope,
-}
-
-impl Function {
-    pub const ALL: [Self; 3] = [Self::Energy, Self::Traction, Self::Slope];
-
-    /// The name of the method.
-    fn method(self) -> &'static str {
-        match self {
-            Self::Energy => "energy",
-            Self::Traction => "traction",
-            Self::Slope => "slope",
-        }
-    }
-
-    /// The name in messages, as the library has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Energy => "adhesive energy",
-            Self::Traction => "adhesive traction",
-            Self::Slope => "slope of the adhesive traction",
-        }
-    }
-}
+/// The methods of a law, in the order in which each is the derivative of the one before.
+const METHODS: [&str; 3] = ["energy", "traction", "slope"];
 
 /// An object of Python with the methods `energy`, `traction` and `slope` of an array of gaps.
-pub struct Functions<'py> {
-    object: Bound<'py, PyAny>,
+pub struct Functions {
+    object: Py<PyAny>,
+    pub work_of_adhesion: Option<f64>,
+    pub range: Option<f64>,
 }
 
-impl<'py> Functions<'py> {
-    /// The functions of an object.
+impl Functions {
+    /// The functions of an object, with the scales that it has as attributes.
     ///
     /// # Errors
-    /// `TypeError` if it lacks one.
-    pub fn of(object: &Bound<'py, PyAny>) -> PyResult<Self> {
-        for method in Function::ALL.map(Function::method) {
+    /// `TypeError` if it lacks a function.
+    pub fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        for method in METHODS {
             if !object.getattr(method).is_ok_and(|method| method.is_callable()) {
                 let class = object.get_type().name()?;
                 return Err(PyTypeError::new_err(format!(
@@ -64,30 +33,34 @@ impl<'py> Functions<'py> {
                 )));
             }
         }
-        Ok(Self { object: object.clone() })
-    }
-
-    /// A function at many gaps, in one call.
-    ///
-    /// # Errors
-    /// The exception of the method, and `ValueError` if it returns another number of values.
-    pub fn at(&self, function: Function, gaps: &[f64]) -> PyResult<Vec<f64>> {
-        let method = function.method();
-        at_arrays(&self.object.getattr(method)?, &format!("law.{method}"), "gap", &[gaps], true)
-    }
-
-    /// All functions at one gap.
-    pub fn all_at(&self, gap: f64) -> PyResult<[f64; 3]> {
-        let [energy, traction, slope] = Function::ALL.map(|function| self.at(function, &[gap; 2]));
-        Ok([energy?[0], traction?[0], slope?[0]])
-    }
-
-    /// A number that the object may have as an attribute.
-    pub fn number(&self, name: &str) -> PyResult<Option<f64>> {
-        match self.object.getattr_opt(name)? {
+        let number = |name| match object.getattr_opt(name)? {
             Some(value) if !value.is_none() => value.extract().map(Some),
             _ => Ok(None),
-        }
+        };
+        let [work_of_adhesion, range] = [number("work_of_adhesion")?, number("range")?];
+        Ok(Self { object: object.clone().unbind(), work_of_adhesion, range })
+    }
+}
+
+impl asperity::adhesion::Functions for Functions {
+    fn set(&self, order: usize, gaps: &[f64], values: &mut [f64]) -> asperity::Result<()> {
+        // a function of one gap alone also takes an array of one
+        let gaps = if let &[gap] = gaps { &[gap; 2] } else { gaps };
+        let method = METHODS[order];
+        let at = |py: Python<'_>| {
+            at_arrays(&self.object.bind(py).getattr(method)?, &format!("law.{method}"), "gap", &[gaps], true)
+        };
+        let found: Vec<f64> = Python::attach(at).map_err(Error::raised)?;
+        values.iter_mut().zip(found).for_each(|(value, found)| *value = found);
+        Ok(())
+    }
+
+    fn work_of_adhesion(&self) -> Option<f64> {
+        self.work_of_adhesion
+    }
+
+    fn range(&self) -> Option<f64> {
+        self.range
     }
 }
 
@@ -137,62 +110,5 @@ pub fn at_arrays<'py>(
             "{name} returned an array of shape {:?} for {of}s of shape [{count}]: it must return one value for each {of}",
             found.shape(),
         ))),
-    }
-}
-
-/// A law of Python, called for each gap; keeps the first exception.
-struct Called {
-    object: Py<PyAny>,
-    scales: Scales,
-    raised: Mutex<Option<PyErr>>,
-}
-
-/// Tells whether the functions of an object of Python agree with one another, up to a gap or that of most laws.
-///
-/// # Errors
-/// An exception of the functions, or `ValueError` with the function that is wrong.
-pub fn check(object: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
-    let scales = Scales::of(&Functions::of(object)?)?;
-    let called = Called { object: object.clone().unbind(), scales, raised: Mutex::new(None) };
-    let checked = asperity::adhesion::check_law(&called, largest_gap.unwrap_or_else(|| far(&called)));
-    match called.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(error) => Err(error),
-        // of which the table of the law has a smoothed one
-        None if matches!(checked, Err(Error::Contract { breach: Breach::Jump(_), .. })) => Ok(()),
-        None => checked.map_err(refusal),
-    }
-}
-
-/// A gap at which most laws have decayed: ten ranges, from the equilibrium separation on.
-pub fn far(law: &dyn AdhesionLaw<f64>) -> f64 {
-    let hints = law.hints();
-    // a law that has the range of the grid is looked at with any
-    if hints.of_grid { 1.0 } else { hints.rest.unwrap_or(0.0) + 10.0 * hints.range }
-}
-
-impl Called {
-    fn at(&self, function: Function, gap: f64) -> f64 {
-        let found = Python::attach(|py| Functions { object: self.object.bind(py).clone() }.at(function, &[gap; 2]));
-        found.map(|values| values[0]).unwrap_or_else(|error| {
-            self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-            f64::NAN
-        })
-    }
-}
-
-impl AdhesionLaw<f64> for Called {
-    fn energy(&self, gap: f64) -> f64 {
-        self.at(Function::Energy, gap)
-    }
-    fn traction(&self, gap: f64) -> f64 {
-        self.at(Function::Traction, gap)
-    }
-    fn slope(&self, gap: f64) -> f64 {
-        self.at(Function::Slope, gap)
-    }
-    fn hints(&self) -> Hints<f64> {
-        let mut hints = Hints::new(self.scales.work_of_adhesion, self.scales.range);
-        hints.rest = self.scales.rest;
-        hints
     }
 }

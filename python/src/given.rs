@@ -65,25 +65,3 @@ impl Given {
         }
     }
 }
-
-/// The type of a law's parameter.
-pub trait Parameter: Sized {
-    /// The type in which it is typed.
-    type Typed;
-    /// Its value.
-    fn read(typed: Self::Typed, key: &str, given: &mut Given) -> PyResult<Self>;
-}
-
-impl Parameter for f64 {
-    type Typed = Measure;
-    fn read(typed: Measure, key: &str, given: &mut Given) -> PyResult<Self> {
-        given.read(key, typed)
-    }
-}
-
-impl Parameter for bool {
-    type Typed = bool;
-    fn read(typed: bool, _: &str, _: &mut Given) -> PyResult<Self> {
-        Ok(typed)
-    }
-}

@@ -4,19 +4,18 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use asperity::AdhesionLaw;
-use asperity::adhesion::Values;
+use asperity::adhesion::{Values, check_functions};
+use asperity::{AdhesionLaw, adhesion};
 use asperity_scene::{Adhesion, Formula};
 use numpy::ndarray::ArrayD;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::functions::{self, Functions};
+use crate::functions::Functions;
 use crate::given::{Given, Measure};
 use crate::numbers::{Field, Numbers, mapped, returned};
 use crate::refusal::{refusal, refusal_of_works};
-use crate::table::Table;
 
 /// An adhesion law of the library: functions of the gap between the surfaces, a length.
 #[pyclass(frozen, eq, subclass, module = "asperity")]
@@ -77,8 +76,8 @@ impl Law {
             return Ok(law.get().clone());
         }
         let functions = Functions::of(object)?;
-        let formula: Formula = Arc::new(Table::of(&functions)?);
-        let (work_of_adhesion, range) = (functions.number("work_of_adhesion")?, functions.number("range")?);
+        let Functions { work_of_adhesion, range, .. } = functions;
+        let formula: Formula = Arc::new(asperity::Tabulated::of(functions).map_err(refusal)?);
         let name = object.get_type().name()?.to_string();
         let adhesion = Adhesion { work_of_adhesion, range, ..Adhesion::of(name) };
         Ok(Self { formula, adhesion, given: Given::default() })
@@ -334,12 +333,12 @@ impl Varying {
 #[pyfunction]
 #[pyo3(signature = (law, largest_gap = None))]
 pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
-    match law.cast::<Law>() {
+    let checked = match law.cast::<Law>() {
         Ok(law) => {
-            let law = &law.get().formula;
-            asperity::adhesion::check_law::<f64>(law, largest_gap.unwrap_or_else(|| functions::far(law)))
-                .map_err(refusal)
+            let law = law.get().formula.clone().law::<f64>();
+            adhesion::check_law(&law, largest_gap.unwrap_or_else(|| law.hints().far()))
         }
-        Err(_) => functions::check(law, largest_gap),
-    }
+        Err(_) => check_functions(Functions::of(law)?, largest_gap),
+    };
+    checked.map_err(refusal)
 }

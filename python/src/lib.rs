@@ -11,7 +11,6 @@ mod functions;
 mod given;
 mod inputs;
 mod interface;
-mod jumps;
 mod keywords;
 mod law;
 mod look;
@@ -23,11 +22,9 @@ mod problem;
 mod refusal;
 mod report;
 mod running;
-mod scales;
 mod state;
 mod surface;
 mod symbol;
-mod table;
 
 /// The compiled core.
 #[pyo3::pymodule]
@@ -43,8 +40,6 @@ mod _asperity {
     use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
     #[pymodule_export]
     use crate::flow::{conductance, leakage, percolation};
-    #[pymodule_export]
-    use crate::formulas::{Exponential, JKR, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals};
     #[pymodule_export]
     use crate::inputs::{has_dimension, quantity};
     #[pymodule_export]
@@ -70,9 +65,10 @@ mod _asperity {
 
     use pyo3::prelude::*;
 
-    /// The sphere of Maugis, whose name the law has.
+    /// The laws, and the sphere of Maugis, whose name a law has.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::formulas::add(module)?;
         module.add("MaugisSphere", module.py().get_type::<crate::exact::MaugisDugdale>())
     }
 }

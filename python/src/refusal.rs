@@ -78,6 +78,10 @@ fn refused(error: Error, also: &str) -> PyErr {
             "choose one, by asperity.read(path, channel=NUMBER)",
         )
         .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
+        .replace("the traction of the law is", "law.traction is")
+        .replace("the energy of the law", "law.energy")
+        .replace("a range, the length over", "an attribute range, the length over")
+        .replace("check_functions says", "asperity.check_law(law) says")
         + also;
     match error {
         Error::File { path, .. } if !path.exists() => PyFileNotFoundError::new_err(message),

@@ -6,7 +6,7 @@ use crate::error::{Breach, Error, Place, Result};
 use crate::real::Real;
 
 /// The functions, in the order in which each is the derivative of the one before.
-const NAMES: [&str; 3] = ["adhesive energy", "adhesive traction", "slope of the adhesive traction"];
+pub(super) const NAMES: [&str; 3] = ["adhesive energy", "adhesive traction", "slope of the adhesive traction"];
 
 /// The share of a function's largest value by which a value may be wrong, or a traction falls that jumps.
 const SHARE: f64 = 1e-2;
@@ -69,15 +69,20 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
     let on_nodes = law.on_nodes(T::lit(compliance));
     let law: &dyn AdhesionLaw<T> = on_nodes.as_deref().unwrap_or(law);
     let hints = law.hints();
-    // closer than half its gap of rest a law may grow without bound
-    let least = hints.rest.map_or(0.0, |rest| 0.5 * rest.widen());
-    let length = hints.range.widen().clamp(1e-3 * largest_gap, largest_gap);
-    let checked = Checked { law, hints, gaps: (least, largest_gap), length };
+    let (gaps, length) = looked_at(&hints, largest_gap);
+    let checked = Checked { law, hints, gaps, length };
     checked.functions()?;
     checked.smoothness()?;
     checked.bounds()?;
     checked.nodes()?;
     checked.coarseness()
+}
+
+/// The range of gaps at which a law is looked at, and the length over which it varies.
+pub(super) fn looked_at<T: Real>(hints: &Hints<T>, largest_gap: f64) -> ((f64, f64), f64) {
+    // closer than half its gap of rest a law may grow without bound
+    let least = hints.rest.map_or(0.0, |rest| 0.5 * rest.widen());
+    ((least, largest_gap), hints.range.widen().clamp(1e-3 * largest_gap, largest_gap))
 }
 
 /// A law, the range of gaps at which it is looked at, and the length over which it varies.

@@ -37,6 +37,12 @@ impl<T: Real> Hints<T> {
         Self::new(w, if w > T::zero() && traction > T::zero() { w / traction } else { T::zero() })
     }
 
+    /// A gap at which most laws have decayed: ten ranges, from the equilibrium separation on.
+    pub fn far(&self) -> T {
+        // a law that has the range of the grid is looked at with any
+        if self.of_grid { T::one() } else { self.rest.unwrap_or_else(T::zero) + T::lit(10.0) * self.range }
+    }
+
     /// The name by which a solution knows the law: that of no adhesion for every law that is zero.
     pub(crate) fn known_as(&self) -> &'static str {
         if self.zero { "none" } else { self.name }

@@ -1,152 +1,104 @@
-use super::{AdhesionLaw, Hints};
-use crate::error::{Error, Result};
+use std::sync::Arc;
+
+use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::real::Real;
 
-/// A law whose traction is a monotone cubic through the points of a table.
+mod adaptive;
+mod functions;
+mod jump;
+mod piece;
+mod points;
+mod scales;
+
+pub use functions::{Functions, check_functions};
+use jump::Jump;
+use piece::Piece;
+
+/// The place up to which a table has one interval.
+const NEAREST: f64 = 1.0 / 256.0;
+
+/// The bits of the mantissa that number the intervals of an octave: 128 of them.
+const BITS: u32 = 7;
+
+/// A law whose traction is a polynomial of the third degree, piece by piece: [through points](Self::new), or
+/// [of functions](Self::of).
 ///
-/// Slopes by Fritsch and Butland (*SIAM J. Sci. Stat. Comput.* 5 (1984)): no extremes that the table has not. The
-/// energy is the exact integral, zero from the last point on.
-///
-/// ```
-/// use asperity::adhesion::check_law;
-/// use asperity::{AdhesionLaw, Tabulated};
-/// // a traction that falls evenly over 2 nm
-/// let law = Tabulated::new(&[0.0, 1e-9, 2e-9], &[50e6, 25e6, 0.0])?;
-/// assert!((AdhesionLaw::<f64>::hints(&law).work_of_adhesion - 0.05).abs() < 1e-15);
-/// check_law::<f64>(&law, 3e-9)?;
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// The energy is the exact integral of the traction, and the slope its derivative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tabulated {
-    points: Vec<Point>,
-    range: f64,
-    concave: bool,
+    hints: Hints<f64>,
+    /// the gap from which places count, and their unit
+    origin: f64,
+    unit: f64,
+    /// the first piece of each interval, and the number of pieces; one interval where the unit is not the range
+    first: Vec<u32>,
+    pieces: Vec<Piece>,
+    /// the place from which on nothing attracts, and the energy there
+    end: f64,
+    far: f64,
+    jumps: Vec<Jump>,
+    /// the compliance to which jumps are smoothed; zero for the law itself
+    compliance: f64,
 }
 
-/// A point of the table, with the cubic up to the next one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Point {
-    gap: f64,
-    energy: f64,
-    /// the traction as a polynomial of the gap beyond the point
-    cubic: [f64; 4],
+/// The number of the interval of a place, counted from zero.
+fn key(place: f64) -> usize {
+    (place.to_bits() >> (f64::MANTISSA_DIGITS - 1 - BITS)) as usize
+}
+
+/// The least place of a number.
+fn of_key(key: usize) -> f64 {
+    f64::from_bits((key as u64) << (f64::MANTISSA_DIGITS - 1 - BITS))
 }
 
 impl Tabulated {
-    /// The law through points of a gap (length), from zero on, and a traction (pressure; positive attracts), last zero.
-    ///
-    /// # Errors
-    /// [`Error::Value`] for fewer than three points, unequal numbers of gaps and tractions, a number that is not
-    /// finite, gaps that do not rise from zero, a last traction that is not zero, or no attraction.
-    pub fn new(gaps: &[f64], tractions: &[f64]) -> Result<Self> {
-        let wrong = |name, value, requirement| Err(Error::Value { name, value, requirement });
-        if gaps.len() != tractions.len() {
-            return wrong("number of tractions in the table", tractions.len() as f64, "that of the gaps");
+    /// Energy, traction and slope at a gap.
+    #[inline(always)]
+    fn at(&self, gap: f64) -> [f64; 3] {
+        let place = (gap - self.origin) / self.unit;
+        if place >= self.end {
+            return [self.far, 0.0, 0.0];
         }
-        if gaps.len() < 3 {
-            return wrong("number of points in the table", gaps.len() as f64, "at least three");
-        }
-        for (name, values) in [("gap in the table", gaps), ("traction in the table", tractions)] {
-            if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
-                return wrong(name, value, "finite");
+        let interval = if place < NEAREST { 0 } else { (key(place) - key(NEAREST) + 1).min(self.first.len() - 2) };
+        let pieces = &self.pieces[self.first[interval] as usize..self.first[interval + 1] as usize];
+        let after = if let [_] = pieces { 1 } else { pieces.partition_point(|piece| piece.start <= place).max(1) };
+        let piece = &pieces[after - 1];
+        let mut values = piece.at((place - piece.start) * piece.rate, self.unit);
+        if self.compliance > 0.0 {
+            for jump in &self.jumps {
+                let [energy, traction, slope] = jump.smoothing(gap / self.unit, self.unit, self.compliance);
+                values = [values[0] + energy, values[1] + traction, values[2] + slope];
             }
         }
-        if gaps[0] != 0.0 {
-            return wrong("first gap in the table", gaps[0], "zero, the traction in contact");
-        }
-        if let Some(pair) = gaps.windows(2).find(|pair| pair[1] <= pair[0]) {
-            return wrong("gap in the table", pair[1], "larger than the one before: sort the table by its gaps");
-        }
-        let last = tractions[tractions.len() - 1];
-        if last != 0.0 {
-            return wrong("last traction in the table", last, "zero: add the gap from which on nothing attracts");
-        }
-        let slopes = slopes(gaps, tractions);
-        let mut points: Vec<Point> = (0..gaps.len() - 1)
-            .map(|i| {
-                let width = gaps[i + 1] - gaps[i];
-                let chord = (tractions[i + 1] - tractions[i]) / width;
-                let (a, b) = (slopes[i], slopes[i + 1]);
-                let cubic =
-                    [tractions[i], a, (3.0 * chord - 2.0 * a - b) / width, (a + b - 2.0 * chord) / (width * width)];
-                Point { gap: gaps[i], energy: 0.0, cubic }
-            })
-            .collect();
-        points.push(Point { gap: gaps[gaps.len() - 1], energy: 0.0, cubic: [0.0; 4] });
-        for i in (0..points.len() - 1).rev() {
-            points[i].energy = points[i + 1].energy - points[i].integral(points[i + 1].gap - points[i].gap);
-        }
-        let (work, largest) = (-points[0].energy, tractions.iter().copied().fold(0.0, f64::max));
-        if work <= 0.0 {
-            return wrong("work of adhesion of the table", work, "positive: tractions that attract are positive");
-        }
-        // between the points there are no other extremes
-        let concave = tractions.is_sorted_by(|nearer, farther| nearer >= farther);
-        Ok(Self { points, range: work / largest, concave })
+        values
     }
-
-    /// The point before a gap, and the distance from it; the first point for a smaller gap.
-    fn find(&self, gap: f64) -> (&Point, f64) {
-        let i = self.points.partition_point(|point| point.gap <= gap).max(1) - 1;
-        (&self.points[i], gap - self.points[i].gap)
-    }
-}
-
-impl Point {
-    fn integral(&self, x: f64) -> f64 {
-        let [a, b, c, d] = self.cubic;
-        x * (a + x * (b / 2.0 + x * (c / 3.0 + x * d / 4.0)))
-    }
-}
-
-fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let widths: Vec<f64> = x.windows(2).map(|x| x[1] - x[0]).collect();
-    let chords: Vec<f64> = y.windows(2).zip(&widths).map(|(y, width)| (y[1] - y[0]) / width).collect();
-    let inner = |i: usize| {
-        let (left, right) = (chords[i - 1], chords[i]);
-        if left * right <= 0.0 {
-            return 0.0;
-        }
-        let (a, b) = (2.0 * widths[i] + widths[i - 1], widths[i] + 2.0 * widths[i - 1]);
-        (a + b) / (a / left + b / right)
-    };
-    let end = |near: usize, far: usize| {
-        // of the parabola through three points, no steeper than three chords and of their sign
-        let (h, k) = (widths[near], widths[far]);
-        let slope = ((2.0 * h + k) * chords[near] - h * chords[far]) / (h + k);
-        if slope * chords[near] <= 0.0 {
-            0.0
-        } else if chords[near] * chords[far] < 0.0 && slope.abs() > 3.0 * chords[near].abs() {
-            3.0 * chords[near]
-        } else {
-            slope
-        }
-    };
-    let last = x.len() - 1;
-    (0..=last)
-        .map(|i| match i {
-            0 => end(0, 1),
-            _ if i == last => end(last - 1, last - 2),
-            _ => inner(i),
-        })
-        .collect()
 }
 
 impl<T: Real> AdhesionLaw<T> for Tabulated {
     fn energy(&self, gap: T) -> T {
-        let (point, x) = self.find(gap.widen());
-        T::lit(point.energy + point.integral(x))
+        T::lit(self.at(gap.widen())[0])
     }
     fn traction(&self, gap: T) -> T {
-        let (Point { cubic: [a, b, c, d], .. }, x) = self.find(gap.widen());
-        T::lit(a + x * (b + x * (c + x * d)))
+        T::lit(self.at(gap.widen())[1])
     }
     fn slope(&self, gap: T) -> T {
-        let (Point { cubic: [_, b, c, d], .. }, x) = self.find(gap.widen());
-        T::lit(b + x * (2.0 * c + x * 3.0 * d))
+        T::lit(self.at(gap.widen())[2])
     }
     fn hints(&self) -> Hints<T> {
-        let hints = Hints::new(-self.energy(T::zero()), T::lit(self.range)).named("table");
-        Hints { concave: self.concave, ..hints }
+        let Hints { work_of_adhesion, range, rest, concave, .. } = self.hints;
+        Hints { rest: rest.map(T::lit), concave, ..Hints::new(T::lit(work_of_adhesion), T::lit(range)).named("table") }
+    }
+    fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {
+        values.set(
+            gaps,
+            #[inline(always)]
+            |gap| self.at(gap.widen()).map(T::lit),
+        );
+    }
+    fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {
+        let Discretisation::Smooth(compliance) = to else { return None };
+        let compliance = compliance.widen();
+        let falls = !self.jumps.is_empty() && compliance > self.compliance;
+        falls.then(|| Arc::new(Self { compliance, ..self.clone() }) as Arc<dyn AdhesionLaw<T>>)
     }
 }

@@ -25,6 +25,28 @@ impl fmt::Display for Error {
                     first.0, first.1
                 )
             }
+            Self::Contract { breach: Breach::Attract, .. } => {
+                f.write_str("the traction of the law is positive at no gap: the law repels, and attracts nowhere")
+            }
+            Self::Contract { value, place: Place::Gap(gap), breach: Breach::Sign(rise), .. } => write!(
+                f,
+                "the traction of the law is {value:e} at a gap of {gap:e}, where the energy of the law {} with the gap: the \
+                 traction is the derivative of the energy, and positive where the surfaces attract each other: change \
+                 the sign of one of the two",
+                if *rise > 0.0 { "rises" } else { "falls" }
+            ),
+            Self::Contract { place: Place::Gap(gap), breach: Breach::Rough, .. } => write!(
+                f,
+                "the functions of the law do not agree with one another, or are rough, at gaps from {gap:e} on: the \
+                 traction must be the derivative of the energy and the slope that of the traction; check_functions \
+                 says which is not"
+            ),
+            Self::Contract { place: Place::Gap(gap), breach: Breach::Decay(range), .. } => write!(
+                f,
+                "the law still has a traction at a gap of {gap:e}, {:.0} times its range of {range:e}: give it a range, \
+                 the length over which the traction decays",
+                gap / range
+            ),
             Self::Contract { function, value, place, breach } => {
                 write!(f, "the {function} is {}{place}", Short(*value))?;
                 let (other, rule) = breach.words(function);
@@ -102,6 +124,7 @@ impl Breach {
                 " by another function of the law: those of many gaps give what those of one gap do, or the law has a \
                  `shape` in its `hints` and those of one gap are of its strongest node",
             ),
+            Self::Sign(_) | Self::Attract | Self::Rough | Self::Decay(_) => (None, ", which breaks the contract"),
             Self::Operator(other) => (Some(other), " in an operator that keeps its contract"),
             Self::Stiff => (None, ": it must be positive and finite in the precision of the fields"),
             Self::Even(other) => {

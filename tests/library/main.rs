@@ -40,4 +40,5 @@ mod statistics;
 mod stiffness;
 mod stress;
 mod sweep;
+mod tabulated;
 mod wrappers;

@@ -111,15 +111,15 @@ impl LeakAsked {
     /// The leakage through a gap, with the flow, and as its report has it.
     ///
     /// # Errors
-    /// Those of [`Gap::absent`] and [`Leakage::through`].
+    /// Those of [`Gap::absent`] and [`Leakage::through`](asperity_flow::Leakage::through).
     pub fn find(&self, gap: Gap<'_>) -> Result<(Leak, Leaked)> {
         self.find_while(gap, &|| true)
     }
 
-    /// The same, by [`Leakage::through_while`].
+    /// The same, by [`Leakage::through_while`](asperity_flow::Leakage::through_while).
     ///
     /// # Errors
-    /// Those of [`Gap::absent`] and [`Leakage::through`].
+    /// Those of [`Gap::absent`] and [`Leakage::through`](asperity_flow::Leakage::through).
     pub fn find_while(&self, gap: Gap<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<(Leak, Leaked)> {
         let Self { boundary, absent_gap, settings, viscosity, grid_error } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };

@@ -82,7 +82,7 @@ impl Given {
     ///
     /// # Errors
     /// The key and the remedy, if it is not known, a value is none for it, or it needs another one, for
-    /// [`worded`](crate::worded).
+    /// [`worded`].
     pub fn read(known: &[&'static Key], typed: impl IntoIterator<Item = (String, Typed)>) -> Result<Self, String> {
         let mut given = Self::default();
         for (name, typed) in typed {

@@ -1,10 +1,9 @@
-//! The scales of a law of Python: its work of adhesion, range and equilibrium separation, found where it does not name
-//! them.
+//! The scales of a law of functions, found where it does not name them.
 
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-
-use crate::functions::{Function, Functions};
+use super::functions::{Functions, at, one};
+use crate::adhesion::Hints;
+use crate::adhesion::check::NAMES;
+use crate::error::{Breach, Error, Place, Result};
 
 /// The powers of two between which the equilibrium separation is looked for, in any unit of length, and the gaps in an
 /// octave.
@@ -18,14 +17,8 @@ const STRONGEST: f64 = 1e9;
 const DEPTHS: std::ops::RangeInclusive<i32> = -8..=24;
 
 /// The scales of a law.
-pub struct Scales {
-    /// −φ in contact, or at the equilibrium separation.
-    pub work_of_adhesion: f64,
-    /// The length over which the traction decays: w over the traction in contact, or over the greatest attraction of a
-    /// law that does not attract there.
-    pub range: f64,
-    /// The gap below which the law repels.
-    pub rest: Option<f64>,
+pub(super) struct Scales {
+    pub hints: Hints<f64>,
     /// The least gap at which the law is read; none if its energy has no bound at zero gap.
     pub least: Option<f64>,
     /// Whether a law that repels goes on below the least gap.
@@ -33,27 +26,22 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// The scales of a law.
-    ///
-    /// # Errors
-    /// The exception of its functions; `ValueError` if it has no range, or attracts nowhere, as with a wrong sign.
-    pub fn of(law: &Functions<'_>) -> PyResult<Self> {
-        let at = |function, gap: f64| law.at(function, &[gap; 2]).map(|values| values[0]);
-        let in_contact = at(Function::Traction, 0.0)?;
+    /// The scales of a law; [`Error::Value`] if it has no range, and [`Error::Contract`] if it attracts nowhere.
+    pub fn of(law: &impl Functions) -> Result<Self> {
+        let in_contact = one(law, 1, 0.0)?;
         let (mut rest, attraction) = if in_contact > 0.0 { (None, in_contact) } else { rest(law, in_contact)? };
-        let work = law.number("work_of_adhesion")?;
-        let work_of_adhesion = work.map_or_else(|| at(Function::Energy, rest.unwrap_or(0.0)).map(|e| -e), Ok)?;
-        let range = law.number("range")?.unwrap_or(work_of_adhesion / attraction);
+        let work = law.work_of_adhesion();
+        let work_of_adhesion = work.map_or_else(|| one(law, 0, rest.unwrap_or(0.0)).map(|energy| -energy), Ok)?;
+        let range = law.range().unwrap_or(work_of_adhesion / attraction);
         if !(range > 0.0 && range.is_finite()) {
             check_sign(law)?;
-            return Err(PyValueError::new_err(format!(
-                "range of the law is {range}: it must be positive and finite: give the law an attribute range, the \
-                 length over which the traction decays (without one it is w/traction(0))"
-            )));
+            let requirement = "positive and finite: give the law a range, the length over which the traction decays \
+                               (without one it is w/traction(0))";
+            return Err(Error::Value { name: "range of the law", value: range, requirement });
         }
         let (mut least, mut goes_on) = (Some(0.0), false);
         if let Some(gap) = rest {
-            if at(Function::Energy, 0.0)?.is_finite() {
+            if one(law, 0, 0.0)?.is_finite() {
                 (least, goes_on) = deepest(law, gap, range, STRONGEST * attraction);
                 // what does not repel below rests nowhere
                 (rest, least) = (rest.filter(|_| least.is_some()), least.or(Some(0.0)));
@@ -61,7 +49,7 @@ impl Scales {
                 least = None;
             }
         }
-        Ok(Self { work_of_adhesion, range, rest, least, goes_on })
+        Ok(Self { hints: Hints { rest, ..Hints::new(work_of_adhesion, range) }, least, goes_on })
     }
 }
 
@@ -71,16 +59,14 @@ fn gaps() -> Vec<f64> {
 }
 
 /// The gap where the traction turns from repulsion, or nothing, to attraction, and the greatest attraction.
-fn rest(law: &Functions<'_>, in_contact: f64) -> PyResult<(Option<f64>, f64)> {
+fn rest(law: &impl Functions, in_contact: f64) -> Result<(Option<f64>, f64)> {
     check_sign(law)?;
     let gaps = gaps();
-    let tractions = law.at(Function::Traction, &gaps)?;
+    let tractions = at(law, 1, &gaps)?;
     let attraction = tractions.iter().copied().filter(|traction| traction.is_finite()).fold(0.0, f64::max);
     let Some(first) = tractions.iter().position(|&traction| traction > 0.0) else {
         return match tractions.iter().any(|&traction| traction < 0.0) {
-            true => {
-                Err(PyValueError::new_err("law.traction is positive at no gap: the law repels, and attracts nowhere"))
-            }
+            true => Err(broken(in_contact, 0.0, Breach::Attract)),
             false => Ok((None, attraction)),
         };
     };
@@ -90,7 +76,7 @@ fn rest(law: &Functions<'_>, in_contact: f64) -> PyResult<(Option<f64>, f64)> {
     let (mut near, mut far) = (gaps[last], gaps[first]);
     loop {
         let middle = 0.5 * (near + far);
-        let traction = law.at(Function::Traction, &[middle; 2])?[0];
+        let traction = one(law, 1, middle)?;
         if traction == 0.0 || middle <= near || middle >= far {
             return Ok((Some(middle), attraction));
         }
@@ -100,10 +86,10 @@ fn rest(law: &Functions<'_>, in_contact: f64) -> PyResult<(Option<f64>, f64)> {
 
 /// The least gap below that of rest down to which the law repels more and more, up to the strongest repulsion, and
 /// whether it ends so, and not where it is no longer defined.
-fn deepest(law: &Functions<'_>, rest: f64, range: f64, strongest: f64) -> (Option<f64>, bool) {
+fn deepest(law: &impl Functions, rest: f64, range: f64, strongest: f64) -> (Option<f64>, bool) {
     let gaps = Vec::from_iter(DEPTHS.map(|half| rest - range * (0.5 * f64::from(half)).exp2()));
     // a law may refuse negative gaps
-    let Ok(tractions) = law.at(Function::Traction, &gaps) else { return (None, false) };
+    let Ok(tractions) = at(law, 1, &gaps) else { return (None, false) };
     let (mut least, mut before) = (None, 0.0);
     for (gap, traction) in gaps.into_iter().zip(tractions) {
         if !(traction < before && traction.is_finite()) {
@@ -117,24 +103,20 @@ fn deepest(law: &Functions<'_>, rest: f64, range: f64, strongest: f64) -> (Optio
     (least, true)
 }
 
-/// Tells whether the traction has the sign of the derivative of the energy, where that changes most.
-///
-/// # Errors
-/// `ValueError` if it has not, with the gap.
-pub fn check_sign(law: &Functions<'_>) -> PyResult<()> {
+/// Refuses a traction without the sign of the derivative of the energy, where that changes most.
+pub(super) fn check_sign(law: &impl Functions) -> Result<()> {
     let gaps = gaps();
-    let [energies, tractions] = [law.at(Function::Energy, &gaps)?, law.at(Function::Traction, &gaps)?];
+    let [energies, tractions] = [at(law, 0, &gaps)?, at(law, 1, &gaps)?];
     let rises = energies.windows(2).map(|pair| pair[1] - pair[0]).enumerate().filter(|(_, rise)| rise.is_finite());
-    let Some((place, rise)) = rises.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) else { return Ok(()) };
-    let opposite = rise * (tractions[place] + tractions[place + 1]) < 0.0;
-    if !opposite {
-        return Ok(());
+    match rises.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) {
+        Some((place, rise)) if rise * (tractions[place] + tractions[place + 1]) < 0.0 => {
+            Err(broken(tractions[place], gaps[place], Breach::Sign(rise)))
+        }
+        _ => Ok(()),
     }
-    Err(PyValueError::new_err(format!(
-        "law.traction is {:e} at a gap of {:e}, where law.energy {} with the gap: the traction is the derivative of \
-         the energy, and positive where the surfaces attract each other: change the sign of one of the two",
-        tractions[place],
-        gaps[place],
-        if rise > 0.0 { "rises" } else { "falls" }
-    )))
+}
+
+/// The error of a traction at a gap.
+pub(super) fn broken(traction: f64, gap: f64, breach: Breach) -> Error {
+    Error::Contract { function: NAMES[1], value: traction, place: Place::Gap(gap), breach }
 }
