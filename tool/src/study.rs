@@ -5,9 +5,7 @@ mod cases;
 mod merge;
 mod work;
 
-use std::fmt;
 use std::path::PathBuf;
-use std::str::FromStr;
 use std::thread::available_parallelism;
 
 use clap::Args;
@@ -29,10 +27,11 @@ use crate::warnings;
 
 /// Solve every combination of surfaces, laws and other options, as one table.
 ///
-/// A study is a TOML file like the scene of a sweep or a cycle, with lists of values in a section [vary]: each
-/// combination of them is a case, the last list changes fastest. Options that belong together are a list of tables.
-/// With a section [make], the surface of each case is made with these options of asperity surface, which may vary as
-/// well. The table has the rows of all cases, after the number of the case and the values that vary.
+/// A study is a TOML file like the scene of a sweep, a cycle, a solve or a pull-off, with lists of values in a section
+/// [vary]: each combination of them is a case, the last list changes fastest. Options that belong together are a list of
+/// tables. With a section [make], the surface of each case is made with these options of asperity surface, which may
+/// vary as well. The table has the rows of all cases, after the number of the case and the values that vary: those of a
+/// sweep or a cycle, of a solve the one of a sweep with its load, and of a pull-off one with the keys of its report.
 ///
 /// The rows of each case are kept in OUT.cases by what they depend on: the same command again goes on where an
 /// interrupted one was, and a study that has become larger solves only what is new. Slices of a study can be solved by
@@ -52,8 +51,8 @@ pub struct Options {
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads)]
     jobs: Option<usize>,
     /// Solve only a part of the cases: 3/16 is the third of sixteen
-    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
-    slice: Option<Slice>,
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true, value_parser = slice)]
+    slice: Option<(usize, usize)>,
     /// Print the cases, and solve none
     #[arg(long)]
     list: bool,
@@ -86,106 +85,66 @@ const EXAMPLES: &str = "\
     work-of-adhesion = 1e-4
     range = 1e-2
 
-\u{1b}[1;4mOne surface slides over another, in eight steps:\u{1b}[0m
-    command = \"sweep\"
-    out = \"sliding.csv\"
-    heights = \"heights.npy\"
-    against = \"other.npy\"
-    mean-pressures = 0.02
-    [vary]
-    shift = \"0:0.1:9\"
-
 \u{1b}[1;4mExamples:\u{1b}[0m
   All cases on this machine, or a slice of them on each of sixteen, and then the table:
     asperity study study.toml
     asperity study study.toml --slice 3/16
     asperity study study.toml";
 
-/// One of some parts of a study.
-#[derive(Clone, Copy, Debug)]
-struct Slice {
-    part: usize,
-    of: usize,
-}
-
-impl Slice {
-    const WHOLE: Self = Self { part: 1, of: 1 };
-
-    /// Whether the part has a case, counted from zero.
-    fn has(self, case: usize) -> bool {
-        case % self.of == self.part - 1
-    }
-}
-
-impl FromStr for Slice {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
-        match parts {
-            Some((part, of)) if (1..=of).contains(&part) => Ok(Self { part, of }),
-            _ => Err("it must be a part of a whole, such as 3/16, the first of them 1/16".to_owned()),
-        }
-    }
-}
-
-impl fmt::Display for Slice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.part, self.of)
-    }
+/// A slice of a study, and how many there are, of such a text.
+fn slice(text: &str) -> Result<(usize, usize), String> {
+    let slice = text.split_once('/').and_then(|(slice, of)| Some((slice.parse().ok()?, of.parse().ok()?)));
+    let slice = slice.filter(|(slice, of)| (1..=*of).contains(slice));
+    slice.ok_or_else(|| "it must be a part of a whole, such as 3/16, the first of them 1/16".to_owned())
 }
 
 /// Runs the command, of a `tool` with these commands and options; whether all rows converged.
 pub fn run(options: &Options, mut tool: clap::Command, processes: &Processes) -> Outcome<bool> {
     tool.build();
     let study = Study::read(&mut tool, &options.study, options.out.as_deref())?;
-    let printing = options.printing;
-    if options.list {
+    let &Options { printing, list, .. } = options;
+    let (cases, out) = (study.cases.len(), &study.out);
+    if list {
         for (k, case) in study.cases.iter().enumerate() {
             let done = if is_done(&case.rows) { "done" } else { "to do" };
             printing.say(&format!("{}  {done}  {}", k + 1, study.told(case)));
         }
     } else {
-        let replaceable = folder(&study.out).exists() || options.force;
-        check_free(&study.out, replaceable, "--out")?;
-        warnings::check_beside(&study.out, replaceable)?;
-        options.plot.check(&study.out, replaceable)?;
-        let slice = options.slice.unwrap_or(Slice::WHOLE);
-        let chosen: Vec<_> = (0..study.cases.len()).filter(|&case| slice.has(case)).collect();
+        let replaceable = folder(out).exists() || options.force;
+        check_free(out, replaceable, "--out")?;
+        warnings::check_beside(out, replaceable)?;
+        options.plot.check(out, replaceable)?;
+        let (slice, of) = options.slice.unwrap_or((1, 1));
         let jobs = options.jobs.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
-        solve(&tool, &study, &chosen, jobs, printing, processes)?;
+        solve(&tool, &study, (slice - 1..cases).step_by(of), jobs, printing, processes)?;
     }
-    let (cases, done) = (study.cases.len(), study.cases.iter().filter(|case| is_done(&case.rows)).count());
-    let table = if done == cases && !options.list { Some(merge(&study)?) } else { None };
-    if table.is_some() {
-        page::draw_loads(&study.out, &options.plot)?;
+    let done = study.cases.iter().filter(|case| is_done(&case.rows)).count();
+    let (rows, unconverged) = if done == cases && !list { Some(merge(&study)?) } else { None }.unzip();
+    if rows.is_some() {
+        page::draw_loads(out, &options.plot)?;
     }
-    let (rows, unconverged) = table.map_or((None, None), |table| (Some(table.rows), Some(table.unconverged)));
+    let told = name(out);
     printing.say(&match rows {
-        Some(rows) => format!("{rows} rows of {cases} cases in {}", name(&study.out)),
-        None => {
-            format!("{done} of {cases} cases are done; the run that finds all of them done writes {}", name(&study.out))
-        }
+        Some(rows) => format!("{rows} rows of {cases} cases in {told}"),
+        None => format!("{done} of {cases} cases are done; the run that finds all of them done writes {told}"),
     });
     printing.report(|| {
         let outcome = json!({
             "study": options.study.to_string_lossy(),
-            "slice": options.slice.map(|slice| slice.to_string()),
+            "slice": options.slice.map(|(slice, of)| format!("{slice}/{of}")),
             "cases": cases,
             "done": done,
             "rows": rows,
             "unconverged": unconverged,
-            "out": study.out.to_string_lossy(),
+            "out": out.to_string_lossy(),
             "version": env!("CARGO_PKG_VERSION"),
         });
         report::report("study", outcome, &())
     });
-    match unconverged {
-        Some(count) if count > 0 => {
-            let out = study.out.display();
-            complain("warning", &format!("{count} rows not converged, their status and errors are in {out}"));
-            Ok(false)
-        }
-        _ => Ok(true),
+    let failed = unconverged.filter(|count| *count > 0);
+    if let Some(count) = failed {
+        let out = out.display();
+        complain("warning", &format!("{count} rows not converged, their status and errors are in {out}"));
     }
+    Ok(failed.is_none())
 }

@@ -47,10 +47,9 @@ pub struct Study {
 pub struct Case {
     /// The values of the columns; none where an option is not given in this case
     pub values: Vec<Option<Value>>,
-    /// The words of the command that makes the surface, if that is part of the case
-    pub surface: Option<Vec<OsString>>,
-    /// The words of the command, whose files of results are not written
-    pub words: Vec<OsString>,
+    /// The words of the command, before it those of the command that makes the surface, if one does; files of results are
+    /// named, and not written
+    pub words: Vec<Vec<OsString>>,
     /// The file of the rows, named by all that they depend on
     pub rows: PathBuf,
 }
@@ -89,53 +88,41 @@ impl Study {
             None => Ok(None),
             Some(other) => Err(refuse(format!("{name} is {other}: it must be a section, [{name}]"))),
         });
-        let make = make?;
-        let commands = Commands {
-            command: tool.find_subcommand(&name).cloned().ok_or_else(|| refuse(format!("{name} is not built in")))?,
-            surface: make.as_ref().and_then(|_| tool.find_subcommand("surface").cloned()),
-        };
-        let fixed = entries(table, &commands.command, &SECTIONS).map_err(refuse)?;
+        let (make, command) = (make?, tool.find_subcommand(&name).cloned().unwrap_or_default());
+        let fixed = entries(table, &command, &SECTIONS).map_err(refuse)?;
+        let surface = make.as_ref().and_then(|_| tool.find_subcommand("surface").cloned());
+        let commands = Commands(surface.into_iter().chain([command]).collect());
         let fixed: Vec<_> = fixed.into_iter().chain(make.into_iter().flatten()).collect();
         let lists = vary?.into_iter().flatten().map(|(key, value)| choices(key, value));
         let lists = lists.collect::<Result<Vec<_>, _>>().map_err(refuse)?;
 
         let mut keys: Vec<&str> = Vec::new();
-        for list in &lists {
-            let mut here: Vec<&str> = Vec::new();
-            for (key, _) in list.iter().flatten() {
-                if !here.contains(&key.as_str()) {
-                    here.push(key);
-                }
+        for (key, _) in lists.iter().flatten().flatten() {
+            if !keys.contains(&key.as_str()) {
+                keys.push(key);
             }
-            let is_twice = |key: &&&str| keys.contains(key) || fixed.iter().any(|(fixed, _)| fixed == **key);
-            if let Some(twice) = here.iter().find(is_twice) {
-                return Err(refuse(format!("{twice} is there twice: remove one of them")).into());
-            }
-            keys.extend(here);
         }
-        fixed
-            .iter()
-            .map(|(key, _)| key.as_str())
-            .chain(keys.iter().copied())
-            .try_for_each(|key| commands.check(key))
-            .map_err(refuse)?;
+        let mut all = fixed.iter().map(|(key, _)| key.as_str()).chain(keys.iter().copied());
+        all.try_for_each(|key| commands.check(key)).map_err(refuse)?;
         let count = lists.iter().try_fold(1_usize, |count, list| count.checked_mul(list.len()));
         let Some(count @ ..=MOST_CASES) = count else {
             return Err(refuse(format!("has more cases than the {MOST_CASES} that are allowed")).into());
         };
-        let mut files = HashMap::new();
-        let mut cases = Vec::with_capacity(count);
+        let (mut files, mut cases, beside) = (HashMap::new(), Vec::with_capacity(count), folder_of(&out));
         for number in 0..count {
-            let all: Vec<_> = fixed.iter().chain(combination(&lists, number).into_iter().flatten()).collect();
+            let all: Vec<_> = fixed.iter().chain(combination(&lists, number)).collect();
             let told = |error: String| refuse(format!("case {}: {error}", number + 1));
-            let identity = commands.identity(&all, folder, &mut files)?;
-            let rows = folder_of(&out).join(format!("{identity}.{}", format.name()));
-            let (surface, words) = commands.words(&all, folder, &rows).map_err(told)?;
-            for words in surface.iter().chain([&words]) {
+            let twice = all.iter().enumerate().find(|(k, (key, _))| all[..*k].iter().any(|(other, _)| other == key));
+            if let Some((_, (key, _))) = twice {
+                return Err(refuse(format!("{key} is there twice: remove one of them")).into());
+            }
+            let rows = beside.join(format!("{}.{}", commands.identity(&all, folder, &mut files)?, format.name()));
+            let words = commands.words(&all, folder, &rows).map_err(told)?;
+            for words in &words {
                 crate::parsed(tool, words).map_err(|error| told(on_one_line(&error)))?;
             }
             let value = |key: &&str| all.iter().find(|(name, _)| name == key).map(|(_, value)| value.clone());
-            cases.push(Case { values: keys.iter().map(value).collect(), surface, words, rows });
+            cases.push(Case { values: keys.iter().map(value).collect(), words, rows });
         }
         let columns = keys.iter().map(|key| key.replace('-', "_")).collect();
         Ok(Self { command: name, out, format, columns, cases })
@@ -198,74 +185,55 @@ fn range(text: &str) -> Result<Vec<Value>, String> {
 }
 
 /// The combination of this number, the last list changing fastest.
-fn combination(lists: &[Vec<Choice>], mut number: usize) -> Vec<&Choice> {
-    let mut chosen = Vec::with_capacity(lists.len());
-    for list in lists.iter().rev() {
-        chosen.insert(0, &list[number % list.len()]);
-        number /= list.len();
-    }
-    chosen
+fn combination(lists: &[Vec<Choice>], number: usize) -> impl Iterator<Item = &(String, Value)> {
+    let place = |k: usize| lists[k + 1..].iter().map(Vec::len).product::<usize>();
+    lists.iter().enumerate().flat_map(move |(k, list)| &list[number / place(k) % list.len()])
 }
 
-/// The command of a case, and that which makes its surface, if one does.
-struct Commands {
-    command: Command,
-    surface: Option<Command>,
-}
+/// The command of a case, before it that which makes its surface, if one does.
+struct Commands(Vec<Command>);
 
 impl Commands {
-    /// The option of a name, with its command, that which makes the surface first, and whether it is that.
-    fn option(&self, name: &str) -> Option<(bool, &Command, &Arg)> {
-        let both = self.surface.iter().map(|surface| (true, surface)).chain([(false, &self.command)]);
-        let mut options =
-            both.flat_map(|(makes, command)| command.get_arguments().map(move |arg| (makes, command, arg)));
-        options.find(|(.., arg)| key(arg).as_deref() == Some(name))
+    /// The option of a name, with the number of its command.
+    fn option(&self, name: &str) -> Option<(usize, &Arg)> {
+        let options = |(k, command)| Command::get_arguments(command).map(move |arg| (k, arg));
+        self.0.iter().enumerate().flat_map(options).find(|(_, arg)| key(arg).as_deref() == Some(name))
     }
 
-    /// Refuses what is no option of theirs, or is not for a study: results of a run beside its rows.
+    /// Refuses what is no option of theirs, or is not for a study, as files beside the rows.
     fn check(&self, name: &str) -> Result<(), String> {
         let is_own = |arg: &Arg| {
-            let is_key = Key::named(arg.get_id().as_str()).is_some() || name == "strict";
-            OWN.contains(&name) || section(arg) == "output" && !is_key
+            let (id, key) = (arg.get_id().as_str(), key(arg));
+            let is_key = Key::named(id).is_some() || id == "strict";
+            key.is_some_and(|key| OWN.contains(&key.as_str())) || section(arg) == "output" && !is_key
         };
-        let commands = || self.surface.iter().chain([&self.command]);
-        match self.option(name) {
-            Some((.., arg)) if is_own(arg) => {
-                Err(format!("{name} is not for a study, which sees to it by itself: remove it"))
-            }
-            Some(_) => Ok(()),
-            None => {
-                let options = commands().flat_map(Command::get_arguments).filter(|arg| !is_own(arg));
-                let known: Vec<_> = options.filter_map(key).collect();
-                let hint = similar(name, known.iter().map(String::as_str));
-                let hint = hint.map_or("remove it".to_owned(), |meant| format!("did you mean {meant}?"));
-                let names: Vec<_> = commands().map(Command::get_name).collect();
-                Err(format!("{name} is no option of {}: {hint}", names.join(" or ")))
-            }
+        if let Some((_, arg)) = self.option(name) {
+            let own = || format!("{name} is not for a study, which sees to it by itself: remove it");
+            return if is_own(arg) { Err(own()) } else { Ok(()) };
         }
+        let options = self.0.iter().flat_map(Command::get_arguments).filter(|arg| !is_own(arg));
+        let known: Vec<_> = options.filter_map(key).collect();
+        let meant = similar(name, known.iter().map(String::as_str));
+        let hint = meant.map_or("remove it".to_owned(), |meant| format!("did you mean {meant}?"));
+        let names: Vec<_> = self.0.iter().map(Command::get_name).collect();
+        Err(format!("{name} is no option of {}: {hint}", names.join(" or ")))
     }
 
-    /// The words of both commands, of which one makes the surface beside the rows.
-    fn words(
-        &self,
-        entries: &[&(String, Value)],
-        folder: &Path,
-        rows: &Path,
-    ) -> Result<(Option<Vec<OsString>>, Vec<OsString>), String> {
+    /// The words of both commands, of which the first makes the surface, if one does, beside the rows.
+    fn words(&self, entries: &[&(String, Value)], folder: &Path, rows: &Path) -> Result<Vec<Vec<OsString>>, String> {
         let begun = |command: &Command| {
             let out = command.get_arguments().any(|arg| arg.get_id() == "out").then_some("--out=table.csv");
-            ["asperity", command.get_name()].into_iter().chain(out).map(OsString::from).collect::<Vec<_>>()
+            ["asperity", command.get_name()].into_iter().chain(out).map(OsString::from).collect()
         };
-        let (mut surface, mut words) = (self.surface.as_ref().map(begun), begun(&self.command));
-        if surface.is_some() {
+        let mut words: Vec<Vec<_>> = self.0.iter().map(begun).collect();
+        if let [_, words] = &mut words[..] {
             words.extend(["--heights".into(), rows.with_extension("npz").into()]);
         }
         for (name, value) in entries {
-            let Some((makes, command, _)) = self.option(name) else { continue };
-            let of = surface.as_mut().filter(|_| makes).unwrap_or(&mut words);
-            of.extend(spelled(name, value, command, folder)?);
+            let Some((of, _)) = self.option(name) else { continue };
+            words[of].extend(spelled(name, value, &self.0[of], folder)?);
         }
-        Ok((surface, words))
+        Ok(words)
     }
 
     /// All that the rows depend on: options, contents of files, and the version of the tool.
@@ -275,17 +243,19 @@ impl Commands {
         folder: &Path,
         files: &mut HashMap<PathBuf, Hash>,
     ) -> asperity::Result<Hash> {
-        let mut words = vec![env!("CARGO_PKG_VERSION").to_owned(), self.command.get_name().to_owned()];
+        let mut words = Vec::new();
         for (name, value) in entries {
-            let Some((makes, _, option)) = self.option(name) else { continue };
+            let Some((of, option)) = self.option(name) else { continue };
             let value = match value {
                 Value::String(file) if is_path(option) => contents(&folder.join(file), files)?.to_string(),
                 value => text(value),
             };
-            words.push(format!("{makes} {name} {value}"));
+            words.push(format!("{} {name} {value}", of + 1 < self.0.len()));
         }
-        words[2..].sort();
-        Ok(words.iter().fold(Hash::NEW, |hash, word| hash.of(word.as_bytes()).of(b"\n")))
+        words.sort();
+        let before = [env!("CARGO_PKG_VERSION"), self.0[self.0.len() - 1].get_name()];
+        let words = before.into_iter().chain(words.iter().map(String::as_str));
+        Ok(words.fold(Hash::NEW, |hash, word| hash.of(word.as_bytes()).of(b"\n")))
     }
 }
 

@@ -1,10 +1,10 @@
 //! The work on a study: its cases, solved on threads, with the rows of each in a file of a folder.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use asperity::Error;
@@ -16,7 +16,7 @@ use crate::interruption::stands;
 use crate::journal::{is_whole, state_path};
 use crate::outcome::Outcome;
 use crate::output::{with_suffix, write_text};
-use crate::printing::{Printing, Warn, complain, on_terminal};
+use crate::printing::{Printing, Warn, complain, on_one_line, on_terminal};
 use crate::processes::Processes;
 use crate::threads;
 use crate::{Command, parsed, surface, warnings};
@@ -44,35 +44,13 @@ fn checksum(rows: &Path) -> asperity::Result<String> {
     Ok(format!("{of_rows} {}\n", Hash::NEW.of(&warnings)))
 }
 
-/// The lock of a case, which a run has as long as it solves it; nothing as long as another run has it, unless this one is
-/// to `wait` for that.
-fn locked(lock: &Path, wait: bool) -> Outcome<Option<File>> {
-    let file = File::create(lock).map_err(|e| format!("its lock cannot be written: {e}"))?;
-    match if wait { file.lock().map_err(TryLockError::Error) } else { file.try_lock() } {
-        Err(TryLockError::WouldBlock) => Ok(None),
-        // not every file system has locks
-        Ok(()) | Err(TryLockError::Error(_)) => Ok(Some(file)),
-    }
-}
-
-/// The work on the cases of a study.
-struct Work<'a> {
-    study: &'a Study,
-    processes: &'a Processes,
-    printing: Printing,
-    /// The cases that are to be solved, and those that were done before
-    left: Vec<usize>,
-    before: usize,
-    progress: Mutex<Progress>,
-}
-
 /// How far the work is.
 #[derive(Default)]
 struct Progress {
-    next: usize,
-    done: usize,
-    /// The cases that another run is solving
+    /// The cases that nobody has taken, and those that another run is solving
+    left: VecDeque<usize>,
     elsewhere: Vec<usize>,
+    done: usize,
     /// The warnings with a code, each of which is said of one case, and not again of the next
     said: HashSet<String>,
     /// The first case that was refused for a reason, and how many were
@@ -86,93 +64,45 @@ struct Progress {
 pub fn solve(
     tool: &clap::Command,
     study: &Study,
-    chosen: &[usize],
+    chosen: impl ExactSizeIterator<Item = usize>,
     jobs: usize,
     printing: Printing,
     processes: &Processes,
 ) -> Outcome<()> {
-    let folder = folder(&study.out);
+    let (folder, of) = (folder(&study.out), chosen.len());
     fs::create_dir_all(&folder).map_err(|e| Error::unwritable(&folder, e))?;
-    let jobs = jobs.min(chosen.len().max(1));
-    let threads = (threads::count() / jobs).max(1);
     // equal cases are one
     let mut known = HashSet::new();
-    let new = chosen.iter().copied().filter(|&number| known.insert(&study.cases[number].rows));
-    let (done, left): (Vec<_>, Vec<_>) = new.partition(|&number| is_done(&study.cases[number].rows));
-    let work = Work { study, processes, printing, left, before: done.len(), progress: Mutex::default() };
-    work.stands(0);
-    thread::scope(|scope| {
-        let begun: Vec<_> =
-            (0..jobs).map(|_| scope.spawn(|| threads::on(threads, || work.work(tool.clone())))).collect();
-        begun.into_iter().filter_map(|job| job.join().ok()).collect::<Outcome<()>>()
-    })?;
-    let reasons = work.progress.into_inner().unwrap_or_else(PoisonError::into_inner).refused;
-    refused(reasons.into_values().collect(), chosen.len())
-}
-
-/// Refuses a study of which some of all cases were refused: by each reason a first case, and how many in all.
-fn refused(mut reasons: Vec<(usize, usize)>, of: usize) -> Outcome<()> {
-    let count: usize = reasons.iter().map(|(_, count)| count).sum();
-    if count == 0 {
-        return Ok(());
-    }
-    reasons.retain(|(_, count)| *count > 1);
-    reasons.sort_unstable();
-    let alike = reasons.iter().map(|&(first, alike)| {
-        let alike = if alike == count { "all".to_owned() } else { alike.to_string() };
-        format!(", {alike} as case {}", first + 1)
-    });
-    let alike: String = alike.collect();
-    Err(format!("{count} of {of} cases were refused{alike}: mend the study, and run it again").into())
-}
-
-impl Work<'_> {
-    fn progress(&self) -> MutexGuard<'_, Progress> {
-        self.progress.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn told(&self, number: usize) -> String {
-        format!("case {}: {}", number + 1, self.study.told(&self.study.cases[number]))
-    }
-
-    /// Sets what an interruption says of the cases.
-    fn stands(&self, done: usize) {
-        let (done, all) = (self.before + done, self.before + self.left.len());
+    let new = chosen.filter(|&number| known.insert(&study.cases[number].rows));
+    let (before, left): (VecDeque<_>, _) = new.partition(|&number| is_done(&study.cases[number].rows));
+    let (before, count) = (before.len(), left.len());
+    let jobs = jobs.min(count).max(1);
+    let threads = (threads::count() / jobs).max(1);
+    let stand = |done: usize| {
+        let (done, all) = (before + done, before + count);
         stands(format!("{done} of {all} cases are done: the same command goes on, also within those that were begun"));
-    }
-
-    /// Solves one case after the other, as long as there are some, and at the end those of other runs.
-    fn work(&self, mut tool: clap::Command) {
-        let next = || {
-            let mut progress = self.progress();
-            progress.next += 1;
-            self.left.get(progress.next - 1).copied()
-        };
-        while let Some(number) = next() {
-            self.case(&mut tool, number, false);
+    };
+    stand(0);
+    let progress = Mutex::new(Progress { left, ..Progress::default() });
+    let progress = || progress.lock().unwrap_or_else(PoisonError::into_inner);
+    let solve = |tool: &mut clap::Command, number: usize, wait: bool| {
+        let case = &study.cases[number];
+        let (name, mut warnings) = (format!("case {}: {}", number + 1, study.told(case)), Vec::new());
+        if wait {
+            printing.say(&format!("{name} is solved by another run: waiting for it"));
         }
-        loop {
-            let Some(number) = self.progress().elsewhere.pop() else { break };
-            self.printing.say(&format!("{} is solved by another run: waiting for it", self.told(number)));
-            self.case(&mut tool, number, true);
-        }
-    }
-
-    /// Solves a case, and says its warnings, or why it is refused; leaves one that another run is solving for later,
-    /// unless this one is to `wait`.
-    fn case(&self, tool: &mut clap::Command, number: usize, wait: bool) {
-        let (name, mut warnings) = (self.told(number), Vec::new());
-        let solved = self.solved(tool, &self.study.cases[number], wait, &mut |line| warnings.push(on_terminal(&line)));
-        let mut progress = self.progress();
+        let mut warn = |line: String| warnings.push(on_terminal(&line));
+        let solved = solved(tool, study, case, processes, wait, &mut warn);
+        let mut progress = progress();
         match solved.map_err(|error| on_terminal(&error.to_string())) {
             Ok(false) => progress.elsewhere.push(number),
             Ok(true) => {
                 warnings.retain(|line| !line.contains(": ") || progress.said.insert(line.clone()));
                 warnings.iter().for_each(|line| complain("warning", &format!("{name}: {line}")));
                 progress.done += 1;
-                let (done, of) = (progress.done, self.left.len());
-                self.stands(done);
-                self.printing.say(&format!("{done:>width$}/{of}  {name}", width = of.to_string().len()));
+                stand(progress.done);
+                let width = count.to_string().len();
+                printing.say(&format!("{:>width$}/{count}  {name}", progress.done));
             }
             Err(error) => {
                 let (_, count) = progress.refused.entry(error.clone()).or_insert((number, 0));
@@ -182,44 +112,81 @@ impl Work<'_> {
                 }
             }
         }
-    }
-
-    /// Solves a case that no other run has solved by then; false if another run is solving it, unless this one is to
-    /// `wait`.
-    fn solved(&self, tool: &mut clap::Command, case: &Case, wait: bool, warn: Warn<'_>) -> Outcome<bool> {
-        let lock = case.rows.with_extension("lock");
-        let Some(_lock) = locked(&lock, wait)? else { return Ok(false) };
-        if !is_done(&case.rows) {
-            self.solve(tool, case, warn)?;
+    };
+    let work = || {
+        let mut tool = tool.clone();
+        let next = || progress().left.pop_front();
+        while let Some(number) = next() {
+            solve(&mut tool, number, false);
         }
-        let _ = fs::remove_file(lock);
-        Ok(true)
+        let next = || progress().elsewhere.pop();
+        while let Some(number) = next() {
+            solve(&mut tool, number, true);
+        }
+    };
+    thread::scope(|scope| {
+        let begun: Vec<_> = (0..jobs).map(|_| scope.spawn(|| threads::on(threads, work))).collect();
+        begun.into_iter().filter_map(|job| job.join().ok()).collect::<Outcome<()>>()
+    })?;
+    let mut reasons: Vec<_> = progress().refused.values().copied().collect();
+    let refused: usize = reasons.iter().map(|(_, count)| count).sum();
+    if refused == 0 {
+        return Ok(());
     }
+    reasons.retain(|(_, count)| *count > 1);
+    reasons.sort_unstable();
+    let alike = |&(first, count): &(usize, usize)| {
+        let alike = if count == refused { "all".to_owned() } else { count.to_string() };
+        format!(", {alike} as case {}", first + 1)
+    };
+    let alike: String = reasons.iter().map(alike).collect();
+    Err(format!("{refused} of {of} cases were refused{alike}: mend the study, and run it again").into())
+}
 
-    fn solve(&self, tool: &mut clap::Command, case: &Case, warn: Warn<'_>) -> Outcome<()> {
-        let (rows, state) = (&case.rows, state_path(&case.rows));
+/// Solves a case that no other run has solved by then, and tells its warnings; false if another run is solving it, unless
+/// this one is to `wait`.
+fn solved(
+    tool: &mut clap::Command,
+    study: &Study,
+    case: &Case,
+    processes: &Processes,
+    wait: bool,
+    warn: Warn<'_>,
+) -> Outcome<bool> {
+    let (rows, state, lock) = (&case.rows, state_path(&case.rows), case.rows.with_extension("lock"));
+    let file = File::create(&lock).map_err(|e| format!("its lock cannot be written: {e}"))?;
+    // not every file system has locks
+    if let Err(TryLockError::WouldBlock) = if wait { file.lock().map_err(TryLockError::Error) } else { file.try_lock() }
+    {
+        return Ok(false);
+    }
+    if !is_done(rows) {
         let force = !is_whole(rows);
         // a run that has just begun has neither of these yet
         let begun = sum_path(rows).exists() || state.exists();
         if force && begun && fs::metadata(rows).is_ok_and(|file| file.len() > 0) {
             warn("its rows were damaged, and it was solved again".to_owned());
         }
-        let mut run = |words: &[_]| parsed(tool, words).map_err(|error| error.to_string());
-        let made = match case.surface.as_deref().map(&mut run).transpose()? {
+        let mut commands = Vec::new();
+        for words in &case.words {
+            commands.push(parsed(tool, words).map_err(|error| on_one_line(&error))?);
+        }
+        let (command, scene) = commands.pop().ok_or("it has no command")?;
+        let made = match commands.pop() {
             Some((Command::Surface(options), scene)) => Some(surface::map(&options, &scene)?),
             _ => None,
         };
-        let (command, scene) = run(&case.words)?;
-        let ((problem, strictness), format) = (command.problem()?, self.study.format);
-        let (command, processes, out) = (&*self.study.command, self.processes, rows.clone());
+        let ((problem, strictness), format, out) = (command.problem()?, study.format, rows.clone());
+        let command = &*study.command;
         Run { command, problem, strictness, scene, processes, out, format, force }.solve(made, warn)?;
         write_text(&sum_path(rows), &checksum(rows)?)?;
         // last: what is left with it is not done
-        match fs::remove_file(state) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                Err(format!("its state cannot be removed: {error}").into())
-            }
-            _ => Ok(()),
+        if let Err(error) = fs::remove_file(state)
+            && error.kind() != io::ErrorKind::NotFound
+        {
+            return Err(format!("its state cannot be removed: {error}").into());
         }
     }
+    let _ = fs::remove_file(lock);
+    Ok(true)
 }
