@@ -23,10 +23,13 @@ use crate::pools::Pool;
 use crate::refusal::{reason, refusal, refusal_of_heights, refusal_of_session};
 use crate::state::{self, At, Columns, File, Pace};
 
+/// The session of a problem, in one of both precisions.
+type AnySession = Either<Session<f32>, Session<f64>>;
+
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
-    session: Mutex<Either<Session<f32>, Session<f64>>>,
+    session: Mutex<AnySession>,
     given: Given,
     quantities: Quantities,
     /// The surface, if further solves are to follow the first
@@ -36,7 +39,7 @@ pub struct Problem {
 
 impl Problem {
     /// The pool of a solve, and the session.
-    fn parts(&mut self) -> PyResult<(Pool, &mut Either<Session<f32>, Session<f64>>)> {
+    fn parts(&mut self) -> PyResult<(Pool, &mut AnySession)> {
         Ok((Pool::of(self.given.threads())?, self.session.get_mut().unwrap_or_else(PoisonError::into_inner)))
     }
 
