@@ -55,234 +55,6 @@ _OF_LAWS = ("work_of_adhesion", "range", "exponent", "hamaker", "cut_off")
 _NOT_OF_INTERFACE = ("boundary", "hardness", "normal_forces", "approaches", "spring_stiffness", "spring_positions")
 
 
-class Contact:
-    """A contact problem: heights, bodies, adhesion and solver, which is solved under loads.
-
-    It holds the problem, so that a further solve does not read and copy the heights again. `solve`, `sweep`, `cycle`,
-    `interface` and `pull_off` are short for a contact and one call of it, with the same results.
-
-    Parameters
-    ----------
-    heights, lengths, axes
-        Heights of the rigid surface, as those of `solve`.
-
-    Examples
-    --------
-    >>> import asperity
-    >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
-    >>> contact = asperity.Contact(rough, modulus=1.0, law="exponential", work_of_adhesion=1e-5, range=4e-3)
-    >>> light, heavy = (contact.solve(mean_pressure=p) for p in (0.005, 0.02))
-    >>> light.contact_fraction < heavy.contact_fraction
-    True
-    """
-
-    @described(ContactKeywords)
-    def __init__(
-        self,
-        heights: Heights,
-        lengths: Lengths | None = None,
-        *,
-        axes: AxisOrder | None = None,
-        **keywords: Unpack[ContactKeywords],
-    ) -> None:
-        check("Contact", keywords, ("heights", "lengths", "axes", *names(ContactKeywords)))
-        self._pose(heights, lengths, axes, dict(keywords), is_kept=True)
-
-    def _pose(
-        self, heights: Heights, lengths: Lengths | None, axes: AxisOrder | None, keywords: dict[str, Any], is_kept: bool
-    ) -> None:
-        keys = {key: value for key, value in keywords.items() if value is not None}
-        if "modulus" not in keys:
-            raise TypeError("modulus is missing: give the contact modulus E*, a pressure, as modulus=1.0 or '70GPa'")
-        self.whole, self.branch = keys.get("whole", False), keys.get("branch")
-        against, body = keys.pop("against", None), keys.pop("body", None)
-        law = keys.pop("law") if not isinstance(keys.get("law"), str | None) else None
-        #: the law as an object
-        self.own_law = law
-        self.body, self.law = body, law if law is not None else keys.get("law")
-        if law is not None:
-            _refuse_beside("law", _OF_LAWS, keys)
-        wall = keys.get("wall")
-        for name, described in (("wall", wall), ("body", body)):
-            if isinstance(described, Measured):
-                keys.pop(name, None)
-                _refuse_beside(name, described.keys, keys)
-                keys.update(described.keys)
-        hardness = keys.pop("hardness") if np.ndim(keys.get("hardness", 0.0)) > 0 else None
-        if hardness is not None and np.asarray(hardness).dtype == bool:
-            raise TypeError("hardness is an array of truth values: it must be one of pressures")
-        if lengths is not None:
-            keys["lengths"] = lengths
-        self._given = _asperity.Keywords(keys, law)
-        si = self._given.is_si
-        #: the unit of pressures
-        self.pressure_unit = "Pa" if si else None
-        self.topography: Topography = taken(heights, self._given.numbers("lengths"), axes, si=si)
-        boundary, absent_missing = keys.get("boundary", "periodic"), bool(keys.get("absent_missing", False))
-        facing, shift = None, self._given.numbers("shift")
-        if against is not None:
-            moved = along_both(shift)
-            self.topography, name = between(
-                self.topography, against, moved, axes=axes, boundary=boundary, absent_missing=absent_missing, si=si
-            )
-            facing = (name, moved)
-        elif shift is not None:
-            raise ValueError(
-                f"shift is {keys['shift']!r}, but there is no surface on the other side: give against, or leave it out"
-            )
-        original = original_of(self.topography)
-        # with a free boundary the images belong to the body
-        self.original = None if self.whole or boundary != "periodic" else original
-        self._map = {
-            "heights": self.topography.heights,
-            "lengths": sides(self.topography),
-            "against": facing,
-            "original": self.original,
-            "part": None if original is None else "whole" if self.original is None else "original",
-            "unit": self.topography.unit,
-            "source": self.topography.source,
-            "scars_removed": self.topography.scars_removed,
-            "hardness": None if hardness is None else field_of(hardness, "hardness"),
-        }
-        self._is_kept = is_kept
-        self.problem = _asperity.Problem(self._map, self._given, symbol(body), is_kept)
-        self._warned: set[str] = set()
-        if self.topography.periodic is False and boundary == "periodic":
-            warn(
-                "the map is not periodic, and the solve takes it for periodic: use asperity.prepare(heights, "
-                "mirror=True) or window=0.1, or boundary='free' if the body ends there",
-                InputWarning,
-            )
-
-    @property
-    def adheres(self) -> bool:
-        """Whether there is an adhesion law."""
-        return self.law not in (None, "none")
-
-    @described(SolveKeywords)
-    def solve(self, **keywords: Unpack[SolveKeywords]) -> Solution:
-        """Finds the equilibrium under a load, as `asperity.solve`."""
-        check("solve", keywords, names(SolveKeywords))
-        start, observe, keys = self._split(keywords)
-        _springs(keys)
-        found = self.problem.solve(keys, self._start(start), observe)
-        plan = found["plan"]
-        return self._solution({**found, "plan": None if plan is None else Plan(*plan)})
-
-    @described(SweepKeywords)
-    def sweep(self, **keywords: Unpack[SweepKeywords]) -> Sweep:
-        """Solves under many loads, as `asperity.sweep`."""
-        check("sweep", keywords, names(SweepKeywords))
-        return self._rows(Sweep, "sweep", keywords)
-
-    @described(CycleKeywords)
-    def cycle(self, **keywords: Unpack[CycleKeywords]) -> Cycle:
-        """Follows a branch of equilibria through turning points, as `asperity.cycle`."""
-        check("cycle", keywords, names(CycleKeywords))
-        return self._rows(Cycle, "cycle", {**keywords, "sharp": not keywords.pop("smooth", True)})
-
-    @described(InterfaceKeywords, without=_NOT_OF_INTERFACE)
-    def interface(self, **keywords: Unpack[InterfaceKeywords]) -> Interface:
-        """Tabulates the law of an interface over the load, as `asperity.interface`."""
-        check("interface", keywords, names(InterfaceKeywords))
-        return self._rows(Interface, "interface", keywords)
-
-    @described(OfPullOffKeywords)
-    def pull_off(self, **keywords: Unpack[OfPullOffKeywords]) -> PullOff:
-        """Finds the pull-off, as `asperity.pull_off`."""
-        check("pull_off", keywords, names(OfPullOffKeywords))
-        start, observe, keys = self._split(keywords)
-        self._has_one_branch()
-        if "accuracy" in keys and start is not None:
-            raise ValueError("an accuracy takes finer grids, which have no start: leave out start, or accuracy")
-        found = self.problem.pull_off(keys, self._start(start), observe)
-        solution = self._solution(found)
-        if found["shortfall"] is not None:
-            warn(found["shortfall"], ConvergenceWarning)
-        entries = found["pull_off"]
-        pressure, force = entries.pop("pull_off_pressure"), entries.pop("pull_off_force")
-        return PullOff(pressure, force, **entries, solution=solution)
-
-    @described(StabilityKeywords)
-    def stability(self, solution: Solution, **load: Unpack[StabilityKeywords]) -> Stability:
-        """Finds out whether a solution is stable, as `asperity.stability`."""
-        check("stability", load, names(StabilityKeywords))
-        keys: dict[str, Any] = {key: value for key, value in load.items() if value is not None}
-        _springs(keys)
-        if not keys:
-            name, value = solution.report["control"].replace("-", "_"), solution.report["control_value"]
-            stiffness = solution.report["spring_stiffness"]
-            spring = {"spring_stiffness": stiffness, "spring_position": value}
-            keys = spring if name == "spring" else {name: value}
-        gap = np.asarray(solution.whole_gap, dtype=np.float64).reshape(self.topography.heights.shape)
-        found = self.problem.stability(keys, gap, solution.relative_error)
-        return Stability(**{**found, "mode": solution.part_of(found["mode"])})
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "problem": None, "original": None, "body": None, "_map": None, "_given": None}
-
-    def _split(self, keywords: Any) -> tuple[Start, Any, dict[str, Any]]:
-        """The start, the observer, and the keys of a call."""
-        keys = {key: value for key, value in keywords.items() if value is not None}
-        start, observe = keys.pop("start", None), keys.pop("observe", None)
-        if self.branch is not None and start is not None:
-            raise ValueError("start chooses the branch: leave out branch, or start")
-        return start, observe, keys
-
-    def _has_one_branch(self) -> None:
-        if self.branch == "both":
-            raise ValueError("branch is both: that compares two solves under one load: use solve, or give one branch")
-
-    def _rows(self, kind: type[R], way: str, keywords: Any) -> R:
-        """The rows of a table, with a problem of their own, as they are solved when they are asked for."""
-        start, observe, keys = self._split(keywords)
-        self._has_one_branch()
-        file = (keys.pop("out", None), keys.pop("fields", None), keys.pop("force", False))
-        springs = keys.pop("springs", None)
-        parts = [keys]
-        if springs is not None:
-            pairs = [_pair("springs", spring) for spring in springs]
-            parts = [
-                {"spring_stiffness": stiffness, "spring_positions": [position for _, position in group]}
-                for stiffness, group in groupby(pairs, key=lambda pair: pair[0])
-            ]
-            parts[0].update(keys)
-        contact = self
-        if self._is_kept:
-            contact = copy.copy(self)
-            contact.problem, contact._warned = _asperity.Problem(self._map, self._given, symbol(self.body), False), set()
-        return kind(contact, way, parts, start, observe, file)
-
-    def _start(self, start: Start) -> str | NDArray[np.float64] | None:
-        """The gap from which to start, as the compiled core takes it."""
-        if start is None or isinstance(start, str):
-            return start
-        gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
-        original = original_of(self.topography)
-        return gap if original is None or gap.shape != original.shape else original.mirrored(gap)
-
-    def _solution(self, found: dict[str, Any]) -> Solution:
-        """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
-        told, topography = found["told"], self.topography
-        if "heights" in found:
-            # those of an accuracy
-            topography = refined(topography, found["heights"])
-        solution = Solution(topography, (self.body, self.law), told, found)
-        raised = found["raised"]
-        if raised is not None:
-            # an exception with slots has no room for it
-            with contextlib.suppress(AttributeError):
-                raised.solution = solution
-            raise raised
-        for warning in told["warnings"]:
-            if warning["code"] not in self._warned:
-                self._warned.add(warning["code"])
-                warn_of_input(warning)
-        for what, text in found["shortfalls"]:
-            warn(text, AccuracyWarning if what == "accuracy" else ConvergenceWarning)
-        return solution
-
-
 def _refuse_beside(name: str, own: Any, keys: dict[str, Any]) -> None:
     """Refuses keys beside an object that has them."""
     for key in own:
@@ -361,7 +133,8 @@ def solve(
         pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it was
         ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
     body : Layer, Coating or Symbol, optional
-        Body that deforms, a half-space by default; with a periodic boundary.
+        Body that deforms, a half-space by default; with a periodic boundary. ``layer`` or ``coating`` with their
+        parameters say the same without an object.
     against : array_like, Topography, SurfaceTopography, DataArray or path of a file, optional
         Heights of the surface on the other side, peaks up as they were measured, of the same shape, side lengths and
         unit; flat without it. The other surface is turned over about the y axis, so that it faces this one: the
@@ -379,14 +152,15 @@ def solve(
         Takes missing points for absent nodes, at which nothing faces the half-space, for example around a punch or in
         a hole. There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other
         nodes.
-    law : Law or an object of your own, optional
-        Adhesion law; none by default. `JKR` is the one of which the work of adhesion alone is known. `Exponential`,
+    law : Law, an object of your own, or str, optional
+        Adhesion law, or its name with its parameters beside it, as ``law="exponential", work_of_adhesion=...,
+        range=...``; none by default. `JKR` is the one of which the work of adhesion alone is known. `Exponential`,
         `MaugisDugdale`, `LennardJones`, `Morse`, `PowerLaw`, `VanDerWaals` and `Tabulated` have a range, `CutOff` ends
         one, and with `Varying` its work of adhesion differs from node to node. An object with ``energy(gap)``,
         ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see `check_law`.
-    wall : {"hard", "none"}, Penalty or Uzawa
+    wall : {"hard", "none", "penalty", "uzawa"}, Penalty or Uzawa
         What keeps the surfaces apart: a rigid wall at zero gap, a law that repels alone, as `LennardJones` and `Morse`
-        do, or springs of a stiffness.
+        do, or springs of a stiffness, as an object or with ``wall_stiffness`` beside their name.
     hardness : float or array_like, optional
         Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
         ``Solution.plastic_depth``. An array has it at each node, x along the first axis, in Pa where other quantities
@@ -737,6 +511,234 @@ def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stabilit
     contact = Contact.__new__(Contact)
     contact._pose(solution.topography, None, None, keys, False)
     return contact.stability(solution, **load)
+
+
+class Contact:
+    """A contact problem: heights, bodies, adhesion and solver, which is solved under loads.
+
+    It holds the problem, so that a further solve does not read and copy the heights again. `solve`, `sweep`, `cycle`,
+    `interface` and `pull_off` are short for a contact and one call of it, with the same results.
+
+    Parameters
+    ----------
+    heights, lengths, axes
+        Heights of the rigid surface, as those of `solve`.
+
+    Examples
+    --------
+    >>> import asperity
+    >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    >>> contact = asperity.Contact(rough, modulus=1.0, law="exponential", work_of_adhesion=1e-5, range=4e-3)
+    >>> light, heavy = (contact.solve(mean_pressure=p) for p in (0.005, 0.02))
+    >>> light.contact_fraction < heavy.contact_fraction
+    True
+    """
+
+    @described(ContactKeywords)
+    def __init__(
+        self,
+        heights: Heights,
+        lengths: Lengths | None = None,
+        *,
+        axes: AxisOrder | None = None,
+        **keywords: Unpack[ContactKeywords],
+    ) -> None:
+        check("Contact", keywords, ("heights", "lengths", "axes", *names(ContactKeywords)))
+        self._pose(heights, lengths, axes, dict(keywords), is_kept=True)
+
+    def _pose(
+        self, heights: Heights, lengths: Lengths | None, axes: AxisOrder | None, keywords: dict[str, Any], is_kept: bool
+    ) -> None:
+        keys = {key: value for key, value in keywords.items() if value is not None}
+        if "modulus" not in keys:
+            raise TypeError("modulus is missing: give the contact modulus E*, a pressure, as modulus=1.0 or '70GPa'")
+        self.whole, self.branch = keys.get("whole", False), keys.get("branch")
+        against, body = keys.pop("against", None), keys.pop("body", None)
+        law = keys.pop("law") if not isinstance(keys.get("law"), str | None) else None
+        #: the law as an object
+        self.own_law = law
+        self.body, self.law = body, law if law is not None else keys.get("law")
+        if law is not None:
+            _refuse_beside("law", _OF_LAWS, keys)
+        wall = keys.get("wall")
+        for name, described in (("wall", wall), ("body", body)):
+            if isinstance(described, Measured):
+                keys.pop(name, None)
+                _refuse_beside(name, described.keys, keys)
+                keys.update(described.keys)
+        hardness = keys.pop("hardness") if np.ndim(keys.get("hardness", 0.0)) > 0 else None
+        if hardness is not None and np.asarray(hardness).dtype == bool:
+            raise TypeError("hardness is an array of truth values: it must be one of pressures")
+        if lengths is not None:
+            keys["lengths"] = lengths
+        self._given = _asperity.Keywords(keys, law)
+        si = self._given.is_si
+        #: the unit of pressures
+        self.pressure_unit = "Pa" if si else None
+        self.topography: Topography = taken(heights, self._given.numbers("lengths"), axes, si=si)
+        boundary, absent_missing = keys.get("boundary", "periodic"), bool(keys.get("absent_missing", False))
+        facing, shift = None, self._given.numbers("shift")
+        if against is not None:
+            moved = along_both(shift)
+            self.topography, name = between(
+                self.topography, against, moved, axes=axes, boundary=boundary, absent_missing=absent_missing, si=si
+            )
+            facing = (name, moved)
+        elif shift is not None:
+            raise ValueError(
+                f"shift is {keys['shift']!r}, but there is no surface on the other side: give against, or leave it out"
+            )
+        original = original_of(self.topography)
+        # with a free boundary the images belong to the body
+        self.original = None if self.whole or boundary != "periodic" else original
+        self._map = {
+            "heights": self.topography.heights,
+            "lengths": sides(self.topography),
+            "against": facing,
+            "original": self.original,
+            "part": None if original is None else "whole" if self.original is None else "original",
+            "unit": self.topography.unit,
+            "source": self.topography.source,
+            "scars_removed": self.topography.scars_removed,
+            "hardness": None if hardness is None else field_of(hardness, "hardness"),
+        }
+        self._is_kept = is_kept
+        self.problem = _asperity.Problem(self._map, self._given, symbol(body), is_kept)
+        self._warned: set[str] = set()
+        if self.topography.periodic is False and boundary == "periodic":
+            warn(
+                "the map is not periodic, and the solve takes it for periodic: use asperity.prepare(heights, "
+                "mirror=True) or window=0.1, or boundary='free' if the body ends there",
+                InputWarning,
+            )
+
+    @property
+    def adheres(self) -> bool:
+        """Whether there is an adhesion law."""
+        return self.law not in (None, "none")
+
+    @described(SolveKeywords)
+    def solve(self, **keywords: Unpack[SolveKeywords]) -> Solution:
+        """Finds the equilibrium under a load, as `asperity.solve`."""
+        check("solve", keywords, names(SolveKeywords))
+        start, observe, keys = self._split(keywords)
+        _springs(keys)
+        found = self.problem.solve(keys, self._start(start), observe)
+        plan = found["plan"]
+        return self._solution({**found, "plan": None if plan is None else Plan(*plan)})
+
+    @described(SweepKeywords)
+    def sweep(self, **keywords: Unpack[SweepKeywords]) -> Sweep:
+        """Solves under many loads, as `asperity.sweep`."""
+        check("sweep", keywords, names(SweepKeywords))
+        return self._rows(Sweep, "sweep", keywords)
+
+    @described(CycleKeywords)
+    def cycle(self, **keywords: Unpack[CycleKeywords]) -> Cycle:
+        """Follows a branch of equilibria through turning points, as `asperity.cycle`."""
+        check("cycle", keywords, names(CycleKeywords))
+        return self._rows(Cycle, "cycle", {**keywords, "sharp": not keywords.pop("smooth", True)})
+
+    @described(InterfaceKeywords, without=_NOT_OF_INTERFACE)
+    def interface(self, **keywords: Unpack[InterfaceKeywords]) -> Interface:
+        """Tabulates the law of an interface over the load, as `asperity.interface`."""
+        check("interface", keywords, names(InterfaceKeywords))
+        return self._rows(Interface, "interface", keywords)
+
+    @described(OfPullOffKeywords)
+    def pull_off(self, **keywords: Unpack[OfPullOffKeywords]) -> PullOff:
+        """Finds the pull-off, as `asperity.pull_off`."""
+        check("pull_off", keywords, names(OfPullOffKeywords))
+        start, observe, keys = self._split(keywords)
+        self._has_one_branch()
+        if "accuracy" in keys and start is not None:
+            raise ValueError("an accuracy takes finer grids, which have no start: leave out start, or accuracy")
+        found = self.problem.pull_off(keys, self._start(start), observe)
+        solution = self._solution(found)
+        if found["shortfall"] is not None:
+            warn(found["shortfall"], ConvergenceWarning)
+        entries = found["pull_off"]
+        pressure, force = entries.pop("pull_off_pressure"), entries.pop("pull_off_force")
+        return PullOff(pressure, force, **entries, solution=solution)
+
+    @described(StabilityKeywords)
+    def stability(self, solution: Solution, **load: Unpack[StabilityKeywords]) -> Stability:
+        """Finds out whether a solution is stable, as `asperity.stability`."""
+        check("stability", load, names(StabilityKeywords))
+        keys: dict[str, Any] = {key: value for key, value in load.items() if value is not None}
+        _springs(keys)
+        if not keys:
+            name, value = solution.report["control"].replace("-", "_"), solution.report["control_value"]
+            stiffness = solution.report["spring_stiffness"]
+            spring = {"spring_stiffness": stiffness, "spring_position": value}
+            keys = spring if name == "spring" else {name: value}
+        gap = np.asarray(solution.whole_gap, dtype=np.float64).reshape(self.topography.heights.shape)
+        found = self.problem.stability(keys, gap, solution.relative_error)
+        return Stability(**{**found, "mode": solution.part_of(found["mode"])})
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "problem": None, "original": None, "body": None, "_map": None, "_given": None}
+
+    def _split(self, keywords: Any) -> tuple[Start, Any, dict[str, Any]]:
+        """The start, the observer, and the keys of a call."""
+        keys = {key: value for key, value in keywords.items() if value is not None}
+        start, observe = keys.pop("start", None), keys.pop("observe", None)
+        if self.branch is not None and start is not None:
+            raise ValueError("start chooses the branch: leave out branch, or start")
+        return start, observe, keys
+
+    def _has_one_branch(self) -> None:
+        if self.branch == "both":
+            raise ValueError("branch is both: that compares two solves under one load: use solve, or give one branch")
+
+    def _rows(self, kind: type[R], way: str, keywords: Any) -> R:
+        """The rows of a table, with a problem of their own, as they are solved when they are asked for."""
+        start, observe, keys = self._split(keywords)
+        self._has_one_branch()
+        file = (keys.pop("out", None), keys.pop("fields", None), keys.pop("force", False))
+        springs = keys.pop("springs", None)
+        parts = [keys]
+        if springs is not None:
+            pairs = [_pair("springs", spring) for spring in springs]
+            parts = [
+                {"spring_stiffness": stiffness, "spring_positions": [position for _, position in group]}
+                for stiffness, group in groupby(pairs, key=lambda pair: pair[0])
+            ]
+            parts[0].update(keys)
+        contact = self
+        if self._is_kept:
+            contact = copy.copy(self)
+            contact.problem, contact._warned = _asperity.Problem(self._map, self._given, symbol(self.body), False), set()
+        return kind(contact, way, parts, start, observe, file)
+
+    def _start(self, start: Start) -> str | NDArray[np.float64] | None:
+        """The gap from which to start, as the compiled core takes it."""
+        if start is None or isinstance(start, str):
+            return start
+        gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
+        original = original_of(self.topography)
+        return gap if original is None or gap.shape != original.shape else original.mirrored(gap)
+
+    def _solution(self, found: dict[str, Any]) -> Solution:
+        """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
+        told, topography = found["told"], self.topography
+        if "heights" in found:
+            # those of an accuracy
+            topography = refined(topography, found["heights"])
+        solution = Solution(topography, (self.body, self.law), told, found)
+        raised = found["raised"]
+        if raised is not None:
+            # an exception with slots has no room for it
+            with contextlib.suppress(AttributeError):
+                raised.solution = solution
+            raise raised
+        for warning in told["warnings"]:
+            if warning["code"] not in self._warned:
+                self._warned.add(warning["code"])
+                warn_of_input(warning)
+        for what, text in found["shortfalls"]:
+            warn(text, AccuracyWarning if what == "accuracy" else ConvergenceWarning)
+        return solution
 
 
 # by these names they are found in other processes

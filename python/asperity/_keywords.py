@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 import textwrap
 from collections.abc import Callable, Iterable
 from os import PathLike
@@ -30,6 +31,9 @@ from ._keys import (
 from ._solution import Start
 from ._topography import Heights
 from ._types import Quantity
+
+#: What the docstrings of functions say of their parameters.
+_ENTRIES: dict[str, dict[str, str]] = {}
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -117,18 +121,11 @@ class PullOffAll(ContactKeywords, OfPullOffKeywords, total=False):
 #: The defaults and meanings of the keys, of one that several lists have those of the first.
 _MEANINGS = {name: known for keys in reversed(_keys.KEYS.values()) for name, known in keys.items()}
 
-#: The meanings of the keywords that Python alone has, and their defaults.
+#: The defaults of the keywords that Python alone has, which docstrings explain.
 _OTHERS: dict[str, tuple[object, str]] = {
-    "body": (None, "Body that deforms, a half-space by default: Layer, Coating or Symbol, in the place of its keys"),
-    "against": (None, "Heights of the surface on the other side, peaks up as they were measured"),
-    "spring": (None, "Stiffness and position of a spring, (spring_stiffness, spring_position)"),
-    "springs": (None, "Springs, each its stiffness and position"),
-    "start": (None, "Gap from which to start, a solution, or 'apart' for undeformed bodies"),
-    "observe": (None, "Called with an `Iteration` in every iteration"),
-    "smooth": (True, "Whether jumps of the law's traction are smoothed by what the grid resolves"),
-    "out": (None, "File for the rows, .csv or .jsonl, as the tool writes it"),
-    "fields": (None, "Folder for gap, pressure and contact pressure of the rows"),
-    "force": (False, "Starts over, and replaces the files that are there"),
+    **dict.fromkeys(("body", "against", "spring", "springs", "start", "observe", "out", "fields"), (None, "")),
+    "smooth": (True, ""),
+    "force": (False, ""),
 }
 
 
@@ -151,13 +148,15 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
         head, returns, tail = text.partition("\nReturns\n-------\n")
         if "Parameters\n----------\n" not in head:
             head = f"{head.rstrip()}\n\nParameters\n----------\n"
-        documented = {name.strip() for line in head.splitlines() for name in line.partition(" :")[0].split(",")}
+        own_entries = _ENTRIES.setdefault(function.__name__, {})
+        documented = {name for name, entry in _entries(head).items() if own_entries.setdefault(name, entry)}
         types = {name: str(getattr(one, "__forward_arg__", one)) for name, one in kind.__annotations__.items()}
-        lines = [
-            f"{name} : {types[name].removesuffix(' | None')}, optional\n{_filled(meanings[name][1])}\n"
-            for name in known
-            if name not in documented
-        ]
+        lines = []
+        for name in known:
+            of_key = f" : {types[name].removesuffix(' | None')}, optional\n{_filled(meanings[name][1])}"
+            if name not in documented:
+                entry = own_entries.get(name) or _ENTRIES.get("solve", {}).get(name) or of_key
+                lines.append(f"{name}{entry}\n")
         setattr(function, "__doc__", f"{head.rstrip()}\n{''.join(lines)}{returns}{tail}")
         return function
 
@@ -166,3 +165,9 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
 
 def _filled(text: str) -> str:
     return textwrap.fill(f"{text}.", 120, initial_indent="    ", subsequent_indent="    ")
+
+
+def _entries(text: str) -> dict[str, str]:
+    """The parameters that a docstring has, with what it says of each."""
+    entries = re.findall(r"^(\w[\w, ]*)((?: :.*)?(?:\n    .*|\n(?=\n    ))+)", text, re.MULTILINE)
+    return {name.strip(): entry for names, entry in entries for name in names.split(",")}

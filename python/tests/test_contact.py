@@ -1,6 +1,7 @@
 """A contact that is solved more than once, and the keys of the program as keywords."""
 
 import json
+import subprocess
 
 import numpy as np
 import pytest
@@ -79,12 +80,15 @@ def test_units_are_those_of_the_contact_and_its_calls(rough):
         asperity.Contact(metres, modulus=1e9).solve(mean_gap="10nm")
 
 
-def test_a_solution_is_saved_as_by_the_program(rough, tmp_path):
+def test_a_solution_is_saved_as_by_the_program(rough, tmp_path, tool):
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, hardness=1.0)
     solution.save(tmp_path / "out")
     for name in ("gap", "pressure", "contact_pressure", "plastic_depth"):
         assert np.array_equal(np.load(tmp_path / "out" / f"{name}.npy"), getattr(solution, name))
     assert json.loads((tmp_path / "out" / "report.json").read_text()) == solution.report
+    command = [tool, "contact", str(tmp_path / "out"), "--json"]
+    found = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    assert found["clusters"] == len(asperity.contact.tables(solution).clusters)
 
 
 def test_results_go_on_in_pandas_and_xarray(rough):
