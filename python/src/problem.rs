@@ -23,9 +23,6 @@ use crate::pools::Pool;
 use crate::refusal::{reason, refusal, refusal_of_heights, refusal_of_session};
 use crate::state::{self, At, Columns, File, Pace};
 
-/// The session of a problem, in one of both precisions.
-type AnySession = Either<Session<f32>, Session<f64>>;
-
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
 pub struct Problem {
