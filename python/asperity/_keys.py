@@ -33,7 +33,7 @@ class SurfaceKeywords(TypedDict, total=False):
 class AdhesionKeywords(TypedDict, total=False):
     """The adhesion between the surfaces, the wall, and the hardness."""
 
-    law: Literal["none", "jkr", "maugis-dugdale", "exponential", "lennard-jones", "morse", "power", "van-der-waals", "table"] | OwnLaw | None
+    law: Literal["none", "jkr", "maugis-dugdale", "exponential", "lennard-jones", "morse", "power", "van-der-waals"] | OwnLaw | None
     work_of_adhesion: Quantity | None
     range: Quantity | None
     exponent: float | None

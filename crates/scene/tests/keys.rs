@@ -50,7 +50,9 @@ fn annotation(key: &Key) -> String {
         Values::Whole(..) => "int".to_owned(),
         Values::Switch => "bool".to_owned(),
         Values::Word(words) => {
-            let words: Vec<_> = words().iter().map(|word| format!("{:?}", word.name)).collect();
+            // a table is an object, asperity.Tabulated
+            let words = words().into_iter().filter(|word| word.name != "table");
+            let words: Vec<_> = words.map(|word| format!("{:?}", word.name)).collect();
             format!("Literal[{}]", words.join(", "))
         }
         Values::Text(_) | Values::File => "str".to_owned(),
