@@ -114,7 +114,7 @@ def test_an_interruption_says_what_stands(folders, command, ended):
     said = process.communicate(timeout=60)[1].decode()
     assert process.returncode == -ended
     assert said.startswith("interrupted: 0 of 3 cases are done: the same command goes on") and said.count("\n") == 1
-    # the processes of the cases end, too
+    # the cases end with it
     sizes = [0, 1]
     while sizes[-1] != sizes[-2]:
         time.sleep(0.5)
