@@ -24,6 +24,7 @@ class SurfaceKeywords(TypedDict, total=False):
     coating: Quantity | None
     coating_modulus: Quantity | None
     coating_poisson: float | None
+    plate: Quantity | None
     poisson: float | None
     against_modulus: Quantity | None
     shift: Quantity | tuple[Quantity, Quantity] | None
@@ -155,6 +156,7 @@ KEYS: dict[str, dict[str, tuple[object, str]]] = {
         "coating": (None, "Thickness of an elastic coating on the half-space, of which modulus is that of the substrate; needs coating_modulus, coating_poisson and poisson"),
         "coating_modulus": (None, "Contact modulus E/(1 - nu^2) of the coating, a pressure"),
         "coating_poisson": (None, "Poisson's ratio of the coating"),
+        "plate": (None, "Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space, of which modulus is that under it"),
         "poisson": (None, "Poisson's ratio of the layer, or of the substrate under a coating"),
         "against_modulus": (None, "Contact modulus E/(1 - nu^2) of the body on the other side, an elastic half-space [default: it is rigid]"),
         "shift": (None, "Shift of the surface on the other side along x and y, any part of a node [default: 0 0]; negative ones with a unit are written --shift=-1um,0um"),
@@ -217,7 +219,7 @@ KEYS: dict[str, dict[str, tuple[object, str]]] = {
         "conductivities": (None, "Thermal conductivities of both half-spaces: the same for heat"),
     },
     "Leakage": {
-        "leakage": (None, "Enclose the transmissivity of the gap along x and y under each load between two bounds, as asperity leak, in columns transmissivity_x_lower and so on, as close as a share of the upper one [default: 1e-3 if leakage stands alone]"),
+        "leakage": (None, "Enclose the transmissivity of the gap along x and y under each load between two bounds, as asperity leak, in a table in columns transmissivity_x_lower and so on, as close as a share of the upper one [default: 1e-3 if leakage stands alone]"),
     },
     "Accuracy": {
         "accuracy": (None, "Relative error that is wanted, as 0.01: chooses the tolerance, solves on coarser grids too, and interpolates the surface on finer ones until the estimated error is as small; the results are on the finest grid"),

@@ -24,7 +24,7 @@ use crate::scene::SceneFile;
 /// --cut-off-wavelength, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
-#[command(group(ArgGroup::new("scan_lines").args(["align_rows", "remove_scars"]).multiple(true)))]
+#[command(group(ArgGroup::new("scan_lines").args(StepKeys::OF_LINES).multiple(true)))]
 pub struct Options {
     /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
     #[arg(value_name = "IN")]

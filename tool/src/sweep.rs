@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use asperity::Error;
 use asperity_scene::{
-    AdhesionKeys, ConductorKeys, Format, FractionsKeys, LeakageKeys, Load, LoadsKeys, SolverKeys, StiffnessKeys,
+    AdhesionKeys, ConductorKeys, Format, FractionsKeys, Keys, LeakageKeys, Load, LoadsKeys, SolverKeys, StiffnessKeys,
     SurfaceKeys, UnitKeys,
 };
 use clap::{ArgGroup, Args};
@@ -30,7 +30,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 /// hardness the surface keeps its plastic depth from load to load. Exits with 0 if all rows converged, 2 if not (they
 /// are written all the same), and 1 if the input is refused or the file cannot be written.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many()).arg("contact_fractions")))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many()).args(FractionsKeys::KEYS.iter().map(|key| key.name))))]
 pub struct Options {
     #[command(flatten)]
     surface: SurfaceKeys,

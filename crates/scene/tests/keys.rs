@@ -1,7 +1,8 @@
 //! The keys of scenes where Python and the documents have them: written anew where `UPDATE` is set.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use asperity_scene::{
     AccuracyKeys, AdhesionKeys, ConductorKeys, FindingsKeys, FractionsKeys, Key, Keys, LeakageKeys, LoadKeys,
@@ -143,5 +144,52 @@ fn keywords_of_python_and_the_table_of_the_documents_are_the_keys() {
         }
         let found = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(found == text, "{file} differs from the keys: UPDATE=1 cargo test -p asperity-scene --test keys");
+    }
+}
+
+/// The names of keys that no report has stand in `crates/scene/src/key` alone: faces ask for them by what they are.
+#[test]
+fn keys_stand_in_their_lists_alone() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let promised = fs::read_to_string(root.join("tool/tests/promised.toml")).unwrap();
+    let keys = promised.lines().filter(|line| !line.trim_start().starts_with(['\'', '#']));
+    let reports: Vec<_> = keys.take_while(|line| !line.starts_with("[scenes")).collect();
+    let reports = reports.join("\n");
+    // figures of a surface that is made, and the inputs of a cycle in the identity of its table
+    let reported = ["form", "fourier", "hurst", "k_l", "k_r", "k_s", "missing", "random_phase", "rms_height"];
+    let of_identity = ["sharp", "smallest_step", "steps"];
+    // words that mean other things as well, and values that only completions and studies have
+    let others = ["unit", "size", "fourier_unit", "detrend", "percolation"];
+    let is_told = |name: &str| {
+        let words = reports.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        words.clone().any(|word| word == name)
+            || reported.contains(&name)
+            || of_identity.contains(&name)
+            || others.contains(&name)
+    };
+    let names: Vec<_> = Key::all().map(|key| key.name).filter(|name| !is_told(name)).collect();
+    assert!(names.len() > 20, "{names:?}");
+    let mut files = Vec::new();
+    for folder in ["crates/scene/src", "tool/src", "python/src", "web/src"] {
+        sources(&root.join(folder), &mut files);
+    }
+    for file in files.iter().filter(|file| !file.starts_with(root.join("crates/scene/src/key"))) {
+        let text = fs::read_to_string(file).unwrap();
+        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        for (number, line) in code.enumerate() {
+            let found = names.iter().find(|name| line.contains(&format!("\"{name}\"")));
+            assert!(found.is_none(), "{}: line {number} of code has the key {found:?}", file.display());
+        }
+    }
+}
+
+fn sources(folder: &Path, into: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, into);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            into.push(path);
+        }
     }
 }

@@ -88,6 +88,11 @@ keys! {
     }
 }
 
+impl StepKeys {
+    /// The steps that go along scan lines.
+    pub const OF_LINES: [&str; 2] = ["align_rows", "remove_scars"];
+}
+
 /// The steps that make a surface of a measured map, in the order of the fields; no step by default.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
