@@ -2,24 +2,24 @@
 
 pub(crate) mod course;
 pub mod fall;
+mod filled;
 pub mod pace;
 mod posed;
 mod solves;
 pub(crate) mod way;
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
 use std::sync::{Arc, Weak};
 
 use asperity::contact::{ContactStatistics, Original};
 use asperity::solver::Iteration;
-use asperity::{AdhesionLaw, Error, Grid, PullOff, Real, Result, Solver, Status, Surface};
+use asperity::{AdhesionLaw, Grid, PullOff, Real, Result, Solver, Status, Surface};
 use ndarray::Array2;
-use serde_json::{Value, json};
+use serde_json::json;
 
+pub use self::filled::{Next, TableFile};
 use crate::Either;
 use crate::account::found::{Found, check_finite, warnings_of};
-use crate::account::interface::touch;
 use crate::account::pulled_off::PulledOff;
 use crate::account::row::{Kind, Row};
 use crate::account::slopes::Slopes;
@@ -38,13 +38,9 @@ use crate::key::words::{Skin, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::course::Course;
-use crate::session::pace::Pace;
 use crate::session::posed::Body;
-use crate::session::way::Way;
-use crate::table::identity::{Fields, Identity, identity};
-use crate::table::output::with_suffix;
-use crate::table::warnings::{Warnings, beside};
-use crate::table::{Format, Opening, Table};
+use crate::table::warnings::Warnings;
+use crate::table::{Format, Table};
 
 /// The observer of a solve: it sees each iteration with the grid and the tolerance of the solve on it, and may end the
 /// solve.
@@ -68,27 +64,6 @@ pub struct Input {
     pub is_strict: bool,
     /// The words of errors.
     pub skin: Skin,
-}
-
-/// The file of a table, with the fields of the law on which its rows depend.
-#[derive(Default)]
-pub struct TableFile {
-    /// The file.
-    pub out: PathBuf,
-    /// The format, if it does not follow from the name.
-    pub format: Option<Format>,
-    /// The folder for the fields of the rows, if they are kept.
-    pub fields: Option<PathBuf>,
-    /// Whether to start over, and to replace files that are there.
-    pub force: bool,
-    /// Whether it is that of a case of a study.
-    pub is_case: bool,
-    /// The gaps and tractions of a law, a pair in each row.
-    pub law_table: Option<Array2<f64>>,
-    /// The works of adhesion, where they vary.
-    pub works: Option<Array2<f64>>,
-    /// Whether the law is another one than those of its name and parameters.
-    pub law_differs: bool,
 }
 
 /// The session of a contact problem in one precision: the problem with its solver, the inputs of its reports, its
@@ -126,15 +101,6 @@ pub struct Solved<T: Real> {
     pub found: Found<T>,
     /// The account, which a look completes.
     pub account: Account,
-}
-
-/// A state on a course that is not kept yet.
-pub struct Next<T: Scalar> {
-    /// The findings.
-    pub found: Found<T>,
-    /// The row.
-    pub row: Row,
-    course: Course<T>,
 }
 
 /// A session in either precision.
@@ -319,166 +285,6 @@ impl<T: Scalar> Session<T> {
     /// A result whose reason has keys in braces.
     fn worded<V>(&self, result: std::result::Result<V, String>) -> Outcome<V> {
         Ok(result.map_err(|reason| worded(&reason, self.skin))?)
-    }
-
-    /// Begins a way through loads, from a gap or the default start, with what is asked for after each state, or goes on
-    /// with its table in a file; that of an interface, if it is one.
-    ///
-    /// # Errors
-    /// A way that the problem does not have, a table of another run, or one that was changed or is being written, and files
-    /// that are not to be replaced or cannot be written.
-    pub fn begin(
-        &mut self,
-        way: Way,
-        after: After,
-        is_interface: bool,
-        start: Option<Array2<f64>>,
-        file: Option<TableFile>,
-    ) -> Outcome<()> {
-        let loads = way.loads();
-        let control = way.control(&self.scene);
-        self.worded(Asked { after, ..Asked::under(control) }.check(&self.scene.adhesion, self.scene.method, false))?;
-        if let Some(value) = loads.iter().map(|load| load.value()).find(|&load| !T::lit(load).is_finite()) {
-            let (name, requirement) = ("load", "finite in the precision of the fields");
-            return Err(Error::Value { name, value, requirement }.into());
-        }
-        let afar = if start.is_none() { self.start_afar(loads) } else { None };
-        let touch = if is_interface { Some(touch(&*self.surface()?)) } else { None };
-        let mut course = Course::new(way, after)?.of(&self.scene.adhesion, touch);
-        course.expect(self)?;
-        let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;
-        course.check(self)?;
-        let start = start.or(afar).map(T::field);
-        // the one before, if there is one, may have the same file
-        self.table = None;
-        self.course = Some(match file.zip(identity) {
-            None => course.starting_from(start),
-            Some((file, identity)) => {
-                let TableFile { out, format, fields, force, is_case, .. } = file;
-                let known = format.or_else(|| Format::of(&out));
-                let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
-                let header = self.units.columns(&course.columns(), control.name(), self.grid.is_line());
-                let beside = vec![with_suffix(&out, ".scene.toml"), beside(&out)];
-                let (names, loads) = (course.columns(), course.loads());
-                let opening = Opening { out, format, names, header, identity, loads, fields, force, is_case, beside };
-                let nodes = self.nodes()?;
-                let (table, course) = course.open(opening, start, &nodes, &self.processes)?;
-                self.table = Some(table);
-                course
-            }
-        });
-        Ok(())
-    }
-
-    /// The identity of the problem with the fields of a table, of which the first of several processes knows it, from a
-    /// start that is given.
-    fn identity(&self, file: &TableFile, start: Option<&Array2<f64>>) -> Outcome<Identity> {
-        let surface = self.surface()?;
-        let (start, surface) = (start.map(|start| self.grid.whole(start)), surface.whole());
-        if !self.processes.is_first() {
-            return Ok(Identity::new());
-        }
-        let given = Fields {
-            surface: &surface,
-            law_table: file.law_table.as_deref(),
-            works: file.works.as_deref(),
-            hardness: self.hardness.as_deref(),
-            start: start.as_deref(),
-            law_differs: file.law_differs,
-        };
-        Ok(identity(&self.inputs, self.solver.settings.branch, &self.units.of_table(), given, &*self.law))
-    }
-
-    /// The names of the columns of the table, once it was begun.
-    pub fn columns(&self) -> Vec<&'static str> {
-        self.course.as_ref().map_or(Vec::new(), Course::columns)
-    }
-
-    /// The command of the table, once it was begun.
-    pub fn command(&self) -> &'static str {
-        self.course.as_ref().map_or("", Course::command)
-    }
-
-    /// Finds the next state of the way that was begun last; none at its end. The way goes on from it once it is
-    /// [kept](Self::keep): a state that was stopped, or ran away, is looked for again.
-    ///
-    /// # Errors
-    /// Those of the solvers of the library, a solve that ran away, warnings, if they are errors, and rows that another
-    /// run has written since [`Self::release`].
-    pub fn seek(
-        &mut self,
-        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<Next<T>>> {
-        let Some(mut course) = self.course.clone() else {
-            return Err("there are no loads to follow: begin first".into());
-        };
-        if let Some(table) = &mut self.table {
-            self.processes.first(|| table.claim())?;
-        }
-        let Some(found) = course.next(self, observe)? else { return Ok(None) };
-        let Solved { mut found, account } = self.solved(course.command(), found)?;
-        let row = course.row(&mut found, account, self.seed)?;
-        Ok(Some(Next { found, row, course }))
-    }
-
-    /// Appends the row of a state, and goes on from there, unless its solve was stopped.
-    ///
-    /// # Errors
-    /// Files that cannot be written, or were changed meanwhile.
-    pub fn keep(&mut self, next: Next<T>) -> Outcome<(Found<T>, Row)> {
-        let Next { found, row, course } = next;
-        if found.solution.report.status != Status::Stopped {
-            let nodes = self.nodes()?;
-            if let Some(table) = &mut self.table {
-                course.append(table, (&found, &row), &nodes, &self.processes)?;
-            }
-            self.course = Some(course);
-        }
-        Ok((found, row))
-    }
-
-    /// Finds and keeps the next state; none at the end of the way.
-    ///
-    /// # Errors
-    /// Those of [`Self::seek`] and [`Self::keep`].
-    pub fn next(
-        &mut self,
-        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
-    ) -> Outcome<Option<(Found<T>, Row)>> {
-        self.seek(observe)?.map(|next| self.keep(next)).transpose()
-    }
-
-    /// Lets other runs write the table until the next state.
-    pub fn release(&mut self) {
-        self.table.iter_mut().for_each(Table::release);
-    }
-
-    /// The number of rows that the table has.
-    pub fn rows(&self) -> usize {
-        self.table.as_ref().map_or(0, Table::rows)
-    }
-
-    /// The number of rows when the table is complete, where there is one, and that is known before.
-    pub fn of_rows(&self) -> Option<usize> {
-        self.table.as_ref().and_then(Table::of_rows)
-    }
-
-    /// The number of rows of the table that did not converge.
-    pub fn unconverged(&self) -> usize {
-        self.table.as_ref().map_or(0, Table::unconverged)
-    }
-
-    /// The pace of a cycle.
-    pub fn pace(&self) -> Option<&Pace> {
-        self.course.as_ref().and_then(Course::pace)
-    }
-
-    /// All rows of the file of the table; every process gets them.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
-    pub fn read(&self) -> Outcome<Vec<Value>> {
-        self.table.as_ref().map_or(Ok(Vec::new()), |table| table.read(&self.processes))
     }
 }
 
