@@ -166,7 +166,7 @@ impl<T: Scalar> Session<T> {
     /// The session with the slopes of its surface among the inputs, where a process has all of it.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] after the first solve.
+    /// [`Error::Unsuited`](asperity::Error::Unsuited) after the first solve.
     pub fn with_slopes(mut self) -> Result<Self> {
         if is_whole(&self.grid) {
             self.inputs.slopes = Slopes::of(&*self.surface()?, self.scene.elastic.boundary);
@@ -183,7 +183,7 @@ impl<T: Scalar> Session<T> {
     /// Poses the problem anew on its surface, which something else holds, as one that has solved nothing yet.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] where nothing does.
+    /// [`Error::Unsuited`](asperity::Error::Unsuited) where nothing does.
     pub fn renew(&mut self) -> Result<()> {
         let hardness = self.hardness.as_ref().map(|hardness| hardness.view());
         self.solver.constraint = self.scene.adhesion.constraint(hardness)?;
