@@ -28,7 +28,7 @@ const OUTCOME: &str = "\
     departures peak_traction mu_rho mu_rho_node under_resolved warnings seconds control control_value";
 const INPUTS: &str = "\
     heights against shift initial_gap part solved_shape shape lengths rms_slope rms_slope_differences length_unit pressure_unit given boundary modulus \
-    poisson layer base coating coating_modulus coating_poisson symbol against_modulus law work_of_adhesion range exponent \
+    poisson layer base coating coating_modulus coating_poisson plate symbol against_modulus law work_of_adhesion range exponent \
     hamaker law_table cut_off work_of_adhesion_map wall wall_stiffness hardness hardness_map method precision tolerance max_iterations \
     threads version";
 const OTHER_BRANCH: &str = "\
