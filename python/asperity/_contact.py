@@ -16,6 +16,7 @@ from ._body import symbol
 from ._columns import Rows
 from ._cycle import Cycle
 from ._interface import Interface
+from ._keys import KEYS
 from ._keywords import (
     ContactKeywords,
     CycleAll,
@@ -49,7 +50,7 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound=Rows[Any])
 
 #: The parameters of laws, which are no keywords beside an object that has its own.
-_OF_LAWS = ("work_of_adhesion", "range", "exponent", "hamaker", "cut_off")
+_OF_LAWS = tuple(key for key in KEYS["Adhesion"] if key not in ("law", "wall", "wall_stiffness", "hardness"))
 
 #: Keywords that the law of an interface does not have, per area of a periodic cell.
 _NOT_OF_INTERFACE = ("boundary", "hardness", "normal_forces", "approaches", "spring_stiffness", "spring_positions")
@@ -504,12 +505,11 @@ def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stabilit
     if not isinstance(solution.law, str | None):
         keys.update(dict.fromkeys(_OF_LAWS), law=solution.law)
     if solution.body is not None:
-        keys.update(dict.fromkeys(("layer", "base", "coating", "coating_modulus", "coating_poisson", "poisson")))
-        keys["body"] = solution.body
+        keys.update(dict.fromkeys(solution.body.keys if isinstance(solution.body, Measured) else ()), body=solution.body)
     keys["absent_missing"], keys["whole"] = report["absent_nodes"] > 0, report["part"] == "whole"
     keys["branch"] = None
     contact = Contact.__new__(Contact)
-    contact._pose(solution.topography, None, None, keys, False)
+    contact._pose(solution.topography, None, None, keys, False, is_si=report["pressure_unit"] is not None)
     return contact.stability(solution, **load)
 
 
@@ -547,7 +547,13 @@ class Contact:
         self._pose(heights, lengths, axes, dict(keywords), is_kept=True)
 
     def _pose(
-        self, heights: Heights, lengths: Lengths | None, axes: AxisOrder | None, keywords: dict[str, Any], is_kept: bool
+        self,
+        heights: Heights,
+        lengths: Lengths | None,
+        axes: AxisOrder | None,
+        keywords: dict[str, Any],
+        is_kept: bool,
+        is_si: bool = False,
     ) -> None:
         keys = {key: value for key, value in keywords.items() if value is not None}
         if "modulus" not in keys:
@@ -571,7 +577,7 @@ class Contact:
             raise TypeError("hardness is an array of truth values: it must be one of pressures")
         if lengths is not None:
             keys["lengths"] = lengths
-        self._given = _asperity.Keywords(keys, law)
+        self._given = _asperity.Keywords(keys, law, is_si)
         si = self._given.is_si
         #: the unit of pressures
         self.pressure_unit = "Pa" if si else None
@@ -637,7 +643,8 @@ class Contact:
     def cycle(self, **keywords: Unpack[CycleKeywords]) -> Cycle:
         """Follows a branch of equilibria through turning points, as `asperity.cycle`."""
         check("cycle", keywords, names(CycleKeywords))
-        return self._rows(Cycle, "cycle", {**keywords, "sharp": not keywords.pop("smooth", True)})
+        smooth = keywords.pop("smooth", None)
+        return self._rows(Cycle, "cycle", {**keywords, "sharp": smooth is not None and not smooth})
 
     @described(InterfaceKeywords, without=_NOT_OF_INTERFACE)
     def interface(self, **keywords: Unpack[InterfaceKeywords]) -> Interface:
@@ -699,11 +706,14 @@ class Contact:
         springs = keys.pop("springs", None)
         parts = [keys]
         if springs is not None:
+            _refuse_beside("springs", ("spring_stiffness", "spring_positions"), keys)
             pairs = [_pair("springs", spring) for spring in springs]
             parts = [
                 {"spring_stiffness": stiffness, "spring_positions": [position for _, position in group]}
                 for stiffness, group in groupby(pairs, key=lambda pair: pair[0])
             ]
+            if not parts:
+                raise ValueError("springs is empty: give at least one pair (stiffness, rest)")
             parts[0].update(keys)
         contact = self
         if self._is_kept:

@@ -71,12 +71,16 @@ pub struct Keywords {
 #[pymethods]
 impl Keywords {
     #[new]
-    #[pyo3(signature = (keywords, law))]
-    fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+    #[pyo3(signature = (keywords, law, is_si=false))]
+    fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, is_si: bool) -> PyResult<Self> {
         use asperity_scene::{AdhesionKeys, SolverKeys, SurfaceKeys};
         let known = keys::<SurfaceKeys>().chain(keys::<AdhesionKeys>()).chain(keys::<SolverKeys>());
         let (given, law) = (read(known, keywords)?, law.map(Law::of).transpose()?);
-        let quantities = Quantities::all([given.quantities(), law.as_ref().map(quantities).unwrap_or_default()]);
+        // numbers of a solution in the SI, beside texts, say nothing of units
+        let quantities = match is_si {
+            true => Quantities::default(),
+            false => Quantities::all([given.quantities(), law.as_ref().map(quantities).unwrap_or_default()]),
+        };
         quantities.check(Skin::Keywords).map_err(reason)?;
         Ok(Self { given, law, quantities })
     }

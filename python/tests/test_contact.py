@@ -99,3 +99,34 @@ def test_results_go_on_in_pandas_and_xarray(rough):
     assert table["mean_pressure"].tolist() == pytest.approx([0.005, 0.01])
     fields = contact.solve(mean_pressure=0.01).to_xarray()
     assert fields["gap"].dims == ("x", "y") and fields.attrs["status"] == "converged"
+
+
+def test_a_cycle_smooths_jumps_unless_it_is_told_not_to():
+    x = np.arange(32) / 32 - 0.5
+    law = asperity.MaugisDugdale(work_of_adhesion=1e-4, range=4e-3)
+    tip = asperity.Contact(-(x[:, None] ** 2 + x**2) / 4, 1.0, modulus=1.0, boundary="free", law=law)
+    forces = [
+        list(tip.cycle(approaches=[-0.01, 0.005, -0.01], **key).columns["normal_force"])
+        for key in ({}, {"smooth": True}, {"smooth": None}, {"smooth": False})
+    ]
+    assert forces[0] == forces[1] == forces[2] != forces[3]
+
+
+def test_springs_have_their_positions_and_no_others(rough):
+    contact = asperity.Contact(rough, modulus=1.0)
+    with pytest.raises(TypeError, match="spring_positions is given beside springs"):
+        contact.sweep(springs=[(1.0, 0.1)], spring_positions=[0.05])
+    with pytest.raises(ValueError, match="springs is empty"):
+        contact.sweep(springs=[])
+
+
+def test_the_stability_of_a_solution_with_units_takes_numbers_in_the_si():
+    rough = asperity.surface.self_affine(32, "1um", rms_slope=0.1, k_s=8, seed=1)
+    law, layer = asperity.Exponential("50mJ/m2", "5nm"), asperity.Layer("200nm", 0.3)
+    for body in (None, layer):
+        held = asperity.solve(rough, modulus="1GPa", mean_pressure="10MPa", law=law, body=body)
+        found = asperity.stability(held)
+        asked = asperity.solve(rough, modulus="1GPa", mean_pressure="10MPa", law=law, body=body, stability=True)
+        assert found.eigenvalue == asked.report["stability"]["eigenvalue"]
+        other = asperity.stability(held, mean_pressure="5MPa"), asperity.stability(held, mean_pressure=5e6)
+        assert other[0].eigenvalue == other[1].eigenvalue
