@@ -141,7 +141,11 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
         signature = inspect.signature(function)
         own = [one for one in signature.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
         known = [name for name in names(kind) if name not in without]
-        meanings = {**_MEANINGS, **_OTHERS, **(_keys.KEYS["PullOff"] if "rtol" in known else {})}
+        meanings = {**_MEANINGS, **_OTHERS}
+        # a list that the function has in full says more than one that shares a key with it
+        for keys in reversed(_keys.KEYS.values()):
+            if keys.keys() <= set(known):
+                meanings.update(keys)
         more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=meanings[name][0]) for name in known]
         setattr(function, "__signature__", signature.replace(parameters=[*own, *more]))
         text = inspect.cleandoc(function.__doc__ or "")

@@ -1,18 +1,13 @@
 //! What was given for the keys of a scene, as keywords.
 
 use asperity_scene::quantity::Quantity;
-use asperity_scene::{Given, Key, Keys, Measured, Quantities, Skin, Typed, Values};
+use asperity_scene::{Given, Key, Measured, Quantities, Skin, Typed, without_files};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::law::Law;
 use crate::refusal::reason;
-
-/// The keys of a list, but for those of files, in whose place Python has arrays and objects.
-pub fn keys<L: Keys>() -> impl Iterator<Item = &'static Key> {
-    L::KEYS.iter().filter(|key| !matches!(key.kind.values, Values::File))
-}
 
 /// What a dictionary of keywords gives for some of the `known` keys.
 pub fn read(known: impl Iterator<Item = &'static Key>, keywords: &Bound<'_, PyDict>) -> PyResult<Given> {
@@ -74,7 +69,8 @@ impl Keywords {
     #[pyo3(signature = (keywords, law, is_si=false))]
     fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, is_si: bool) -> PyResult<Self> {
         use asperity_scene::{AdhesionKeys, SolverKeys, SurfaceKeys};
-        let known = keys::<SurfaceKeys>().chain(keys::<AdhesionKeys>()).chain(keys::<SolverKeys>());
+        let known =
+            without_files::<SurfaceKeys>().chain(without_files::<AdhesionKeys>()).chain(without_files::<SolverKeys>());
         let (given, law) = (read(known, keywords)?, law.map(Law::of).transpose()?);
         // numbers of a solution in the SI, beside texts, say nothing of units
         let quantities = match is_si {

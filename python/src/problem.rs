@@ -9,14 +9,14 @@ use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{
     AccuracyKeys, Adhesion, After, AnySession, Boundary, ConductorKeys, Either, FindingsKeys, FractionsKeys, Given,
     Input, Inputs, Key, LeakageKeys, Load, LoadKeys, LoadsKeys, NestedKeys, PathKeys, Precision, PullOffKeys,
-    Quantities, Scene, Session, Skin, StiffnessKeys, Way, either,
+    Quantities, Scene, Session, Skin, StiffnessKeys, Way, either, without_files,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::inputs::{Begin, Map};
-use crate::keywords::{Keywords, keys, read};
+use crate::keywords::{Keywords, read};
 use crate::law::Law;
 use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
@@ -168,8 +168,9 @@ impl Problem {
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let known = keys::<LoadKeys>().chain(keys::<NestedKeys>()).chain(keys::<FindingsKeys>());
-        let known = known.chain(keys::<ConductorKeys>()).chain(keys::<AccuracyKeys>());
+        let known =
+            without_files::<LoadKeys>().chain(without_files::<NestedKeys>()).chain(without_files::<FindingsKeys>());
+        let known = known.chain(without_files::<ConductorKeys>()).chain(without_files::<AccuracyKeys>());
         self.renew()?;
         let given = self.given(&[read(known, keywords)?])?;
         self.after(&given, false)?;
@@ -193,7 +194,7 @@ impl Problem {
         observe: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         self.renew()?;
-        let given = self.given(&[read(keys::<PullOffKeys>(), keywords)?])?;
+        let given = self.given(&[read(without_files::<PullOffKeys>(), keywords)?])?;
         let asked = (given.pull_off(), given.goal().map_err(reason)?);
         let (threads, (pool, session)) = (self.given.threads(), self.parts()?);
         let at = At { pool: &pool, threads, observer: observe.as_ref() };
@@ -211,13 +212,13 @@ impl Problem {
         start: Option<Begin<'py>>,
         table: (Option<u64>, Option<File<'py>>),
     ) -> PyResult<(Columns<'py>, usize)> {
-        let of_state = || keys::<ConductorKeys>().chain(keys::<LeakageKeys>());
+        let of_state = || without_files::<ConductorKeys>().chain(without_files::<LeakageKeys>());
         let known: Vec<&'static Key> = match way {
-            "cycle" => keys::<LoadsKeys>().chain(keys::<PathKeys>()).collect(),
-            "interface" => keys::<LoadsKeys>().chain(of_state()).collect(),
+            "cycle" => without_files::<LoadsKeys>().chain(without_files::<PathKeys>()).collect(),
+            "interface" => without_files::<LoadsKeys>().chain(of_state()).collect(),
             _ => {
-                let known = keys::<LoadsKeys>().chain(keys::<FractionsKeys>());
-                known.chain(keys::<StiffnessKeys>()).chain(of_state()).collect()
+                let known = without_files::<LoadsKeys>().chain(without_files::<FractionsKeys>());
+                known.chain(without_files::<StiffnessKeys>()).chain(of_state()).collect()
             }
         };
         let parts = keywords.iter().map(|keywords| read(known.iter().copied(), keywords));
@@ -267,7 +268,7 @@ impl Problem {
         relative_error: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.renew()?;
-        let load = read(keys::<LoadKeys>(), keywords)?.load().map_err(reason)?;
+        let load = read(without_files::<LoadKeys>(), keywords)?.load().map_err(reason)?;
         let control = load.control(self.full_pressure(py, &[load])?);
         let (pool, session) = self.parts()?;
         either!(session = session => state::stability(session, py, &pool, control, (gap, relative_error)))

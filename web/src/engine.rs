@@ -9,11 +9,11 @@ use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
     Body, CutOffKeys, FormKeys, Given, GridKeys, Log, NewLengthsKeys, Roughness, RoughnessKeys, Skin, StepKeys,
-    statistics,
+    statistics, without_files,
 };
 use serde_json::{Value, json};
 
-use crate::given::{keys, read, reason};
+use crate::given::{read, reason};
 use crate::lines::{Origin, Source};
 use crate::problem::{Observe, Problem, of_problem};
 use crate::state::extremes;
@@ -72,7 +72,10 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the surface.
     pub fn make(&mut self, given: &str) -> Outcome<Value> {
-        let known: Vec<_> = keys::<FormKeys>().chain(keys::<RoughnessKeys>()).chain(keys::<GridKeys>()).collect();
+        let known: Vec<_> = without_files::<FormKeys>()
+            .chain(without_files::<RoughnessKeys>())
+            .chain(without_files::<GridKeys>())
+            .collect();
         let given = read(given, &known)?;
         let (typed, si) = (given.typed(), given.quantities().is_si());
         let shape = given.shape().map_err(reason)?;
@@ -106,7 +109,10 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the steps; then the surface stays as it was.
     pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
-        let known: Vec<_> = keys::<StepKeys>().chain(keys::<NewLengthsKeys>()).chain(keys::<CutOffKeys>()).collect();
+        let known: Vec<_> = without_files::<StepKeys>()
+            .chain(without_files::<NewLengthsKeys>())
+            .chain(without_files::<CutOffKeys>())
+            .collect();
         let given = read(given, &known)?;
         let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
         let typed = given.typed();

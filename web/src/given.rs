@@ -1,14 +1,9 @@
 //! What a user has typed into the fields of the page, by their keys.
 
 use asperity_scene::outcome::Outcome;
-use asperity_scene::{Given, Key, Keys, Skin, Typed, Values, worded};
+use asperity_scene::{Given, Key, Skin, Typed, worded};
 use serde::Deserialize;
 use serde_json::{Map, Value};
-
-/// The keys of a list, but for those of files, of which a page has none.
-pub fn keys<L: Keys>() -> impl Iterator<Item = &'static Key> {
-    L::KEYS.iter().filter(|key| !matches!(key.kind.values, Values::File))
-}
 
 /// Reads an object of `known` keys and values, of which those that are empty count as not given.
 ///
@@ -17,9 +12,12 @@ pub fn keys<L: Keys>() -> impl Iterator<Item = &'static Key> {
 /// have none.
 pub fn read(json: &str, known: &[&'static Key]) -> Outcome<Given> {
     let typed: Map<String, Value> = serde_json::from_str(json)?;
-    let typed = typed.into_iter().filter_map(|(key, typed)| Some((key, Typed::deserialize(typed).ok()?)));
-    let given = Given::read(known, typed);
-    let given = given.map_err(reason)?;
+    let of = |(key, value): (String, Value)| match Typed::deserialize(&value) {
+        Ok(typed) => Ok((key, typed)),
+        Err(_) => Err(format!("{key} is {value}: it must be a number, a text, a truth value, or several")),
+    };
+    let typed = typed.into_iter().filter(|(_, value)| !value.is_null()).map(of).collect::<Result<Vec<_>, _>>()?;
+    let given = Given::read(known, typed).map_err(reason)?;
     given.quantities().check(Skin::Keywords)?;
     Ok(given)
 }

@@ -8,20 +8,21 @@ use asperity_scene::quantity::{LENGTH, PRESSURE};
 use asperity_scene::units::Units;
 use asperity_scene::{
     AdhesionKeys, Boundary, Either, Given, Input, Key, LoadKeys, LoadsKeys, NestedKeys, PathKeys, Precision, Skin,
-    SolverKeys, SurfaceKeys, Way, either, in_unit,
+    SolverKeys, SurfaceKeys, Way, either, in_unit, without_files,
 };
 use serde_json::{Map, Value};
 
-use crate::given::{keys, reason};
+use crate::given::reason;
 use crate::state::State;
 
 pub use crate::state::Observe;
 
 /// The keys of a solve and of a cycle.
 pub fn of_problem() -> Vec<&'static Key> {
-    let scene = keys::<SurfaceKeys>().chain(keys::<AdhesionKeys>()).chain(keys::<SolverKeys>());
-    let loads = keys::<LoadKeys>().chain(keys::<LoadsKeys>());
-    scene.chain(loads).chain(keys::<NestedKeys>()).chain(keys::<PathKeys>()).collect()
+    let scene =
+        without_files::<SurfaceKeys>().chain(without_files::<AdhesionKeys>()).chain(without_files::<SolverKeys>());
+    let loads = without_files::<LoadKeys>().chain(without_files::<LoadsKeys>());
+    scene.chain(loads).chain(without_files::<NestedKeys>()).chain(without_files::<PathKeys>()).collect()
 }
 
 /// A contact problem on a surface, with its solutions.
@@ -40,7 +41,10 @@ impl Problem {
     /// # Errors
     /// The key and the remedy, and those of the surface, the law and the body.
     pub fn of(given: &Given, map: &Topography, name: &str, before: &mut Option<Self>, goes_on: bool) -> Outcome<Self> {
-        let asked: Vec<_> = keys::<LoadKeys>().chain(keys::<LoadsKeys>()).chain(keys::<NestedKeys>()).collect();
+        let asked: Vec<_> = without_files::<LoadKeys>()
+            .chain(without_files::<LoadsKeys>())
+            .chain(without_files::<NestedKeys>())
+            .collect();
         let posed: Map<_, _> =
             given.typed().into_iter().filter(|(name, _)| asked.iter().all(|key| key.name != name)).collect();
         if let Some(same) = before.take_if(|before| goes_on && before.posed == posed) {

@@ -119,6 +119,7 @@ fn what_is_wrong_is_refused_by_its_key_and_the_last_solution_stays() {
             &["tolerance is small", "a number"],
         ),
         (json!({ "modulus": "1GPa", "approach": "5nm" }), &["boundary='free'"]),
+        (json!({ "modulus": "1GPa", "mean_pressure": { "value": 5 } }), &["mean_pressure is {", "a number"]),
     ] {
         let message = refused(&mut engine, wrong.clone());
         assert!(words.iter().all(|word| message.contains(word)), "{wrong}: {message}");

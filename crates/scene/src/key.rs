@@ -60,6 +60,11 @@ pub trait Keys {
     const KEYS: &'static [Key];
 }
 
+/// The keys of a list, but for those of files, in whose place Python has arrays and objects, and a page nothing.
+pub fn without_files<L: Keys>() -> impl Iterator<Item = &'static Key> {
+    L::KEYS.iter().filter(|key| !matches!(key.kind.values, Values::File))
+}
+
 /// The kind of the values of a key: what each is, how many there are, and what they exclude.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {

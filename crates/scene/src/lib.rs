@@ -49,7 +49,7 @@ pub use key::told::Told;
 pub use key::units::UnitKeys;
 pub use key::wall::{Constraint, Wall};
 pub use key::words::{Skin, worded};
-pub use key::{Key, Keys, Kind, Values, Word};
+pub use key::{Key, Keys, Kind, Values, Word, without_files};
 pub use key::{list, quantity, synonyms, units};
 pub use session::way::Way;
 pub use session::{AnySession, Input, Next, Observe, Session, Solved, TableFile};

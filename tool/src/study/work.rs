@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::fs::{self, File, TryLockError};
 use std::io;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -126,7 +127,7 @@ pub fn solve(
     };
     thread::scope(|scope| {
         let begun: Vec<_> = (0..jobs).map(|_| scope.spawn(|| threads::on(threads, work))).collect();
-        begun.into_iter().filter_map(|job| job.join().ok()).collect::<Outcome<()>>()
+        begun.into_iter().try_for_each(|job| job.join().unwrap_or_else(|panic| resume_unwind(panic)))
     })?;
     let mut reasons: Vec<_> = progress().refused.values().copied().collect();
     let refused: usize = reasons.iter().map(|(_, count)| count).sum();

@@ -94,7 +94,8 @@ impl Given {
             };
             let all = match typed {
                 Typed::Several(all) => all,
-                Typed::Switch(false) if key.name != "nested" => continue,
+                // a switch that another one takes back says something when it is false
+                Typed::Switch(false) if key.kind.replaces.is_none() => continue,
                 one => vec![one],
             };
             let mut texts: Vec<_> = all.iter().map(Typed::text).filter(|text| !text.is_empty()).collect();
