@@ -21,6 +21,7 @@ from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep
 from ._cycle import Cycle, Step
 from ._flow import Flow, Leakage
+from ._folder import load, report
 from ._interface import Interface
 from ._laws import *
 from ._progress import progress
@@ -87,10 +88,12 @@ __all__ = [
     "from_topography",
     "interface",
     "leakage",
+    "load",
     "prepare",
     "progress",
     "pull_off",
     "read",
+    "report",
     "solve",
     "stability",
     "surface",

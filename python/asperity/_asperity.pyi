@@ -44,6 +44,7 @@ __all__ = [
     "conductance",
     "contact_modulus",
     "contact_tables",
+    "figures_of",
     "fourier",
     "has_dimension",
     "in_metres",
@@ -53,6 +54,7 @@ __all__ = [
     "load_scale",
     "made",
     "meant",
+    "page",
     "percolation",
     "prepare",
     "pressure_distribution",
@@ -405,3 +407,5 @@ class AdhesiveWavyLine:
 
 def closing_pressure_2d(amplitude: ArrayLike, wavelength: float, modulus: float) -> Any: ...
 def command(arguments: list[str]) -> int: ...
+def page(results: str, out: str, force: bool) -> None: ...
+def figures_of(report: str) -> list[tuple[str, str]]: ...

@@ -140,7 +140,8 @@ class Solution:
         Gap on all nodes that were solved. On a mirrored map these include the mirror images, while the other fields
         are those of the original, unless the solve was asked for the whole. ``report["part"]`` says which it is.
     topography : Topography
-        Map of the heights that were solved. Where an accuracy was asked for, it is on the grid of the solution.
+        Map of the heights that were solved. Where an accuracy was asked for, it is on the grid of the solution. A
+        solution that was loaded without them has none.
     body : Layer, Coating, Symbol or None
         Body that deforms, unless it is a half-space.
     law : object, str or None
@@ -167,12 +168,16 @@ class Solution:
     mode: NDArray[np.floating[Any]] | None
     plan: Plan | None
 
-    def __init__(self, topography: Topography, of: tuple[Any, Any], told: Report, found: dict[str, Any]) -> None:
-        self.topography = topography
+    def __init__(
+        self, topography: Topography | tuple[int, ...], of: tuple[Any, Any], told: Report, found: dict[str, Any]
+    ) -> None:
+        # of a map that is not known there is the shape
+        shape = topography if isinstance(topography, tuple) else topography.shape
+        self._topography = None if isinstance(topography, tuple) else topography
         self.body, self.law = of
         self.plan = found.get("plan")
-        self.whole_gap = found["gap"].reshape(topography.shape)
-        self._part = tuple(slice(nodes) for nodes in told["shape"][: len(topography.shape)])
+        self.whole_gap = found["gap"].reshape(shape)
+        self._part = tuple(slice(nodes) for nodes in told["shape"][: len(shape)])
         for name in ("gap", "pressure", "contact_pressure"):
             setattr(self, name, self.part_of(found[name]))
         for name in ("plastic_depth", "mode"):
@@ -182,7 +187,14 @@ class Solution:
 
     def part_of(self, field: NDArray[Any]) -> NDArray[Any]:
         """The part of a field on the whole map that the solution is of."""
-        return field.reshape(self.topography.shape)[self._part]
+        return field.reshape(self.whole_gap.shape)[self._part]
+
+    @property
+    def topography(self) -> Topography:
+        """Map of the heights that were solved."""
+        if self._topography is None:
+            raise ValueError("the folder of this solution has no heights: give asperity.load heights=...")
+        return self._topography
 
     @cached_property
     def _looked(self) -> tuple[ContactStatistics, Report, list[tuple[str, str]]]:
@@ -286,9 +298,9 @@ class Solution:
             raise ValueError(f"the body is a {body}: conductance is that between half-spaces")
         first, second = (float(one) for one in resistivities)
         gap = np.asarray(self.whole_gap).reshape(self.whole_gap.shape[0], -1)
-        lengths = self.topography.lengths
-        sides = self.lengths if lengths is None else (float(lengths[0]), float(lengths[1]))
-        per_area, _, error = _asperity.conductance(gap <= 0, sides, self.boundary, (first, second))
+        shares = zip(self.lengths, gap.shape, self._told["shape"], strict=True)
+        lx, ly = (length if nodes == part else length / part * nodes for length, nodes, part in shares)
+        per_area, _, error = _asperity.conductance(gap <= 0, (lx, ly), self.boundary, (first, second))
         grids = self.report["grid_error"] if self._told["law"] == "none" else None
         grid = None if grids is None else grids["stiffness"]
         lx, ly = self.lengths
@@ -304,24 +316,16 @@ class Solution:
         return self._looked[1]
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Writes the fields and the report into a folder, as ``asperity solve --out``; ``asperity contact`` reads it.
+        """Writes the fields and the report into a folder, as ``asperity solve --out``; `asperity.load` reads it.
 
         Parameters
         ----------
         folder : str or path
-            Folder, which is made if it is not there: ``gap.npy`` and so on, and ``report.json``.
+            Folder, which is made if it is not there: ``gap.npy`` and so on, ``report.json``, and ``heights.npy``.
         """
-        import json
+        from . import _folder
 
-        os.makedirs(folder, exist_ok=True)
-        # absent nodes have no gap
-        gap = np.where(np.isfinite(self.gap), self.gap, np.nan)
-        fields = {"gap": gap, "pressure": self.pressure, "contact_pressure": self.contact_pressure}
-        for name, field in {**fields, "plastic_depth": self.plastic_depth, "mode": self.mode}.items():
-            if field is not None:
-                np.save(os.path.join(folder, f"{name}.npy"), field.reshape(field.shape[0], -1))
-        with open(os.path.join(folder, "report.json"), "w", encoding="utf-8") as file:
-            json.dump(self.report, file, indent=2, ensure_ascii=False)
+        _folder.save(self, folder)
 
     def to_xarray(self) -> Dataset:
         """The fields over the coordinates of the nodes, with the numbers of the report as attributes; needs xarray.
@@ -339,7 +343,8 @@ class Solution:
             dim: np.arange(nodes) * (side / nodes) for dim, nodes, side in zip(dims, self.gap.shape, self.lengths)
         }
         fields = {"gap": self.gap, "pressure": self.pressure, "contact_pressure": self.contact_pressure}
-        data = {name: (dims, field) for name, field in {**fields, "heights": self.heights}.items()}
+        heights = {} if self._topography is None else {"heights": self.heights}
+        data = {name: (dims, field) for name, field in {**fields, **heights}.items()}
         return xarray.Dataset(data, coords, {k: v for k, v in self.report.items() if isinstance(v, int | float | str)})
 
     @property

@@ -33,7 +33,7 @@ mod _asperity {
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]
-    use crate::command::command;
+    use crate::command::{command, figures_of, page};
     #[pymodule_export]
     use crate::contact::{cluster_colours, clusters, contact_tables, load_scale, pressure_distribution};
     #[pymodule_export]

@@ -1,6 +1,7 @@
 """A contact that is solved more than once, and the keys of the program as keywords."""
 
 import json
+import pickle
 import subprocess
 
 import numpy as np
@@ -89,6 +90,112 @@ def test_a_solution_is_saved_as_by_the_program(rough, tmp_path, tool):
     command = [tool, "contact", str(tmp_path / "out"), "--json"]
     found = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     assert found["clusters"] == len(asperity.contact.tables(solution).clusters)
+
+
+def equal(first, second):
+    """Whether two solutions are the same, but for numbers that are infinite."""
+    fields = ("gap", "pressure", "contact_pressure", "plastic_depth", "mode")
+    of = [(getattr(first, name), getattr(second, name)) for name in fields]
+    for a, b in of:
+        assert a is b is None or (a.dtype == b.dtype and np.array_equal(a, b, equal_nan=True))
+    # mirror images are the same to the tolerance of the solve
+    assert np.allclose(first.whole_gap, second.whole_gap, rtol=0, atol=1e-5 * np.nanmax(first.gap[first.gap < np.inf]))
+    assert first.report == second.report
+    counted = first.statistics._replace(cluster_sizes=None), second.statistics._replace(cluster_sizes=None)
+    assert counted[0] == pytest.approx(counted[1], abs=1e-15, nan_ok=True)
+    assert np.array_equal(first.statistics.cluster_sizes, second.statistics.cluster_sizes)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {"mean_pressure": 0.01, "hardness": 0.05},
+        {"mean_pressure": 0.01, "precision": "f32", "stability": True, "law": asperity.Exponential(1e-5, 2e-3)},
+        {"mean_pressure": 0.01, "body": asperity.Layer(0.1, 0.3, "sliding")},
+        {"mean_pressure": 0.01, "body": asperity.Coating(0.1, 3.0, 0.3, 0.2)},
+        {"approach": 1e-3, "boundary": "free"},
+        {"mean_pressure": 0.01, "against_modulus": 3.0},
+    ],
+    ids=str,
+)
+def test_a_solution_is_loaded_as_it_was_saved(rough, tmp_path, scene):
+    solution = asperity.solve(rough, modulus=1.0, **scene)
+    solution.save(tmp_path)
+    again = asperity.load(tmp_path)
+    equal(solution, again)
+    assert np.array_equal(again.heights, solution.heights) and again.lengths == solution.lengths
+    assert np.array_equal(again.displacement, solution.displacement)
+    assert repr(pickle.loads(pickle.dumps(again))) == repr(again)
+    assert "contact fraction" in repr(again) and again.body == solution.body
+    assert [one and one.gap for one in again.percolation()] == [one and one.gap for one in solution.percolation()]
+    again.save(tmp_path / "again")
+    equal(again, asperity.load(tmp_path / "again"))
+
+
+def test_absent_nodes_lines_and_mirrored_maps_are_loaded(tmp_path):
+    x = np.arange(32) / 32
+    holed = 0.01 * np.cos(2 * np.pi * x)[:, None] * np.cos(2 * np.pi * x)
+    holed[:4, :4] = np.nan
+    absent = asperity.solve(holed, 1.0, modulus=1.0, mean_pressure=0.01, absent_missing=True)
+    line = asperity.solve(0.01 * np.cos(2 * np.pi * x), 1.0, modulus=1.0, mean_pressure=0.01)
+    mirrored = asperity.prepare(asperity.surface.self_affine(24, 1.0, rms_slope=0.1, k_s=6, seed=2), mirror=True)
+    part = asperity.solve(mirrored, modulus=1.0, mean_pressure=0.01, resistivities=(1.0, 1.0), stiffness=True)
+    assert part.report["part"] == "original" and np.isinf(absent.gap[:4, :4]).all()
+    for name, solution in (("absent", absent), ("line", line), ("part", part)):
+        solution.save(tmp_path / name)
+        again = asperity.load(tmp_path / name)
+        equal(solution, again)
+        assert again.topography.shape == solution.topography.shape
+        assert np.array_equal(again.topography.heights, solution.topography.heights, equal_nan=True)
+    again = asperity.load(tmp_path / "part")
+    assert again.conductance((1.0, 1.0)).per_area == pytest.approx(part.conductance((1.0, 1.0)).per_area, rel=1e-12)
+
+
+@pytest.mark.parametrize("files", ["npy", "npz"])
+def test_a_folder_of_the_program_is_loaded(rough, tmp_path, tool, files):
+    np.save(tmp_path / "heights.npy", rough.heights)
+    given = ["--heights", str(tmp_path / "heights.npy"), "--modulus", "1", "--mean-pressure", "0.01"]
+    folder = tmp_path / "out"
+    subprocess.run([tool, "solve", *given, "--format", files, "--out", str(folder), "--quiet"], check=True)
+    found, known = asperity.load(folder), asperity.load(folder, heights=rough)
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    assert np.array_equal(found.gap, solution.gap) and found.contact_fraction == solution.contact_fraction
+    assert np.array_equal(known.displacement, solution.displacement)
+    with pytest.raises(ValueError, match="has no heights: give asperity.load heights="):
+        found.displacement  # noqa: B018
+    with pytest.raises(ValueError, match=r"heights have shape \(3, 3\)"):
+        asperity.load(folder, heights=np.zeros((3, 3)))
+
+
+def test_what_is_no_folder_of_a_solve_is_refused(rough, tmp_path):
+    with pytest.raises(FileNotFoundError, match="has no report.json: name the folder of a solve"):
+        asperity.load(tmp_path)
+    (tmp_path / "report.json").write_text("{}")
+    with pytest.raises(ValueError, match="is no report of a solve"):
+        asperity.load(tmp_path)
+    asperity.solve(rough, modulus=1.0, mean_pressure=0.01).save(tmp_path)
+    np.save(tmp_path / "pressure.npy", np.zeros((3, 3)))
+    with pytest.raises(ValueError, match=r"pressure in .* has shape \(3, 3\), the report says"):
+        asperity.load(tmp_path)
+    (tmp_path / "pressure.npy").unlink()
+    with pytest.raises(ValueError, match="has no pressure.npy: solve with --format npy or npz"):
+        asperity.load(tmp_path)
+
+
+def test_a_page_is_that_of_the_program(rough, tmp_path, tool):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    solution.save(tmp_path / "page")
+    subprocess.run([tool, "report", str(tmp_path / "page"), "--out", str(tmp_path / "of.html")], check=True)
+    asperity.report(solution, tmp_path / "page.html")
+    assert (tmp_path / "page.html").read_text() == (tmp_path / "of.html").read_text()
+    asperity.report(tmp_path / "page", tmp_path / "of.html", force=True)
+    with pytest.raises(ValueError, match="of.html.*force=True"):
+        asperity.report(tmp_path / "page", tmp_path / "of.html")
+    asperity.sweep(rough, modulus=1.0, mean_pressures=[0.005, 0.01], out=tmp_path / "sweep.csv").run()
+    asperity.report(tmp_path / "sweep.csv", tmp_path / "sweep.html")
+    assert "contact fraction" in (tmp_path / "sweep.html").read_text()
+    with pytest.raises(ValueError, match="name the folder of a solve"):
+        asperity.report(tmp_path, tmp_path / "none.html")
 
 
 def test_results_go_on_in_pandas_and_xarray(rough):

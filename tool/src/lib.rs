@@ -53,16 +53,19 @@ mod units;
 
 use std::error::Error;
 use std::ffi::OsString;
+use std::path::Path;
 
 use asperity_scene::{
     allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms, warnings,
 };
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use serde_json::Value;
 
 use crate::hints::hinted;
 use crate::options::ProblemOptions;
 use crate::outcome::Outcome;
+use crate::pictures::MapColours;
 use crate::printing::{check_printed, complain, on_one_line, printed};
 use crate::processes::{Processes, is_elsewhere};
 use crate::scene::SceneFile;
@@ -224,6 +227,20 @@ fn agreed(processes: &Processes, converged: Outcome<bool>) -> u8 {
         Ok(false) => NOT_CONVERGED,
         Err(error) => refused(&*error),
     }
+}
+
+/// Puts the results of a run, the folder of a solve or a table, on a page in a file, as `asperity report` does.
+///
+/// # Errors
+/// Those of the command, in words.
+pub fn page(results: &Path, out: &Path, force: bool) -> Result<(), String> {
+    let written = page::write(results, Some(out), force, &MapColours::default());
+    written.map(|_| ()).map_err(|error| error.to_string())
+}
+
+/// The figures of the report of a solve by their names, as its page has them.
+pub fn figures(report: &Value) -> Vec<(String, String)> {
+    page::figures(report)
 }
 
 fn refused(error: &(dyn Error + 'static)) -> u8 {

@@ -1,11 +1,12 @@
 //! `asperity report`: the results of a run as one page for a browser.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity_plot::page::{LOOK, QUANTITY, ZOOM, escaped};
 use clap::Args;
+use serde_json::Value;
 
 use crate::citation::{PAPER, PROGRAM};
 use crate::journal::state_path;
@@ -15,6 +16,7 @@ use crate::pictures::MapColours;
 use crate::printing::{name, say};
 use crate::scene;
 use crate::solve;
+use crate::units::units_of;
 use crate::warnings;
 
 mod figures;
@@ -59,26 +61,37 @@ const FINE: f64 = 288.0;
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options) -> Outcome<bool> {
-    let results = &options.results;
+    let out = write(&options.results, options.out.as_deref(), options.force, &options.colours)?;
+    say(&format!("page in {}", name(&out)));
+    Ok(true)
+}
+
+/// Writes the page of results into a file, or beside them; its path.
+pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColours) -> Outcome<PathBuf> {
     let folder = results.is_dir();
-    options.colours.check()?;
-    if !folder && (options.colours.limits().is_some() || options.colours.colour_clusters) {
+    colours.check()?;
+    if !folder && (colours.limits().is_some() || colours.colour_clusters) {
         let text = "has no maps, of which --colour-limits and --colour-clusters are: name the folder of a solve";
         return Err(Error::file(results, text).into());
     }
-    let default = if folder { results.join("report.html") } else { with_suffix(results, ".html") };
-    let out = options.out.as_ref().unwrap_or(&default);
+    let beside = || if folder { results.join("report.html") } else { with_suffix(results, ".html") };
+    let out = out.map_or_else(beside, Path::to_path_buf);
     let read: Vec<_> = match folder {
         true => solve::FILES.iter().map(|name| results.join(name)).collect(),
-        false => vec![results.clone(), scene::beside(results), warnings::beside(results), state_path(results)],
+        false => vec![results.to_path_buf(), scene::beside(results), warnings::beside(results), state_path(results)],
     };
-    check_apart(out, read.iter().map(PathBuf::as_path))?;
-    let file = OutputFile::create(out, options.force)?;
-    let page = if folder { of_solve::page(results, &options.colours)? } else { of_table::page(results)? };
+    check_apart(&out, read.iter().map(PathBuf::as_path))?;
+    let file = OutputFile::create(&out, force)?;
+    let page = if folder { of_solve::page(results, colours)? } else { of_table::page(results)? };
     file.write(|path| write_text(path, &page))?;
     file.commit()?;
-    say(&format!("page in {}", name(out)));
-    Ok(true)
+    Ok(out)
+}
+
+/// The figures of the report of a solve by their names, as its page has them.
+pub fn figures(report: &Value) -> Vec<(String, String)> {
+    let groups = of_solve::groups(report, &units_of(report)).into_iter().flat_map(|(_, figures)| figures);
+    groups.map(|(name, value)| (spaced(&name), value)).collect()
 }
 
 /// A page as it grows.

@@ -53,7 +53,7 @@ pub struct Resolution {
 }
 
 /// The colours of the maps of contact and pressure.
-#[derive(Args, Clone)]
+#[derive(Args, Clone, Default)]
 pub struct MapColours {
     /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the
     /// largest tension, negative, and that of the largest compression [default: as far as most of the load is carried]

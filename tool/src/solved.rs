@@ -9,7 +9,7 @@ use asperity_maps::io::read_field;
 use asperity_scene::Boundary;
 use serde_json::Value;
 
-use crate::units::Units;
+use crate::units::{Units, units_of};
 
 /// The files of gap and contact pressure.
 pub const GAP: &str = "gap.npy";
@@ -69,8 +69,6 @@ impl<'a> Solved<'a> {
 
     /// The units of its numbers, as far as they are known.
     pub fn units(&self) -> Units {
-        let [length, pressure] =
-            ["length_unit", "pressure_unit"].map(|key| self.report[key].as_str().map(str::to_owned));
-        Units { length, pressure, force: None }
+        units_of(&self.report)
     }
 }

@@ -15,7 +15,7 @@ use crate::outcome::Outcome;
 use crate::pictures::MapColours;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
 use crate::scene;
-use crate::units::{Units, dimension_of};
+use crate::units::{Units, dimension_of, units_of};
 
 /// The page of a folder of `asperity solve`.
 pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
@@ -38,8 +38,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     }
     let said = report["warnings"].as_array().into_iter().flatten();
     warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
-    let unit = |key: &str| report[key].as_str().map(str::to_owned);
-    let units = Units { length: unit("length_unit"), pressure: unit("pressure_unit"), force: None };
+    let units = units_of(&report);
     if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
     }
@@ -50,41 +49,11 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     }
     page.warnings(&warnings);
     page.heading("Figures");
-    let on_line = report["shape"][1] == 1;
-    let counted = report["contact_fraction"].as_f64().unwrap_or_default();
-    let number = |key: &str, value| match dimension_of(key, word("control"), on_line) {
-        // a window around a tip is no area of its energy
-        Some(ENERGY_PER_AREA) if word("boundary") == "free" && key.ends_with("_energy") => {
-            let area: f64 = report["lengths"].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
-            units.number(area * value, ENERGY)
-        }
-        _ if key == "corrected_contact_fraction" => corrected(value, counted),
-        dimension => columns::number(key, value, dimension, &units),
-    };
-    let all: Vec<_> = report.as_object().into_iter().flatten().collect();
-    let figure = |(key, value): &(&String, &Value)| Some(((*key).clone(), shown(key, value, &number)?));
-    // the load is said once, under its own name
-    let given = word("control").replace('-', "_");
-    let once = |key: &str| match key {
-        "control" | "control_value" => !report[given.as_str()].is_f64(),
-        "absent_nodes" => report[key] != 0,
-        "under_resolved" => report[key] != false,
-        _ if word("law") == "none" => !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key),
-        _ => true,
-    };
     page.text.push_str("<div class=\"groups\">\n");
-    for (heading, keys) in GROUPS {
-        let keys = keys.split_whitespace().filter(|key| once(key));
-        let found = keys.filter_map(|key| all.iter().find(|(known, _)| *known == key));
-        let mut figures: Vec<_> = found.filter_map(figure).collect();
-        for (key, _) in figures.iter_mut().filter(|(key, _)| *key == given) {
-            key.push_str(", given");
-        }
-        if !figures.is_empty() {
-            let _ = writeln!(page.text, "<section>\n<h3>{heading}</h3>");
-            page.figures(None, &figures);
-            page.text.push_str("</section>\n");
-        }
+    for (heading, figures) in groups(&report, &units) {
+        let _ = writeln!(page.text, "<section>\n<h3>{heading}</h3>");
+        page.figures(None, &figures);
+        page.text.push_str("</section>\n");
     }
     page.text.push_str("</div>\n");
     if !maps.text.is_empty() {
@@ -92,11 +61,15 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         page.pictures(&maps.text);
     }
     page.heading("Surface and settings");
-    let (levels, others): (Vec<_>, Vec<_>) = all
-        .iter()
+    let number = number_of(&report, &units);
+    let (levels, others): (Vec<_>, Vec<_>) = report
+        .as_object()
+        .into_iter()
+        .flatten()
         .filter(|(key, _)| *key != "warnings" && place(key) == usize::MAX)
         .partition(|(key, _)| *key == "levels");
-    page.figures(Some("All inputs"), &others.into_iter().filter_map(figure).collect::<Vec<_>>());
+    let others = others.into_iter().filter_map(|(key, value)| Some((key.clone(), shown(key, value, &number)?)));
+    page.figures(Some("All inputs"), &others.collect::<Vec<_>>());
     for (_, levels) in levels {
         let level = |level: &Value| {
             let shape = shown("shape", &level["shape"], &number)?;
@@ -108,4 +81,40 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         page.figures(Some("Levels of nested grids"), &levels);
     }
     Ok(page.finish(scene.as_deref()))
+}
+
+/// What writes the numbers of a report, by their keys.
+fn number_of<'a>(report: &'a Value, units: &'a Units) -> impl Fn(&str, f64) -> String + use<'a> {
+    let control = report["control"].as_str().unwrap_or_default();
+    let on_line = report["shape"][1] == 1;
+    let counted = report["contact_fraction"].as_f64().unwrap_or_default();
+    move |key, value| match dimension_of(key, control, on_line) {
+        // a window around a tip is no area of its energy
+        Some(ENERGY_PER_AREA) if report["boundary"] == "free" && key.ends_with("_energy") => {
+            let area: f64 = report["lengths"].as_array().into_iter().flatten().filter_map(Value::as_f64).product();
+            units.number(area * value, ENERGY)
+        }
+        _ if key == "corrected_contact_fraction" => corrected(value, counted),
+        dimension => columns::number(key, value, dimension, units),
+    }
+}
+
+/// The figures of a report by their names, in groups with a heading.
+pub fn groups(report: &Value, units: &Units) -> Vec<(&'static str, Vec<(String, String)>)> {
+    let number = number_of(report, units);
+    // the load is said once, under its own name
+    let given = report["control"].as_str().unwrap_or_default().replace('-', "_");
+    let once = |key: &str| match key {
+        "control" | "control_value" => !report[given.as_str()].is_f64(),
+        "absent_nodes" => report[key] != 0,
+        "under_resolved" => report[key] != false,
+        _ if report["law"] == "none" => !OF_ADHESION.split_whitespace().any(|of_adhesion| of_adhesion == key),
+        _ => true,
+    };
+    let figure = |key: &str| {
+        let name = if key == given { format!("{key}, given") } else { key.to_owned() };
+        Some((name, shown(key, report.get(key)?, &number)?))
+    };
+    let group = |keys: &str| keys.split_whitespace().filter(|key| once(key)).filter_map(figure).collect::<Vec<_>>();
+    GROUPS.into_iter().map(|(heading, keys)| (heading, group(keys))).filter(|(_, found)| !found.is_empty()).collect()
 }

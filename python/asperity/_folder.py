@@ -1,0 +1,202 @@
+"""The folder of a solve: a solution on the disk, and the page of its results."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _asperity
+from ._body import Coating, Layer
+from ._solution import ContactStatistics, Solution
+from ._topography import Heights, Topography, field_of, found
+
+#: The fields of a folder that every solve leaves, and those that some do.
+_FIELDS = ("gap", "pressure", "contact_pressure")
+_OTHERS = ("plastic_depth", "mode", "displacement", "against_displacement", "heights")
+
+
+def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solution:
+    """Reads a solution of the folder in which `Solution.save` or ``asperity solve --out`` has left it.
+
+    Its numbers are those of the report, in which infinite ones are None. Of a mirrored map the whole gap is that of the
+    original with its mirror images.
+
+    Parameters
+    ----------
+    folder : str or path
+        Folder with ``report.json``, and the fields as ``.npy`` or in ``fields.npz``.
+    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file, optional
+        Heights that were solved, of the shape of the fields. `Solution.save` keeps them; a folder of the program has
+        none, and without them the solution has no ``heights``, ``topography`` and ``displacement``.
+
+    Returns
+    -------
+    Solution
+        As it was, but for the objects of adhesion laws, of which there is the name, and of symbols.
+
+    Raises
+    ------
+    ValueError, FileNotFoundError
+        If the folder is not that of a solve, or its fields and heights do not fit each other.
+
+    Examples
+    --------
+    >>> import asperity, tempfile
+    >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     asperity.solve(rough, modulus=1.0, mean_pressure=0.01).save(folder)
+    ...     again = asperity.load(folder)
+    >>> again.status, again.gap.shape
+    ('converged', (64, 64))
+    """
+    told = _report(folder)
+    shape = tuple(told["shape"])
+    fields: dict[str, Any] = {name: _field(folder, name, shape) for name in (*_FIELDS, *_OTHERS)}
+    for name in _FIELDS:
+        if fields[name] is None:
+            raise ValueError(f"{os.fspath(folder)} has no {name}.npy: solve with --format npy or npz")
+    # absent nodes have no gap
+    fields["gap"] = np.where(np.isnan(fields["gap"]), np.inf, fields["gap"])
+    if heights is not None:
+        fields["heights"] = field_of(found(heights, None), "heights")
+        if fields["heights"].shape != shape:
+            raise ValueError(f"heights have shape {fields['heights'].shape}: those that were solved have {shape}")
+    original, whole, lengths = None, shape, tuple(told["lengths"])
+    if told["solved_shape"] is not None:
+        whole = tuple(told["solved_shape"])
+        lengths = tuple(length / m * n for length, n, m in zip(lengths, whole, shape, strict=True))
+        original = _asperity.Original(whole, lengths, shape)
+    contact = (fields["gap"] <= 0) | (fields["contact_pressure"] > 0)
+    sizes, _ = _asperity.clusters(contact, told["boundary"] == "periodic" and original is None)
+    corrected = told["corrected_contact_fraction"]
+    repulsive, attractive = told["repulsive_fraction"], told["attractive_fraction"]
+    statistics = ContactStatistics(
+        contact_nodes=told["contact_nodes"],
+        contact_fraction=told["contact_fraction"],
+        corrected_contact_fraction=np.nan if corrected is None else corrected,
+        perimeter=told["perimeter"],
+        cluster_sizes=sizes,
+        repulsive_fraction=repulsive,
+        attractive_fraction=attractive,
+        apart_fraction=1.0 - repulsive - attractive,
+    )
+    rows = _asperity.figures_of(json.dumps(told))
+
+    def mirrored(field: Any) -> Any:
+        return field if original is None or field is None else original.mirrored(field).astype(field.dtype)
+
+    is_line = shape[1] == 1
+    of: Any = whole[:1] if is_line else whole
+    if fields["heights"] is not None:
+        nodes = None if original is None else shape
+        map_of = mirrored(np.asarray(fields["heights"], np.float64))
+        source, unit = told["heights"], told["length_unit"]
+        of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
+    law = None if told["law"] == "none" else told["law"]
+    taken = {name: mirrored(fields[name]) for name in (*_FIELDS, "plastic_depth", "mode")}
+    solution = Solution(of, (_body(told), law), told, {**taken, "look": None})
+    both = [fields[name] for name in ("displacement", "against_displacement")]
+    parts = None if both[1] is None else tuple(solution.part_of(mirrored(field)) for field in both)
+    solution.__dict__.update(_looked=(statistics, told, rows), _displacements=parts)
+    return solution
+
+
+def save(solution: Solution, folder: str | os.PathLike[str]) -> None:
+    """Writes the fields and the report of a solution."""
+    os.makedirs(folder, exist_ok=True)
+    # absent nodes have no gap
+    gap = np.where(np.isfinite(solution.gap), solution.gap, np.nan)
+    displacement, against = solution._displacements or (None, None)
+    heights = None if solution._topography is None else solution.heights
+    values = (gap, solution.pressure, solution.contact_pressure)
+    others = (solution.plastic_depth, solution.mode, displacement, against, heights)
+    fields = zip((*_FIELDS, *_OTHERS), (*values, *others), strict=True)
+    for name, field in fields:
+        if field is not None:
+            np.save(os.path.join(folder, f"{name}.npy"), field.reshape(field.shape[0], -1))
+    with open(os.path.join(folder, "report.json"), "w", encoding="utf-8") as file:
+        json.dump(solution.report, file, indent=2, ensure_ascii=False)
+
+
+def report(
+    results: Solution | str | os.PathLike[str],
+    out: str | os.PathLike[str] = "report.html",
+    *,
+    force: bool = False,
+) -> None:
+    """Puts results on one page for a browser, as ``asperity report``: figures, warnings, maps, and how to cite.
+
+    The page is one file, which loads nothing from elsewhere.
+
+    Parameters
+    ----------
+    results : Solution, str or path
+        Solution, or the folder of a solve, or the table of a sweep, a cycle or a study.
+    out : str or path
+        File for the page.
+    force : bool
+        Replaces a page that is there.
+
+    Raises
+    ------
+    ValueError
+        If there is such a file, or the results are none.
+
+    Examples
+    --------
+    >>> import asperity, os, tempfile
+    >>> rough = asperity.surface.self_affine(64, 1.0, rms_slope=0.1, k_s=8, seed=1)
+    >>> solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     asperity.report(solution, os.path.join(folder, "pressed.html"))
+    ...     os.listdir(folder)
+    ['pressed.html']
+    """
+    if isinstance(results, Solution):
+        with tempfile.TemporaryDirectory() as above:
+            # the name of the folder is the title of the page
+            folder = os.path.join(above, os.path.splitext(os.path.basename(out))[0])
+            save(results, folder)
+            _asperity.page(folder, os.path.abspath(out), force)
+    else:
+        _asperity.page(os.fspath(results), os.path.abspath(out), force)
+
+
+def _report(folder: str | os.PathLike[str]) -> Any:
+    """The report of a folder."""
+    path = os.path.join(folder, "report.json")
+    if not os.path.exists(path):
+        raise FileNotFoundError(f"{os.fspath(folder)} has no report.json: name the folder of a solve")
+    try:
+        with open(path, encoding="utf-8") as file:
+            told = json.load(file)
+        told["contact_nodes"], told["shape"], told["solved_shape"]
+    except (ValueError, KeyError, TypeError):
+        raise ValueError(f"{path} is no report of a solve: name the folder of one") from None
+    return told
+
+
+def _field(folder: str | os.PathLike[str], name: str, shape: tuple[int, ...]) -> NDArray[Any] | None:
+    """A field of a folder, as a file of its own or in the archive, if it is there."""
+    path, archive = (os.path.join(folder, file) for file in (f"{name}.npy", "fields.npz"))
+    field = np.load(path) if os.path.exists(path) else None
+    if field is None and os.path.exists(archive):
+        with np.load(archive) as fields:
+            field = fields[name] if name in fields else None
+    if field is not None and field.shape != shape:
+        raise ValueError(f"{name} in {os.fspath(folder)} has shape {field.shape}, the report says {shape}")
+    return field
+
+
+def _body(told: Any) -> Layer | Coating | None:
+    """The body of a report, if it is one of these."""
+    if told["layer"] is not None:
+        return Layer(told["layer"], told["poisson"], told["base"])
+    if told["coating"] is not None:
+        return Coating(**{name: told[key] for name, key in Coating._keys.items()})
+    return None
