@@ -113,22 +113,9 @@ def solve(
     axes : {"xy", "yx"}, optional
         Axes of an array of heights: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray
         whose dimensions are named x and y does not need it. Results have x along the first axis in any case.
-    modulus : float
-        Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that deforms.
-    mean_pressure : float
-        Mean external pressure p̄ that is held, the normal force over the nominal area Lx·Ly, compression positive.
-    mean_gap : float
-        Mean gap that is held, a length ≥ 0; with a periodic boundary, and without absent nodes.
-    normal_force : float
-        Normal force F = p̄·Lx·Ly that is held, a pressure times an area, compression positive.
-    approach : float
-        Approach δ that is held, a length: how far the bodies have moved towards each other since they would first touch
-        undeformed, negative before; with a free boundary.
     spring : (float, float)
         Stiffness k of a spring in series, a force per length, and its position z at rest, a length: with a free
         boundary F = k (z − δ), with a periodic one and the mean gap ḡ, without absent nodes, F = k (ḡ − z).
-    reduced_pressure : float
-        Mean pressure over E* h'rms, with h'rms the rms slope of the surface.
     contact_fraction : float
         Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
         pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it was
@@ -140,9 +127,6 @@ def solve(
         Heights of the surface on the other side, peaks up as they were measured, of the same shape, side lengths and
         unit; flat without it. The other surface is turned over about the y axis, so that it faces this one: the
         heights that are solved are ``heights + against[::-1]``.
-    against_modulus : float, optional
-        Contact modulus of the body on the other side, an elastic half-space; it is rigid without it. The compliances of
-        both add.
     shift : float or (float, float), optional
         Lengths by which the surface on the other side is moved along x and y, with a periodic boundary. They need not
         be whole nodes.
@@ -166,19 +150,11 @@ def solve(
         Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
         ``Solution.plastic_depth``. An array has it at each node, x along the first axis, in Pa where other quantities
         have units. At a hard wall.
-    tolerance : float, optional
-        Certified relative error at which to stop; 1e-6 by default, 1e-4 in f32.
-    max_iterations : int, optional
-        Iterations after which to give up; 2000 by default, 20000 with rey2017.
-    method : {"default", "rey2017"}
-        Preconditioned conjugate gradients, or Algorithm 3 of Rey, Anciaux and Molinari (2017).
     branch : {"loading", "unloading", "both"}, optional
         Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, or that of surfaces
         pressed flat before; by default loading, and unloading under a tension or at a given mean gap. ``"both"`` finds
         this default one, and ``report["other_branch"]`` has the other one, how far away it is, and whether it is the
         same.
-    precision : {"f64", "f32"}
-        Precision of the solve, and of the fields that it returns.
     start : array_like, Solution or "apart", optional
         Gap from which to start, of the shape (Nx, Ny) of the results. With adhesion it chooses the branch. ``"apart"``
         starts from undeformed bodies at the ``mean_gap``, the ``approach`` or the position at rest of the ``spring``.
@@ -200,8 +176,6 @@ def solve(
     resistivities : (float, float), optional
         Electrical resistivities of both half-spaces: with ``stiffness`` the conductance of the contact per area, in
         ``report["conductance"]`` with its relative error, that of the grid included as far as it is known.
-    conductivities : (float, float), optional
-        Thermal conductivities of both half-spaces: the same for heat.
     accuracy : float, optional
         Relative error that is wanted, such as 0.01. Chooses the tolerance, solves on coarser grids too, and
         interpolates the heights on finer ones until the estimated error is as small: the fields, and ``heights`` and
@@ -211,10 +185,6 @@ def solve(
     accuracy_of : {"area", "gap", "approach", "pressure", "stiffness"}, optional
         Quantity that has the accuracy: the contact area corrected for its edge, by default; the mean gap or the mean
         pressure, if it is not given; or the contact stiffness.
-    memory : float, optional
-        Memory that an accuracy may take, in GiB; all that is free by default.
-    threads : int, optional
-        Threads of this solve; one per core by default. The results do not depend on it.
     whole : bool
         Results on all nodes of a map that `prepare` has mirrored: without it fields, contact and force are those of its
         original.

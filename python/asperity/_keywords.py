@@ -148,30 +148,41 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
                 meanings.update(keys)
         more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=meanings[name][0]) for name in known]
         setattr(function, "__signature__", signature.replace(parameters=[*own, *more]))
-        text = inspect.cleandoc(function.__doc__ or "")
-        head, returns, tail = text.partition("\nReturns\n-------\n")
-        if "Parameters\n----------\n" not in head:
-            head = f"{head.rstrip()}\n\nParameters\n----------\n"
-        own_entries = _ENTRIES.setdefault(function.__name__, {})
-        documented = {name for name, entry in _entries(head).items() if own_entries.setdefault(name, entry)}
-        types = {name: str(getattr(one, "__forward_arg__", one)) for name, one in kind.__annotations__.items()}
-        lines = []
-        for name in known:
-            of_key = f" : {types[name].removesuffix(' | None')}, optional\n{_filled(meanings[name][1])}"
-            if name not in documented:
-                entry = own_entries.get(name) or _ENTRIES.get("solve", {}).get(name) or of_key
-                lines.append(f"{name}{entry}\n")
-        setattr(function, "__doc__", f"{head.rstrip()}\n{''.join(lines)}{returns}{tail}")
+        order = [*(one.name for one in own), *known]
+        head, returns, tail = inspect.cleandoc(function.__doc__ or "").partition("\nReturns\n-------\n")
+        head, _, documented = head.partition("\nParameters\n----------\n")
+        entries = _entries(documented)
+        kept = _ENTRIES.setdefault(function.__name__, {})
+        for names_of, entry in entries:
+            for name in names_of:
+                kept.setdefault(name, entry)
+        there = {name for names_of, _ in entries for name in names_of}
+        for name in order:
+            said = kept.get(name) or _ENTRIES.get("solve", {}).get(name)
+            if name in known:
+                said = said or f" : {_typed(kind.__annotations__[name])}, optional\n{_filled(meanings[name][1])}"
+            if said and name not in there:
+                entries.append(((name,), said))
+        entries.sort(key=lambda one: order.index(one[0][0]))
+        lines = "".join(f"{', '.join(names_of)}{entry.rstrip()}\n" for names_of, entry in entries)
+        setattr(function, "__doc__", f"{head.rstrip()}\n\nParameters\n----------\n{lines}{returns}{tail}")
         return function
 
     return describe
+
+
+def _typed(annotation: Any) -> str:
+    """The type of a keyword as docstrings have it."""
+    text = str(getattr(annotation, "__forward_arg__", annotation)).removesuffix(" | None")
+    text = re.sub(r"Literal\[(.*?)\]", r"{\1}", text).replace("'", '"')
+    return text.replace("Quantity", "float | str").replace(" | ", " or ")
 
 
 def _filled(text: str) -> str:
     return textwrap.fill(f"{text}.", 120, initial_indent="    ", subsequent_indent="    ")
 
 
-def _entries(text: str) -> dict[str, str]:
-    """The parameters that a docstring has, with what it says of each."""
+def _entries(text: str) -> list[tuple[tuple[str, ...], str]]:
+    """The parameters that a docstring has, with what it says of each or of several."""
     entries = re.findall(r"^(\w[\w, ]*)((?: :.*)?(?:\n    .*|\n(?=\n    ))+)", text, re.MULTILINE)
-    return {name.strip(): entry for names, entry in entries for name in names.split(",")}
+    return [(tuple(name.strip() for name in names.split(",")), entry) for names, entry in entries]
