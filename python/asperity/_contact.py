@@ -120,6 +120,8 @@ def solve(
         Share of the nodes that is to be in contact, to one node or 1 %. Its load is searched for by some solves: a mean
         pressure, with adhesion a mean gap, or with a free boundary an approach. ``report["search"]`` says whether it was
         ``reached``; where the contact jumps past it, the nearer side of the jump comes with a `ConvergenceWarning`.
+    modulus : float
+        Contact modulus E*, a pressure: E/(1 − ν²), with Young's modulus E and Poisson's ratio ν of the body that deforms.
     body : Layer, Coating or Symbol, optional
         Body that deforms, a half-space by default; with a periodic boundary. ``layer`` or ``coating`` with their
         parameters say the same without an object.
