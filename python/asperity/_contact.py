@@ -538,6 +538,8 @@ class Contact:
         self.body, self.law = body, law if law is not None else keys.get("law")
         if law is not None:
             _refuse_beside("law", _OF_LAWS, keys)
+        if keys.get("law") == "table":
+            raise ValueError("law is table: give its values, as law=asperity.Tabulated(gap, traction)")
         wall = keys.get("wall")
         for name, described in (("wall", wall), ("body", body)):
             if isinstance(described, Measured):

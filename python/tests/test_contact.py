@@ -219,6 +219,11 @@ def test_a_cycle_smooths_jumps_unless_it_is_told_not_to():
     assert forces[0] == forces[1] == forces[2] != forces[3]
 
 
+def test_a_law_of_a_table_is_an_object(rough):
+    with pytest.raises(ValueError, match=r"law is table: give its values, as law=asperity.Tabulated\(gap, traction\)"):
+        asperity.Contact(rough, modulus=1.0, law="table")
+
+
 def test_springs_have_their_positions_and_no_others(rough):
     contact = asperity.Contact(rough, modulus=1.0)
     with pytest.raises(TypeError, match="spring_positions is given beside springs"):

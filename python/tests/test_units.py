@@ -41,6 +41,8 @@ def test_quantities_with_units_are_in_the_si(rough):
     assert solution.report["given"]["spring_position"] == "2nm"
     swept = asperity.sweep(metres, modulus="1GPa", mean_pressures=["5MPa", "10MPa"])
     assert swept.columns["control_value"].tolist() == [5e6, 10e6]
+    swept = asperity.sweep(metres, modulus="1GPa", mean_pressures=["5MPa", "10MPa"])
+    assert [one.report["given"] for one in swept] == 2 * [{"modulus": "1GPa", "mean_pressures": "5MPa,10MPa"}]
     with pytest.raises(ValueError, match=r"is in px, .* give the unit of its lengths by asperity.prepare\(unit=...\)"):
         asperity.solve(asperity.Topography(rough.heights, (1.0, 1.0), "px"), modulus="1GPa", mean_gap="1nm")
     # a preparation keeps the unit of the map
