@@ -1,21 +1,21 @@
 //! The account of a solve, with the keys of its report.
 
 pub mod contact;
-pub(crate) mod dimensions;
-pub(crate) mod displacement;
-pub(crate) mod entries;
-pub(crate) mod findings;
-pub(crate) mod found;
+mod dimensions;
+mod displacement;
+mod entries;
+mod findings;
+mod found;
 pub mod interface;
-pub(crate) mod leaked;
-pub(crate) mod pulled_off;
-pub(crate) mod record;
+mod leaked;
+mod pulled_off;
+mod record;
 pub(crate) mod row;
-pub(crate) mod rows;
-pub(crate) mod sentences;
-pub(crate) mod slopes;
+mod rows;
+mod sentences;
+mod slopes;
 pub mod statistics;
-pub(crate) mod warnings;
+mod warnings;
 
 use asperity::contact::{ContactStatistics, Patch};
 use asperity::solver::{Criterion, Method};
@@ -24,18 +24,25 @@ use ndarray::ArrayView2;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::account::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
-use crate::account::findings::Conducted;
-use crate::account::found::{Found, Sight};
-use crate::account::leaked::{Along, Narrowest, Transmissivity};
-use crate::account::record::record;
-use crate::account::slopes::Slopes;
-use crate::key::adhesion::Adhesion;
-use crate::key::elastic::Elastic;
-use crate::key::quantity::{ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
-use crate::key::scene::{Precision, Scene};
-use crate::key::told::Told;
-use crate::key::units::Units;
+pub use self::dimensions::{dimension_of, dimension_of_key};
+pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step};
+pub use self::findings::{Conducted, Findings};
+pub use self::found::{Found, Sight, check_finite};
+pub(crate) use self::found::{Waves, warnings_of};
+pub use self::leaked::{Along, Enclosed, Leaked, Narrowest, Transmissivity};
+pub use self::pulled_off::PulledOff;
+pub(crate) use self::record::record;
+pub(crate) use self::row::INPUTS;
+pub use self::row::Row;
+pub use self::rows::{corrected, rows};
+pub(crate) use self::sentences::estimate;
+pub use self::sentences::shortfalls;
+pub use self::slopes::Slopes;
+pub(crate) use self::warnings::warnings_of_input;
+use crate::key::{
+    Adhesion, ENERGY_PER_AREA, Elastic, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Precision,
+    Scene, Told, Units,
+};
 
 record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the

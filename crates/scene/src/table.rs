@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Solution};
 use serde_json::{Map, Value};
 
-use crate::account::row::Row;
-use crate::key::scalar::Scalar;
+use crate::account::Row;
+use crate::key::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::table::identity::Identity;

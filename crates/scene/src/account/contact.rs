@@ -5,9 +5,7 @@ use asperity::{Error, Grid, Result, Surface};
 use ndarray::{Array2, ArrayView2, Zip};
 use serde::Serialize;
 
-use crate::key::boundary::Boundary;
-use crate::key::quantity::{LENGTH, PRESSURE};
-use crate::key::units::Units;
+use crate::key::{Boundary, LENGTH, PRESSURE, Units};
 
 /// The bins of a distribution in a decade, and the most decades.
 const PER_DECADE: usize = 8;

@@ -1,12 +1,10 @@
 //! The dimensions of what is given and found, by names.
 
 use crate::account::Account;
-use crate::key::Key;
-use crate::key::quantity::{
-    AREA, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY_PER_AREA, FORCE, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
-    THERMAL_CONDUCTANCE, TRANSMISSIVITY,
+use crate::key::{
+    AREA, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY_PER_AREA, FORCE, Key, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    THERMAL_CONDUCTANCE, TRANSMISSIVITY, Units,
 };
-use crate::key::units::Units;
 
 /// The dimensions of the columns that tables alone have.
 const COLUMNS: [(&str, Dimension); 12] = [

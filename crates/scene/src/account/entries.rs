@@ -7,7 +7,7 @@ use asperity::stability::{Stability, Verdict};
 use asperity::{Branch, Real, Report, Status};
 use serde::Serialize;
 
-use crate::account::record::record;
+use crate::account::record;
 
 record! {
     /// The equilibrium on the other branch, and its distance.

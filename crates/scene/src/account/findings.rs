@@ -7,12 +7,8 @@ use asperity_flow::{Conductance, Gap, Leakage};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use crate::account::found::{Found, check_finite};
-use crate::account::leaked::{Along, Narrowest, Transmissivity};
-use crate::key::after::{After, Conductors, ERROR, LEAKAGE};
-use crate::key::boundary::Boundary;
-use crate::key::elastic::Elastic;
-use crate::key::leak::LeakAsked;
+use crate::account::{Along, Found, Narrowest, Transmissivity, check_finite};
+use crate::key::{After, Boundary, Conductors, ERROR, Elastic, LEAKAGE, LeakAsked};
 
 /// The conductance of a contact, as its report has it.
 #[derive(Clone, Copy, Debug, Serialize)]

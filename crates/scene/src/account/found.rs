@@ -11,10 +11,9 @@ use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
 use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::{Array2, ArrayView2};
 
-use crate::account::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
-use crate::account::findings::Findings;
+use crate::account::{Findings, GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
 use crate::clock::Instant;
-use crate::key::told::Told;
+use crate::key::Told;
 
 /// The solution of a contact problem, with all that was asked for beside it.
 pub struct Found<T: Real> {

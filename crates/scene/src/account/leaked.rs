@@ -4,11 +4,7 @@ use asperity::Result;
 use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak};
 use serde::Serialize;
 
-use crate::key::boundary::Boundary;
-use crate::key::leak::LeakAsked;
-use crate::key::quantity::{LENGTH, VISCOSITY, times_ten_to};
-use crate::key::units::Units;
-use crate::key::words::{Skin, worded};
+use crate::key::{Boundary, LENGTH, LeakAsked, Skin, Units, VISCOSITY, times_ten_to, worded};
 use crate::numbers::{percent, plain};
 
 /// The leakage through a gap, as its report has it.

@@ -5,12 +5,8 @@ use asperity::pull_off::FoundPullOff;
 use asperity::{Branch, PullOff, Real, Status};
 use serde::Serialize;
 
-use crate::account::Account;
-use crate::account::found::Found;
-use crate::key::accuracy::Goal;
-use crate::key::quantity::{FORCE, LENGTH, PRESSURE};
-use crate::key::units::Units;
-use crate::key::words::{Skin, worded};
+use crate::account::{Account, Found};
+use crate::key::{FORCE, Goal, LENGTH, PRESSURE, Skin, Units, worded};
 use crate::numbers::percent;
 
 /// The pull-off of a problem, as its report has it beside the account of the last state that holds.

@@ -7,10 +7,8 @@ use asperity::{Real, Status};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::account::entries::Step;
-use crate::account::found::Found;
-use crate::account::{Account, interface};
-use crate::key::after::After;
+use crate::account::{Account, Found, Step, interface};
+use crate::key::After;
 
 /// The row of a state in a table: its account, and the figures that tables alone have.
 #[derive(Clone, Debug, Serialize)]

@@ -6,10 +6,7 @@ use asperity_maps::io::available_memory;
 
 /// The bytes of a GiB.
 pub(crate) const GIB: f64 = 1_073_741_824.0;
-use crate::key::allowed::Range;
-use crate::key::given::Given;
-use crate::key::quantity::PRESSURE;
-use crate::key::{Kind, Word, keys};
+use crate::key::{Given, Kind, PRESSURE, Range, Word, keys};
 use asperity::PullOff;
 
 keys! {

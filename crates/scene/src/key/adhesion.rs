@@ -7,12 +7,10 @@ use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::key::allowed::Range;
-use crate::key::formula::Formula;
-use crate::key::laws::{LAWS, Law, WORK};
-use crate::key::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
-use crate::key::wall::{Constraint, Wall};
-use crate::key::{Kind, Word, keys};
+use crate::key::{
+    Constraint, ENERGY, ENERGY_PER_AREA, Formula, Kind, LAWS, LENGTH, Law, PRESSURE, PRESSURE_PER_LENGTH, Range, WORK,
+    Wall, Word, keys,
+};
 use crate::numbers::plain;
 
 keys! {

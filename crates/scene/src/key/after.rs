@@ -1,13 +1,9 @@
 //! The findings that are asked for after a solve: the contact stiffness, and the conductance and the flow that follow.
 
-use crate::key::adhesion::Adhesion;
-use crate::key::allowed::Range;
-use crate::key::elastic::Elastic;
-use crate::key::given::Given;
-use crate::key::quantity::{CONDUCTIVITY, RESISTIVITY};
-use crate::key::quantity::{Dimension, ELECTRICAL_CONDUCTANCE, THERMAL_CONDUCTANCE};
-use crate::key::wall::Wall;
-use crate::key::{Kind, keys};
+use crate::key::{
+    Adhesion, CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, Elastic, Given, Kind, RESISTIVITY, Range,
+    THERMAL_CONDUCTANCE, Wall, keys,
+};
 
 keys! {
     /// The findings beside a solution.

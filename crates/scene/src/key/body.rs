@@ -9,10 +9,7 @@ use serde::Deserialize;
 
 use std::path::PathBuf;
 
-use crate::key::allowed::Range;
-use crate::key::given::Given;
-use crate::key::quantity::LENGTH;
-use crate::key::{Kind, choice, keys};
+use crate::key::{Given, Kind, LENGTH, Range, choice, keys};
 
 keys! {
     /// The grid of a surface that is made.

@@ -8,12 +8,7 @@ use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::key::allowed::Range;
-use crate::key::boundary::Boundary;
-use crate::key::quantity::{ENERGY, LENGTH, PRESSURE};
-use crate::key::symbol::Symbol;
-use crate::key::units::Units;
-use crate::key::{Keys, Kind, Word, keys};
+use crate::key::{Boundary, ENERGY, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Units, Word, keys};
 
 keys! {
     /// The surface, the bodies, and the boundary.

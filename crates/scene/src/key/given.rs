@@ -7,10 +7,8 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use crate::key::quantity::Quantity;
 use crate::key::synonyms::similar;
-use crate::key::words::{Skin, worded};
-use crate::key::{Key, Values};
+use crate::key::{Key, Quantity, Skin, Values, worded};
 
 /// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,10 +12,7 @@ use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
 use serde::{Deserialize, Deserializer, de};
 
-use crate::key::given::Given;
-use crate::key::quantity::{LENGTH, power_of_length, times_ten_to};
-use crate::key::told::Told;
-use crate::key::units::Units;
+use crate::key::{Given, LENGTH, Told, Units, power_of_length, times_ten_to};
 use crate::numbers::plain;
 pub use steps::{CutOffKeys, NewLengthsKeys, StepKeys};
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Deserializer};
 
-use crate::key::allowed::Range;
+use crate::key::Range;
 
 /// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use ndarray_npy::WritableElement;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::key::formula::InPrecision;
+use crate::key::InPrecision;
 
 /// A scalar in which one can solve, and that can be written: `f32` or `f64`.
 pub trait Scalar: InPrecision + WritableElement + Serialize + DeserializeOwned {

@@ -2,11 +2,7 @@
 
 use asperity_maps::warning::Warning;
 
-use crate::key::allowed::unit;
-use crate::key::given::Given;
-use crate::key::quantity::{AREA, Dimension, FORCE, LENGTH, PER_LENGTH, PRESSURE, TRANSMISSIVITY};
-use crate::key::told::Told;
-use crate::key::{Kind, keys};
+use crate::key::{AREA, Dimension, FORCE, Given, Kind, LENGTH, PER_LENGTH, PRESSURE, TRANSMISSIVITY, Told, keys, unit};
 use crate::numbers::{plain, si};
 
 keys! {

@@ -10,15 +10,10 @@ use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::account::entries::{Search, Step};
-use crate::account::found::Found;
-use crate::account::row::{Kind, Row};
-use crate::account::{Account, stiffness};
+use crate::account::row::Kind;
+use crate::account::{Account, Found, Row, Search, Step, stiffness};
 use crate::clock::Instant;
-use crate::key::adhesion::Adhesion;
-use crate::key::after::After;
-use crate::key::boundary::Boundary;
-use crate::key::scalar::Scalar;
+use crate::key::{Adhesion, After, Boundary, Scalar};
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::session::Session;

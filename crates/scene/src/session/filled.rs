@@ -1,11 +1,8 @@
 //! The table of a session: its way through loads, state by state, and the file that it fills.
 
-use crate::account::found::Found;
 use crate::account::interface::touch;
-use crate::account::row::Row;
-use crate::key::after::After;
-use crate::key::asked::Asked;
-use crate::key::scalar::Scalar;
+use crate::account::{Found, Row};
+use crate::key::{After, Asked, Scalar};
 use crate::outcome::Outcome;
 use crate::session::course::Course;
 use crate::session::pace::Pace;

@@ -12,16 +12,9 @@ use asperity::{
 use asperity::{Status, Surface};
 use ndarray::Array2;
 
-use crate::account::entries::Steadiness;
-use crate::account::found::{Found, check_finite};
-use crate::account::pulled_off::PulledOff;
+use crate::account::{Found, PulledOff, Steadiness, check_finite};
 use crate::clock::Instant;
-use crate::key::accuracy::Goal;
-use crate::key::after::After;
-use crate::key::asked::Asked;
-use crate::key::load::Load;
-use crate::key::scalar::Scalar;
-use crate::key::wall::Constraint;
+use crate::key::{After, Asked, Constraint, Goal, Load, Scalar};
 use crate::outcome::Outcome;
 use crate::session::{Observe, Session};
 

@@ -3,8 +3,7 @@
 use asperity::Control;
 use asperity::path::PathSettings;
 
-use crate::key::load::Load;
-use crate::key::scene::Scene;
+use crate::key::{Load, Scene};
 use crate::session::pace::Pace;
 
 /// The way through the loads of a table.

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::account::row::INPUTS;
+use crate::account::INPUTS;
 
 /// The most curves of a study that a chart names: it has as many colours.
 const MOST_NAMED: usize = 8;
