@@ -64,7 +64,7 @@ pub(crate) use self::boundary::peak;
 pub(crate) use self::formula::InPrecision;
 pub(crate) use self::given::Read;
 pub(crate) use self::laws::WORK;
-pub(crate) use self::macros::{choice, keys};
+pub(crate) use self::macros::{choice, keys, record};
 pub(crate) use self::quantity::*;
 pub(crate) use self::units::{Units, is_unit};
 use crate::key::list::{Loads, parsed};

@@ -233,9 +233,8 @@ impl<T: Scalar> Session<T> {
             None if found.search.is_some() => Kind::Search,
             None => Kind::Sweep,
         };
-        let adhesion = &self.scene.adhesion;
-        let names = kind.columns(after, adhesion.law().is_some_and(|law| law.of_grid), adhesion.yields());
-        let mut cells = Row::of(found, account.clone(), &sizes, None, self.seed).cells(&names);
+        let names = kind.columns(after, &self.scene.adhesion);
+        let mut cells = Row::of(found, account, &sizes, None, self.seed).cells(&names);
         for (name, value) in json!(pulled_off).as_object().into_iter().flatten() {
             cells.get_mut(name).into_iter().for_each(|cell| *cell = value.clone());
         }

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use asperity::accuracy::GridError;
 use asperity::contact::{ContactStatistics, Original};
 use asperity::elastic::Boundary;
 use asperity::nested::Level;
@@ -162,7 +163,7 @@ impl<T: Real> Sight<T> {
 
     /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.
     pub(crate) fn estimate(&mut self, levels: &[Level], nodes_per_wave: f64) {
-        self.errors = Some((GridErrors::of(levels, &self.report, nodes_per_wave), nodes_per_wave));
+        self.errors = Some((GridErrors::of(GridError::of_all(levels, &self.report, nodes_per_wave)), nodes_per_wave));
     }
 }
 

@@ -124,8 +124,7 @@ impl<T: Scalar> Session<T> {
                 verdict = Some(found);
                 break;
             };
-            let (energy_drop, distance) = (left.energy_drop, left.distance);
-            departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
+            departures.push(Left::of(found.eigenvalue, &left));
             solution = left.solution;
         }
         let stiffness = if asked.after.stiffness { self.stiffness(&solution)? } else { None };
