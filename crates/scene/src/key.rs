@@ -61,7 +61,6 @@ pub(crate) use self::accuracy::GIB;
 pub(crate) use self::after::{ERROR, LEAKAGE};
 pub(crate) use self::allowed::{Range, THREADS, unit};
 pub(crate) use self::boundary::peak;
-pub(crate) use self::formula::InPrecision;
 pub(crate) use self::given::Read;
 pub(crate) use self::laws::WORK;
 pub(crate) use self::macros::{choice, keys, record};

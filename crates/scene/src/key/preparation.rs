@@ -314,18 +314,12 @@ fn named<'de, S: FromStr<Err: Display>, D: Deserializer<'de>>(
     name.parse().map(Some).map_err(|expected| de::Error::custom(format!("{key} is {name}: {expected}")))
 }
 
-fn align_rows<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<RowAlignment>, D::Error> {
-    named("align_rows", from)
+macro_rules! steps {
+    ($($key:ident: $step:ty,)*) => {
+        $(fn $key<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<$step>, D::Error> {
+            named(stringify!($key), from)
+        })*
+    };
 }
 
-fn scan_axis<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<ScanAxis>, D::Error> {
-    named("scan_axis", from)
-}
-
-fn remove_form<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<Form>, D::Error> {
-    named("remove_form", from)
-}
-
-fn detrend<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<Trend>, D::Error> {
-    named("detrend", from)
-}
+steps! { align_rows: RowAlignment, scan_axis: ScanAxis, remove_form: Form, detrend: Trend, }
