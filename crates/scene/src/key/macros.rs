@@ -84,16 +84,16 @@ pub(crate) use choice;
 macro_rules! record {
     (
         $(#[$about:meta])*
-        $name:ident of $(<$scalar:ident $(: $bound:path)?>)? ($($given:ident: $kind:ty),* $(,)?) {
+        $name:ident $(<$own:ident: $of:path>)? of $(<$scalar:ident $(: $bound:path)?>)? ($($given:ident: $kind:ty),* $(,)?) {
             $($(#[$meta:meta])* $key:ident: $type:ty $([$dimension:expr])? = $value:expr,)*
         }
     ) => {
         $(#[$about])*
-        pub struct $name {
+        pub struct $name$(<$own: $of>)? {
             $($(#[$meta])* pub $key: $type,)*
         }
 
-        impl $name {
+        impl$(<$own: $of>)? $name$(<$own>)? {
             /// The dimensions of its numbers, by the names of their fields.
             pub const DIMENSIONS: &'static [(&'static str, $crate::key::quantity::Dimension)] =
                 &[$($((stringify!($key), $dimension),)?)*];

@@ -1,5 +1,7 @@
 //! The scene of a run: its problem except for surface and loads, and the settings of its solves.
 
+use std::path::{Path, PathBuf};
+
 use asperity::solver::Method;
 use asperity::{Branch, Settings};
 use serde::{Deserialize, Serialize};
@@ -57,7 +59,6 @@ choice! {
         Both = "both",
     }
 }
-use std::path::{Path, PathBuf};
 
 keys! {
     /// The method, the accuracy and the start of a solve.
