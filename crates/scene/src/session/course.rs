@@ -103,7 +103,10 @@ impl<T: Scalar> Course<T> {
             Way::Cycle(loads, settings) => Strategy::Cycle(Box::new(Path::new(loads.iter().copied(), *settings)?)),
         };
         let place = Place { strategy, states: 0, events: 0, branch: None };
-        let pace = way.pace();
+        let pace = match &way {
+            Way::Cycle(loads, settings) => Some(Pace::new(loads.len().saturating_sub(1), settings)),
+            _ => None,
+        };
         Ok(Self { way, after, touch, place, pace })
     }
 
@@ -116,12 +119,6 @@ impl<T: Scalar> Course<T> {
             Strategy::Cycle(path) => Strategy::Cycle(Box::new(path.starting_from(start))),
         };
         Self { place: Place { strategy, ..self.place }, ..self }
-    }
-
-    /// The course continued from the [place](Self::place) of another one, bit for bit.
-    pub fn continuing(self, place: Place<T>) -> Self {
-        let pace = self.pace.map(|pace| pace.behind(place.states, place.events));
-        Self { place, pace, ..self }
     }
 
     /// The pace of a cycle.
@@ -156,7 +153,8 @@ impl<T: Scalar> Course<T> {
         let (table, place) = Table::open(Opening { identity, ..opening }, processes)?;
         let Some(place) = place else { return Ok((table, self.starting_from(start))) };
         let place: Place<T> = postcard::from_bytes(&place).map_err(|_| refused(&out, damaged(&out)))?;
-        Ok((table, self.continuing(place.shared(nodes))))
+        let pace = self.pace.map(|pace| pace.behind(place.states, place.events));
+        Ok((table, Self { place: place.shared(nodes), pace, ..self }))
     }
 
     /// Appends the row of the state that was found last to a table of fields on a grid.
@@ -188,11 +186,10 @@ impl<T: Scalar> Course<T> {
 
     /// The name of the command.
     pub fn command(&self) -> &'static str {
-        match self.kind() {
-            Kind::Sweep | Kind::Search => "sweep",
-            Kind::Cycle => "cycle",
-            Kind::Interface => "interface",
-            Kind::PullOff => "pull-off",
+        match self.way {
+            Way::Cycle(..) => "cycle",
+            _ if self.touch.is_some() => "interface",
+            _ => "sweep",
         }
     }
 

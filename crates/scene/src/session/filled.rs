@@ -1,5 +1,13 @@
 //! The table of a session: its way through loads, state by state, and the file that it fills.
 
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use asperity::solver::Iteration;
+use asperity::{Error, Status};
+use ndarray::Array2;
+use serde_json::Value;
+
 use crate::account::interface::touch;
 use crate::account::{Found, Row};
 use crate::key::{After, Asked, Scalar};
@@ -12,12 +20,6 @@ use crate::table::identity::{Fields, Identity, identity};
 use crate::table::output::with_suffix;
 use crate::table::warnings::beside;
 use crate::table::{Format, Opening, Table};
-use asperity::solver::Iteration;
-use asperity::{Error, Status};
-use ndarray::Array2;
-use serde_json::Value;
-use std::ops::ControlFlow;
-use std::path::PathBuf;
 
 /// The file of a table, with the fields of the law on which its rows depend.
 #[derive(Default)]
