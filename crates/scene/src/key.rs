@@ -35,7 +35,7 @@ mod words;
 
 use std::ops::RangeInclusive;
 
-pub use self::accuracy::{AccuracyKeys, Goal, PullOffKeys};
+pub use self::accuracy::{AccuracyKeys, GIB, Goal, PullOffKeys};
 pub use self::adhesion::{Adhesion, AdhesionKeys};
 pub use self::after::{After, ConductorKeys, Conductors, FindingsKeys, LeakageKeys, PercolationKeys, StiffnessKeys};
 pub use self::asked::{Asked, NestedKeys, PathKeys};
@@ -57,7 +57,6 @@ pub use self::units::UnitKeys;
 pub use self::wall::{Constraint, Wall};
 pub use self::words::{Skin, worded};
 
-pub(crate) use self::accuracy::GIB;
 pub(crate) use self::after::{ERROR, LEAKAGE};
 pub(crate) use self::allowed::{Range, THREADS, unit};
 pub(crate) use self::boundary::peak;

@@ -8,7 +8,7 @@ use asperity_maps::io::available_memory;
 use crate::key::{Given, Kind, PRESSURE, Range, Word, keys};
 
 /// The bytes of a GiB.
-pub(crate) const GIB: f64 = 1_073_741_824.0;
+pub const GIB: f64 = 1_073_741_824.0;
 
 keys! {
     /// The accuracy that is asked for, from which tolerance and grid follow.
