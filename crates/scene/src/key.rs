@@ -72,7 +72,7 @@ use crate::key::list::{Loads, parsed};
 pub struct Key {
     /// The name, as in reports and keywords.
     pub name: &'static str,
-    /// The meaning, with other keys in braces, for [`worded`](crate::worded).
+    /// The meaning, with other keys in braces, for [`worded`].
     pub help: &'static str,
     /// The heading under which it stands in the help, and the section in a scene file.
     pub section: &'static str,

@@ -158,7 +158,7 @@ record! {
 }
 
 record! {
-    /// An unstable equilibrium that was left; see [`Departure`](asperity::stability::Departure).
+    /// An unstable equilibrium that was left; see [`Departure`].
     #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
     Left of <T: Real>(eigenvalue: f64, departure: &Departure<T>) {
         /// Its smallest eigenvalue.
@@ -171,7 +171,7 @@ record! {
 }
 
 record! {
-    /// The place of a state on a cycle, by the names of its columns; see [`PathStep`](asperity::path::PathStep).
+    /// The place of a state on a cycle, by the names of its columns; see [`PathStep`].
     #[derive(Clone, Debug, PartialEq, Serialize)]
     Step of <T: Real>(found: &PathStep<T>, direction: &'static str) {
         /// The leg: 0 is the start, 1 the way to the second load.
