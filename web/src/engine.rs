@@ -72,11 +72,8 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the surface.
     pub fn make(&mut self, given: &str) -> Outcome<Value> {
-        let known: Vec<_> = without_files::<FormKeys>()
-            .chain(without_files::<RoughnessKeys>())
-            .chain(without_files::<GridKeys>())
-            .collect();
-        let given = read(given, &known)?;
+        let known = without_files::<FormKeys>().chain(without_files::<RoughnessKeys>());
+        let given = read(given, known.chain(without_files::<GridKeys>()))?;
         let (typed, si) = (given.typed(), given.quantities().is_si());
         let shape = given.shape().map_err(reason)?;
         if si && given.lengths(shape).is_none() {
@@ -109,11 +106,8 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the steps; then the surface stays as it was.
     pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
-        let known: Vec<_> = without_files::<StepKeys>()
-            .chain(without_files::<NewLengthsKeys>())
-            .chain(without_files::<CutOffKeys>())
-            .collect();
-        let given = read(given, &known)?;
+        let known = without_files::<StepKeys>().chain(without_files::<NewLengthsKeys>());
+        let given = read(given, known.chain(without_files::<CutOffKeys>()))?;
         let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
         let typed = given.typed();
         let steps = given.steps(map.heights.dim(), given.quantities().is_si(), map.unit.as_deref()).map_err(reason)?;
@@ -202,7 +196,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the solvers.
     pub fn solve(&mut self, given: &str, from_last: bool, observe: Observe<'_>) -> Outcome<Value> {
-        let given = read(given, &of_problem())?;
+        let given = read(given, of_problem())?;
         self.pose(&given, from_last)?.solve(&given, from_last, observe)
     }
 
@@ -211,7 +205,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy.
     pub fn begin(&mut self, given: &str) -> Outcome<Value> {
-        let given = read(given, &of_problem())?;
+        let given = read(given, of_problem())?;
         self.pose(&given, false)?.begin(&given)
     }
 

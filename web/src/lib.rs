@@ -15,6 +15,7 @@ pub use engine::Engine;
 pub use problem::Observe;
 
 use asperity::Error;
+use asperity_scene::GIB;
 use asperity_scene::outcome::Outcome;
 use js_sys::Function;
 use wasm_bindgen::prelude::*;
@@ -47,9 +48,6 @@ fn message(error: &(dyn std::error::Error + 'static)) -> String {
         _ => error.to_string(),
     }
 }
-
-/// The bytes of a GiB.
-const GIB: f64 = 1_073_741_824.0;
 
 /// The version, the laws, and the colours of maps, as JSON.
 #[wasm_bindgen]

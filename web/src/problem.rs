@@ -4,7 +4,7 @@ use asperity::contact::Original;
 use asperity::{Grid, Surface};
 use asperity_maps::{Topography, surface_with_absent};
 use asperity_scene::outcome::Outcome;
-use asperity_scene::quantity::{LENGTH, PRESSURE};
+use asperity_scene::quantity::LENGTH;
 use asperity_scene::units::Units;
 use asperity_scene::{
     AdhesionKeys, Boundary, Either, Given, Input, Key, LoadKeys, LoadsKeys, NestedKeys, PathKeys, Precision, Skin,
@@ -18,11 +18,14 @@ use crate::state::State;
 pub use crate::state::Observe;
 
 /// The keys of a solve and of a cycle.
-pub fn of_problem() -> Vec<&'static Key> {
-    let scene =
-        without_files::<SurfaceKeys>().chain(without_files::<AdhesionKeys>()).chain(without_files::<SolverKeys>());
-    let loads = without_files::<LoadKeys>().chain(without_files::<LoadsKeys>());
-    scene.chain(loads).chain(without_files::<NestedKeys>()).chain(without_files::<PathKeys>()).collect()
+pub fn of_problem() -> impl Iterator<Item = &'static Key> {
+    let scene = without_files::<SurfaceKeys>().chain(without_files::<AdhesionKeys>());
+    scene.chain(without_files::<SolverKeys>()).chain(of_one_solve()).chain(without_files::<PathKeys>())
+}
+
+/// Those that pose no other problem.
+fn of_one_solve() -> impl Iterator<Item = &'static Key> {
+    without_files::<LoadKeys>().chain(without_files::<LoadsKeys>()).chain(without_files::<NestedKeys>())
 }
 
 /// A contact problem on a surface, with its solutions.
@@ -41,23 +44,15 @@ impl Problem {
     /// # Errors
     /// The key and the remedy, and those of the surface, the law and the body.
     pub fn of(given: &Given, map: &Topography, name: &str, before: &mut Option<Self>, goes_on: bool) -> Outcome<Self> {
-        let asked: Vec<_> = without_files::<LoadKeys>()
-            .chain(without_files::<LoadsKeys>())
-            .chain(without_files::<NestedKeys>())
-            .collect();
-        let posed: Map<_, _> =
-            given.typed().into_iter().filter(|(name, _)| asked.iter().all(|key| key.name != name)).collect();
+        let mut posed = given.typed();
+        posed.retain(|name, _| of_one_solve().all(|key| key.name != name));
         if let Some(same) = before.take_if(|before| goes_on && before.posed == posed) {
             return Ok(same);
         }
         let before = before.as_ref().and_then(|before| either!(state = &before.state => state.gap()));
         let (lengths, absent) = (given.lengths(map.heights.dim()), given.absent_missing());
         let (scene, si) = (given.scene()?, given.quantities().is_si());
-        let units = Units {
-            length: if si { Some(LENGTH.si.to_owned()) } else { map.unit.clone() },
-            pressure: si.then(|| PRESSURE.si.to_owned()),
-            force: None,
-        };
+        let units = if si { Units::si() } else { Units::of_map(map.unit.as_deref()) };
         scene.adhesion.check().and_then(|()| scene.elastic.check()).map_err(reason)?;
         scene.elastic.body()?;
         let (surface, converted_from) = surface(map, name, lengths, absent, si)?;

@@ -16,13 +16,16 @@ use asperity_scene::{
     shortfalls,
 };
 use ndarray::Array2;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::given::reason;
 use crate::lines::START;
 
 /// The observer of a solve: it sees the nodes of the grid, each iteration, and the tolerance of the solve on it.
 pub type Observe<'a> = &'a mut (dyn FnMut(usize, &Iteration, f64) + Send);
+
+/// The fields that a solution may have.
+const FIELDS: [&str; 5] = ["gap", "pressure", "contact_pressure", "displacement", "plastic_depth"];
 
 /// A problem in one precision.
 pub struct State<T: Scalar> {
@@ -83,20 +86,22 @@ impl<T: Scalar> State<T> {
         self.original.map_or(*self.surface.grid(), |original| *original.grid())
     }
 
-    /// The fields of a solution by their names, on the part of which results are.
-    fn named(&self, solution: &Solution<T>) -> Outcome<Vec<(&'static str, Array2<T>)>> {
-        let mut own = gap_to_write(solution).into_owned();
-        let heights = self.part(self.surface.heights().to_owned())?;
-        own.zip_mut_with(&heights, |gap, height| *gap += T::lit(*height));
-        solution.plastic_depth.iter().for_each(|depth| own -= depth);
-        let fields = [
-            ("gap", Some(gap_to_write(solution).into_owned())),
-            ("pressure", Some(solution.pressure.clone())),
-            ("contact_pressure", Some(solution.contact_pressure.clone())),
-            ("displacement", Some(own)),
-            ("plastic_depth", solution.plastic_depth.clone()),
-        ];
-        Ok(fields.into_iter().filter_map(|(name, field)| Some((name, field?))).collect())
+    /// A field of a solution by its name, on the part of which results are, if the solution has it.
+    fn named(&self, name: &str, solution: &Solution<T>) -> Outcome<Option<Array2<T>>> {
+        Ok(match name {
+            "gap" => Some(gap_to_write(solution).into_owned()),
+            "pressure" => Some(solution.pressure.clone()),
+            "contact_pressure" => Some(solution.contact_pressure.clone()),
+            "displacement" => {
+                let mut own = gap_to_write(solution).into_owned();
+                let heights = self.part(self.surface.heights().to_owned())?;
+                own.zip_mut_with(&heights, |gap, height| *gap += T::lit(*height));
+                solution.plastic_depth.iter().for_each(|depth| own -= depth);
+                Some(own)
+            }
+            "plastic_depth" => solution.plastic_depth.clone(),
+            _ => None,
+        })
     }
 
     /// A field on the part of which results are.
@@ -115,12 +120,12 @@ impl<T: Scalar> State<T> {
         });
         let rows = rows(&[account], self.session.units(), Skin::Keywords);
         let rows: Vec<_> = rows.into_iter().map(|(name, texts)| (name, texts.concat())).collect();
-        let mut ends = Map::from_iter([
-            ("gap".to_owned(), json!(of(&part.gap))),
-            ("pressure".to_owned(), json!(of(&part.pressure))),
-            ("contact_pressure".to_owned(), json!(of(&part.contact_pressure))),
-        ]);
-        ends.extend(part.plastic_depth.as_ref().map(|depth| ("plastic_depth".to_owned(), json!(of(depth)))));
+        let mut ends = json!({
+            "gap": of(&part.gap),
+            "pressure": of(&part.pressure),
+            "contact_pressure": of(&part.contact_pressure),
+        });
+        part.plastic_depth.iter().for_each(|depth| ends["plastic_depth"] = json!(of(depth)));
         let told: Vec<_> = shortfalls(account, Skin::Keywords).into_iter().map(|(_, text)| text).collect();
         Ok(json!({
             "account": account,
@@ -203,17 +208,9 @@ impl<T: Scalar> State<T> {
 
     /// A field of the last solution.
     pub fn field(&self, name: &str) -> Outcome<Vec<f32>> {
-        let part = self.last()?.found.part()?;
-        let field = match name {
-            "gap" => gap_to_write(&part).into_owned(),
-            "pressure" => part.pressure.clone(),
-            "contact_pressure" => part.contact_pressure.clone(),
-            other => {
-                self.named(&part)?.into_iter().find_map(|(name, field)| (name == other).then_some(field)).ok_or_else(
-                    || format!("{other} is no field of this solution: give gap, pressure or contact_pressure"),
-                )?
-            }
-        };
+        let field = self.named(name, &*self.last()?.found.part()?)?;
+        let field = field
+            .ok_or_else(|| format!("{name} is no field of this solution: give gap, pressure or contact_pressure"))?;
         Ok(field.iter().map(|value| value.widen() as f32).collect())
     }
 
@@ -247,8 +244,11 @@ impl<T: Scalar> State<T> {
         match name {
             "report.json" => Ok(format!("{:#}\n", json!(self.last()?.account)).into_bytes()),
             "fields.npz" => {
-                let fields = self.named(&*self.last()?.found.part()?)?;
-                let fields: Vec<_> = fields.iter().map(|(name, field)| (*name, field.view())).collect();
+                let part = self.last()?.found.part()?;
+                let fields =
+                    FIELDS.iter().map(|name| Ok((*name, self.named(name, &part)?))).collect::<Outcome<Vec<_>>>()?;
+                let fields: Vec<_> =
+                    fields.iter().filter_map(|(name, field)| Some((*name, field.as_ref()?.view()))).collect();
                 Ok(npz(&self.shown(), &fields)?)
             }
             START => {

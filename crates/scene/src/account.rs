@@ -1,21 +1,20 @@
 //! The account of a solve, with the keys of its report.
 
 pub mod contact;
-pub(crate) mod dimensions;
-pub(crate) mod displacement;
-pub(crate) mod entries;
-pub(crate) mod findings;
-pub(crate) mod found;
+mod dimensions;
+mod displacement;
+mod entries;
+mod findings;
+mod found;
 pub mod interface;
-pub(crate) mod leaked;
-pub(crate) mod pulled_off;
-pub(crate) mod record;
+mod leaked;
+mod pulled_off;
 pub(crate) mod row;
-pub(crate) mod rows;
-pub(crate) mod sentences;
-pub(crate) mod slopes;
+mod rows;
+mod sentences;
+mod slopes;
 pub mod statistics;
-pub(crate) mod warnings;
+mod warnings;
 
 use asperity::contact::{ContactStatistics, Patch};
 use asperity::solver::{Criterion, Method};
@@ -24,18 +23,24 @@ use ndarray::ArrayView2;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::account::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness};
-use crate::account::findings::Conducted;
-use crate::account::found::{Found, Sight};
-use crate::account::leaked::{Along, Narrowest, Transmissivity};
-use crate::account::record::record;
-use crate::account::slopes::Slopes;
-use crate::key::adhesion::Adhesion;
-use crate::key::elastic::Elastic;
-use crate::key::quantity::{ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
-use crate::key::scene::{Precision, Scene};
-use crate::key::told::Told;
-use crate::key::units::Units;
+pub use self::dimensions::{dimension_of, dimension_of_key};
+pub use self::entries::{GridErrors, GridLevel, Left, OtherBranch, Reached, Search, Steadiness, Step};
+pub use self::findings::{Conducted, Findings};
+pub use self::found::{Found, Sight, check_finite};
+pub(crate) use self::found::{Waves, warnings_of};
+pub use self::leaked::{Along, Enclosed, Leaked, Narrowest, Transmissivity};
+pub use self::pulled_off::PulledOff;
+pub(crate) use self::row::INPUTS;
+pub use self::row::Row;
+pub use self::rows::{corrected, rows};
+pub(crate) use self::sentences::estimate;
+pub use self::sentences::shortfalls;
+pub use self::slopes::Slopes;
+pub(crate) use self::warnings::warnings_of_input;
+use crate::key::{
+    Adhesion, ENERGY_PER_AREA, Elastic, FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Precision,
+    Scene, Told, Units, record,
+};
 
 record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
@@ -252,79 +257,60 @@ impl<T: Real> Sight<T> {
     }
 }
 
-/// The inputs of a command, by their names in every report.
-#[derive(Clone, Debug, Serialize)]
-pub struct Inputs {
-    /// The file of the heights.
-    pub heights: Option<String>,
-    /// The file of the heights on the other side, or a word for them, if there are any.
-    pub against: Option<String>,
-    /// The shift of these along both axes.
-    pub shift: Option<(f64, f64)>,
-    /// The file of the gap from which the solve started, or a word for it.
-    pub initial_gap: Option<String>,
-    /// The part of a mirrored map that results are of.
-    pub part: Option<String>,
-    /// The nodes that are solved, if results are of fewer.
-    pub solved_shape: Option<(usize, usize)>,
-    /// The nodes of the results.
-    pub shape: (usize, usize),
-    /// The side lengths of the results.
-    pub lengths: (f64, f64),
-    /// The rms slopes of the surface.
-    #[serde(flatten)]
-    pub slopes: Slopes,
-    /// The unit of lengths, if it is known.
-    pub length_unit: Option<String>,
-    /// The unit of pressures, if it is known.
-    pub pressure_unit: Option<String>,
-    /// The quantities as they were typed, if they have units.
-    pub given: Option<Value>,
-    /// The elastic body.
-    #[serde(flatten)]
-    pub elastic: Elastic,
-    /// The adhesion and the wall.
-    #[serde(flatten)]
-    pub adhesion: Adhesion,
-    /// The method.
-    pub method: Method,
-    /// The precision.
-    pub precision: Precision,
-    /// The tolerance to which the solve was held.
-    pub tolerance: f64,
-    /// The iterations after which to give up.
-    pub max_iterations: usize,
-    /// The number of threads.
-    pub threads: usize,
-    /// The version of the program.
-    pub version: &'static str,
+record! {
+    /// The inputs of a command, by their names in every report.
+    #[derive(Clone, Debug, Serialize)]
+    Inputs of (scene: &Scene, shape: (usize, usize), lengths: (f64, f64), threads: usize) {
+        /// The file of the heights.
+        heights: Option<String> = None,
+        /// The file of the heights on the other side, or a word for them, if there are any.
+        against: Option<String> = None,
+        /// The shift of these along both axes.
+        shift: Option<(f64, f64)> = None,
+        /// The file of the gap from which the solve started, or a word for it.
+        initial_gap: Option<String> = None,
+        /// The part of a mirrored map that results are of.
+        part: Option<String> = None,
+        /// The nodes that are solved, if results are of fewer.
+        solved_shape: Option<(usize, usize)> = None,
+        /// The nodes of the results.
+        shape: (usize, usize) = shape,
+        /// The side lengths of the results.
+        lengths: (f64, f64) = lengths,
+        /// The rms slopes of the surface.
+        #[serde(flatten)]
+        slopes: Slopes = Slopes::default(),
+        /// The unit of lengths, if it is known.
+        length_unit: Option<String> = None,
+        /// The unit of pressures, if it is known.
+        pressure_unit: Option<String> = None,
+        /// The quantities as they were typed, if they have units.
+        given: Option<Value> = None,
+        /// The elastic body.
+        #[serde(flatten)]
+        elastic: Elastic = scene.elastic.clone(),
+        /// The adhesion and the wall.
+        #[serde(flatten)]
+        adhesion: Adhesion = scene.adhesion.clone(),
+        /// The method.
+        method: Method = scene.method,
+        /// The precision.
+        precision: Precision = scene.precision,
+        /// The tolerance to which the solve was held.
+        tolerance: f64 = scene.tolerance(),
+        /// The iterations after which to give up.
+        max_iterations: usize = scene.settings().max_iterations,
+        /// The number of threads.
+        threads: usize = threads,
+        /// The version of the program.
+        version: &'static str = env!("CARGO_PKG_VERSION"),
+    }
 }
 
 impl Scene {
     /// The inputs of a report as far as they are those of the scene, on a surface of a shape and side lengths.
     pub fn inputs(&self, shape: (usize, usize), lengths: (f64, f64), threads: usize) -> Inputs {
-        Inputs {
-            heights: None,
-            against: None,
-            shift: None,
-            initial_gap: None,
-            part: None,
-            solved_shape: None,
-            shape,
-            lengths,
-            slopes: Slopes::default(),
-            length_unit: None,
-            pressure_unit: None,
-            given: None,
-            elastic: self.elastic.clone(),
-            adhesion: self.adhesion.clone(),
-            method: self.method,
-            precision: self.precision,
-            tolerance: self.tolerance(),
-            max_iterations: self.settings().max_iterations,
-            threads,
-            version: env!("CARGO_PKG_VERSION"),
-        }
+        Inputs::of(self, shape, lengths, threads)
     }
 }
 

@@ -4,49 +4,75 @@
 //! excludes or needs. From there come the options of the program, the keywords of the Python package, the fields of the
 //! page in the browser, and the table in the documents.
 
-pub(crate) mod accuracy;
-pub(crate) mod adhesion;
-pub(crate) mod after;
+mod accuracy;
+mod adhesion;
+mod after;
 pub mod allowed;
-pub(crate) mod asked;
-pub(crate) mod body;
-pub(crate) mod boundary;
-pub(crate) mod elastic;
-pub(crate) mod formula;
-pub(crate) mod given;
-pub(crate) mod laws;
-pub(crate) mod leak;
+mod asked;
+mod body;
+mod boundary;
+mod elastic;
+mod formula;
+mod given;
+mod laws;
+mod leak;
 pub mod list;
-pub(crate) mod load;
+mod load;
 mod macros;
 #[cfg(feature = "options")]
-pub(crate) mod options;
-pub(crate) mod pair;
-pub(crate) mod preparation;
+mod options;
+mod pair;
+mod preparation;
 pub mod quantity;
-pub(crate) mod scalar;
-pub(crate) mod scene;
-pub(crate) mod symbol;
+mod scalar;
+mod scene;
+mod symbol;
 pub mod synonyms;
-pub(crate) mod told;
+mod told;
 pub mod units;
-pub(crate) mod wall;
-pub(crate) mod words;
+mod wall;
+mod words;
 
 use std::ops::RangeInclusive;
 
-pub(crate) use self::macros::{choice, keys};
-use crate::key::allowed::{Range, THREADS};
-use crate::key::given::Read;
+pub use self::accuracy::{AccuracyKeys, GIB, Goal, PullOffKeys};
+pub use self::adhesion::{Adhesion, AdhesionKeys};
+pub use self::after::{After, ConductorKeys, Conductors, FindingsKeys, LeakageKeys, PercolationKeys, StiffnessKeys};
+pub use self::asked::{Asked, NestedKeys, PathKeys};
+pub use self::body::{Body, BodyForm, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys};
+pub use self::boundary::Boundary;
+pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
+pub use self::formula::{AnyLaw, Formula, tabulated};
+pub use self::given::{Given, Measured, Quantities, Typed};
+pub use self::laws::{LAWS, Law};
+pub use self::leak::{LeakAsked, LeakKeys};
+pub use self::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
+pub use self::pair::between;
+pub use self::preparation::{CutOffKeys, Log, NewLengthsKeys, Preparation, StepKeys, in_unit};
+pub use self::scalar::Scalar;
+pub use self::scene::{Branches, Files, Precision, Scene, SolverKeys};
+pub use self::symbol::{Stiffness, Symbol};
+pub use self::told::Told;
+pub use self::units::UnitKeys;
+pub use self::wall::{Constraint, Wall};
+pub use self::words::{Skin, worded};
+
+pub(crate) use self::after::{ERROR, LEAKAGE};
+pub(crate) use self::allowed::{Range, THREADS, unit};
+pub(crate) use self::boundary::peak;
+pub(crate) use self::given::Read;
+pub(crate) use self::laws::WORK;
+pub(crate) use self::macros::{choice, keys, record};
+pub(crate) use self::quantity::*;
+pub(crate) use self::units::{Units, is_unit};
 use crate::key::list::{Loads, parsed};
-use crate::key::quantity::{Dimension, Quantity};
 
 /// A key of a scene.
 #[derive(Debug)]
 pub struct Key {
     /// The name, as in reports and keywords.
     pub name: &'static str,
-    /// The meaning, with other keys in braces, for [`worded`](crate::worded).
+    /// The meaning, with other keys in braces, for [`worded`].
     pub help: &'static str,
     /// The heading under which it stands in the help, and the section in a scene file.
     pub section: &'static str,
@@ -251,28 +277,28 @@ impl Kind {
 
 /// All lists of keys.
 static LISTS: [&[Key]; 22] = [
-    elastic::SurfaceKeys::KEYS,
-    load::LoadKeys::KEYS,
-    load::LoadsKeys::KEYS,
-    load::FractionsKeys::KEYS,
-    adhesion::AdhesionKeys::KEYS,
-    scene::SolverKeys::KEYS,
-    asked::NestedKeys::KEYS,
-    accuracy::AccuracyKeys::KEYS,
-    accuracy::PullOffKeys::KEYS,
-    asked::PathKeys::KEYS,
-    after::FindingsKeys::KEYS,
-    after::StiffnessKeys::KEYS,
-    after::ConductorKeys::KEYS,
-    after::PercolationKeys::KEYS,
-    after::LeakageKeys::KEYS,
-    units::UnitKeys::KEYS,
-    leak::LeakKeys::KEYS,
-    body::GridKeys::KEYS,
-    body::FormKeys::KEYS,
-    body::RoughnessKeys::KEYS,
-    preparation::StepKeys::KEYS,
-    preparation::CutOffKeys::KEYS,
+    SurfaceKeys::KEYS,
+    LoadKeys::KEYS,
+    LoadsKeys::KEYS,
+    FractionsKeys::KEYS,
+    AdhesionKeys::KEYS,
+    SolverKeys::KEYS,
+    NestedKeys::KEYS,
+    AccuracyKeys::KEYS,
+    PullOffKeys::KEYS,
+    PathKeys::KEYS,
+    FindingsKeys::KEYS,
+    StiffnessKeys::KEYS,
+    ConductorKeys::KEYS,
+    PercolationKeys::KEYS,
+    LeakageKeys::KEYS,
+    UnitKeys::KEYS,
+    LeakKeys::KEYS,
+    GridKeys::KEYS,
+    FormKeys::KEYS,
+    RoughnessKeys::KEYS,
+    StepKeys::KEYS,
+    CutOffKeys::KEYS,
 ];
 
 impl Key {

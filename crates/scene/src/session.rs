@@ -19,22 +19,9 @@ use serde_json::json;
 
 pub use self::filled::{Next, TableFile};
 use crate::Either;
-use crate::account::found::{Found, check_finite, warnings_of};
-use crate::account::pulled_off::PulledOff;
-use crate::account::row::{Kind, Row};
-use crate::account::slopes::Slopes;
-use crate::account::warnings::warnings_of_input;
-use crate::account::{Account, Inputs};
-use crate::key::accuracy::Goal;
-use crate::key::after::After;
-use crate::key::asked::Asked;
-use crate::key::formula::Formula;
-use crate::key::scalar::Scalar;
-use crate::key::scene::Scene;
-use crate::key::told::Told;
-use crate::key::units::Units;
-use crate::key::wall::Constraint;
-use crate::key::words::{Skin, worded};
+use crate::account::row::Kind;
+use crate::account::{Account, Found, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
+use crate::key::{After, Asked, Constraint, Formula, Goal, Scalar, Scene, Skin, Told, Units, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::course::Course;
@@ -246,9 +233,8 @@ impl<T: Scalar> Session<T> {
             None if found.search.is_some() => Kind::Search,
             None => Kind::Sweep,
         };
-        let adhesion = &self.scene.adhesion;
-        let names = kind.columns(after, adhesion.law().is_some_and(|law| law.of_grid), adhesion.yields());
-        let mut cells = Row::of(found, account.clone(), &sizes, None, self.seed).cells(&names);
+        let names = kind.columns(after, &self.scene.adhesion);
+        let mut cells = Row::of(found, account, &sizes, None, self.seed).cells(&names);
         for (name, value) in json!(pulled_off).as_object().into_iter().flatten() {
             cells.get_mut(name).into_iter().for_each(|cell| *cell = value.clone());
         }

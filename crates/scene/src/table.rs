@@ -15,12 +15,12 @@ use std::path::{Path, PathBuf};
 use asperity::{Error, Solution};
 use serde_json::{Map, Value};
 
-use crate::account::row::Row;
-use crate::key::scalar::Scalar;
+use crate::account::Row;
+use crate::key::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::table::identity::Identity;
-use crate::table::journal::{Journal, Row as Line, Seen, state_path};
+use crate::table::journal::{Journal, Row as Line, State, Written, refused, state_path};
 use crate::table::kept::Kept;
 
 /// The format of a table.
@@ -156,7 +156,8 @@ impl Table {
 
     /// The table as a process sees it that does not have its file.
     fn see(&mut self) -> Outcome<Vec<u8>> {
-        let Seen { place, rows, unconverged } = Seen::read(&self.opening.out)?;
+        let State { place, written: Written { rows, unconverged, .. }, .. } =
+            State::read(&self.opening.out).map_err(|reason| refused(&self.opening.out, reason))?;
         (self.rows, self.unconverged) = (rows, unconverged);
         Ok(place)
     }
@@ -166,7 +167,7 @@ impl Table {
         let header = format.header(header);
         let (identity, loads) = (identity.clone(), loads.as_deref());
         let (journal, place) = Journal::open(out, &header, identity, loads, (force, is_case))?;
-        (self.rows, self.unconverged) = (journal.rows(), journal.unconverged());
+        Written { rows: self.rows, unconverged: self.unconverged, .. } = journal.written();
         self.journal = Some(journal);
         Ok(place)
     }
@@ -209,7 +210,7 @@ impl Table {
 
     /// Lets other runs write the table until [`Self::claim`]; it leaves no file behind that it made if it has no row.
     pub fn release(&mut self) {
-        if self.journal.as_ref().is_some_and(|journal| journal.rows() == 0) {
+        if self.journal.as_ref().is_some_and(|journal| journal.written().rows == 0) {
             remove(&self.made);
         }
         self.journal = None;

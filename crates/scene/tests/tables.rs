@@ -25,14 +25,14 @@ fn open(path: &Path, loads: &[f64]) -> Outcome<(Journal, Vec<u8>)> {
 /// A sweep whose answer depends on the two loads and answers before, killed after so many rows.
 fn sweep(path: &Path, loads: &[f64], killed: usize) -> Outcome<String> {
     let (mut journal, mut place) = open(path, loads)?;
-    for &load in &loads[journal.rows()..killed] {
+    for &load in &loads[journal.written().rows..killed] {
         let sum = place.chunks(2).fold(0.0, |sum, two| sum + f64::from(two[0]) + 2.0 * f64::from(two[1]));
         place.extend([load as u8, sum as u8]);
         place.drain(..place.len().saturating_sub(4));
         let text = format!("{load},{sum}");
         journal.append(Row { text: &text, load, converged: load != 2.0, place: place.clone() })?;
     }
-    assert_eq!(journal.unconverged(), usize::from(journal.rows() > 1));
+    assert_eq!(journal.written().unconverged, usize::from(journal.written().rows > 1));
     Ok(fs::read_to_string(path)?)
 }
 
@@ -77,7 +77,7 @@ fn a_sweep_can_be_made_longer_but_not_another() {
     let refused = reason(other("2", false));
     assert!(["modulus is 1, and not 2", "--force"].iter().all(|part| refused.contains(part)), "{refused}");
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
-    assert_eq!(other("2", true).unwrap().0.rows(), 0);
+    assert_eq!(other("2", true).unwrap().0.written().rows, 0);
     assert_eq!(fs::read_to_string(&path).unwrap(), "");
     assert!(reason(open(&path, &LOADS)).contains("modulus is 2, and not 1"));
 }
@@ -148,7 +148,7 @@ fn two_sweeps_do_not_write_into_one_file() {
     fs::remove_file(&path).unwrap();
     assert!(reason(first.append(row("2,1", 2.0))).contains("cannot be written"));
     drop(first);
-    assert_eq!(open(&path, &LOADS).unwrap().0.rows(), 0);
+    assert_eq!(open(&path, &LOADS).unwrap().0.written().rows, 0);
 }
 
 #[test]

@@ -5,9 +5,7 @@ use asperity::{Error, Grid, Result, Surface};
 use ndarray::{Array2, ArrayView2, Zip};
 use serde::Serialize;
 
-use crate::key::boundary::Boundary;
-use crate::key::quantity::{LENGTH, PRESSURE};
-use crate::key::units::Units;
+use crate::key::{Boundary, LENGTH, PRESSURE, Units, record};
 
 /// The bins of a distribution in a decade, and the most decades.
 const PER_DECADE: usize = 8;
@@ -79,23 +77,25 @@ pub struct Spot {
     pub force: f64,
 }
 
-/// The figures of the tables, as a report has them.
-#[derive(Clone, Debug, Serialize)]
-pub struct ContactFigures {
-    /// The number of spots.
-    pub clusters: usize,
-    /// The nodes of the largest one.
-    pub largest_cluster: usize,
-    /// The length of all edges.
-    pub perimeter: f64,
-    /// The mean contact pressure.
-    pub mean_contact_pressure: f64,
-    /// The exponent of the distribution of small gaps.
-    pub gap_exponent: Option<Exponent>,
-    /// The exponent of the distribution of small contact pressures.
-    pub pressure_exponent: Option<Exponent>,
-    /// The distance at which the autocorrelation of the pressure has fallen to a half.
-    pub correlation_length: Option<f64>,
+record! {
+    /// The figures of the tables, as a report has them.
+    #[derive(Clone, Debug, Serialize)]
+    ContactFigures of (tables: &ContactTables) {
+        /// The number of spots.
+        clusters: usize = tables.spots.len(),
+        /// The nodes of the largest one.
+        largest_cluster: usize = tables.spots.first().map_or(0, |spot| spot.nodes),
+        /// The length of all edges.
+        perimeter: f64 = tables.spots.iter().map(|spot| spot.perimeter).sum(),
+        /// The mean contact pressure.
+        mean_contact_pressure: f64 = tables.mean_contact_pressure,
+        /// The exponent of the distribution of small gaps.
+        gap_exponent: Option<Exponent> = tables.gap.exponent,
+        /// The exponent of the distribution of small contact pressures.
+        pressure_exponent: Option<Exponent> = tables.pressure.exponent,
+        /// The distance at which the autocorrelation of the pressure has fallen to a half.
+        correlation_length: Option<f64> = tables.correlation_length(),
+    }
 }
 
 impl ContactTables {
@@ -133,19 +133,14 @@ impl ContactTables {
 
     /// The figures of the tables.
     pub fn figures(&self) -> ContactFigures {
-        let half = self.autocorrelation.windows(2).find(|two| two[1].1 < 0.5);
-        ContactFigures {
-            clusters: self.spots.len(),
-            largest_cluster: self.spots.first().map_or(0, |spot| spot.nodes),
-            perimeter: self.spots.iter().map(|spot| spot.perimeter).sum(),
-            mean_contact_pressure: self.mean_contact_pressure,
-            gap_exponent: self.gap.exponent,
-            pressure_exponent: self.pressure.exponent,
-            correlation_length: half.map(|two| {
-                let share = (two[0].1 - 0.5) / (two[0].1 - two[1].1);
-                two[0].0 + share * (two[1].0 - two[0].0)
-            }),
-        }
+        ContactFigures::of(self)
+    }
+
+    /// The distance at which the autocorrelation of the pressure has fallen to a half.
+    fn correlation_length(&self) -> Option<f64> {
+        let [before, behind] = *self.autocorrelation.windows(2).find(|two| two[1].1 < 0.5)? else { return None };
+        let share = (before.1 - 0.5) / (before.1 - behind.1);
+        Some(before.0 + share * (behind.0 - before.0))
     }
 }
 

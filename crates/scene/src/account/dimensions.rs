@@ -1,12 +1,10 @@
 //! The dimensions of what is given and found, by names.
 
 use crate::account::Account;
-use crate::key::Key;
-use crate::key::quantity::{
-    AREA, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY_PER_AREA, FORCE, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
-    THERMAL_CONDUCTANCE, TRANSMISSIVITY,
+use crate::key::{
+    AREA, Dimension, ELECTRICAL_CONDUCTANCE, ENERGY_PER_AREA, FORCE, Key, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    THERMAL_CONDUCTANCE, TRANSMISSIVITY, Units,
 };
-use crate::key::units::Units;
 
 /// The dimensions of the columns that tables alone have.
 const COLUMNS: [(&str, Dimension); 12] = [
@@ -45,15 +43,11 @@ pub fn dimension_of(name: &str, control: &str, on_line: bool) -> Option<Dimensio
 }
 
 impl Units {
-    /// The unit of a column of a table; see [`dimension_of`].
-    pub fn of_column(&self, name: &str, control: &str, on_line: bool) -> Option<String> {
-        self.of(dimension_of(name, control, on_line)?)
-    }
-
     /// The names of the columns of a table, with their units where those are all known.
     pub fn columns(&self, names: &[&str], control: &str, on_line: bool) -> Vec<String> {
         let known = self.of_table() != "none";
-        let name = |name: &&str| match self.of_column(name, control, on_line).filter(|_| known) {
+        let unit = |name: &str| self.of(dimension_of(name, control, on_line)?).filter(|_| known);
+        let name = |name: &&str| match unit(name) {
             // letters and digits of ASCII, as spreadsheets may take a file without a mark for another encoding
             Some(unit) => format!("{name} [{}]", ascii(&unit)),
             None => (*name).to_owned(),

@@ -4,8 +4,8 @@ use asperity::elastic::Boundary;
 use asperity::{ElasticOperator, Real, Result};
 use ndarray::{Array2, ArrayView2};
 
-use crate::account::found::Sight;
-use crate::key::elastic::Elastic;
+use crate::account::Sight;
+use crate::key::Elastic;
 
 impl<T: Real> Sight<T> {
     /// The displacements of both bodies of a solution, each away from the other one, if both are elastic: û = p̂/k of

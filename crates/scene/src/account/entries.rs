@@ -2,12 +2,13 @@
 
 use asperity::accuracy::{GridError, Quantity};
 use asperity::nested::Level;
+use asperity::path::{Event, PathStep};
 use asperity::search::FoundContact;
-use asperity::stability::{Stability, Verdict};
+use asperity::stability::{Departure, Stability, Verdict};
 use asperity::{Branch, Real, Report, Status};
 use serde::Serialize;
 
-use crate::account::record::record;
+use crate::key::record;
 
 record! {
     /// The equilibrium on the other branch, and its distance.
@@ -73,28 +74,24 @@ record! {
     }
 }
 
-/// The estimated errors of the finest of nested grids, by quantity; none where one cannot be told, or is given.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct GridErrors {
-    /// That of the corrected area.
-    pub area: Option<GridError>,
-    /// That of the mean gap.
-    pub gap: Option<GridError>,
-    /// That of the approach.
-    pub approach: Option<GridError>,
-    /// That of the mean pressure.
-    pub pressure: Option<GridError>,
-    /// That of the contact stiffness.
-    pub stiffness: Option<GridError>,
+record! {
+    /// The estimated errors of the finest of nested grids, by quantity; none where one cannot be told, or is given.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    GridErrors of (all: [(Quantity, Option<GridError>); 5]) {
+        /// That of the corrected area.
+        area: Option<GridError> = all[0].1,
+        /// That of the mean gap.
+        gap: Option<GridError> = all[1].1,
+        /// That of the approach.
+        approach: Option<GridError> = all[2].1,
+        /// That of the mean pressure.
+        pressure: Option<GridError> = all[3].1,
+        /// That of the contact stiffness.
+        stiffness: Option<GridError> = all[4].1,
+    }
 }
 
 impl GridErrors {
-    pub(crate) fn of(levels: &[Level], report: &Report, nodes_per_wave: f64) -> Self {
-        let [(_, area), (_, gap), (_, approach), (_, pressure), (_, stiffness)] =
-            GridError::of_all(levels, report, nodes_per_wave);
-        Self { area, gap, approach, pressure, stiffness }
-    }
-
     /// The errors with their quantities.
     pub fn all(&self) -> [(Quantity, Option<GridError>); 5] {
         let Self { area, gap, approach, pressure, stiffness } = *self;
@@ -120,28 +117,22 @@ pub struct Reached {
     pub unaffordable: Option<((usize, usize), f64)>,
 }
 
-/// The search for the load of a contact fraction; see [`FoundContact`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Search {
-    /// The contact fraction that was wanted.
-    pub wanted: f64,
-    /// Whether it was reached.
-    pub reached: bool,
-    /// The nearest contact fraction below.
-    pub below: Option<f64>,
-    /// The nearest contact fraction above.
-    pub above: Option<f64>,
-    /// The number of solves.
-    pub solves: usize,
-    /// The operator applications of all solves.
-    pub operator_applications: usize,
-}
-
-impl Search {
-    /// The search for a fraction.
-    pub fn of<T: Real>(wanted: f64, found: &FoundContact<T>) -> Self {
-        let &FoundContact { reached, below, above, solves, operator_applications, .. } = found;
-        Self { wanted, reached, below, above, solves, operator_applications }
+record! {
+    /// The search for the load of a contact fraction; see [`FoundContact`].
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    Search of <T: Real>(wanted: f64, found: &FoundContact<T>) {
+        /// The contact fraction that was wanted.
+        wanted: f64 = wanted,
+        /// Whether it was reached.
+        reached: bool = found.reached,
+        /// The nearest contact fraction below.
+        below: Option<f64> = found.below,
+        /// The nearest contact fraction above.
+        above: Option<f64> = found.above,
+        /// The number of solves.
+        solves: usize = found.solves,
+        /// The operator applications of all solves.
+        operator_applications: usize = found.operator_applications,
     }
 }
 
@@ -166,32 +157,36 @@ record! {
     }
 }
 
-/// An unstable equilibrium that was left; see [`Departure`](asperity::stability::Departure).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Left {
-    /// Its smallest eigenvalue.
-    pub eigenvalue: f64,
-    /// The energy that the departure sets free.
-    pub energy_drop: f64,
-    /// The distance to the next equilibrium in the energy norm.
-    pub distance: f64,
+record! {
+    /// An unstable equilibrium that was left; see [`Departure`].
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    Left of <T: Real>(eigenvalue: f64, departure: &Departure<T>) {
+        /// Its smallest eigenvalue.
+        eigenvalue: f64 = eigenvalue,
+        /// The energy that the departure sets free.
+        energy_drop: f64 = departure.energy_drop,
+        /// The distance to the next equilibrium in the energy norm.
+        distance: f64 = departure.distance,
+    }
 }
 
-/// The place of a state on a cycle, by the names of its columns; see [`PathStep`](asperity::path::PathStep).
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Step {
-    /// The leg: 0 is the start, 1 the way to the second load.
-    pub leg: usize,
-    /// The direction of the leg, or `"start"`.
-    pub direction: &'static str,
-    /// The work done by the load since the start, per area.
-    pub work: f64,
-    /// The energy dropped in jumps since the start, per area.
-    pub dissipated: f64,
-    /// The imbalance of energy.
-    pub imbalance: f64,
-    /// The event before the state.
-    pub event: Option<&'static str>,
-    /// The energy that its jump dissipates, per area.
-    pub energy_drop: Option<f64>,
+record! {
+    /// The place of a state on a cycle, by the names of its columns; see [`PathStep`].
+    #[derive(Clone, Debug, PartialEq, Serialize)]
+    Step of <T: Real>(found: &PathStep<T>, direction: &'static str) {
+        /// The leg: 0 is the start, 1 the way to the second load.
+        leg: usize = found.leg,
+        /// The direction of the leg, or `"start"`.
+        direction: &'static str = direction,
+        /// The work done by the load since the start, per area.
+        work: f64 = found.work,
+        /// The energy dropped in jumps since the start, per area.
+        dissipated: f64 = found.dissipated,
+        /// The imbalance of energy.
+        imbalance: f64 = found.imbalance,
+        /// The event before the state.
+        event: Option<&'static str> = found.event.as_ref().map(Event::name),
+        /// The energy that its jump dissipates, per area.
+        energy_drop: Option<f64> = found.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop),
+    }
 }

@@ -7,29 +7,27 @@ use asperity_flow::{Conductance, Gap, Leakage};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use crate::account::found::{Found, check_finite};
-use crate::account::leaked::{Along, Narrowest, Transmissivity};
-use crate::key::after::{After, Conductors, ERROR, LEAKAGE};
-use crate::key::boundary::Boundary;
-use crate::key::elastic::Elastic;
-use crate::key::leak::LeakAsked;
+use crate::account::{Along, Found, Narrowest, Transmissivity, check_finite};
+use crate::key::{After, Boundary, Conductors, ERROR, Elastic, LEAKAGE, LeakAsked, record};
 
-/// The conductance of a contact, as its report has it.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Conducted {
-    /// The conductance per area.
-    pub value: f64,
-    /// The conductance of the whole map, or of the part of a mirrored one that results are of.
-    pub whole: f64,
-    /// The relative error of the stiffness, the estimated one of the grid included; none where that is unknown.
-    pub relative_error: Option<f64>,
-    /// The resistivities of both bodies, if they are given.
-    pub resistivities: Option<(f64, f64)>,
-    /// The conductivities of both bodies, if they are given.
-    pub conductivities: Option<(f64, f64)>,
-    /// The conductors.
-    #[serde(skip)]
-    pub conductors: Conductors,
+record! {
+    /// The conductance of a contact, as its report has it.
+    #[derive(Clone, Copy, Debug, Serialize)]
+    Conducted of (found: Conductance, share: f64, relative_error: Option<f64>, conductors: Conductors) {
+        /// The conductance per area.
+        value: f64 = found.per_area,
+        /// The conductance of the whole map, or of the part of a mirrored one that results are of.
+        whole: f64 = share * found.whole,
+        /// The relative error of the stiffness, the estimated one of the grid included; none where that is unknown.
+        relative_error: Option<f64> = relative_error,
+        /// The resistivities of both bodies, if they are given.
+        resistivities: Option<(f64, f64)> = if let Conductors::Electrical(pair) = conductors { Some(pair) } else { None },
+        /// The conductivities of both bodies, if they are given.
+        conductivities: Option<(f64, f64)> = if let Conductors::Thermal(pair) = conductors { Some(pair) } else { None },
+        /// The conductors.
+        #[serde(skip)]
+        conductors: Conductors = conductors,
+    }
 }
 
 /// The findings after a solve, beside the contact stiffness.
@@ -74,34 +72,37 @@ impl<T: Real> Found<T> {
         if check_finite(&self.solution).is_err() {
             return Ok(Findings::default());
         }
-        let stiffness_error = self.stiffness.as_ref().and_then(stiffness_error);
         let conductance = after.conductors.map(|conductors| self.conductance(conductors, elastic));
-        let conductance = conductance.transpose()?.flatten();
+        let mut findings = Findings {
+            stiffness_error: self.stiffness.as_ref().and_then(stiffness_error),
+            conductance: conductance.transpose()?.flatten(),
+            ..Findings::default()
+        };
         if !after.percolation && after.leakage.is_none() {
-            return Ok(Findings { stiffness_error, conductance, ..Findings::default() });
+            return Ok(findings);
         }
         let part = self.part()?;
         let free = elastic.boundary == Boundary::Free || self.sight.original.is_some();
         let widened = part.gap.mapv(T::widen);
         let gap = Gap::new(widened.view(), part.grid)?;
-        let Some(tolerance) = after.leakage else {
+        if let Some(tolerance) = after.leakage {
+            let asked = LeakAsked {
+                boundary: if free { Boundary::Free } else { Boundary::Periodic },
+                absent_gap: None,
+                settings: Leakage::default().tolerance(tolerance),
+                viscosity: None,
+                // its columns are the bounds
+                grid_error: false,
+            };
+            let (_, leaked) = asked.find(gap)?;
+            (findings.percolates, findings.constriction) = (Some(leaked.percolates), Some(leaked.constriction));
+            findings.transmissivity = Some(leaked.transmissivity);
+        } else {
             let percolation = if free { gap.free() } else { gap }.percolation();
-            let constriction = Some(Along::of(|axis| percolation.along(axis).map(Narrowest::of)));
-            let percolates = Some(Along::of(|axis| percolation.along(axis).is_some()));
-            return Ok(Findings { stiffness_error, conductance, percolates, constriction, transmissivity: None });
-        };
-        let asked = LeakAsked {
-            boundary: if free { Boundary::Free } else { Boundary::Periodic },
-            absent_gap: None,
-            settings: Leakage::default().tolerance(tolerance),
-            viscosity: None,
-            // its columns are the bounds
-            grid_error: false,
-        };
-        let (_, leaked) = asked.find(gap)?;
-        let (percolates, constriction) = (Some(leaked.percolates), Some(leaked.constriction));
-        let transmissivity = Some(leaked.transmissivity);
-        Ok(Findings { stiffness_error, conductance, percolates, constriction, transmissivity })
+            findings.percolates = Some(Along::of(|axis| percolation.along(axis).is_some()));
+            findings.constriction = Some(Along::of(|axis| percolation.along(axis).map(Narrowest::of)));
+        }
+        Ok(findings)
     }
 
     /// The conductance by the contact stiffness; with adhesion, whose slope between the spots conducts nothing, by
@@ -120,18 +121,7 @@ impl<T: Real> Found<T> {
             (found, stiffness_error(stiffness))
         };
         let share = self.sight.original.map_or(1.0, |original| original.share());
-        let (resistivities, conductivities) = match conductors {
-            Conductors::Electrical(pair) => (Some(pair), None),
-            Conductors::Thermal(pair) => (None, Some(pair)),
-        };
-        Ok(Some(Conducted {
-            value: found.per_area,
-            whole: share * found.whole,
-            relative_error,
-            resistivities,
-            conductivities,
-            conductors,
-        }))
+        Ok(Some(Conducted::of(found, share, relative_error, conductors)))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use asperity::accuracy::GridError;
 use asperity::contact::{ContactStatistics, Original};
 use asperity::elastic::Boundary;
 use asperity::nested::Level;
@@ -11,43 +12,44 @@ use asperity::{AdhesionLaw, Grid, Real, Report, Result, Solution, Surface};
 use asperity_maps::warning::{Warning, WarningCode};
 use ndarray::{Array2, ArrayView2};
 
-use crate::account::entries::{GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
-use crate::account::findings::Findings;
+use crate::account::{Findings, GridErrors, Left, OtherBranch, Reached, Search, Steadiness, Step};
 use crate::clock::Instant;
-use crate::key::told::Told;
+use crate::key::{Told, record};
 
-/// The solution of a contact problem, with all that was asked for beside it.
-pub struct Found<T: Real> {
-    /// The solution, on all nodes that were solved.
-    pub solution: Solution<T>,
-    /// The law and the grids of the solution, for a look at its fields.
-    pub sight: Sight<T>,
-    /// The nested grids, if they were used.
-    pub levels: Option<Vec<Level>>,
-    /// The operator applications on all of them, in units of one on the finest.
-    pub equivalent_applications: Option<f64>,
-    /// The surface on the grid of the solution, if an accuracy was asked for.
-    pub refined: Option<Surface>,
-    /// The end of a solve to an accuracy, if one was asked for.
-    pub accuracy: Option<Reached>,
-    /// The search for the load of a contact fraction, if there was one.
-    pub search: Option<Search>,
-    /// The equilibrium on the other branch, if both are asked for and the solution has a branch.
-    pub other_branch: Option<OtherBranch>,
-    /// The stability, if it was asked for.
-    pub stability: Option<Steadiness>,
-    /// The change of the gap along which the energy is softest, with the stability.
-    pub mode: Option<Array2<T>>,
-    /// The unstable equilibria on the way to the solution, in order, if they were to be left.
-    pub departures: Option<Vec<Left>>,
-    /// The contact stiffness, if it was asked for.
-    pub stiffness: Option<ContactStiffness>,
-    /// The findings that follow.
-    pub after: Findings,
-    /// The place on a cycle, if there is one.
-    pub step: Option<Step>,
-    /// The time for setting up and solving, stability included, in seconds.
-    pub seconds: f64,
+record! {
+    /// The solution of a contact problem, with all that was asked for beside it.
+    Found<T: Real> of (solution: Solution<T>, sight: Sight<T>, seconds: f64) {
+        /// The solution, on all nodes that were solved.
+        solution: Solution<T> = solution,
+        /// The law and the grids of the solution, for a look at its fields.
+        sight: Sight<T> = sight,
+        /// The nested grids, if they were used.
+        levels: Option<Vec<Level>> = None,
+        /// The operator applications on all of them, in units of one on the finest.
+        equivalent_applications: Option<f64> = None,
+        /// The surface on the grid of the solution, if an accuracy was asked for.
+        refined: Option<Surface> = None,
+        /// The end of a solve to an accuracy, if one was asked for.
+        accuracy: Option<Reached> = None,
+        /// The search for the load of a contact fraction, if there was one.
+        search: Option<Search> = None,
+        /// The equilibrium on the other branch, if both are asked for and the solution has a branch.
+        other_branch: Option<OtherBranch> = None,
+        /// The stability, if it was asked for.
+        stability: Option<Steadiness> = None,
+        /// The change of the gap along which the energy is softest, with the stability.
+        mode: Option<Array2<T>> = None,
+        /// The unstable equilibria on the way to the solution, in order, if they were to be left.
+        departures: Option<Vec<Left>> = None,
+        /// The contact stiffness, if it was asked for.
+        stiffness: Option<ContactStiffness> = None,
+        /// The findings that follow.
+        after: Findings = Findings::default(),
+        /// The place on a cycle, if there is one.
+        step: Option<Step> = None,
+        /// The time for setting up and solving, stability included, in seconds.
+        seconds: f64 = seconds,
+    }
 }
 
 /// The sight of a solution: all that a look at its fields needs beside them.
@@ -94,23 +96,8 @@ impl<T: Real> Found<T> {
         let seconds = clock.elapsed().as_secs_f64();
         let original = original.map(|original| original.on(&solution.grid)).transpose()?;
         let (grid, report) = (solution.grid, solution.report.clone());
-        Ok(Self {
-            solution,
-            sight: Sight { law, original, grid, report, open: None, errors: None, seen: None },
-            levels: None,
-            equivalent_applications: None,
-            refined: None,
-            accuracy: None,
-            search: None,
-            other_branch: None,
-            stability: None,
-            mode: None,
-            departures: None,
-            stiffness: None,
-            after: Findings::default(),
-            step: None,
-            seconds,
-        })
+        let sight = Sight { law, original, grid, report, open: None, errors: None, seen: None };
+        Ok(Self::of(solution, sight, seconds))
     }
 
     /// The same by nested grids, with the applications on all of them.
@@ -163,7 +150,7 @@ impl<T: Real> Sight<T> {
 
     /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.
     pub(crate) fn estimate(&mut self, levels: &[Level], nodes_per_wave: f64) {
-        self.errors = Some((GridErrors::of(levels, &self.report, nodes_per_wave), nodes_per_wave));
+        self.errors = Some((GridErrors::of(GridError::of_all(levels, &self.report, nodes_per_wave)), nodes_per_wave));
     }
 }
 

@@ -4,9 +4,7 @@ use asperity::Surface;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::key::after::{Conductors, LEAKAGE};
-use crate::key::boundary::peak;
-use crate::key::units::Units;
+use crate::key::{Conductors, LEAKAGE, Units, peak};
 
 /// The columns of a table of an interface, before those for what is asked for after each state.
 pub(crate) const COLUMNS: &str = "mean_pressure mean_gap closure contact_fraction corrected_contact_fraction \

@@ -4,34 +4,32 @@ use asperity::Result;
 use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak};
 use serde::Serialize;
 
-use crate::key::boundary::Boundary;
-use crate::key::leak::LeakAsked;
-use crate::key::quantity::{LENGTH, VISCOSITY, times_ten_to};
-use crate::key::units::Units;
-use crate::key::words::{Skin, worded};
+use crate::key::{Boundary, LENGTH, LeakAsked, Skin, Units, VISCOSITY, record, times_ten_to, worded};
 use crate::numbers::{percent, plain};
 
-/// The leakage through a gap, as its report has it.
-#[derive(Clone, Debug, Serialize)]
-pub struct Leaked {
-    /// What is beyond the map.
-    pub boundary: Boundary,
-    /// Whether open nodes connect the sides.
-    pub percolates: Along<bool>,
-    /// The widest passages.
-    pub constriction: Along<Option<Narrowest>>,
-    /// Qη/Δp, a length³.
-    pub transmissivity: Along<Transmissivity>,
-    /// Q/Δp, if the viscosity is known.
-    pub flow_per_pressure: Along<Option<Enclosed>>,
-    /// The viscosity η, a pressure times a time.
-    pub viscosity: Option<f64>,
-    /// The gap of absent nodes, if they are open.
-    pub absent_gap: Option<f64>,
-    /// The relative distance of the bounds that was asked for.
-    pub tolerance: f64,
-    /// Whether all bounds are as close.
-    pub reached: bool,
+record! {
+    /// The leakage through a gap, as its report has it.
+    #[derive(Clone, Debug, Serialize)]
+    Leaked of (asked: &LeakAsked, leak: &Leak, grid_errors: [Option<f64>; 2]) {
+        /// What is beyond the map.
+        boundary: Boundary = asked.boundary,
+        /// Whether open nodes connect the sides.
+        percolates: Along<bool> = Along::of(|axis| leak.percolation.along(axis).is_some()),
+        /// The widest passages.
+        constriction: Along<Option<Narrowest>> = Along::of(|axis| leak.percolation.along(axis).map(Narrowest::of)),
+        /// Qη/Δp, a length³.
+        transmissivity: Along<Transmissivity> = Along::of(|axis| Transmissivity::of(leak.along(axis), grid_errors[axis as usize])),
+        /// Q/Δp, if the viscosity is known.
+        flow_per_pressure: Along<Option<Enclosed>> = Along::of(|axis| Some(Enclosed::of(leak.along(axis).transmissivity, asked.viscosity?))),
+        /// The viscosity η, a pressure times a time.
+        viscosity: Option<f64> = asked.viscosity,
+        /// The gap of absent nodes, if they are open.
+        absent_gap: Option<f64> = asked.absent_gap,
+        /// The relative distance of the bounds that was asked for.
+        tolerance: f64 = asked.settings.tolerance,
+        /// Whether all bounds are as close.
+        reached: bool = leak.reached(),
+    }
 }
 
 /// What there is along x and along y.
@@ -57,22 +55,20 @@ impl<T> Along<T> {
     }
 }
 
-/// The narrowest place of the widest passage along an axis.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Narrowest {
-    /// The gap there.
-    pub gap: f64,
-    /// The node.
-    pub node: (usize, usize),
-    /// The nodes on the passage.
-    pub path_nodes: usize,
+record! {
+    /// The narrowest place of the widest passage along an axis.
+    #[derive(Clone, Copy, Debug, Serialize)]
+    Narrowest of (found: &Constriction) {
+        /// The gap there.
+        gap: f64 = found.gap,
+        /// The node.
+        node: (usize, usize) = found.node,
+        /// The nodes on the passage.
+        path_nodes: usize = found.path.len(),
+    }
 }
 
 impl Narrowest {
-    pub(crate) fn of(found: &Constriction) -> Self {
-        Self { gap: found.gap, node: found.node, path_nodes: found.path.len() }
-    }
-
     /// Where the passage along an axis is narrowest, in words.
     pub(crate) fn in_words(found: Option<&Self>, units: &Units) -> String {
         found.map_or("closed".to_owned(), |Self { gap, node: (i, j), .. }| {
@@ -81,30 +77,34 @@ impl Narrowest {
     }
 }
 
-/// A number between two bounds.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Enclosed {
-    /// The lower bound.
-    pub lower: f64,
-    /// The upper bound.
-    pub upper: f64,
+record! {
+    /// A flow per pressure between two bounds, from those of the transmissivity.
+    #[derive(Clone, Copy, Debug, Serialize)]
+    Enclosed of (bounds: Bounds, viscosity: f64) {
+        /// The lower bound.
+        lower: f64 = bounds.lower / viscosity,
+        /// The upper bound.
+        upper: f64 = bounds.upper / viscosity,
+    }
 }
 
-/// A transmissivity, and how it was found.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Transmissivity {
-    /// The lower bound.
-    pub lower: f64,
-    /// The upper bound.
-    pub upper: f64,
-    /// The estimated relative error of the grid, from grids of half the resolution.
-    pub grid_error: Option<f64>,
-    /// Whether the bounds are as close as the tolerance.
-    pub reached: bool,
-    /// The iterations of conjugate gradients.
-    pub iterations: usize,
-    /// The nodes through which the fluid may flow.
-    pub nodes: usize,
+record! {
+    /// A transmissivity, and how it was found.
+    #[derive(Clone, Copy, Debug, Serialize)]
+    Transmissivity of (flow: &Flow, error: Option<f64>) {
+        /// The lower bound.
+        lower: f64 = flow.transmissivity.lower,
+        /// The upper bound.
+        upper: f64 = flow.transmissivity.upper,
+        /// The estimated relative error of the grid, from grids of half the resolution.
+        grid_error: Option<f64> = error,
+        /// Whether the bounds are as close as the tolerance.
+        reached: bool = flow.reached,
+        /// The iterations of conjugate gradients.
+        iterations: usize = flow.iterations,
+        /// The nodes through which the fluid may flow.
+        nodes: usize = flow.nodes,
+    }
 }
 
 impl LeakAsked {
@@ -121,34 +121,13 @@ impl LeakAsked {
     /// # Errors
     /// Those of [`Gap::absent`] and [`Leakage::through`](asperity_flow::Leakage::through).
     pub fn find_while(&self, gap: Gap<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<(Leak, Leaked)> {
-        let Self { boundary, absent_gap, settings, viscosity, grid_error } = *self;
+        let Self { boundary, absent_gap, settings, grid_error, .. } = *self;
         let gap = if boundary == Boundary::Free { gap.free() } else { gap };
         let gap = gap.absent(absent_gap.unwrap_or(0.0))?;
         let leak = settings.through_while(&gap, goes_on)?;
         let grid_errors =
             if grid_error && goes_on() { settings.grid_error_while(&gap, &leak, goes_on)? } else { [None; 2] };
-        let transmissivity = |axis| {
-            let flow = leak.along(axis);
-            let Bounds { lower, upper } = flow.transmissivity;
-            let grid_error = grid_errors[axis as usize];
-            let Flow { reached, iterations, nodes, .. } = *flow;
-            Transmissivity { lower, upper, grid_error, reached, iterations, nodes }
-        };
-        let per_pressure = |axis| {
-            let Bounds { lower, upper } = leak.along(axis).transmissivity;
-            viscosity.map(|viscosity| Enclosed { lower: lower / viscosity, upper: upper / viscosity })
-        };
-        let leaked = Leaked {
-            boundary,
-            percolates: Along::of(|axis| leak.percolation.along(axis).is_some()),
-            constriction: Along::of(|axis| leak.percolation.along(axis).map(Narrowest::of)),
-            transmissivity: Along::of(transmissivity),
-            flow_per_pressure: Along::of(per_pressure),
-            viscosity,
-            absent_gap,
-            tolerance: settings.tolerance,
-            reached: leak.reached(),
-        };
+        let leaked = Leaked::of(self, &leak, grid_errors);
         Ok((leak, leaked))
     }
 }

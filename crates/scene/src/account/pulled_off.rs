@@ -2,100 +2,60 @@
 
 use asperity::accuracy::AccuratePullOff;
 use asperity::pull_off::FoundPullOff;
-use asperity::{Branch, PullOff, Real, Status};
+use asperity::{Branch, PullOff, Real, Report, Status};
 use serde::Serialize;
 
 use crate::account::Account;
-use crate::account::found::Found;
-use crate::key::accuracy::Goal;
-use crate::key::quantity::{FORCE, LENGTH, PRESSURE};
-use crate::key::units::Units;
-use crate::key::words::{Skin, worded};
+use crate::key::{FORCE, Goal, LENGTH, PRESSURE, Skin, Units, record, worded};
 use crate::numbers::percent;
 
-/// The pull-off of a problem, as its report has it beside the account of the last state that holds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct PulledOff {
-    /// The greatest tension that was borne, a pressure over the area of the map; none if no state under a tension was
-    /// found.
-    pub pull_off_pressure: Option<f64>,
-    /// The force of that tension.
-    pub pull_off_force: Option<f64>,
-    /// The pull-off in the limit of no range that the state tells, a pressure, of a law that has the range of the grid.
-    pub limit_pressure: Option<f64>,
-    /// The force of that tension.
-    pub limit_force: Option<f64>,
-    /// The estimated relative error of the limit, if a coarser grid tells it.
-    pub limit_error: Option<f64>,
-    /// The relative error that was asked for, if one was.
-    pub accuracy: Option<f64>,
-    /// The least tension under which the surfaces came apart.
-    pub lost_pressure: Option<f64>,
-    /// Whether the two are as close as the tolerance.
-    pub reached: bool,
-    /// The relative tolerance.
-    pub rtol: f64,
-    /// The mean pressure to which the surfaces were pressed before; flat, or as the branch says, if there is none.
-    pub preload: Option<f64>,
-    /// The branch of the first solve, unless its start was given.
-    pub branch: Option<Branch>,
-    /// The number of solves.
-    pub solves: usize,
-    /// The operator applications of all of them.
-    pub operator_applications: usize,
+record! {
+    /// The pull-off of a problem, as its report has it beside the account of the last state that holds.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    PulledOff of <T: Real>(
+        asked: PullOff,
+        found: &FoundPullOff<T>,
+        report: &Report,
+        limit: Option<f64>,
+        accurate: Option<&AccuratePullOff<T>>,
+        goal: Option<Goal>,
+    ) {
+        /// The greatest tension that was borne, a pressure over the area of the map; none if no state under a tension was
+        /// found.
+        pull_off_pressure: Option<f64> = is_borne(report).then_some(-report.mean_pressure),
+        /// The force of that tension.
+        pull_off_force: Option<f64> = is_borne(report).then_some(-report.normal_force),
+        /// The pull-off in the limit of no range that the state tells, a pressure, of a law that has the range of the grid.
+        limit_pressure: Option<f64> = limit,
+        /// The force of that tension.
+        limit_force: Option<f64> = limit.map(|limit| limit * report.normal_force / report.mean_pressure),
+        /// The estimated relative error of the limit, if a coarser grid tells it.
+        limit_error: Option<f64> = accurate.and_then(|found| found.error).map(|error| error.relative),
+        /// The relative error that was asked for, if one was.
+        accuracy: Option<f64> = accurate.and(goal).map(|goal| goal.accuracy),
+        /// The least tension under which the surfaces came apart.
+        lost_pressure: Option<f64> = found.lost,
+        /// Whether the two are as close as the tolerance.
+        reached: bool = found.reached && accurate.is_none_or(|found| found.reached),
+        /// The relative tolerance.
+        rtol: f64 = asked.tolerance,
+        /// The mean pressure to which the surfaces were pressed before; flat, or as the branch says, if there is none.
+        preload: Option<f64> = asked.preload,
+        /// The branch of the first solve, unless its start was given.
+        branch: Option<Branch> = found.branch,
+        /// The number of solves.
+        solves: usize = found.solves,
+        /// The operator applications of all of them.
+        operator_applications: usize = found.operator_applications,
+    }
+}
+
+/// Whether a state bears a tension.
+fn is_borne(report: &Report) -> bool {
+    report.mean_pressure < 0.0
 }
 
 impl PulledOff {
-    /// The pull-off that a search found; of the last state, which is on the part of a map that results are of.
-    ///
-    /// # Errors
-    /// Those of [`Found::part`].
-    pub(crate) fn of<T: Real, S: Real>(
-        asked: PullOff,
-        found: &FoundPullOff<S>,
-        last: &Found<T>,
-    ) -> asperity::Result<Self> {
-        let report = &last.part()?.report;
-        let is_borne = report.mean_pressure < 0.0;
-        Ok(Self {
-            pull_off_pressure: is_borne.then_some(-report.mean_pressure),
-            pull_off_force: is_borne.then_some(-report.normal_force),
-            limit_pressure: None,
-            limit_force: None,
-            limit_error: None,
-            accuracy: None,
-            lost_pressure: found.lost,
-            reached: found.reached,
-            rtol: asked.tolerance,
-            preload: asked.preload,
-            branch: found.branch,
-            solves: found.solves,
-            operator_applications: found.operator_applications,
-        })
-    }
-
-    /// The same with the limit that a search to an accuracy tells.
-    ///
-    /// # Errors
-    /// Those of [`Found::part`] and [`FoundPullOff::limit`].
-    pub(crate) fn to_accuracy<T: Real>(
-        self,
-        found: &AccuratePullOff<T>,
-        goal: Option<Goal>,
-        last: &Found<T>,
-    ) -> asperity::Result<Self> {
-        let report = &last.part()?.report;
-        let limit = found.found.limit()?;
-        Ok(Self {
-            limit_pressure: limit,
-            limit_force: limit.map(|limit| limit * report.normal_force / report.mean_pressure),
-            limit_error: found.error.map(|error| error.relative),
-            accuracy: goal.map(|goal| goal.accuracy),
-            reached: self.reached && found.reached,
-            ..self
-        })
-    }
-
     /// The shortfall of a search that has not come to its end, with a remedy, in the words of a skin.
     pub fn shortfall(&self, last: &Account, skin: Skin) -> Option<String> {
         // a first state that is none says so itself

@@ -1,43 +1,49 @@
 //! The row of a state in a table, and the columns of tables.
 
-use std::ffi::OsStr;
 use std::path::Path;
 
 use asperity::{Real, Status};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::account::entries::Step;
-use crate::account::found::Found;
-use crate::account::{Account, interface};
-use crate::key::after::After;
+use crate::account::{Account, Found, Step, interface};
+use crate::key::{Adhesion, After, record};
 
-/// The row of a state in a table: its account, and the figures that tables alone have.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row {
-    /// The account, complete.
-    #[serde(flatten)]
-    pub account: Account,
-    /// The approach of the mean planes since first touch, in the table of an interface.
-    pub closure: Option<f64>,
-    /// The number of separate contacts.
-    pub clusters: usize,
-    /// The nodes of the largest one.
-    pub largest_cluster: usize,
-    /// The name of the file of the heights, in the place of its path.
-    pub heights: Option<String>,
-    /// The seed of a random surface.
-    pub seed: Option<u64>,
-    /// The contact fraction that was wanted, if its load was searched for.
-    pub wanted_contact_fraction: Option<f64>,
-    /// Whether it was reached.
-    pub reached: Option<bool>,
-    /// The place on a cycle.
-    #[serde(flatten)]
-    pub step: Option<Step>,
-    /// The cells of the columns for what is asked for after each state.
-    #[serde(flatten)]
-    pub after: Map<String, Value>,
+record! {
+    /// The row of a state in a table, with contacts of these sizes, after a mean gap at first touch: its account, and the
+    /// figures that tables alone have.
+    #[derive(Clone, Debug, Serialize)]
+    Row of <T: Real>(
+        found: &Found<T>,
+        account: &Account,
+        sizes: &[usize],
+        touch: Option<f64>,
+        seed: Option<u64>,
+    ) {
+        /// The account, complete.
+        #[serde(flatten)]
+        account: Account = account.clone(),
+        /// The approach of the mean planes since first touch, in the table of an interface.
+        closure: Option<f64> = touch.map(|touch| touch - account.mean_gap),
+        /// The number of separate contacts.
+        clusters: usize = sizes.len(),
+        /// The nodes of the largest one.
+        largest_cluster: usize = sizes.first().copied().unwrap_or(0),
+        /// The name of the file of the heights, in the place of its path.
+        heights: Option<String> = account.inputs.heights.as_deref().and_then(file_name),
+        /// The seed of a random surface.
+        seed: Option<u64> = seed,
+        /// The contact fraction that was wanted, if its load was searched for.
+        wanted_contact_fraction: Option<f64> = account.search.map(|search| search.wanted),
+        /// Whether it was reached.
+        reached: Option<bool> = account.search.map(|search| search.reached),
+        /// The place on a cycle.
+        #[serde(flatten)]
+        step: Option<Step> = found.step.clone(),
+        /// The cells of the columns for what is asked for after each state.
+        #[serde(flatten)]
+        after: Map<String, Value> = found.after.cells(),
+    }
 }
 
 /// The kind of a table.
@@ -65,9 +71,8 @@ const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth
 const LIMIT: &str = "adhesive_contact_fraction jkr_contact_fraction";
 
 impl Kind {
-    /// The names of the columns, with what is asked for after each state, of a law that may have the range of the grid
-    /// on a surface that may yield.
-    pub fn columns(self, after: &After, of_grid: bool, yields: bool) -> Vec<&'static str> {
+    /// The names of the columns, with what is asked for after each state, of surfaces with this adhesion, which may yield.
+    pub fn columns(self, after: &After, adhesion: &Adhesion) -> Vec<&'static str> {
         let stiffness = if after.stiffness { "contact_stiffness normal_stiffness" } else { "" };
         let (before, behind) = match self {
             Self::Interface => (vec![interface::COLUMNS], interface::OUTCOME),
@@ -76,36 +81,14 @@ impl Kind {
             Self::PullOff => (vec![PULL_OFF, STATE, OUTCOME, INPUTS], ""),
             Self::Cycle => (vec!["leg direction", STATE, BALANCE, OUTCOME, INPUTS, stiffness], ""),
         };
-        let (limit, plastic) = (if of_grid { LIMIT } else { "" }, if yields { PLASTIC } else { "" });
+        let limit = if adhesion.law().is_some_and(|law| law.of_grid) { LIMIT } else { "" };
+        let plastic = if adhesion.yields() { PLASTIC } else { "" };
         let before = before.into_iter().chain([limit, plastic]).flat_map(str::split_whitespace);
         before.chain(after.columns()).chain(behind.split_whitespace()).collect()
     }
 }
 
 impl Row {
-    /// The row of a state with contacts of these sizes, after a mean gap at first touch.
-    pub(crate) fn of<T: Real>(
-        found: &Found<T>,
-        account: Account,
-        sizes: &[usize],
-        touch: Option<f64>,
-        seed: Option<u64>,
-    ) -> Self {
-        let heights = account.inputs.heights.as_deref().and_then(|path| Path::new(path).file_name());
-        Self {
-            closure: touch.map(|touch| touch - account.mean_gap),
-            clusters: sizes.len(),
-            largest_cluster: sizes.first().copied().unwrap_or(0),
-            heights: heights.map(OsStr::to_string_lossy).map(Into::into),
-            seed,
-            wanted_contact_fraction: account.search.map(|search| search.wanted),
-            reached: account.search.map(|search| search.reached),
-            step: found.step.clone(),
-            after: found.after.cells(),
-            account,
-        }
-    }
-
     /// Whether the solve converged, and reached the contact fraction that was wanted.
     pub(crate) fn converged(&self) -> bool {
         self.account.status == Status::Converged && self.reached != Some(false)
@@ -121,4 +104,9 @@ impl Row {
         let all = serde_json::to_value(self).unwrap_or_default();
         names.iter().map(|&name| (name.to_owned(), all[name].clone())).collect()
     }
+}
+
+/// The name of the file of a path.
+fn file_name(path: &str) -> Option<String> {
+    Some(Path::new(path).file_name()?.to_string_lossy().into())
 }

@@ -3,12 +3,8 @@
 use asperity::{Branch, Status};
 use asperity_flow::Axis;
 
-use crate::account::Account;
-use crate::account::leaked::Narrowest;
-use crate::account::sentences::estimate;
-use crate::key::quantity::{ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
-use crate::key::units::Units;
-use crate::key::words::{Skin, worded};
+use crate::account::{Account, Narrowest, estimate};
+use crate::key::{ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, PRESSURE_PER_LENGTH, Skin, Units, worded};
 use crate::numbers::{percent, plain};
 
 /// The difference of the counted and the corrected contact area, as a share, from which the contact is one of noise, or

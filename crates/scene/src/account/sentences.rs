@@ -4,12 +4,8 @@ use asperity::Status;
 use asperity::accuracy::{GridError, Plan, Quantity};
 use asperity::stability::Verdict;
 
-use crate::account::Account;
-use crate::account::entries::{GridErrors, Reached, Search};
-use crate::key::accuracy::{GIB, Goal};
-use crate::key::boundary::Boundary;
-use crate::key::scene::Precision;
-use crate::key::words::{Skin, worded};
+use crate::account::{Account, GridErrors, Reached, Search};
+use crate::key::{Boundary, GIB, Goal, Precision, Skin, worded};
 use crate::numbers::percent;
 
 /// The shortfalls of an answer with their remedies, in the words of a skin: each with what was not reached, which is

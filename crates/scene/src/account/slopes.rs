@@ -4,7 +4,7 @@ use asperity::Surface;
 use asperity::surface::{Spectrum, rms_slope};
 use serde::Serialize;
 
-use crate::key::boundary::Boundary;
+use crate::key::Boundary;
 
 /// The rms slopes of the surface that a solve presses, of the sum where two surfaces face each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

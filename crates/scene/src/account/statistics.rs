@@ -6,9 +6,7 @@ use asperity::surface::SurfaceStatistics;
 use asperity_maps::Topography;
 use serde_json::{Value, json};
 
-use crate::key::quantity::{Dimension, LENGTH, PER_LENGTH};
-use crate::key::units::Units;
-use crate::key::words::{Skin, worded};
+use crate::key::{Dimension, LENGTH, PER_LENGTH, Skin, Units, worded};
 use crate::numbers::plain;
 
 /// The statistics of the map in a file, and the wavelength of the knee of its spectrum, by name.

@@ -4,10 +4,7 @@ use asperity::{AdhesionLaw, Real, Surface};
 use asperity_maps::Topography;
 use asperity_maps::warning::{Warning, WarningCode};
 
-use crate::key::elastic::Elastic;
-use crate::key::quantity::{power_of_length, times_ten_to};
-use crate::key::told::Told;
-use crate::key::units::Units;
+use crate::key::{Elastic, Told, Units, power_of_length, times_ten_to};
 
 /// The warnings of the input of a solve, before it: of the heights, of the modulus unless its unit is known, and of the
 /// law on the heights; in units as far as they are known. Heights may have been converted from the unit of their file.

@@ -1,16 +1,14 @@
 //! The accuracy that is asked for, and its plan.
 
+use asperity::PullOff;
 use asperity::accuracy::{Accuracy, Quantity};
 use asperity::stability::ContactStiffness;
 use asperity_maps::io::available_memory;
 
+use crate::key::{Given, Kind, PRESSURE, Range, Word, keys};
+
 /// The bytes of a GiB.
-pub(crate) const GIB: f64 = 1_073_741_824.0;
-use crate::key::allowed::Range;
-use crate::key::given::Given;
-use crate::key::quantity::PRESSURE;
-use crate::key::{Kind, Word, keys};
-use asperity::PullOff;
+pub const GIB: f64 = 1_073_741_824.0;
 
 keys! {
     /// The accuracy that is asked for, from which tolerance and grid follow.

@@ -7,12 +7,10 @@ use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::key::allowed::Range;
-use crate::key::formula::Formula;
-use crate::key::laws::{LAWS, Law, WORK};
-use crate::key::quantity::{ENERGY, ENERGY_PER_AREA, LENGTH, PRESSURE, PRESSURE_PER_LENGTH};
-use crate::key::wall::{Constraint, Wall};
-use crate::key::{Kind, Word, keys};
+use crate::key::{
+    Constraint, ENERGY, ENERGY_PER_AREA, Formula, Kind, LAWS, LENGTH, Law, PRESSURE, PRESSURE_PER_LENGTH, Range, WORK,
+    Wall, Word, keys, record,
+};
 use crate::numbers::plain;
 
 keys! {
@@ -55,35 +53,37 @@ fn laws() -> Vec<Word> {
     LAWS.iter().map(|law| Word { name: law.name, help: law.formula }).collect()
 }
 
-/// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Adhesion {
-    /// The name of the law, one of [`LAWS`] or the class of one's own.
-    pub law: String,
-    /// The work of adhesion, if it is a parameter.
-    pub work_of_adhesion: Option<f64>,
-    /// The range, if it is a parameter.
-    pub range: Option<f64>,
-    /// The exponent of a power law.
-    pub exponent: Option<f64>,
-    /// Hamaker's constant, if it is a parameter.
-    pub hamaker: Option<f64>,
-    /// The file of a table.
-    pub law_table: Option<String>,
-    /// The gap at which the law is cut off, if it is.
-    pub cut_off: Option<f64>,
-    /// The file of works of adhesion that vary.
-    pub work_of_adhesion_map: Option<String>,
-    /// The wall.
-    pub wall: Wall,
-    /// The stiffness of the springs of a wall that has some, a pressure per length.
-    pub wall_stiffness: Option<f64>,
-    /// The hardness at which the surface yields, a pressure, if it does; of a hardness that varies its mean, in
-    /// reports.
-    pub hardness: Option<f64>,
-    /// The file of a hardness that varies.
-    pub hardness_map: Option<String>,
+record! {
+    /// The adhesion and the wall, by their names in every report; without adhesion at a hard wall by default.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default)]
+    Adhesion of (law: impl Into<String>) {
+        /// The name of the law, one of [`LAWS`] or the class of one's own.
+        law: String = law.into(),
+        /// The work of adhesion, if it is a parameter.
+        work_of_adhesion: Option<f64> = None,
+        /// The range, if it is a parameter.
+        range: Option<f64> = None,
+        /// The exponent of a power law.
+        exponent: Option<f64> = None,
+        /// Hamaker's constant, if it is a parameter.
+        hamaker: Option<f64> = None,
+        /// The file of a table.
+        law_table: Option<String> = None,
+        /// The gap at which the law is cut off, if it is.
+        cut_off: Option<f64> = None,
+        /// The file of works of adhesion that vary.
+        work_of_adhesion_map: Option<String> = None,
+        /// The wall.
+        wall: Wall = Wall::default(),
+        /// The stiffness of the springs of a wall that has some, a pressure per length.
+        wall_stiffness: Option<f64> = None,
+        /// The hardness at which the surface yields, a pressure, if it does; of a hardness that varies its mean, in
+        /// reports.
+        hardness: Option<f64> = None,
+        /// The file of a hardness that varies.
+        hardness_map: Option<String> = None,
+    }
 }
 
 impl Default for Adhesion {
@@ -93,24 +93,6 @@ impl Default for Adhesion {
 }
 
 impl Adhesion {
-    /// A law by its name, without parameters.
-    pub fn of(law: impl Into<String>) -> Self {
-        Self {
-            law: law.into(),
-            work_of_adhesion: None,
-            range: None,
-            exponent: None,
-            hamaker: None,
-            law_table: None,
-            cut_off: None,
-            work_of_adhesion_map: None,
-            wall: Wall::default(),
-            wall_stiffness: None,
-            hardness: None,
-            hardness_map: None,
-        }
-    }
-
     /// The law, if it is one of the library.
     pub fn law(&self) -> Option<&'static Law> {
         Law::named(&self.law)

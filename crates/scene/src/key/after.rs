@@ -1,13 +1,9 @@
 //! The findings that are asked for after a solve: the contact stiffness, and the conductance and the flow that follow.
 
-use crate::key::adhesion::Adhesion;
-use crate::key::allowed::Range;
-use crate::key::elastic::Elastic;
-use crate::key::given::Given;
-use crate::key::quantity::{CONDUCTIVITY, RESISTIVITY};
-use crate::key::quantity::{Dimension, ELECTRICAL_CONDUCTANCE, THERMAL_CONDUCTANCE};
-use crate::key::wall::Wall;
-use crate::key::{Kind, keys};
+use crate::key::{
+    Adhesion, CONDUCTIVITY, Dimension, ELECTRICAL_CONDUCTANCE, Elastic, Given, Kind, RESISTIVITY, Range,
+    THERMAL_CONDUCTANCE, Wall, keys,
+};
 
 keys! {
     /// The findings beside a solution.
@@ -102,36 +98,25 @@ impl Given {
     /// The findings that are asked for after a solve.
     ///
     /// # Errors
-    /// Those of [`Conductors::of`], and a leakage that is no share, for [`worded`](crate::worded).
+    /// Both pairs of conductors, and a leakage that is no share, for [`worded`](crate::worded).
     pub fn after(&self) -> std::result::Result<After, String> {
         let leakage = self.number("leakage");
         if let Some(given) = leakage.filter(|share| !Range::SHARE.has(*share)) {
             return Err(format!("{{leakage}} is {given}: it must be a share between 0 and 1"));
         }
-        let conductors = Conductors::of(self.pair("resistivities"), self.pair("conductivities"))?;
+        let conductors = match (self.pair("resistivities"), self.pair("conductivities")) {
+            (Some(_), Some(_)) => {
+                return Err("{resistivities} and {conductivities} are both given: give one of them".to_owned());
+            }
+            (Some(pair), None) => Some(Conductors::Electrical(pair)),
+            (None, pair) => pair.map(Conductors::Thermal),
+        };
         let (stiffness, percolation) = (self.switch("stiffness"), self.switch("percolation"));
         Ok(After { stiffness, conductors, percolation, leakage })
     }
 }
 
 impl Conductors {
-    /// The conductors of the pair that is given, if one is.
-    ///
-    /// # Errors
-    /// The reason why both cannot be given, for [`worded`](crate::worded).
-    pub fn of(
-        resistivities: Option<(f64, f64)>,
-        conductivities: Option<(f64, f64)>,
-    ) -> std::result::Result<Option<Self>, String> {
-        match (resistivities, conductivities) {
-            (Some(_), Some(_)) => {
-                Err("{resistivities} and {conductivities} are both given: give one of them".to_owned())
-            }
-            (Some(pair), None) => Ok(Some(Self::Electrical(pair))),
-            (None, pair) => Ok(pair.map(Self::Thermal)),
-        }
-    }
-
     /// Their key, and their numbers.
     fn given(self) -> (&'static str, (f64, f64)) {
         match self {
@@ -164,14 +149,11 @@ impl Conductors {
     /// Refuses bodies that do not conduct, or both without resistance.
     fn check(self) -> std::result::Result<(), String> {
         let (key, (first, second)) = self.given();
-        let both = [first, second];
-        let (allowed, requirement) = match self {
-            Self::Electrical(_) => {
-                let allowed = both.iter().all(|one| *one >= 0.0 && one.is_finite()) && first + second > 0.0;
-                (allowed, "zero or positive and finite, and not both zero")
-            }
-            Self::Thermal(_) => (both.iter().all(|one| *one > 0.0 && one.is_finite()), "positive and finite"),
+        let (range, requirement) = match self {
+            Self::Electrical(_) => (Range::NON_NEGATIVE, "zero or positive and finite, and not both zero"),
+            Self::Thermal(_) => (Range::POSITIVE, "positive and finite"),
         };
+        let allowed = range.has(first) && range.has(second) && first + second > 0.0;
         let refused = || format!("{{{key}}} is {first}, {second}: they must be {requirement}");
         if allowed { Ok(()) } else { Err(refused()) }
     }

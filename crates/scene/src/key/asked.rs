@@ -4,14 +4,7 @@ use asperity::Control;
 use asperity::path::PathSettings;
 use asperity::solver::Method;
 
-use crate::key::accuracy::Goal;
-use crate::key::adhesion::Adhesion;
-use crate::key::after::After;
-use crate::key::allowed::Range;
-use crate::key::given::Given;
-use crate::key::load::Load;
-use crate::key::scene::Branches;
-use crate::key::{Kind, keys};
+use crate::key::{Adhesion, After, Branches, Given, Goal, Kind, Load, Range, keys};
 
 keys! {
     /// The grids of a solve.

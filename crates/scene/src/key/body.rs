@@ -1,18 +1,14 @@
 //! The surfaces that are made: bodies of simple forms, and self-affine roughness.
 
 use std::f64::consts::TAU;
+use std::path::PathBuf;
 
 use asperity::{Amplitude, Error, Grid, Result, SelfAffine, Surface};
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 use serde::Deserialize;
 
-use std::path::PathBuf;
-
-use crate::key::allowed::Range;
-use crate::key::given::Given;
-use crate::key::quantity::LENGTH;
-use crate::key::{Kind, choice, keys};
+use crate::key::{Given, Kind, LENGTH, Range, choice, keys};
 
 keys! {
     /// The grid of a surface that is made.

@@ -8,12 +8,7 @@ use asperity_maps::io::check_memory;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::key::allowed::Range;
-use crate::key::boundary::Boundary;
-use crate::key::quantity::{ENERGY, LENGTH, PRESSURE};
-use crate::key::symbol::Symbol;
-use crate::key::units::Units;
-use crate::key::{Keys, Kind, Word, keys};
+use crate::key::{Boundary, ENERGY, Keys, Kind, LENGTH, PRESSURE, Range, Symbol, Units, Word, keys, record};
 
 keys! {
     /// The surface, the bodies, and the boundary.
@@ -77,49 +72,39 @@ keys! {
     }
 }
 
-/// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Elastic {
-    /// The boundary.
-    pub boundary: Boundary,
-    /// The contact modulus E*, a pressure; of a coated body that of the substrate.
-    pub modulus: f64,
-    /// Poisson's ratio of a layer or of the substrate under a coating.
-    pub poisson: Option<f64>,
-    /// The thickness of a layer on a rigid base, a length.
-    pub layer: Option<f64>,
-    /// The hold of the base on a layer.
-    pub base: Option<Base>,
-    /// The thickness of a coating on a half-space, a length.
-    pub coating: Option<f64>,
-    /// The contact modulus of a coating, a pressure.
-    pub coating_modulus: Option<f64>,
-    /// Poisson's ratio of a coating.
-    pub coating_poisson: Option<f64>,
-    /// The bending stiffness of a plate on a half-space, an energy.
-    pub plate: Option<f64>,
-    /// The body of a user's own, by the stiffness of its waves.
-    pub symbol: Option<Symbol>,
-    /// The contact modulus of the other body, an elastic half-space, a pressure; the other body is rigid without it.
-    pub against_modulus: Option<f64>,
+record! {
+    /// The elastic body; a periodic half-space of a contact modulus of 1 by default. As data it has the keys of a report.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default)]
+    Elastic of () {
+        /// The boundary.
+        boundary: Boundary = Boundary::default(),
+        /// The contact modulus E*, a pressure; of a coated body that of the substrate.
+        modulus: f64 = 1.0,
+        /// Poisson's ratio of a layer or of the substrate under a coating.
+        poisson: Option<f64> = None,
+        /// The thickness of a layer on a rigid base, a length.
+        layer: Option<f64> = None,
+        /// The hold of the base on a layer.
+        base: Option<Base> = None,
+        /// The thickness of a coating on a half-space, a length.
+        coating: Option<f64> = None,
+        /// The contact modulus of a coating, a pressure.
+        coating_modulus: Option<f64> = None,
+        /// Poisson's ratio of a coating.
+        coating_poisson: Option<f64> = None,
+        /// The bending stiffness of a plate on a half-space, an energy.
+        plate: Option<f64> = None,
+        /// The body of a user's own, by the stiffness of its waves.
+        symbol: Option<Symbol> = None,
+        /// The contact modulus of the other body, an elastic half-space, a pressure; the other body is rigid without it.
+        against_modulus: Option<f64> = None,
+    }
 }
 
 impl Default for Elastic {
     fn default() -> Self {
-        Self {
-            boundary: Boundary::default(),
-            modulus: 1.0,
-            poisson: None,
-            layer: None,
-            base: None,
-            coating: None,
-            coating_modulus: None,
-            coating_poisson: None,
-            plate: None,
-            symbol: None,
-            against_modulus: None,
-        }
+        Self::of()
     }
 }
 

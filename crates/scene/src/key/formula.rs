@@ -5,8 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use asperity::adhesion::{CutOff, Varying};
-use asperity::{AdhesionLaw, Error, Real, Result, Tabulated};
+use asperity::{AdhesionLaw, Error, Result, Tabulated};
 use ndarray::{ArrayRef2, ArrayView2};
+
+use crate::key::Scalar;
 
 /// An adhesion law in both precisions, whichever it is; a clone shares it.
 pub type Formula = Arc<dyn AnyLaw>;
@@ -30,27 +32,9 @@ impl PartialEq for dyn AnyLaw {
     }
 }
 
-/// A precision of laws.
-pub trait InPrecision: Real {
-    /// A law in this precision.
-    fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>>;
-}
-
-impl InPrecision for f32 {
-    fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>> {
-        law
-    }
-}
-
-impl InPrecision for f64 {
-    fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>> {
-        law
-    }
-}
-
 impl dyn AnyLaw {
     /// The law in the precision of a solve.
-    pub fn law<T: InPrecision>(self: Arc<Self>) -> Arc<dyn AdhesionLaw<T>> {
+    pub fn law<T: Scalar>(self: Arc<Self>) -> Arc<dyn AdhesionLaw<T>> {
         T::law(self)
     }
 

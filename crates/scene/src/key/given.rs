@@ -7,10 +7,8 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use crate::key::quantity::Quantity;
 use crate::key::synonyms::similar;
-use crate::key::words::{Skin, worded};
-use crate::key::{Key, Values};
+use crate::key::{Key, Quantity, Skin, Values, worded};
 
 /// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,19 +120,11 @@ impl Given {
                 given.insert(key, vec![read], vec![text.into()], true);
             }
         }
-        let needs = |entry: &Entry| {
-            Some((
-                entry.key.name,
-                entry
-                    .key
-                    .kind
-                    .needs
-                    .iter()
-                    .find(|need| known.iter().any(|key| key.name == **need) && !given.has(need))?,
-            ))
-        };
-        if let Some((name, need)) = given.0.iter().find_map(needs) {
-            return Err(format!("{{{name}}} needs {{{need}}}: give both, or leave it out"));
+        let is_lacking = |need: &&&str| known.iter().any(|key| key.name == **need) && !given.has(need);
+        for key in given.0.iter().map(|entry| entry.key) {
+            if let Some(need) = key.kind.needs.iter().find(is_lacking) {
+                return Err(format!("{{{}}} needs {{{need}}}: give both, or leave it out", key.name));
+            }
         }
         Ok(given)
     }
@@ -144,11 +134,10 @@ impl Given {
         let read = match (key.kind.is_several(), read.len()) {
             (_, 0) => return,
             (false, _) => read.swap_remove(0),
-            (true, _) => {
-                let (values, numbers) =
-                    read.into_iter().map(|read| (read.value, read.numbers)).unzip::<_, _, Vec<_>, Vec<_>>();
-                Read { value: values.into(), numbers: numbers.concat() }
-            }
+            (true, _) => Read {
+                numbers: read.iter().flat_map(|read| read.numbers.iter().copied()).collect(),
+                value: read.into_iter().map(|read| read.value).collect(),
+            },
         };
         self.0.push(Entry { key, read, typed, is_default });
     }

@@ -4,11 +4,7 @@ use std::sync::Arc;
 
 use asperity::{Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
 
-use crate::key::adhesion::{Adhesion, AdhesionKeys};
-use crate::key::formula::Formula;
-use crate::key::wall::Wall;
-use crate::key::words::{Skin, worded};
-use crate::key::{Key, Keys};
+use crate::key::{Adhesion, AdhesionKeys, Formula, Key, Keys, Skin, Wall, worded};
 
 /// An adhesion law by its name.
 pub struct Law {

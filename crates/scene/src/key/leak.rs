@@ -2,11 +2,7 @@
 
 use asperity_flow::Leakage;
 
-use crate::key::allowed::Range;
-use crate::key::boundary::Boundary;
-use crate::key::given::Given;
-use crate::key::quantity::{LENGTH, VISCOSITY};
-use crate::key::{Kind, keys};
+use crate::key::{Boundary, Given, Kind, LENGTH, Range, VISCOSITY, keys};
 
 keys! {
     /// The leakage through a gap.

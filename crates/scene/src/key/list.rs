@@ -1,6 +1,6 @@
 //! Lists of numbers and ranges, as options take them.
 
-use crate::key::quantity::Quantity;
+use crate::key::Quantity;
 
 /// Loads in the order of a list.
 #[derive(Clone, Debug, PartialEq)]

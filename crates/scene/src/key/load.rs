@@ -2,11 +2,7 @@
 
 use asperity::Control;
 
-use crate::key::allowed::Range;
-use crate::key::boundary::Boundary;
-use crate::key::given::Given;
-use crate::key::quantity::{FORCE, FORCE_PER_LENGTH, LENGTH, PRESSURE};
-use crate::key::{Kind, keys};
+use crate::key::{Boundary, FORCE, FORCE_PER_LENGTH, Given, Kind, LENGTH, PRESSURE, Range, keys};
 
 keys! {
     /// The load of a solve, of which one is given.

@@ -1,4 +1,4 @@
-//! Lists of keys, and enumerations of words, each written once.
+//! Lists of keys, enumerations of words, and records of values, each written once.
 
 /// A list of keys as a type, which holds what is given for them: the names with their help, and the kinds of their
 /// values, by sections.
@@ -78,3 +78,31 @@ macro_rules! choice {
     };
 }
 pub(crate) use choice;
+
+/// A struct of public fields, each with its value and the dimension of its number, if that has one; and the function that
+/// makes it of those values.
+macro_rules! record {
+    (
+        $(#[$about:meta])*
+        $name:ident $(<$own:ident: $of:path>)? of $(<$scalar:ident $(: $bound:path)?>)? ($($given:ident: $kind:ty),* $(,)?) {
+            $($(#[$meta:meta])* $key:ident: $type:ty $([$dimension:expr])? = $value:expr,)*
+        }
+    ) => {
+        $(#[$about])*
+        pub struct $name$(<$own: $of>)? {
+            $($(#[$meta])* pub $key: $type,)*
+        }
+
+        impl$(<$own: $of>)? $name$(<$own>)? {
+            /// The dimensions of its numbers, by the names of their fields.
+            pub const DIMENSIONS: &'static [(&'static str, $crate::key::quantity::Dimension)] =
+                &[$($((stringify!($key), $dimension),)?)*];
+
+            /// The record of what is given.
+            pub fn of$(<$scalar $(: $bound)?>)?($($given: $kind),*) -> Self {
+                Self { $($key: $value,)* }
+            }
+        }
+    };
+}
+pub(crate) use record;

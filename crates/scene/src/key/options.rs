@@ -7,11 +7,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches};
 
-use crate::key::given::{Given, Read};
 use crate::key::list::list;
-use crate::key::quantity::Quantity;
-use crate::key::words::{Skin, worded};
-use crate::key::{Key, Values, Word};
+use crate::key::{Given, Key, Quantity, Read, Skin, Values, Word, worded};
 
 impl Key {
     /// The option of the key.

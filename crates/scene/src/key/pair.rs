@@ -3,9 +3,7 @@
 use asperity::Surface;
 use asperity_maps::Topography;
 
-use crate::key::boundary::Boundary;
-use crate::key::preparation::in_unit;
-use crate::key::units::Units;
+use crate::key::{Boundary, Units, in_unit};
 
 /// The surface between a first one, with the unit and the original that its map names, and the map of a second one that
 /// faces it ([`Surface::against`]), moved by a shift. Missing points of the second become absent nodes, or are refused.

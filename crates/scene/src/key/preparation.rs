@@ -12,10 +12,7 @@ use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
 use serde::{Deserialize, Deserializer, de};
 
-use crate::key::given::Given;
-use crate::key::quantity::{LENGTH, power_of_length, times_ten_to};
-use crate::key::told::Told;
-use crate::key::units::Units;
+use crate::key::{Given, LENGTH, Told, Units, power_of_length, times_ten_to};
 use crate::numbers::plain;
 pub use steps::{CutOffKeys, NewLengthsKeys, StepKeys};
 
@@ -96,8 +93,18 @@ pub struct Log {
 }
 
 impl Log {
-    fn tell(&mut self, step: &'static str, what: String) {
-        self.lines.push((step, what));
+    fn tell(&mut self, step: &'static str, what: impl Into<String>) {
+        self.lines.push((step, what.into()));
+    }
+
+    /// Tells a step with the rms height behind it.
+    fn tell_rms(&mut self, step: &'static str, what: impl Display, map: &Topography) {
+        self.tell(step, format!("{what}: rms height {}", rms(map)));
+    }
+
+    /// Tells a step with the rms height behind it, and that `before` it.
+    fn tell_change(&mut self, step: &'static str, what: impl Display, map: &Topography, before: &str) {
+        self.tell(step, format!("{what}: rms height {} from {before}", rms(map)));
     }
 
     fn warn(&mut self, found: impl IntoIterator<Item = Warning>, map: &Topography) {
@@ -165,17 +172,14 @@ impl Preparation {
             let before = map.missing();
             map = map.declare_missing(*code);
             let (found, nodes) = (map.missing() - before, map.heights.len());
-            log.tell(
-                "missing",
-                format!("{} stood at {found} of {nodes} points: rms height {}", plain(*code), rms(&map)),
-            );
+            log.tell_rms("missing", format!("{} stood at {found} of {nodes} points", plain(*code)), &map);
         }
         let is_code = |warning: &Warning| warning.code == WarningCode::MissingCode;
         log.warn(Warning::of_topography(&map).into_iter().filter(is_code), &map);
         let has_codes = !log.warnings.is_empty();
         if let Some(factor) = self.scale {
             map.heights.mapv_inplace(|h| factor * h);
-            log.tell("scale", format!("heights times {}: rms height {}", plain(factor), rms(&map)));
+            log.tell_rms("scale", format!("heights times {}", plain(factor)), &map);
         }
         if let Some(unit) = &self.unit {
             let before = map.unit.replace(unit.clone()).unwrap_or("unknown".to_owned());
@@ -187,7 +191,7 @@ impl Preparation {
         }
         if self.flip {
             map = map.flip();
-            log.tell("flip", "peaks are valleys now".to_owned());
+            log.tell("flip", "peaks are valleys now");
         }
         let along = self.scan_axis.unwrap_or(ScanAxis::X);
         let axis = if along == ScanAxis::X { "x" } else { "y" };
@@ -197,21 +201,22 @@ impl Preparation {
             map = map.align_rows(alignment, along)?;
             let (nx, ny) = map.heights.dim();
             let lines = if along == ScanAxis::X { ny } else { nx };
-            let by = changed(&heights, &map);
-            log.tell("align-rows", format!("{lines} lines along {axis} {by}: rms height {} from {before}", rms(&map)));
+            let what = format!("{lines} lines along {axis} {}", changed(&heights, &map));
+            log.tell_change("align-rows", what, &map, &before);
         }
         if let Some(threshold) = self.remove_scars {
             let (scars, before, nodes) = (map.scars(threshold, along)?, rms(&map), map.heights.len());
             let (count, points) = (scars.count, scars.map.iter().filter(|&&on_scar| on_scar).count());
             let limit = quantity(scars.limit, &map);
             map = map.without(&scars)?;
+            let beyond =
+                |scars: &str, them| format!("{scars} along {axis} beyond {limit} from the lines beside {them}");
             let what = match count {
-                0 => format!("no scars along {axis} beyond {limit} from the lines beside them"),
-                1 => format!("1 scar along {axis} beyond {limit} from the lines beside it"),
-                _ => format!("{count} scars along {axis} beyond {limit} from the lines beside them"),
+                0 => beyond("no scars", "them"),
+                1 => beyond("1 scar", "it") + &format!(", {points} of {nodes} points replaced"),
+                _ => beyond(&format!("{count} scars"), "them") + &format!(", {points} of {nodes} points replaced"),
             };
-            let replaced = if count > 0 { format!(", {points} of {nodes} points replaced") } else { String::new() };
-            log.tell("remove-scars", format!("{what}{replaced}: rms height {} from {before}", rms(&map)));
+            log.tell_change("remove-scars", what, &map, &before);
         }
         if let Some(threshold) = self.despike {
             let (spikes, before, nodes) = (map.spikes(threshold)?, rms(&map), map.heights.len());
@@ -225,35 +230,29 @@ impl Preparation {
                 ),
                 None => format!("none of {nodes} points is beyond {limit} from the median around it"),
             };
-            log.tell("despike", format!("{what}: rms height {} from {before}", rms(&map)));
+            log.tell_change("despike", what, &map, &before);
         }
         if let Some(form) = self.remove_form {
             let (fit, before) = (map.fit_form(form)?, rms(&map));
             map = map.remove_form(form)?;
-            log.tell(
-                "remove-form",
-                format!("{} removed: rms height {} from {before}", described_form(&fit, &map), rms(&map)),
-            );
+            log.tell_change("remove-form", format!("{} removed", described_form(&fit, &map)), &map, &before);
         }
         if let Some(trend) = self.detrend {
             let before = map.clone();
             map = map.detrend(trend)?;
             let what = removed(trend, &before, &map)?;
-            log.tell("detrend", format!("{what}: rms height {} from {}", rms(&map), rms(&before)));
+            log.tell_change("detrend", what, &map, &rms(&before));
         }
         if self.fill {
             let (missing, nodes) = (map.missing(), map.heights.len());
             map = map.fill()?;
-            log.tell("fill", format!("{missing} of {nodes} points filled: rms height {}", rms(&map)));
+            log.tell_rms("fill", format!("{missing} of {nodes} points filled"), &map);
         }
         if let Some(fraction) = self.window {
             let before = rms(&map);
             map = map.window(fraction)?;
-            let share = plain(100.0 * fraction);
-            log.tell(
-                "window",
-                format!("{share} % of the sides tapered at each edge: rms height {} from {before}", rms(&map)),
-            );
+            let what = format!("{} % of the sides tapered at each edge", plain(100.0 * fraction));
+            log.tell_change("window", what, &map, &before);
         }
         if self.mirror {
             let (nx, ny) = map.heights.dim();
@@ -264,23 +263,15 @@ impl Preparation {
         if let Some(cut_off) = self.cut_off_wavelength {
             let before = map.clone();
             map = map.low_pass(cut_off)?;
-            let slopes = [&map, &before].map(|map| plain(map.rms_slope().unwrap_or(f64::NAN)));
+            let [to, from] = [&map, &before].map(|map| plain(map.rms_slope().unwrap_or(f64::NAN)));
             let what = format!("waves shorter than {} left out, which may be noise", quantity(cut_off, &map));
-            log.tell(
-                "cut-off-wavelength",
-                format!(
-                    "{what}: rms height {} from {}, rms slope by differences {} from {}",
-                    rms(&map),
-                    rms(&before),
-                    slopes[0],
-                    slopes[1]
-                ),
-            );
+            let before = format!("{}, rms slope by differences {to} from {from}", rms(&before));
+            log.tell_change("cut-off-wavelength", what, &map, &before);
         }
         if let Some(&[nx, ny]) = self.resample.as_deref() {
             let before = rms(&map);
             map = map.resample((nx, ny))?;
-            log.tell("resample", format!("{}: rms height {} from {before}", described(&map), rms(&map)));
+            log.tell_change("resample", described(&map), &map, &before);
         }
         if let Some(holes) = holes(&map) {
             log.tell("left", format!("points are missing still, {holes}: fill them before solving"));
@@ -323,18 +314,12 @@ fn named<'de, S: FromStr<Err: Display>, D: Deserializer<'de>>(
     name.parse().map(Some).map_err(|expected| de::Error::custom(format!("{key} is {name}: {expected}")))
 }
 
-fn align_rows<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<RowAlignment>, D::Error> {
-    named("align_rows", from)
+macro_rules! steps {
+    ($($key:ident: $step:ty,)*) => {
+        $(fn $key<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<$step>, D::Error> {
+            named(stringify!($key), from)
+        })*
+    };
 }
 
-fn scan_axis<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<ScanAxis>, D::Error> {
-    named("scan_axis", from)
-}
-
-fn remove_form<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<Form>, D::Error> {
-    named("remove_form", from)
-}
-
-fn detrend<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<Option<Trend>, D::Error> {
-    named("detrend", from)
-}
+steps! { align_rows: RowAlignment, scan_axis: ScanAxis, remove_form: Form, detrend: Trend, }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Deserializer};
 
-use crate::key::allowed::Range;
+use crate::key::Range;
 
 /// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,20 +54,12 @@ pub struct Dimension {
     pub what: &'static str,
     /// The unit of the SI.
     pub si: &'static str,
-    /// The power of force.
-    pub force: i32,
-    /// The power of length.
-    pub length: i32,
-    /// The power of time.
-    pub time: i32,
-    /// The power of the electric current.
-    pub current: i32,
-    /// The power of temperature.
-    pub temperature: i32,
+    /// The powers of force, length, time, electric current and temperature.
+    pub(crate) powers: [i32; 5],
 }
 
 const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32) -> Dimension {
-    Dimension { what, si, force, length, time: 0, current: 0, temperature: 0 }
+    Dimension { what, si, powers: [force, length, 0, 0, 0] }
 }
 
 /// A length.
@@ -92,19 +84,19 @@ pub const ENERGY: Dimension = dimension("energy, as 60zJ", "J", 1, 1);
 pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, as 50mJ/m2", "J/m²", 1, -1);
 
 /// A dynamic viscosity.
-pub const VISCOSITY: Dimension = Dimension { time: 1, ..dimension("viscosity, as 1mPas", "Pa·s", 1, -2) };
+pub const VISCOSITY: Dimension = Dimension { what: "viscosity, as 1mPas", si: "Pa·s", powers: [1, -2, 1, 0, 0] };
 /// An electrical resistivity.
 pub const RESISTIVITY: Dimension =
-    Dimension { time: -1, current: -2, ..dimension("resistivity, as 17nOhm·m", "Ω·m", 1, 2) };
+    Dimension { what: "resistivity, as 17nOhm·m", si: "Ω·m", powers: [1, 2, -1, -2, 0] };
 /// A thermal conductivity.
 pub const CONDUCTIVITY: Dimension =
-    Dimension { time: -1, temperature: -1, ..dimension("thermal conductivity, as 400W/mK", "W/(m·K)", 1, 0) };
+    Dimension { what: "thermal conductivity, as 400W/mK", si: "W/(m·K)", powers: [1, 0, -1, 0, -1] };
 /// An electrical conductance per area.
 pub const ELECTRICAL_CONDUCTANCE: Dimension =
-    Dimension { time: 1, current: 2, ..dimension("electrical conductance per area", "S/m²", -1, -3) };
+    Dimension { what: "electrical conductance per area", si: "S/m²", powers: [-1, -3, 1, 2, 0] };
 /// A thermal conductance per area.
 pub const THERMAL_CONDUCTANCE: Dimension =
-    Dimension { time: -1, temperature: -1, ..dimension("thermal conductance per area", "W/(m²·K)", 1, -1) };
+    Dimension { what: "thermal conductance per area", si: "W/(m²·K)", powers: [1, -1, -1, 0, -1] };
 /// The transmissivity of a gap, a flow times viscosity over pressure.
 pub const TRANSMISSIVITY: Dimension = dimension("transmissivity", "m³", 0, 3);
 
@@ -132,7 +124,7 @@ impl Dimension {
 
     /// Whether a unit is of this dimension.
     fn has(self, unit: Unit) -> bool {
-        unit.powers == [self.force, self.length, self.time, self.current, self.temperature]
+        unit.powers == self.powers
     }
 
     fn parse(self, text: &str) -> Option<Quantity> {

@@ -1,19 +1,34 @@
 //! Scalars in which one can solve, and that files have.
 
+use std::sync::Arc;
+
+use asperity::{AdhesionLaw, Real};
 use ndarray::Array2;
 use ndarray_npy::WritableElement;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::key::formula::InPrecision;
+use crate::key::Formula;
 
 /// A scalar in which one can solve, and that can be written: `f32` or `f64`.
-pub trait Scalar: InPrecision + WritableElement + Serialize + DeserializeOwned {
+pub trait Scalar: Real + WritableElement + Serialize + DeserializeOwned {
+    /// A law in this precision.
+    fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>>;
+
     /// A field in this precision; in place, if it is that of the file.
     fn field(field: Array2<f64>) -> Array2<Self> {
         field.mapv_into_any(Self::lit)
     }
 }
 
-impl Scalar for f32 {}
-impl Scalar for f64 {}
+impl Scalar for f32 {
+    fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>> {
+        law
+    }
+}
+
+impl Scalar for f64 {
+    fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>> {
+        law
+    }
+}

@@ -1,13 +1,12 @@
 //! The scene of a run: its problem except for surface and loads, and the settings of its solves.
 
+use std::path::{Path, PathBuf};
+
 use asperity::solver::Method;
 use asperity::{Branch, Settings};
 use serde::{Deserialize, Serialize};
 
-use crate::key::adhesion::Adhesion;
-use crate::key::allowed::Range;
-use crate::key::elastic::Elastic;
-use crate::key::{Kind, Word, choice, keys};
+use crate::key::{Adhesion, Elastic, Given, Kind, Range, Word, choice, keys};
 
 /// The scene of a run, as options and keywords describe it: the body, the adhesion, the wall and the solver. As data it
 /// has the keys of a report, which are left out where they have their defaults.
@@ -60,8 +59,6 @@ choice! {
         Both = "both",
     }
 }
-use crate::key::given::Given;
-use std::path::{Path, PathBuf};
 
 keys! {
     /// The method, the accuracy and the start of a solve.

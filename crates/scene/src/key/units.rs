@@ -2,11 +2,7 @@
 
 use asperity_maps::warning::Warning;
 
-use crate::key::allowed::unit;
-use crate::key::given::Given;
-use crate::key::quantity::{AREA, Dimension, FORCE, LENGTH, PER_LENGTH, PRESSURE, TRANSMISSIVITY};
-use crate::key::told::Told;
-use crate::key::{Kind, keys};
+use crate::key::{AREA, Dimension, FORCE, Given, Kind, LENGTH, PER_LENGTH, PRESSURE, TRANSMISSIVITY, Told, keys, unit};
 use crate::numbers::{plain, si};
 
 keys! {
@@ -84,13 +80,14 @@ impl Units {
             return Some(force.clone());
         }
         let (length, pressure) = (self.length.as_deref(), self.pressure.as_deref());
+        let [pressures, lengths, others @ ..] = dimension.powers;
         // a force is a pressure times an area
-        let (pressures, lengths) = (dimension.force, dimension.length + 2 * dimension.force);
+        let lengths = lengths + 2 * pressures;
         let is_si = (pressures == 0 || pressure == Some(PRESSURE.si)) && (lengths == 0 || length == Some(LENGTH.si));
         if is_si {
             return Some(dimension.si.to_owned());
         }
-        if [dimension.time, dimension.current, dimension.temperature] != [0; 3] {
+        if others != [0; 3] {
             return None;
         }
         let pressure = if pressures == 0 { "" } else { pressure? };

@@ -3,22 +3,17 @@
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
-use asperity::path::{Event, Path, PathSettings};
+use asperity::path::{Path, PathSettings};
 use asperity::solver::Iteration;
 use asperity::{Branch, ContactSearch, Control, Grid, Real, Result, Sweep};
 use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::account::entries::{Search, Step};
-use crate::account::found::Found;
-use crate::account::row::{Kind, Row};
-use crate::account::{Account, stiffness};
+use crate::account::row::Kind;
+use crate::account::{Account, Found, Row, Search, Step, stiffness};
 use crate::clock::Instant;
-use crate::key::adhesion::Adhesion;
-use crate::key::after::After;
-use crate::key::boundary::Boundary;
-use crate::key::scalar::Scalar;
+use crate::key::{Adhesion, After, Boundary, Scalar};
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::session::Session;
@@ -32,10 +27,6 @@ use crate::table::{Opening, Table};
 #[derive(Clone, Debug)]
 pub(crate) struct Course<T> {
     way: Way,
-    /// Whether the surface yields
-    yields: bool,
-    /// Whether the law has the range of the grid
-    of_grid: bool,
     /// The findings that are asked for after each state
     after: After,
     /// The mean gap at first touch, if its table is that of an interface
@@ -100,26 +91,23 @@ impl<T: Real> Place<T> {
 }
 
 impl<T: Scalar> Course<T> {
-    /// A course from its beginning, with the findings that are asked for after each state.
+    /// A course from its beginning, with the findings that are asked for after each state, and with the table of an
+    /// interface, if the mean gap of first touch is given.
     ///
     /// # Errors
     /// Those of [`Path::new`].
-    pub fn new(way: Way, after: After) -> Result<Self> {
+    pub fn new(way: Way, after: After, touch: Option<f64>) -> Result<Self> {
         let strategy = match &way {
             Way::Sweep(_) => Strategy::Sweep(Sweep::default()),
             Way::Search(_) => Strategy::Search(ContactSearch::default()),
             Way::Cycle(loads, settings) => Strategy::Cycle(Box::new(Path::new(loads.iter().copied(), *settings)?)),
         };
         let place = Place { strategy, states: 0, events: 0, branch: None };
-        let pace = way.pace();
-        Ok(Self { way, after, touch: None, yields: false, of_grid: false, place, pace })
-    }
-
-    /// The course of surfaces with this adhesion, which may yield, and with the table of an interface, if the mean gap of
-    /// first touch is given.
-    pub fn of(self, adhesion: &Adhesion, touch: Option<f64>) -> Self {
-        let of_grid = adhesion.law().is_some_and(|law| law.of_grid);
-        Self { yields: adhesion.yields(), of_grid, touch, ..self }
+        let pace = match &way {
+            Way::Cycle(loads, settings) => Some(Pace::new(loads.len().saturating_sub(1), settings)),
+            _ => None,
+        };
+        Ok(Self { way, after, touch, place, pace })
     }
 
     /// The course from a gap in the place of the default start.
@@ -131,12 +119,6 @@ impl<T: Scalar> Course<T> {
             Strategy::Cycle(path) => Strategy::Cycle(Box::new(path.starting_from(start))),
         };
         Self { place: Place { strategy, ..self.place }, ..self }
-    }
-
-    /// The course continued from the [place](Self::place) of another one, bit for bit.
-    pub fn continuing(self, place: Place<T>) -> Self {
-        let pace = self.pace.map(|pace| pace.behind(place.states, place.events));
-        Self { place, pace, ..self }
     }
 
     /// The pace of a cycle.
@@ -167,11 +149,12 @@ impl<T: Scalar> Course<T> {
         processes: &Processes,
     ) -> Outcome<(Table, Self)> {
         let identity = opening.identity.into_iter().chain(self.identity()).collect();
-        let (out, names, loads) = (opening.out.clone(), self.columns(), self.loads());
-        let (table, place) = Table::open(Opening { names, identity, loads, ..opening }, processes)?;
+        let out = opening.out.clone();
+        let (table, place) = Table::open(Opening { identity, ..opening }, processes)?;
         let Some(place) = place else { return Ok((table, self.starting_from(start))) };
         let place: Place<T> = postcard::from_bytes(&place).map_err(|_| refused(&out, damaged(&out)))?;
-        Ok((table, self.continuing(place.shared(nodes))))
+        let pace = self.pace.map(|pace| pace.behind(place.states, place.events));
+        Ok((table, Self { place: place.shared(nodes), pace, ..self }))
     }
 
     /// Appends the row of the state that was found last to a table of fields on a grid.
@@ -203,17 +186,16 @@ impl<T: Scalar> Course<T> {
 
     /// The name of the command.
     pub fn command(&self) -> &'static str {
-        match self.kind() {
-            Kind::Sweep | Kind::Search => "sweep",
-            Kind::Cycle => "cycle",
-            Kind::Interface => "interface",
-            Kind::PullOff => "pull-off",
+        match self.way {
+            Way::Cycle(..) => "cycle",
+            _ if self.touch.is_some() => "interface",
+            _ => "sweep",
         }
     }
 
-    /// The names of the columns of its table.
-    pub fn columns(&self) -> Vec<&'static str> {
-        self.kind().columns(&self.after, self.of_grid, self.yields)
+    /// The names of the columns of its table, of surfaces with this adhesion.
+    pub fn columns(&self, adhesion: &Adhesion) -> Vec<&'static str> {
+        self.kind().columns(&self.after, adhesion)
     }
 
     /// The loads of the rows, where these are known before.
@@ -266,9 +248,10 @@ impl<T: Scalar> Course<T> {
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Result<Option<Found<T>>> {
         let (clock, boundary) = (Instant::now(), session.scene().elastic.boundary);
+        let yields = session.scene().adhesion.yields();
         let (solver, problem) = session.parts()?;
         let Place { strategy, states, events, .. } = &mut self.place;
-        if self.yields && *states == 0 {
+        if yields && *states == 0 {
             // another course, or a state that was not kept, may have flattened it
             problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
         }
@@ -293,15 +276,7 @@ impl<T: Scalar> Course<T> {
                     pace.add(path.share(), found.event.is_some(), clock.elapsed().as_secs_f64());
                 }
                 *events += usize::from(found.event.is_some());
-                let step = Step {
-                    leg: found.leg,
-                    direction: direction(way.loads(), found.leg, boundary),
-                    work: found.work,
-                    dissipated: found.dissipated,
-                    imbalance: found.imbalance,
-                    event: found.event.as_ref().map(Event::name),
-                    energy_drop: found.event.as_ref().and_then(Event::jump).map(|jump| jump.energy_drop),
-                };
+                let step = Step::of(&found, direction(way.loads(), found.leg, boundary));
                 (found.solution, None, Some(step))
             }
         };
@@ -329,7 +304,7 @@ impl<T: Scalar> Course<T> {
         {
             path.end_leg();
         }
-        Ok(Row::of(found, account, &statistics.cluster_sizes, self.touch, seed))
+        Ok(Row::of(found, &account, &statistics.cluster_sizes, self.touch, seed))
     }
 }
 

@@ -1,11 +1,16 @@
 //! The table of a session: its way through loads, state by state, and the file that it fills.
 
-use crate::account::found::Found;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use asperity::solver::Iteration;
+use asperity::{Error, Status};
+use ndarray::Array2;
+use serde_json::Value;
+
 use crate::account::interface::touch;
-use crate::account::row::Row;
-use crate::key::after::After;
-use crate::key::asked::Asked;
-use crate::key::scalar::Scalar;
+use crate::account::{Found, Row};
+use crate::key::{After, Asked, Scalar};
 use crate::outcome::Outcome;
 use crate::session::course::Course;
 use crate::session::pace::Pace;
@@ -15,12 +20,6 @@ use crate::table::identity::{Fields, Identity, identity};
 use crate::table::output::with_suffix;
 use crate::table::warnings::beside;
 use crate::table::{Format, Opening, Table};
-use asperity::solver::Iteration;
-use asperity::{Error, Status};
-use ndarray::Array2;
-use serde_json::Value;
-use std::ops::ControlFlow;
-use std::path::PathBuf;
 
 /// The file of a table, with the fields of the law on which its rows depend.
 #[derive(Default)]
@@ -76,7 +75,7 @@ impl<T: Scalar> Session<T> {
         }
         let afar = if start.is_none() { self.start_afar(loads) } else { None };
         let touch = if is_interface { Some(touch(&*self.surface()?)) } else { None };
-        let mut course = Course::new(way, after)?.of(&self.scene.adhesion, touch);
+        let mut course = Course::new(way, after, touch)?;
         course.expect(self)?;
         let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;
         course.check(self)?;
@@ -89,9 +88,9 @@ impl<T: Scalar> Session<T> {
                 let TableFile { out, format, fields, force, is_case, .. } = file;
                 let known = format.or_else(|| Format::of(&out));
                 let format = known.ok_or("out ends in neither .csv nor .jsonl: rename it")?;
-                let header = self.units.columns(&course.columns(), control.name(), self.grid.is_line());
+                let (names, loads) = (course.columns(&self.scene.adhesion), course.loads());
+                let header = self.units.columns(&names, control.name(), self.grid.is_line());
                 let beside = vec![with_suffix(&out, ".scene.toml"), beside(&out)];
-                let (names, loads) = (course.columns(), course.loads());
                 let opening = Opening { out, format, names, header, identity, loads, fields, force, is_case, beside };
                 let nodes = self.nodes()?;
                 let (table, course) = course.open(opening, start, &nodes, &self.processes)?;
@@ -123,7 +122,7 @@ impl<T: Scalar> Session<T> {
 
     /// The names of the columns of the table, once it was begun.
     pub fn columns(&self) -> Vec<&'static str> {
-        self.course.as_ref().map_or(Vec::new(), Course::columns)
+        self.course.as_ref().map_or(Vec::new(), |course| course.columns(&self.scene.adhesion))
     }
 
     /// The command of the table, once it was begun.

@@ -12,16 +12,9 @@ use asperity::{
 use asperity::{Status, Surface};
 use ndarray::Array2;
 
-use crate::account::entries::Steadiness;
-use crate::account::found::{Found, check_finite};
-use crate::account::pulled_off::PulledOff;
+use crate::account::{Found, PulledOff, Steadiness, check_finite};
 use crate::clock::Instant;
-use crate::key::accuracy::Goal;
-use crate::key::after::After;
-use crate::key::asked::Asked;
-use crate::key::load::Load;
-use crate::key::scalar::Scalar;
-use crate::key::wall::Constraint;
+use crate::key::{After, Asked, Constraint, Goal, Load, Scalar};
 use crate::outcome::Outcome;
 use crate::session::{Observe, Session};
 
@@ -211,7 +204,8 @@ impl<T: Scalar> Session<T> {
             let law = Arc::clone(&self.law);
             let found = wanted.pull_off_observed(&mut self.solver, &surface, elastic, law, &asked, observe)?;
             let last = self.found(found.found.solution.clone(), clock)?;
-            let pulled_off = PulledOff::of(asked, &found.found, &last)?.to_accuracy(&found, goal, &last)?;
+            let pulled_off =
+                PulledOff::of(asked, &found.found, &last.part()?.report, found.found.limit()?, Some(&found), goal);
             return Ok((Found { refined: goal.map(|_| found.surface), ..last }, pulled_off));
         }
         let (solver, problem) = self.parts()?;
@@ -219,7 +213,7 @@ impl<T: Scalar> Session<T> {
         let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
         let found = asked.find_from(solver, problem, start, |state| observe(&grid, state, tolerance))?;
         let last = self.found(found.solution.clone(), clock)?;
-        let pulled_off = PulledOff::of(asked, &found, &last)?;
+        let pulled_off = PulledOff::of(asked, &found, &last.part()?.report, None, None, None);
         Ok((last, pulled_off))
     }
 }

@@ -10,12 +10,9 @@ use asperity::stability::{ContactStiffness, Departure, StabilityTest, Verdict};
 use asperity::{ContactConstraint, ContactSearch, Grid, Nested, Result, Solution, Start, Status};
 use ndarray::Array2;
 
-use crate::account::entries::{Left, OtherBranch, Reached, Search, Steadiness};
-use crate::account::found::{Found, Waves};
+use crate::account::{Found, Left, OtherBranch, Reached, Search, Steadiness, Waves};
 use crate::clock::Instant;
-use crate::key::accuracy::Goal;
-use crate::key::asked::Asked;
-use crate::key::scalar::Scalar;
+use crate::key::{Asked, Goal, Scalar};
 use crate::session::posed::Body;
 use crate::session::{Observe, Session};
 
@@ -127,8 +124,7 @@ impl<T: Scalar> Session<T> {
                 verdict = Some(found);
                 break;
             };
-            let (energy_drop, distance) = (left.energy_drop, left.distance);
-            departures.push(Left { eigenvalue: found.eigenvalue, energy_drop, distance });
+            departures.push(Left::of(found.eigenvalue, &left));
             solution = left.solution;
         }
         let stiffness = if asked.after.stiffness { self.stiffness(&solution)? } else { None };

@@ -3,9 +3,7 @@
 use asperity::Control;
 use asperity::path::PathSettings;
 
-use crate::key::load::Load;
-use crate::key::scene::Scene;
-use crate::session::pace::Pace;
+use crate::key::{Load, Scene};
 
 /// The way through the loads of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,12 +46,6 @@ impl Way {
             Self::Sweep(loads) | Self::Cycle(loads, _) => loads,
             Self::Search(_) => &[],
         }
-    }
-
-    /// The pace of a cycle from its beginning.
-    pub(crate) fn pace(&self) -> Option<Pace> {
-        let Self::Cycle(loads, settings) = self else { return None };
-        Some(Pace::new(loads.len().saturating_sub(1), settings))
     }
 }
 

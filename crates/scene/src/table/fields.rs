@@ -7,7 +7,7 @@ use asperity::{Grid, Solution};
 use asperity_maps::io::{OutputFolder, create_npy, write_npy, write_npy_rows};
 use ndarray::Array2;
 
-use crate::key::scalar::Scalar;
+use crate::key::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::table::output::at_destination;

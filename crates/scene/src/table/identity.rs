@@ -4,10 +4,9 @@ use asperity::{AdhesionLaw, Branch, Real, Surface};
 use ndarray::ArrayRef2;
 use serde_json::{Map, Value, json};
 
-use crate::account::Inputs;
-use crate::account::slopes::Slopes;
+use crate::account::{Inputs, Slopes};
 use crate::hash::Hash;
-use crate::key::adhesion::Adhesion;
+use crate::key::Adhesion;
 
 /// The inputs by name: all those of a report but for what does not change rows. A run goes on only with equal ones;
 /// numbers come as text, which can be compared exactly.

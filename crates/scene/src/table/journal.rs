@@ -20,8 +20,8 @@ use asperity::Error;
 use serde_json::Value;
 
 use self::lock::open_locked;
-use self::state::{State, Written};
-pub use self::state::{damaged, state_path};
+pub(crate) use self::state::{State, damaged};
+pub use self::state::{Written, state_path};
 use crate::hash::Hash;
 use crate::outcome::Outcome;
 use crate::table::identity::Identity;
@@ -40,26 +40,6 @@ pub struct Journal {
 
 /// The work, in time, that an interrupted case of a study may lose.
 const A_WHILE: Duration = Duration::from_secs(1);
-
-/// The saved state of a journal that another process has open.
-#[derive(Debug)]
-pub struct Seen {
-    /// The place from which the next row follows.
-    pub place: Vec<u8>,
-    /// The number of rows.
-    pub rows: usize,
-    /// The number of rows that did not converge.
-    pub unconverged: usize,
-}
-
-impl Seen {
-    /// Reads the state of the journal of a table.
-    pub fn read(path: &Path) -> Outcome<Self> {
-        let State { place, written, .. } = State::read(path).map_err(|reason| refused(path, reason))?;
-        let Written { rows, unconverged, .. } = written;
-        Ok(Self { place, rows, unconverged })
-    }
-}
 
 /// A row to append, with the place from which the next one follows.
 pub struct Row<'a> {
@@ -135,14 +115,9 @@ impl Journal {
         }
     }
 
-    /// The number of rows.
-    pub fn rows(&self) -> usize {
-        self.written.rows
-    }
-
-    /// The number of rows that did not converge.
-    pub fn unconverged(&self) -> usize {
-        self.written.unconverged
+    /// What of the table is written.
+    pub fn written(&self) -> Written {
+        self.written
     }
 
     /// Appends a row, and saves the state.

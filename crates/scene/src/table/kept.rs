@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use asperity::Solution;
 use asperity_maps::io::OutputFolder;
 
-use crate::key::scalar::Scalar;
+use crate::key::Scalar;
 use crate::outcome::Outcome;
 use crate::processes::Processes;
 use crate::table::fields::{gap_to_write, write_fields};

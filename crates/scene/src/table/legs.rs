@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::account::row::INPUTS;
+use crate::account::INPUTS;
 
 /// The most curves of a study that a chart names: it has as many colours.
 const MOST_NAMED: usize = 8;
@@ -16,9 +16,13 @@ pub fn value(row: &Value, column: &str) -> f64 {
 /// are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not: the area of its loop is an
 /// energy.
 pub fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
-    let [across, up] = [x, y].map(|column| Spread::of(rows.iter().map(|row| value(row, column))));
-    let x_log = !is_cycle(rows) && across.is_some_and(|x| x.is_wide() && x.is_geometric());
-    [x_log, x_log && up.is_some_and(|y| y.is_wide())]
+    let [across, up] = [x, y].map(|column| spread(rows, column));
+    // more than a decade, but for rounding
+    let is_wide = |[low, _, high]: [f64; 3]| low > 0.0 && high > 9.99 * low;
+    // the one in the middle is nearer to the geometric mean of the ends than to their arithmetic mean
+    let is_geometric = |[low, median, high]: [f64; 3]| median * median < (low * high).sqrt() * (0.5 * (low + high));
+    let x_log = !is_cycle(rows) && across.is_some_and(|x| is_wide(x) && is_geometric(x));
+    [x_log, x_log && up.is_some_and(is_wide)]
 }
 
 /// Whether rows are those of a cycle.
@@ -26,32 +30,11 @@ fn is_cycle(rows: &[Value]) -> bool {
     rows.first().is_some_and(|row| row["leg"].is_u64())
 }
 
-/// The spread of the values along an axis.
-struct Spread {
-    low: f64,
-    median: f64,
-    high: f64,
-}
-
-impl Spread {
-    /// The spread of those that are finite, if there are any.
-    fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
-        let mut values: Vec<_> = values.filter(|value| value.is_finite()).collect();
-        values.sort_by(f64::total_cmp);
-        let (&low, &high) = (values.first()?, values.last()?);
-        Some(Self { low, median: values[(values.len() - 1) / 2], high })
-    }
-
-    /// Whether they are positive and span more than a decade, but for rounding.
-    fn is_wide(&self) -> bool {
-        self.low > 0.0 && self.high > 9.99 * self.low
-    }
-
-    /// Whether the one in the middle is nearer to the geometric mean of the ends than to their arithmetic mean.
-    fn is_geometric(&self) -> bool {
-        let (geometric, arithmetic) = ((self.low * self.high).sqrt(), 0.5 * (self.low + self.high));
-        self.median * self.median < geometric * arithmetic
-    }
+/// The least, the median and the greatest of the values of a column that are finite, if there are any.
+fn spread(rows: &[Value], column: &str) -> Option<[f64; 3]> {
+    let mut values: Vec<_> = rows.iter().map(|row| value(row, column)).filter(|value| value.is_finite()).collect();
+    values.sort_by(f64::total_cmp);
+    Some([*values.first()?, values[(values.len() - 1) / 2], *values.last()?])
 }
 
 /// The parts of a table for one curve each, with its name: of a sweep the loads that rise or fall, of a cycle its legs,

@@ -5,7 +5,7 @@ use std::{fs, io};
 
 use asperity::Error;
 
-use crate::key::told::Told;
+use crate::key::Told;
 use crate::outcome::Outcome;
 use crate::table::output::{OutputFile, check_free, with_suffix, write_text};
 

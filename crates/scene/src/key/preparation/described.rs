@@ -4,8 +4,7 @@ use asperity::Result;
 use asperity_maps::{FormFit, Topography, Trend};
 use ndarray::Array2;
 
-use crate::key::quantity::{LENGTH, PER_LENGTH};
-use crate::key::units::Units;
+use crate::key::{LENGTH, PER_LENGTH, Units};
 use crate::numbers::plain;
 
 /// A sphere, or a cylinder and its direction.

@@ -4,10 +4,7 @@ use std::str::FromStr;
 
 use asperity_maps::{Form, RowAlignment, ScanAxis, Trend};
 
-use crate::key::allowed::Range;
-use crate::key::quantity::LENGTH;
-use crate::key::units::is_unit;
-use crate::key::{Kind, Word, keys};
+use crate::key::{Kind, LENGTH, Range, Word, is_unit, keys};
 
 keys! {
     /// The steps that make a surface of a measured map, in their order but for those with lengths.

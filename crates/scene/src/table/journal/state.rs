@@ -18,16 +18,20 @@ use crate::table::output::with_suffix;
 /// The content of the table that belongs to a state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Written {
+    /// The number of rows.
     pub rows: usize,
-    /// the number of rows that did not converge
+    /// The number of rows that did not converge.
     pub unconverged: usize,
-    /// the loads of the rows
+    /// The loads of the rows.
     pub loads: Hash,
+    /// The length.
     pub bytes: u64,
+    /// The content.
     pub content: Hash,
 }
 
 impl Written {
+    /// That of a table without rows.
     pub const NOTHING: Self = Self { rows: 0, unconverged: 0, loads: Hash::NEW, bytes: 0, content: Hash::NEW };
 }
 
