@@ -43,6 +43,7 @@ mod pictures;
 mod printing;
 mod progress;
 mod report;
+mod results;
 mod scene;
 mod session;
 mod solved;

@@ -69,7 +69,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     let default = if folder { results.join("report.html") } else { with_suffix(results, ".html") };
     let out = options.out.as_ref().unwrap_or(&default);
     let read: Vec<_> = match folder {
-        true => solve::FILES.iter().map(|name| results.join(name)).collect(),
+        true => solve::files().iter().map(|name| results.join(name)).collect(),
         false => vec![results.clone(), scene::beside(results), warnings::beside(results), state_path(results)],
     };
     check_apart(out, read.iter().map(PathBuf::as_path))?;

@@ -12,7 +12,7 @@ use serde_json::json;
 use crate::heights::{check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, complain, in_options, name, say, warn};
+use crate::printing::{Printing, aligned, complain, in_options, name, say, warn};
 use crate::scene::SceneFile;
 
 /// Make a measured map into a surface that can be solved.
@@ -89,9 +89,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     });
     if options.printing.for_people() {
         log.lines.push(("written", format!("{}{}", name(&options.out), left_out(&options.out, &map))));
-        let width = log.lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        let lines = log.lines.iter().map(|(name, text)| format!("{name:width$}  {text}"));
-        say(&lines.collect::<Vec<_>>().join("\n"));
+        say(&aligned(&log.lines));
     }
     Ok(true)
 }

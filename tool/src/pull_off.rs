@@ -1,8 +1,5 @@
 //! `asperity pull-off`: the greatest tension under which the surfaces stay together.
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
-
 use asperity::Status;
 use asperity_scene::{AdhesionKeys, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
 use clap::Args;
@@ -10,7 +7,7 @@ use serde_json::json;
 
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::printing::{Printing, complain, in_options, say};
+use crate::printing::{Printing, aligned, complain, in_options};
 use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::report;
@@ -81,34 +78,24 @@ impl Options {
     fn find<T: Scalar>(
         &self,
         problem: &ProblemOptions,
-        given: Problem,
+        mut given: Problem,
         scene: &SceneFile,
         processes: &Processes,
     ) -> Outcome<bool> {
-        let Problem { surface, adhesion, origin, part, start } = given;
-        let (printing, nodes) = (self.printing, surface.grid().nodes());
-        let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
-        let (surface, of) = (Arc::new(surface), (&adhesion, &origin, &part));
-        let session = session::<T>(problem, surface, of, (&units, scene), self.strictness, processes)?;
+        let (printing, nodes, start) = (self.printing, given.surface.grid().nodes(), given.start.take());
+        let session = session::<T>(problem, given, scene, self.strictness, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
         let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
         let mut progress = Progress::new("", session.tolerance(None)?, nodes, printing.without_bars());
-        let found = session.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
-            progress.update_on(grid, state, tolerance);
-            ControlFlow::Continue(())
-        });
+        let found = session.pull_off(asked, goal, start.map(T::field), &mut progress.on_grids());
         drop(progress);
         let (mut solved, pulled_off) = found?;
         say_new(&mut session.warnings);
         solved.look()?;
         let last = solved.account;
 
-        if printing.for_people() {
-            let rows = pulled_off.rows(&last, &units);
-            let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-            rows.iter().for_each(|(name, text)| say(&format!("{name:width$}  {text}")));
-        }
+        printing.say(&aligned(&pulled_off.rows(&last, session.units())));
         printing.report(|| {
             let mut outcome = json!(pulled_off);
             outcome["last"] = json!(last);

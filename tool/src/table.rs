@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::Arc;
 
 use asperity::{Control, Status};
 use asperity_scene::{Account, After, Boundary, Format, Load, Precision, Row, Session, TableFile, Way};
@@ -88,15 +87,13 @@ impl<'a> TableOptions<'a> {
     }
 
     /// Opens the table, writes the scene of the run beside it, and says the warnings so far.
-    fn open<T: Scalar>(self, given: Problem, loads: &[Load], by: &impl Fill) -> Outcome<Table<'a, T>> {
-        let Problem { surface, adhesion, origin, part, start } = given;
+    fn open<T: Scalar>(self, mut given: Problem, loads: &[Load], by: &impl Fill) -> Outcome<Table<'a, T>> {
         let Self { problem, out, scene, processes, manner, .. } = self;
         let &Manner { force, strictness, printing } = manner;
-        let grid = *surface.grid();
-        let way = by.way(loads, problem.full_pressure(&surface, loads)?)?;
+        let grid = *given.surface.grid();
+        let way = by.way(loads, problem.full_pressure(&given.surface, loads)?)?;
         let control = way.control(&problem.scene);
-        part.check(control)?;
-        let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
+        given.part.check(control)?;
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
@@ -104,8 +101,8 @@ impl<'a> TableOptions<'a> {
         if problem.scene.elastic.boundary == Boundary::Free && matches!(way, Way::Cycle(..)) {
             processes.alone("a cycle with --boundary free")?;
         }
-        let of = (&adhesion, &origin, &part);
-        let mut session = session::<T>(problem, Arc::new(surface), of, (&units, scene), strictness, processes)?;
+        let (start, law_table, works) = (given.start.take(), given.adhesion.table.take(), given.adhesion.works.take());
+        let mut session = session::<T>(problem, given, scene, strictness, processes)?;
         let mut scene_file = None;
         processes.first(|| {
             check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
@@ -120,8 +117,8 @@ impl<'a> TableOptions<'a> {
             fields: self.fields.map(Path::to_owned),
             force,
             is_case: false,
-            law_table: adhesion.table,
-            works: adhesion.works,
+            law_table,
+            works,
             law_differs: false,
         };
         session.begin(way, self.after, self.interface, start, Some(file))?;

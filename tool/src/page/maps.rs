@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::{FINE, Page};
 use crate::outcome::Outcome;
-use crate::pictures::{MapColours, draw_clusters, draw_pressure, draw_regions, mark_yielded};
+use crate::pictures::{MapColours, draw_contact, draw_pressure, mark_yielded};
 use crate::units::Units;
 
 /// The finest resolution of the maps.
@@ -55,10 +55,7 @@ pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colou
     let dpi = (0.288 * gap.dim().0.max(gap.dim().1) as f64).clamp(FINE, FINEST);
     // the sides of an original do not meet
     let sides_meet = report["boundary"] != "free" && !report["solved_shape"].is_array();
-    let contact = match colours.colour_clusters {
-        true => draw_clusters(grid, "Contact", units, (&regions, sides_meet), dpi)?,
-        false => draw_regions(grid, "Contact", units, &regions, dpi)?,
-    };
+    let contact = draw_contact(grid, "Contact", units, &regions, colours.clusters(sides_meet), dpi)?;
     let drawn = if adhesive { &pressure } else { &contact_pressure };
     let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, colours.limits(), dpi)?;
     let gaps = Map {
