@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::Error;
-use asperity_scene::{AdhesionKeys, After, Format, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
+use asperity_scene::{AdhesionKeys, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
@@ -15,7 +14,7 @@ use crate::printing::{self, say};
 use crate::processes::Processes;
 use crate::quantity::{FORCE, PRESSURE};
 use crate::scene::SceneFile;
-use crate::table::{Fill, Manner, Table, TableOptions};
+use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -81,19 +80,11 @@ const MOST_EVENTS: usize = 8;
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    processes.first(|| options.check_files())?;
-    let table = TableOptions {
-        problem: &options.problem()?,
-        out: &options.out,
-        format: options.format()?,
-        fields: options.fields.as_deref(),
-        scene,
-        processes,
-        manner: &options.manner,
-        after: After::default(),
-        interface: false,
-    };
-    table.fill(options)
+    let Options { out, fields, plot, manner, .. } = options;
+    let format = format_of(out, "")?;
+    processes.first(|| check_plot(plot.as_deref(), out, manner.force))?;
+    let (problem, fields) = (&options.problem()?, fields.as_deref());
+    TableOptions { problem, out, format, fields, scene, processes, manner, interface: false }.fill(options)
 }
 
 impl Fill for Options {
@@ -117,16 +108,6 @@ impl Options {
     pub fn problem(&self) -> Outcome<ProblemOptions> {
         let Self { surface, loads, path, adhesion, solver, units, .. } = self;
         ProblemOptions::of([&surface.0, &loads.0, &path.0, &adhesion.0, &solver.0, &units.0])
-    }
-
-    fn check_files(&self) -> Outcome<()> {
-        self.format()?;
-        check_plot(self.plot.as_deref(), &self.out, self.manner.force)
-    }
-
-    fn format(&self) -> Outcome<Format> {
-        let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it");
-        Ok(Format::of(&self.out).ok_or_else(refused)?)
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use asperity::Error;
 use asperity_scene::interface::Code;
 use asperity_scene::{
-    AdhesionKeys, After, Boundary, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys,
-    UnitKeys,
+    AdhesionKeys, Boundary, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys, UnitKeys,
 };
 use clap::{ArgGroup, Args};
 use serde_json::{Value, json};
@@ -69,7 +68,7 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let Options { surface, loads, adhesion, solver, conductors, leakage, units, out, .. } = options;
+    let Options { surface, loads, adhesion, solver, conductors, leakage, units, out, manner, .. } = options;
     let problem = [&surface.0, &loads.0, &adhesion.0, &solver.0, &conductors.0, &leakage.0, &units.0];
     let problem = &ProblemOptions::of(problem)?;
     if problem.scene.elastic.boundary == Boundary::Free {
@@ -81,20 +80,10 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     }
     for (_, path) in options.files() {
         check_apart(&path, problem.files().chain([out.as_path()]))?;
-        check_free(&path, options.manner.force || out.exists(), "--out")?;
+        check_free(&path, manner.force || out.exists(), "--out")?;
     }
-    let table = TableOptions {
-        problem,
-        out,
-        format: Format::Csv,
-        fields: None,
-        scene,
-        processes,
-        manner: &options.manner,
-        after: After { stiffness: true, ..in_options(problem.given.after())? },
-        interface: true,
-    };
-    table.fill(options)
+    let format = Format::Csv;
+    TableOptions { problem, out, format, fields: None, scene, processes, manner, interface: true }.fill(options)
 }
 
 impl Options {
@@ -112,9 +101,7 @@ impl Options {
         for code in &self.codes {
             for (ending, text) in in_options(code.files(rows, adhesive, &name, units))? {
                 let path = self.out.with_extension(&ending[1..]);
-                let file = OutputFile::create(&path, true)?;
-                file.write(|path| write_text(path, &text))?;
-                file.commit()?;
+                OutputFile::create(&path, true)?.complete(|path| write_text(path, &text))?;
                 written.push(path.to_string_lossy().into_owned());
             }
         }
@@ -124,7 +111,7 @@ impl Options {
 
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
-        let rows = table.solve(&self.out, self.manner.printing)?;
+        let rows = table.solve()?;
         let converged = table.converged("or use a larger --tolerance or finer steps");
         if !converged && !self.codes.is_empty() {
             complain("warning", "there are no files --for codes of finite elements, as rows have not converged");

@@ -95,8 +95,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         ..Chart::default()
     };
     let picture = chart.draw(options.resolution.dpi)?;
-    file.write(|path| picture.write(path))?;
-    file.commit()?;
+    file.complete(|path| picture.write(path))?;
     Ok(true)
 }
 

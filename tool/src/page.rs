@@ -75,8 +75,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     check_apart(out, read.iter().map(PathBuf::as_path))?;
     let file = OutputFile::create(out, options.force)?;
     let page = if folder { of_solve::page(results, &options.colours)? } else { of_table::page(results)? };
-    file.write(|path| write_text(path, &page))?;
-    file.commit()?;
+    file.complete(|path| write_text(path, &page))?;
     say(&format!("page in {}", name(out)));
     Ok(true)
 }

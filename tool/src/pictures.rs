@@ -133,9 +133,7 @@ pub fn check_plot(plot: Option<&Path>, table: &Path, force: bool) -> Outcome<()>
 
 /// Writes a picture over a file that may be there.
 pub fn write_picture(path: &Path, picture: &Picture) -> Outcome<()> {
-    let file = OutputFile::create(path, true)?;
-    file.write(|path| picture.write(path))?;
-    Ok(file.commit()?)
+    Ok(OutputFile::create(path, true)?.complete(|path| picture.write(path))?)
 }
 
 /// The chart that says most of the loads in the rows of a table.

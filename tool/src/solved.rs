@@ -18,8 +18,8 @@ const REPORT: &str = "report.json";
 
 /// The folder of a solve, with its report.
 pub struct Solved<'a> {
-    folder: &'a Path,
-    report: Value,
+    pub folder: &'a Path,
+    pub report: Value,
 }
 
 impl<'a> Solved<'a> {

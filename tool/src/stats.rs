@@ -66,8 +66,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             return Err(format!("{}: {text}: give --lengths", path.display()).into());
         };
         let text = density_table(surface, None, map.unit.as_deref());
-        file.write(|path| write_text(path, &text))?;
-        file.commit()?;
+        file.complete(|path| write_text(path, &text))?;
     }
     let found = match &surface {
         Some(surface) => (surface.statistics(), knee_wavelength(surface)),
