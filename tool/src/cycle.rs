@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity_scene::{AdhesionKeys, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
+use asperity_scene::{AdhesionKeys, Chosen, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
@@ -34,15 +34,7 @@ use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    loads: LoadsKeys,
-    #[command(flatten)]
-    path: PathKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
+    problem: Chosen<(SurfaceKeys, LoadsKeys, PathKeys, AdhesionKeys, SolverKeys)>,
 
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -58,7 +50,7 @@ pub struct Options {
     #[command(flatten)]
     resolution: Resolution,
     #[command(flatten)]
-    units: UnitKeys,
+    units: Chosen<UnitKeys>,
     #[command(flatten)]
     pub manner: Manner,
 }
@@ -89,7 +81,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 
 impl Fill for Options {
     fn way(&self, loads: &[Load], full: f64) -> Outcome<Way> {
-        Ok(Way::cycle(loads, full, self.path.0.path())?)
+        Ok(Way::cycle(loads, full, self.problem.0.path())?)
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
@@ -106,8 +98,7 @@ impl Fill for Options {
 impl Options {
     /// The problem.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self { surface, loads, path, adhesion, solver, units, .. } = self;
-        ProblemOptions::of([&surface.0, &loads.0, &path.0, &adhesion.0, &solver.0, &units.0])
+        ProblemOptions::of([&self.problem.0, &self.units.0])
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use asperity::Error;
 use asperity_scene::interface::Code;
 use asperity_scene::{
-    AdhesionKeys, Boundary, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys, UnitKeys,
+    AdhesionKeys, Boundary, Chosen, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys,
+    UnitKeys,
 };
 use clap::{ArgGroup, Args};
 use serde_json::{Value, json};
@@ -31,13 +32,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    loads: LoadsKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
+    problem: Chosen<(SurfaceKeys, LoadsKeys, AdhesionKeys, SolverKeys)>,
 
     /// File for the table, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -47,11 +42,7 @@ pub struct Options {
     #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
     codes: Vec<Code>,
     #[command(flatten)]
-    conductors: ConductorKeys,
-    #[command(flatten)]
-    leakage: LeakageKeys,
-    #[command(flatten)]
-    units: UnitKeys,
+    asked: Chosen<(ConductorKeys, LeakageKeys, UnitKeys)>,
     #[command(flatten)]
     manner: Manner,
 }
@@ -68,9 +59,8 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let Options { surface, loads, adhesion, solver, conductors, leakage, units, out, manner, .. } = options;
-    let problem = [&surface.0, &loads.0, &adhesion.0, &solver.0, &conductors.0, &leakage.0, &units.0];
-    let problem = &ProblemOptions::of(problem)?;
+    let Options { out, manner, .. } = options;
+    let problem = &ProblemOptions::of([&options.problem.0, &options.asked.0])?;
     if problem.scene.elastic.boundary == Boundary::Free {
         return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
     }

@@ -8,7 +8,7 @@ use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
 use asperity_maps::io::write_npy;
 use asperity_plot::{Colouring, Map, Picture};
-use asperity_scene::{Boundary, LeakKeys, LengthsKeys, Skin};
+use asperity_scene::{Boundary, Chosen, LeakKeys, LengthsKeys, Skin};
 use clap::Args;
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -39,9 +39,9 @@ pub struct Options {
     #[arg(value_name = "GAP")]
     gap: PathBuf,
     #[command(flatten)]
-    lengths: LengthsKeys,
+    lengths: Chosen<LengthsKeys>,
     #[command(flatten)]
-    leak: LeakKeys,
+    leak: Chosen<LeakKeys>,
 
     /// Folder for report.json, scene.toml, and for each axis along which the gap is open pressure_x.npy (relative to
     /// the pressure that falls), flow_x.npy (per width, over pressure and times viscosity, a length squared), and

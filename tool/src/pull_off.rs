@@ -1,7 +1,7 @@
 //! `asperity pull-off`: the greatest tension under which the surfaces stay together.
 
 use asperity::Status;
-use asperity_scene::{AdhesionKeys, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
+use asperity_scene::{AdhesionKeys, Chosen, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
 use clap::Args;
 use serde_json::json;
 
@@ -27,15 +27,7 @@ use crate::summary::warn;
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    load: PullOffKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
-    #[command(flatten)]
-    units: UnitKeys,
+    problem: Chosen<(SurfaceKeys, PullOffKeys, AdhesionKeys, SolverKeys, UnitKeys)>,
     #[command(flatten)]
     pub strictness: Strictness,
     #[command(flatten)]
@@ -66,8 +58,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 impl Options {
     /// The problem; refuses a surface that yields.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self { surface, load, adhesion, solver, units, .. } = self;
-        let problem = ProblemOptions::of([&surface.0, &load.0, &adhesion.0, &solver.0, &units.0])?;
+        let problem = ProblemOptions::of([&self.problem.0])?;
         problem.check_table()?;
         problem.check_elastic(
             "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",

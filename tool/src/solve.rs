@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use asperity::Status;
 use asperity_scene::{
-    AccuracyKeys, AdhesionKeys, Asked, Boundary, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys, NestedKeys,
-    PercolationKeys, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
+    AccuracyKeys, AdhesionKeys, Asked, Boundary, Chosen, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys,
+    NestedKeys, PercolationKeys, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
 };
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
@@ -41,17 +41,7 @@ use crate::summary::{table, warn};
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    load: LoadKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
-    #[command(flatten)]
-    nested: NestedKeys,
-    #[command(flatten)]
-    accuracy: AccuracyKeys,
+    problem: Chosen<(SurfaceKeys, LoadKeys, AdhesionKeys, SolverKeys, NestedKeys, AccuracyKeys)>,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -60,13 +50,7 @@ pub struct Options {
     #[arg(long, help_heading = "Output")]
     force: bool,
     #[command(flatten)]
-    findings: FindingsKeys,
-    #[command(flatten)]
-    conductors: ConductorKeys,
-    #[command(flatten)]
-    percolation: PercolationKeys,
-    #[command(flatten)]
-    leakage: LeakageKeys,
+    findings: Chosen<(FindingsKeys, ConductorKeys, PercolationKeys, LeakageKeys)>,
     /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
     /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
     /// that of the other
@@ -103,7 +87,7 @@ pub struct Options {
     #[command(flatten)]
     colours: MapColours,
     #[command(flatten)]
-    units: UnitKeys,
+    units: Chosen<UnitKeys>,
 }
 
 const EXAMPLES: &str = "\
@@ -169,11 +153,7 @@ impl Options {
 
     /// The problem.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self { surface, load, adhesion, solver, nested, accuracy, .. } = self;
-        let Self { findings, conductors, percolation, leakage, units, .. } = self;
-        let problem = [&surface.0, &load.0, &adhesion.0, &solver.0, &nested.0, &accuracy.0];
-        let asked = [&findings.0, &conductors.0, &percolation.0, &leakage.0, &units.0];
-        ProblemOptions::of(problem.into_iter().chain(asked))
+        ProblemOptions::of([&self.problem.0, &self.findings.0, &self.units.0])
     }
 
     /// Refuses what excludes each other, and what has no form for several processes.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{LengthsKeys, Skin, statistics};
+use asperity_scene::{Chosen, LengthsKeys, Skin, statistics};
 use clap::Args;
 use serde_json::Map;
 
@@ -32,7 +32,7 @@ pub struct Options {
     #[arg(value_name = "FILE")]
     heights: PathBuf,
     #[command(flatten)]
-    lengths: LengthsKeys,
+    lengths: Chosen<LengthsKeys>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
     /// the density, of which the integral over both wave numbers is the mean square height, and of how many waves it
     /// is the mean

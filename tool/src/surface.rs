@@ -7,7 +7,9 @@ use asperity::{Grid, SelfAffine, Surface};
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Body, BodyForm, FormKeys, FourierKeys, Given, GridKeys, Roughness, RoughnessKeys, statistics};
+use asperity_scene::{
+    Body, BodyForm, Chosen, FormKeys, FourierKeys, Given, GridKeys, Roughness, RoughnessKeys, statistics,
+};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
@@ -34,13 +36,13 @@ use crate::threads::use_threads;
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
 pub struct Options {
     #[command(flatten)]
-    grid: GridKeys,
+    grid: Chosen<GridKeys>,
     #[command(flatten)]
-    form: FormKeys,
+    form: Chosen<FormKeys>,
     #[command(flatten)]
-    roughness: RoughnessKeys,
+    roughness: Chosen<RoughnessKeys>,
     #[command(flatten)]
-    fourier: FourierKeys,
+    fourier: Chosen<FourierKeys>,
 
     /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]

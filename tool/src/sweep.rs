@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use asperity_scene::{
-    AdhesionKeys, ConductorKeys, Format, FractionsKeys, Keys, LeakageKeys, Load, LoadsKeys, SolverKeys, StiffnessKeys,
-    SurfaceKeys, UnitKeys,
+    AdhesionKeys, Chosen, ConductorKeys, Format, FractionsKeys, Keys, LeakageKeys, Load, LoadsKeys, SolverKeys,
+    StiffnessKeys, SurfaceKeys, UnitKeys,
 };
 use clap::{ArgGroup, Args};
 use serde_json::json;
@@ -31,15 +31,7 @@ use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many()).args(FractionsKeys::KEYS.iter().map(|key| key.name))))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    loads: LoadsKeys,
-    #[command(flatten)]
-    fractions: FractionsKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
+    problem: Chosen<(SurfaceKeys, LoadsKeys, FractionsKeys, AdhesionKeys, SolverKeys)>,
 
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -53,13 +45,7 @@ pub struct Options {
     #[command(flatten)]
     plot: PlotOptions,
     #[command(flatten)]
-    units: UnitKeys,
-    #[command(flatten)]
-    stiffness: StiffnessKeys,
-    #[command(flatten)]
-    conductors: ConductorKeys,
-    #[command(flatten)]
-    leakage: LeakageKeys,
+    asked: Chosen<(UnitKeys, StiffnessKeys, ConductorKeys, LeakageKeys)>,
     #[command(flatten)]
     pub manner: Manner,
 }
@@ -88,10 +74,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 impl Options {
     /// The problem.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self { surface, loads, fractions, adhesion, solver, units, stiffness, conductors, leakage, .. } = self;
-        let asked = [&units.0, &stiffness.0, &conductors.0, &leakage.0];
-        let problem = [&surface.0, &loads.0, &fractions.0, &adhesion.0, &solver.0].into_iter().chain(asked);
-        ProblemOptions::of(problem)
+        ProblemOptions::of([&self.problem.0, &self.asked.0])
     }
 }
 

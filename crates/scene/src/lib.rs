@@ -40,6 +40,8 @@ pub use key::given::{Given, Measured, Quantities, Typed};
 pub use key::laws::{LAWS, Law};
 pub use key::leak::{LeakAsked, LeakKeys};
 pub use key::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
+#[cfg(feature = "options")]
+pub use key::options::Chosen;
 pub use key::pair::between;
 pub use key::preparation::{CutOffKeys, Log, NewLengthsKeys, Preparation, StepKeys, in_unit};
 pub use key::scalar::Scalar;
@@ -49,7 +51,7 @@ pub use key::told::Told;
 pub use key::units::UnitKeys;
 pub use key::wall::{Constraint, Wall};
 pub use key::words::{Skin, worded};
-pub use key::{Key, Keys, Kind, Values, Word, without_files};
+pub use key::{Key, Keys, Kind, Lists, Values, Word, without_files};
 pub use key::{list, quantity, synonyms, units};
 pub use session::way::Way;
 pub use session::{AnySession, Input, Next, Observe, Session, Solved, TableFile};
