@@ -50,13 +50,12 @@ mod solved;
 mod summary;
 mod table;
 mod threads;
-mod units;
 
 use std::error::Error;
 use std::ffi::OsString;
 
 use asperity_scene::{
-    allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms, warnings,
+    allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms, units, warnings,
 };
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};

@@ -96,16 +96,11 @@ impl Progress {
         }
         let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
         let contact = 100.0 * state.contact_nodes as f64 / self.nodes;
-        if let Some(pace) = &self.pace {
-            self.bar.set_message(format!(
-                "{}; {}: error {error}, contact {contact:.2} %",
-                pace.told(),
-                state.iteration
-            ));
-            return;
-        }
-        let fall = self.fall.told(self.until);
-        self.bar.set_message(format!("{}: error {error}{fall}, contact {contact:.2} %", state.iteration));
+        let (pace, fall) = match &self.pace {
+            Some(pace) => (format!("{}; ", pace.told()), String::new()),
+            None => (String::new(), self.fall.told(self.until)),
+        };
+        self.bar.set_message(format!("{pace}{}: error {error}{fall}, contact {contact:.2} %", state.iteration));
     }
 }
 

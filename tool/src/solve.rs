@@ -63,14 +63,8 @@ pub struct Options {
     distribution: Option<usize>,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
     /// repeated
-    #[arg(
-        long,
-        value_enum,
-        value_name = "FORMAT",
-        default_value = "npy",
-        value_delimiter = ',',
-        help_heading = "Output"
-    )]
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "npy", value_delimiter = ',')]
+    #[arg(help_heading = "Output")]
     format: Vec<Format>,
     #[command(flatten)]
     pub strictness: Strictness,
@@ -274,11 +268,9 @@ impl Job<'_> {
             self.processes.alone("--distribution of more than 4096 x 4096 nodes")?;
         }
         if self.pictures {
-            complain(
-                "warning",
-                "pictures, and a look for mistakes in the heights and in the answer, have no form for several \
-                                 processes and more than 4096 x 4096 nodes: there are none",
-            );
+            let text = "pictures, and a look for mistakes in the heights and in the answer, have no form for several \
+                        processes and more than 4096 x 4096 nodes: there are none";
+            complain("warning", text);
         }
         self.pictures = false;
         Ok(())

@@ -128,16 +128,8 @@ impl<'a> TableOptions<'a> {
             scene_file = Some(scene.written_beside(out)?);
             Ok(())
         })?;
-        let file = TableFile {
-            out: out.to_owned(),
-            format: Some(self.format),
-            fields: self.fields.map(Path::to_owned),
-            force,
-            is_case: false,
-            law_table,
-            works,
-            law_differs: false,
-        };
+        let (path, format, fields) = (out.to_owned(), Some(self.format), self.fields.map(Path::to_owned));
+        let file = TableFile { out: path, format, fields, force, law_table, works, ..TableFile::default() };
         session.begin(way, after, self.interface, start, Some(file))?;
         let count = session.rows();
         say_new(&mut session.warnings);

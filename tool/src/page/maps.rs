@@ -70,16 +70,11 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
         let told = json!({ "lengths": grid.lengths(), "unit": length, "key": map.key() });
         page.map(&map.svg()?, &told.to_string());
     }
-    for (title, x_label, x_unit, field, y_label) in [
-        ("Distribution of the gap", "gap", length, &gap, "nodes apart"),
-        (
-            "Distribution of the contact pressure",
-            "contact pressure",
-            pressure_unit,
-            &contact_pressure,
-            "nodes in contact",
-        ),
-    ] {
+    let gap = ("gap", length, &gap, "nodes apart");
+    for (x_label, x_unit, field, y_label) in
+        [gap, ("contact pressure", pressure_unit, &contact_pressure, "nodes in contact")]
+    {
+        let title = &format!("Distribution of the {x_label}");
         let curve = distribution(field.iter().copied().filter(|value| *value > 0.0), CLASSES);
         let axes = Chart { title, x_label, x_unit, y_label, y_unit: Some("%"), ..Chart::default() };
         page.figure(&Chart { curves: vec![("", curve)], ..axes }.draw(FINE)?.svg()?);

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use asperity::Error;
-use asperity_scene::corrected;
+use asperity_scene::{corrected, dimension_of};
 use serde_json::Value;
 
 use super::Page;
@@ -16,7 +16,6 @@ use crate::pictures::MapColours;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
 use crate::scene;
 use crate::solved::Solved;
-use crate::units::dimension_of;
 
 /// The page of a folder of `asperity solve`.
 pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
