@@ -1,11 +1,12 @@
 //! The columns of a table as people read them.
 
+use asperity_scene::dimension_of;
 use asperity_scene::legs::value;
 use serde_json::Value;
 
 use crate::numbers::{percent, rounded};
 use crate::quantity::{Dimension, ENERGY, ENERGY_PER_AREA};
-use crate::units::{Units, dimension_of};
+use crate::units::Units;
 
 /// The columns of the rows of a table, with their units. Energies of a body with a free boundary are in full, as a window
 /// around a tip is no area of its energy; others are over the area.

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::Error;
-use asperity_scene::{AdhesionKeys, After, Format, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
+use asperity_scene::{AdhesionKeys, Chosen, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
@@ -15,7 +14,7 @@ use crate::printing::{self, say};
 use crate::processes::Processes;
 use crate::quantity::{FORCE, PRESSURE};
 use crate::scene::SceneFile;
-use crate::table::{Fill, Manner, Table, TableOptions};
+use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
@@ -35,15 +34,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    loads: LoadsKeys,
-    #[command(flatten)]
-    path: PathKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
+    problem: Chosen<(SurfaceKeys, LoadsKeys, PathKeys, AdhesionKeys, SolverKeys)>,
 
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -59,7 +50,7 @@ pub struct Options {
     #[command(flatten)]
     resolution: Resolution,
     #[command(flatten)]
-    units: UnitKeys,
+    units: Chosen<UnitKeys>,
     #[command(flatten)]
     pub manner: Manner,
 }
@@ -81,24 +72,16 @@ const MOST_EVENTS: usize = 8;
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    processes.first(|| options.check_files())?;
-    let table = TableOptions {
-        problem: &options.problem()?,
-        out: &options.out,
-        format: options.format()?,
-        fields: options.fields.as_deref(),
-        scene,
-        processes,
-        manner: &options.manner,
-        after: After::default(),
-        interface: false,
-    };
-    table.fill(options)
+    let Options { out, fields, plot, manner, .. } = options;
+    let format = format_of(out, "")?;
+    processes.first(|| check_plot(plot.as_deref(), out, manner.force))?;
+    let (problem, fields) = (&options.problem()?, fields.as_deref());
+    TableOptions { problem, out, format, fields, scene, processes, manner, interface: false }.fill(options)
 }
 
 impl Fill for Options {
     fn way(&self, loads: &[Load], full: f64) -> Outcome<Way> {
-        Ok(Way::cycle(loads, full, self.path.0.path())?)
+        Ok(Way::cycle(loads, full, self.problem.0.path())?)
     }
 
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
@@ -115,18 +98,7 @@ impl Fill for Options {
 impl Options {
     /// The problem.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self { surface, loads, path, adhesion, solver, units, .. } = self;
-        ProblemOptions::of([&surface.0, &loads.0, &path.0, &adhesion.0, &solver.0, &units.0])
-    }
-
-    fn check_files(&self) -> Outcome<()> {
-        self.format()?;
-        check_plot(self.plot.as_deref(), &self.out, self.manner.force)
-    }
-
-    fn format(&self) -> Outcome<Format> {
-        let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it");
-        Ok(Format::of(&self.out).ok_or_else(refused)?)
+        ProblemOptions::of([&self.problem.0, &self.units.0])
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.

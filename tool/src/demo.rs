@@ -1,12 +1,11 @@
 //! `asperity demo`: a rough contact with and without adhesion, from nothing.
 
 use std::ffi::{OsStr, OsString};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use asperity::{Amplitude, Grid, SelfAffine, Status};
-use asperity_maps::io::{OutputFolder, write_npy};
+use asperity_maps::io::write_npy;
 use asperity_plot::{Colouring, Map};
 use clap::{Args, CommandFactory};
 use serde_json::json;
@@ -14,13 +13,14 @@ use serde_json::json;
 use crate::adhesion::Adhesion;
 use crate::allowed::threads;
 use crate::heights::Origin;
+use crate::options::Problem;
 use crate::outcome::Outcome;
-use crate::output::{at_destination, write_text};
 use crate::part::Part;
 use crate::pictures::{self, PictureFormat, Resolution};
 use crate::printing::{Printing, in_options, name, on_terminal};
 use crate::processes::Processes;
 use crate::progress::Progress;
+use crate::results::Results;
 use crate::scene::{self, SceneFile};
 use crate::session::{Strictness, session};
 use crate::solve;
@@ -71,16 +71,15 @@ const CASES: [(&str, &str); 2] = [("without adhesion", ""), ("with adhesion", "-
 /// Runs the command; whether both solves converged.
 pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
     let &Options { ref out, printing, picture_format, resolution: Resolution { dpi }, .. } = options;
-    let [ending] = picture_format.of([[".png"], [".svg"], [".pdf"]]);
     let cases = CASES.map(|(name, _)| name.replace(' ', "-"));
-    let map = |what: &str| cases.each_ref().map(|case| format!("{what}-{case}{ending}"));
-    let (contacts, pressures, heights_map) = (map("contact"), map("pressure"), format!("heights{ending}"));
-    let maps = [&heights_map].into_iter().chain(&contacts).chain(&pressures).map(String::as_str);
-    let names: Vec<_> = maps.chain(["heights.npy", scene::NAME]).collect();
+    let map = |what: &str| cases.each_ref().map(|case| picture_format.file(&format!("{what}-{case}")));
+    let (contacts, pressures, heights_map) = (map("contact"), map("pressure"), picture_format.file("heights"));
+    let maps = [&heights_map].into_iter().chain(&contacts).chain(&pressures).cloned();
+    let files: Vec<_> = maps.chain(["heights.npy", scene::NAME].map(str::to_owned)).collect();
     let (bare_options, bare_scene) = solve_options(out, 0)?;
     let (sticky_options, scene) = solve_options(out, 1)?;
-    scene.check(&out.join(scene::NAME))?;
-    drop(OutputFolder::create(out, &names, true)?);
+    let results = Results { out, scene: &scene, files, force: true };
+    results.check([] as [&Path; 0])?;
     use_threads(options.threads)?;
 
     let (grid, units) = (Grid::square(512, 1e-6)?, Units::si());
@@ -88,27 +87,24 @@ pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
     let surface = spectrum.surface(grid)?;
     printing.say(TOLD);
     let heights = surface.heights().clone();
-    let (part, surface) = (Part::all(grid), Arc::new(surface));
+    let surface = Arc::new(surface);
     let solved = |name, options: &solve::Options, scene| -> Outcome<_> {
         let problem = &options.problem()?;
         let mut progress = Progress::new(name, problem.scene.tolerance(), grid.nodes(), printing.without_bars());
         let adhesion = Adhesion::read(&problem.scene.adhesion, &problem.files, &grid, processes)?;
-        let of = (&adhesion, &Origin::default(), &part);
-        let session = session::<f64>(problem, surface.clone(), of, (&units, scene), Strictness::default(), processes)?;
+        let (surface, origin, units) = (surface.clone(), Origin::default(), units.clone());
+        let given = Problem { surface, adhesion, origin, part: Part::all(grid), start: None, units };
+        let session = session::<f64>(problem, given, scene, Strictness::default(), processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         let asked = in_options(problem.given.load().and_then(|load| problem.given.asked(load, 1.0)))?;
-        let mut solved = session.solve(&asked, None, &mut |grid, state, tolerance| {
-            progress.update_on(grid, state, tolerance);
-            ControlFlow::Continue(())
-        })?;
+        let mut solved = session.solve(&asked, None, &mut progress.on_grids())?;
         solved.look()?;
         Ok((solved.found.solution, solved.account))
     };
     let (bare, without) = solved("without adhesion", &bare_options, &bare_scene)?;
     let (sticky, with) = solved("with adhesion", &sticky_options, &scene)?;
 
-    let folder = OutputFolder::create(out, &names, true)?;
-    let draw = || {
+    results.write(results.folder()?, |folder| {
         let map = Map {
             title: "Rough surface",
             caption: "rms height 5 nm",
@@ -119,22 +115,19 @@ pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
         };
         map.draw(dpi)?.write(folder.path(&heights_map))?;
         write_npy(folder.path("heights.npy"), &heights)?;
-        write_text(&folder.path(scene::NAME), &scene.text(out))?;
         for (k, solution) in [&bare, &sticky].into_iter().enumerate() {
             let [contact, pressure] = ["Contact", "Pressure"].map(|what| format!("{what} {}", CASES[k].0));
             let regions = solution.regions().mapv(f64::from);
-            pictures::draw_regions(grid, &contact, &units, &regions, dpi)?.write(folder.path(&contacts[k]))?;
+            pictures::draw_contact(grid, &contact, &units, &regions, None, dpi)?.write(folder.path(&contacts[k]))?;
             let (shown, titles) = (pictures::pressure_to_draw(solution, k == 1), (&*pressure, "mean 5 MPa"));
             let picture = pictures::draw_pressure(grid, titles, &units, shown, None, dpi)?;
             picture.write(folder.path(&pressures[k]))?;
         }
         Ok(())
-    };
-    draw().map_err(|error| at_destination(error, out))?;
-    folder.commit()?;
+    })?;
 
     printing.say(&table(&["without adhesion", "with adhesion"], &[&without, &with], &units));
-    printing.say(&format!("\nmaps in {}: {}\n", name(out), names.join(", ")));
+    printing.say(&format!("\nmaps in {}: {}\n", name(out), results.files.join(", ")));
     let command: Vec<_> = arguments(out, 1).iter().map(|word| quoted(word)).collect();
     let (command, file) = (command.join(" "), quoted(out.join(scene::NAME).as_os_str()));
     printing.say(&format!(

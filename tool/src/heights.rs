@@ -202,27 +202,22 @@ pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool, warn: W
 
 /// Refuses a map with missing points.
 pub fn check_complete(path: &Path, map: &Topography) -> Outcome<()> {
-    let (nx, ny) = map.heights.dim();
-    let infinite = map.heights.iter().filter(|h| h.is_infinite()).count();
-    if let Some((node, height)) = map.heights.indexed_iter().find(|(_, h)| h.is_infinite()) {
+    let ((nx, ny), path) = (map.heights.dim(), path.display());
+    let of = |is: fn(f64) -> bool| map.heights.indexed_iter().filter(move |(_, height)| is(**height));
+    if let Some(((i, j), height)) = of(f64::is_infinite).next() {
         return Err(format!(
-            "{}: {nx} x {ny} heights, {infinite} infinite, the first ({height}) at index [{}, {}]: correct them where they come \
-             from; if they stand for missing points, asperity prepare {0} --fill --out filled.npz gives them values",
-            path.display(),
-            node.0,
-            node.1
+            "{path}: {nx} x {ny} heights, {} infinite, the first ({height}) at index [{i}, {j}]: correct them where they \
+             come from; if they stand for missing points, asperity prepare {path} --fill --out filled.npz gives them \
+             values",
+            of(f64::is_infinite).count(),
         )
         .into());
     }
-    let missing = map.missing();
-    if missing > 0 {
-        let first = map.heights.indexed_iter().find(|(_, h)| h.is_nan()).map(|(node, _)| node).unwrap_or_default();
+    if let Some(((i, j), _)) = of(f64::is_nan).next() {
         return Err(format!(
-            "{}: {nx} x {ny} heights, {missing} missing, the first at index [{}, {}]: fill missing points first, with \
-             asperity prepare {0} --fill --out filled.npz",
-            path.display(),
-            first.0,
-            first.1
+            "{path}: {nx} x {ny} heights, {} missing, the first at index [{i}, {j}]: fill missing points first, with \
+             asperity prepare {path} --fill --out filled.npz",
+            map.missing(),
         )
         .into());
     }

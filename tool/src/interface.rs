@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::Error;
 use asperity_scene::interface::Code;
 use asperity_scene::{
-    AdhesionKeys, After, Boundary, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys,
+    AdhesionKeys, Boundary, Chosen, ConductorKeys, Format, LeakageKeys, Load, LoadsKeys, SolverKeys, SurfaceKeys,
     UnitKeys,
 };
 use clap::{ArgGroup, Args};
@@ -32,13 +32,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    loads: LoadsKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
+    problem: Chosen<(SurfaceKeys, LoadsKeys, AdhesionKeys, SolverKeys)>,
 
     /// File for the table, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -48,11 +42,7 @@ pub struct Options {
     #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
     codes: Vec<Code>,
     #[command(flatten)]
-    conductors: ConductorKeys,
-    #[command(flatten)]
-    leakage: LeakageKeys,
-    #[command(flatten)]
-    units: UnitKeys,
+    asked: Chosen<(ConductorKeys, LeakageKeys, UnitKeys)>,
     #[command(flatten)]
     manner: Manner,
 }
@@ -69,9 +59,8 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let Options { surface, loads, adhesion, solver, conductors, leakage, units, out, .. } = options;
-    let problem = [&surface.0, &loads.0, &adhesion.0, &solver.0, &conductors.0, &leakage.0, &units.0];
-    let problem = &ProblemOptions::of(problem)?;
+    let Options { out, manner, .. } = options;
+    let problem = &ProblemOptions::of([&options.problem.0, &options.asked.0])?;
     if problem.scene.elastic.boundary == Boundary::Free {
         return Err("--boundary free: an interface has its law per area of a periodic cell: leave it out".into());
     }
@@ -81,20 +70,10 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     }
     for (_, path) in options.files() {
         check_apart(&path, problem.files().chain([out.as_path()]))?;
-        check_free(&path, options.manner.force || out.exists(), "--out")?;
+        check_free(&path, manner.force || out.exists(), "--out")?;
     }
-    let table = TableOptions {
-        problem,
-        out,
-        format: Format::Csv,
-        fields: None,
-        scene,
-        processes,
-        manner: &options.manner,
-        after: After { stiffness: true, ..in_options(problem.given.after())? },
-        interface: true,
-    };
-    table.fill(options)
+    let format = Format::Csv;
+    TableOptions { problem, out, format, fields: None, scene, processes, manner, interface: true }.fill(options)
 }
 
 impl Options {
@@ -112,9 +91,7 @@ impl Options {
         for code in &self.codes {
             for (ending, text) in in_options(code.files(rows, adhesive, &name, units))? {
                 let path = self.out.with_extension(&ending[1..]);
-                let file = OutputFile::create(&path, true)?;
-                file.write(|path| write_text(path, &text))?;
-                file.commit()?;
+                OutputFile::create(&path, true)?.complete(|path| write_text(path, &text))?;
                 written.push(path.to_string_lossy().into_owned());
             }
         }
@@ -124,7 +101,7 @@ impl Options {
 
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
-        let rows = table.solve(&self.out, self.manner.printing)?;
+        let rows = table.solve()?;
         let converged = table.converged("or use a larger --tolerance or finer steps");
         if !converged && !self.codes.is_empty() {
             complain("warning", "there are no files --for codes of finite elements, as rows have not converged");

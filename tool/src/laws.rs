@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use asperity_scene::{AdhesionKeys, LAWS, Law, Skin, UnitKeys};
+use asperity_scene::{AdhesionKeys, Chosen, LAWS, Law, Skin, UnitKeys};
 use clap::Args;
 
 use crate::adhesion::uniform;
@@ -24,14 +24,14 @@ use crate::scene::SceneFile;
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    adhesion: AdhesionKeys,
+    adhesion: Chosen<AdhesionKeys>,
     /// File for a picture of the traction over the gap, .png, .svg or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
     #[command(flatten)]
     resolution: Resolution,
     #[command(flatten)]
-    units: UnitKeys,
+    units: Chosen<UnitKeys>,
     /// Replace a file that is there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -95,8 +95,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         ..Chart::default()
     };
     let picture = chart.draw(options.resolution.dpi)?;
-    file.write(|path| picture.write(path))?;
-    file.commit()?;
+    file.complete(|path| picture.write(path))?;
     Ok(true)
 }
 

@@ -1,25 +1,25 @@
 //! `asperity leak`: percolation of a gap, and what leaks through it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use asperity::Grid;
 use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
-use asperity_maps::io::{OutputFolder, write_npy};
+use asperity_maps::io::write_npy;
 use asperity_plot::{Colouring, Map, Picture};
-use asperity_scene::{Boundary, LeakKeys, LengthsKeys, Skin};
+use asperity_scene::{Boundary, Chosen, LeakKeys, LengthsKeys, Skin};
 use clap::Args;
 use ndarray::Array2;
 use serde_json::{Value, json};
 
 use crate::heights::{self, check_room, converted, warn_of_unread};
 use crate::outcome::Outcome;
-use crate::output::{at_destination, check_apart, commit, output_folder, write_text};
 use crate::pictures::{PictureFormat, Resolution};
-use crate::printing::{Printing, complain, name, say, warn};
+use crate::printing::{Printing, aligned, complain, name, warn};
 use crate::quantity::LENGTH;
 use crate::report;
+use crate::results::{self, REPORT, Results, write_report};
 use crate::scene::{self, SceneFile};
 use crate::solved::{GAP, Solved};
 use crate::units::Units;
@@ -39,9 +39,9 @@ pub struct Options {
     #[arg(value_name = "GAP")]
     gap: PathBuf,
     #[command(flatten)]
-    lengths: LengthsKeys,
+    lengths: Chosen<LengthsKeys>,
     #[command(flatten)]
-    leak: LeakKeys,
+    leak: Chosen<LeakKeys>,
 
     /// Folder for report.json, scene.toml, and for each axis along which the gap is open pressure_x.npy (relative to
     /// the pressure that falls), flow_x.npy (per width, over pressure and times viscosity, a length squared), and
@@ -70,37 +70,20 @@ const EXAMPLES: &str = "\
   Through a gap from elsewhere, from side to side:
     asperity leak gap.npy --lengths 2 1 --boundary free";
 
-/// All files that a leakage may leave.
-const FILES: [&str; 12] = [
-    "report.json",
-    scene::NAME,
-    FIELDS[0][0],
-    FIELDS[0][1],
-    FIELDS[1][0],
-    FIELDS[1][1],
-    PICTURES[0][0],
-    PICTURES[0][1],
-    PICTURES[1][0],
-    PICTURES[1][1],
-    PICTURES[2][0],
-    PICTURES[2][1],
-];
+/// The fields along each axis, and the pictures.
 const FIELDS: [[&str; 2]; 2] = [["pressure_x.npy", "flow_x.npy"], ["pressure_y.npy", "flow_y.npy"]];
-const PICTURES: [[&str; 2]; 3] =
-    [["flow_x.png", "flow_y.png"], ["flow_x.svg", "flow_y.svg"], ["flow_x.pdf", "flow_y.pdf"]];
+const PICTURES: [&str; 2] = ["flow_x", "flow_y"];
 
 /// The decades of the flow that a picture shows, below and above its mean.
 const DECADES: (f64, f64) = (-3.0, 1.5);
 
 /// Runs the command; whether the bounds are as close as the tolerance.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
-    let Options { gap, out, force, printing, .. } = options;
-    if let Some(out) = out {
-        scene.check(&out.join(scene::NAME))?;
-        let read = if gap.is_dir() { Solved::files(gap, &[GAP]) } else { vec![gap.clone()] };
-        FILES.iter().try_for_each(|name| check_apart(&out.join(name), read.iter().map(PathBuf::as_path)))?;
-        drop(output_folder(out, &FILES, *force)?);
-    }
+    let &Options { ref gap, ref out, force, printing, .. } = options;
+    let files = || results::files(FIELDS.as_flattened(), &PICTURES);
+    let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
+    let read = || if gap.is_dir() { Solved::files(gap, &[GAP]) } else { vec![gap.clone()] };
+    results.iter().try_for_each(|results| results.check(read()))?;
     let (map, boundary) = options.read(scene.is_si())?;
     check_room(map.heights.dim())?;
     let grid = Grid::new(map.heights.dim(), map.lengths.unwrap_or((1.0, 1.0)))?;
@@ -122,16 +105,10 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         });
         report::report("leak", json!(leaked), &inputs)
     };
-    let written = out.as_deref().map(|out| options.write(out, (&leak, &map.heights, grid), &units, scene, &report()));
-    let written = written.transpose()?;
-    if printing.for_people() {
-        let rows = leaked.rows(&units);
-        let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        rows.iter().for_each(|(name, text)| say(&format!("{name:width$}  {text}")));
-        if let (Some(out), Some(names)) = (out, written) {
-            say(&format!("results in {}: {}", name(out), names.join(", ")));
-        }
-    }
+    let write = |results: &Results<'_>| options.write(results, (&leak, &map.heights, grid), &units, &report());
+    let told = results.as_ref().map(write).transpose()?;
+    printing.say(&aligned(&leaked.rows(&units)));
+    told.iter().for_each(|told| printing.say(told));
     printing.report(report);
     if let Some(text) = leaked.shortfall(Skin::Options) {
         complain("warning", &text);
@@ -159,33 +136,28 @@ impl Options {
     /// Writes all files, and tells their names.
     fn write(
         &self,
-        out: &Path,
+        results: &Results<'_>,
         (leak, gap, grid): (&Leak, &Array2<f64>, Grid),
         units: &Units,
-        scene: &SceneFile,
         report: &Value,
-    ) -> Outcome<Vec<&'static str>> {
-        let folder = output_folder(out, &FILES, self.force)?;
-        let mut names = vec![FILES[0], FILES[1]];
-        let write = |folder: &OutputFolder, names: &mut Vec<_>| {
-            write_text(&folder.path(FILES[0]), &format!("{report:#}\n"))?;
-            write_text(&folder.path(FILES[1]), &scene.text(out))?;
+    ) -> Outcome<String> {
+        let mut names = [REPORT, scene::NAME].map(str::to_owned).to_vec();
+        results.write(results.folder()?, |folder| {
+            write_report(folder, report)?;
             for axis in Axis::BOTH.into_iter().filter(|axis| leak.percolation.along(*axis).is_some()) {
                 let flow = leak.along(axis);
                 let [pressure_name, flow_name] = FIELDS[axis as usize];
                 let speed = speed(flow);
                 write_npy(folder.path(pressure_name), &flow.pressure)?;
                 write_npy(folder.path(flow_name), &speed)?;
-                let picture_name = self.picture_format.of(PICTURES)[axis as usize];
+                let picture_name = self.picture_format.file(PICTURES[axis as usize]);
                 let picture = drawn(leak, axis, (gap, &speed), grid, units, self.resolution.dpi)?;
-                picture.write(folder.path(picture_name))?;
-                names.extend([pressure_name, flow_name, picture_name]);
+                picture.write(folder.path(&picture_name))?;
+                names.extend([pressure_name.to_owned(), flow_name.to_owned(), picture_name]);
             }
-            asperity::Result::Ok(())
-        };
-        write(&folder, &mut names).map_err(|error| at_destination(error, out))?;
-        commit(folder)?;
-        Ok(names)
+            Ok(())
+        })?;
+        Ok(results.told(&names))
     }
 }
 

@@ -43,20 +43,20 @@ mod pictures;
 mod printing;
 mod progress;
 mod report;
+mod results;
 mod scene;
 mod session;
 mod solved;
 mod summary;
 mod table;
 mod threads;
-mod units;
 
 use std::error::Error;
 use std::ffi::OsString;
 use std::path::Path;
 
 use asperity_scene::{
-    allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms, warnings,
+    allowed, csv, journal, list as loads, numbers, outcome, output, processes, quantity, synonyms, units, warnings,
 };
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};

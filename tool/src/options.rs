@@ -1,6 +1,7 @@
 //! The contact problem that options choose, with what its files hold.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use asperity::{Error, Surface};
 use asperity_maps::Topography;
@@ -16,6 +17,7 @@ use crate::part::Part;
 use crate::printing::{Warn, in_options, warn};
 use crate::processes::Processes;
 use crate::threads::use_threads;
+use crate::units::Units;
 
 /// The contact problem that options choose, and its solver.
 pub struct ProblemOptions {
@@ -26,7 +28,7 @@ pub struct ProblemOptions {
 
 /// The problem with what its files hold.
 pub struct Problem {
-    pub surface: Surface,
+    pub surface: Arc<Surface>,
     pub adhesion: Adhesion,
     /// The entries of the file of the surface beside its heights
     pub origin: Origin,
@@ -34,6 +36,8 @@ pub struct Problem {
     pub part: Part,
     /// The gap from which to start, if there is one
     pub start: Option<Array2<f64>>,
+    /// The units of the numbers, as far as they are known
+    pub units: Units,
 }
 
 impl ProblemOptions {
@@ -74,7 +78,8 @@ impl ProblemOptions {
         let adhesion = Adhesion::read(&scene.adhesion, files, surface.grid(), processes)?;
         let start = processes.agree(self.start(&surface, &part))?;
         processes.agree(use_threads(given.threads()))?;
-        Ok(Problem { surface, adhesion, origin, part, start })
+        let units = processes.agree(in_options(given.units(origin.unit.as_deref(), si)))?;
+        Ok(Problem { surface: Arc::new(surface), adhesion, origin, part, start, units })
     }
 
     /// The gap from which to start, if it is given, of the whole surface or of the `part` of which results are.

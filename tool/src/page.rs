@@ -16,7 +16,7 @@ use crate::pictures::MapColours;
 use crate::printing::{name, say};
 use crate::scene;
 use crate::solve;
-use crate::units::units_of;
+use crate::solved::units_of;
 use crate::warnings;
 
 mod figures;
@@ -77,14 +77,13 @@ pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColou
     let beside = || if folder { results.join("report.html") } else { with_suffix(results, ".html") };
     let out = out.map_or_else(beside, Path::to_path_buf);
     let read: Vec<_> = match folder {
-        true => solve::FILES.iter().map(|name| results.join(name)).collect(),
+        true => solve::files().iter().map(|name| results.join(name)).collect(),
         false => vec![results.to_path_buf(), scene::beside(results), warnings::beside(results), state_path(results)],
     };
     check_apart(&out, read.iter().map(PathBuf::as_path))?;
     let file = OutputFile::create(&out, force)?;
     let page = if folder { of_solve::page(results, colours)? } else { of_table::page(results)? };
-    file.write(|path| write_text(path, &page))?;
-    file.commit()?;
+    file.complete(|path| write_text(path, &page))?;
     Ok(out)
 }
 

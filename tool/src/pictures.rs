@@ -1,5 +1,6 @@
 //! The pictures that commands draw: maps of contact and pressure, and charts of tables.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use asperity::contact::Clusters;
@@ -33,13 +34,16 @@ pub enum PictureFormat {
 }
 
 impl PictureFormat {
-    /// The one of `names`, without and with ending, that the format asks for.
-    pub fn of<const N: usize>(self, [png, svg, pdf]: [[&'static str; N]; 3]) -> [&'static str; N] {
-        match self {
-            Self::Png => png,
-            Self::Svg => svg,
-            Self::Pdf => pdf,
-        }
+    pub const ALL: [Self; 3] = [Self::Png, Self::Svg, Self::Pdf];
+
+    /// The file of a picture of this name.
+    pub fn file(self, name: &str) -> String {
+        let ending = match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+        };
+        format!("{name}.{ending}")
     }
 }
 
@@ -69,6 +73,11 @@ impl MapColours {
     /// The pressures at the ends of the colour bar, where they are given.
     pub fn limits(&self) -> Option<(f64, f64)> {
         self.colour_limits.as_deref().map(|limits| (limits[0].value, limits[1].value))
+    }
+
+    /// Whether the clusters of contact are drawn, with what is said of them: whether the sides of the map meet.
+    pub fn clusters(&self, sides_meet: bool) -> Option<bool> {
+        self.colour_clusters.then_some(sides_meet)
     }
 
     /// Whether the limits have a unit, and are in the SI.
@@ -124,9 +133,7 @@ pub fn check_plot(plot: Option<&Path>, table: &Path, force: bool) -> Outcome<()>
 
 /// Writes a picture over a file that may be there.
 pub fn write_picture(path: &Path, picture: &Picture) -> Outcome<()> {
-    let file = OutputFile::create(path, true)?;
-    file.write(|path| picture.write(path))?;
-    Ok(file.commit()?)
+    Ok(OutputFile::create(path, true)?.complete(|path| picture.write(path))?)
 }
 
 /// The chart that says most of the loads in the rows of a table.
@@ -207,63 +214,50 @@ pub fn mark_yielded<T: Real>(regions: &mut Array2<f64>, depth: ArrayView2<'_, T>
 }
 
 /// Draws the nodes in contact, those that attract each other, and those that are apart, as numbers: 1 contact, -1
-/// attraction, 0 apart, NaN no surface; and those that have yielded.
-pub fn draw_regions(grid: Grid, title: &str, units: &Units, regions: &Array2<f64>, dpi: f64) -> Result<Picture> {
-    let share = |of: fn(f64) -> bool| {
-        let facing = regions.iter().filter(|region| !region.is_nan()).count();
-        percent(regions.iter().filter(|region| of(**region)).count() as f64 / facing as f64)
-    };
-    let attractive = match regions.iter().any(|region| *region < 0.0) {
-        true => format!(", {} % attractive", share(|region| region < 0.0)),
-        false => String::new(),
-    };
-    let yielded = match regions.iter().any(|region| *region > 1.0) {
-        true => format!(", {} % yielded", share(|region| region > 1.0)),
-        false => String::new(),
-    };
-    let caption = format!("{} % contact{yielded}{attractive}", share(|region| region > 0.0));
-    let map = Map {
-        title,
-        caption: &caption,
-        length_unit: units.length.as_deref(),
-        ..Map::new(regions.view(), grid, Colouring::Contact)
-    };
-    map.draw(dpi)
-}
-
-/// Draws the clusters of contact, of nodes as numbers as [`draw_regions`] has them, on a map whose opposite sides meet
-/// or do not.
-pub fn draw_clusters(
+/// attraction, 0 apart, NaN no surface; and those that have yielded. Or draws the clusters of contact, on a map whose
+/// opposite sides meet or do not.
+pub fn draw_contact(
     grid: Grid,
     title: &str,
     units: &Units,
-    (regions, sides_meet): (&Array2<f64>, bool),
+    regions: &Array2<f64>,
+    clusters: Option<bool>,
     dpi: f64,
 ) -> Result<Picture> {
-    let contact = regions.mapv(|region| region > 0.0);
-    let found = if sides_meet { Clusters::of(contact.view()) } else { Clusters::of_part(contact.view()) };
-    let Clusters { sizes, labels, .. } = found;
-    let mut values = labels.mapv(|label| label as f64);
-    values.zip_mut_with(regions, |value, region| *value = if region.is_nan() { f64::NAN } else { *value });
-    let contact: usize = sizes.iter().sum();
-    let facing = regions.iter().filter(|region| !region.is_nan()).count();
-    let share = |part: usize, whole: usize| percent(part as f64 / whole.max(1) as f64);
-    let caption = match (sizes.first(), sizes.len()) {
-        (Some(_), 1) => format!("{} % contact, in one cluster", share(contact, facing)),
-        (Some(&largest), count) => {
-            format!(
-                "{} % contact, in {count} clusters, the largest with {} % of it",
-                share(contact, facing),
-                share(largest, contact)
-            )
+    let count = |of: fn(f64) -> bool| regions.iter().filter(|region| of(**region)).count();
+    let facing = count(|region| !region.is_nan());
+    let share = |part: usize, whole: usize| percent(part as f64 / whole as f64);
+    let of_facing = |of| format!("{} %", share(count(of), facing));
+    let (mut values, mut colouring) = (Cow::Borrowed(regions), Colouring::Contact);
+    let caption = if let Some(sides_meet) = clusters {
+        let contact = regions.mapv(|region| region > 0.0);
+        let found = if sides_meet { Clusters::of(contact.view()) } else { Clusters::of_part(contact.view()) };
+        let Clusters { sizes, labels, .. } = found;
+        let absent = |region: &f64| if region.is_nan() { f64::NAN } else { 0.0 };
+        values = Cow::Owned(labels.mapv(|label| label as f64) + regions.map(absent));
+        colouring = Colouring::Clusters;
+        let contact = of_facing(|region| region > 0.0);
+        match (sizes.first(), sizes.len()) {
+            (Some(_), 1) => format!("{contact} contact, in one cluster"),
+            (Some(&largest), count) => {
+                let largest = share(largest, sizes.iter().sum());
+                format!("{contact} contact, in {count} clusters, the largest with {largest} % of it")
+            }
+            _ => "no contact".to_owned(),
         }
-        _ => "no contact".to_owned(),
+    } else {
+        let some = |of: fn(f64) -> bool, word| match count(of) {
+            0 => String::new(),
+            _ => format!(", {} {word}", of_facing(of)),
+        };
+        let (yielded, attractive) = (some(|region| region > 1.0, "yielded"), some(|region| region < 0.0, "attractive"));
+        format!("{} contact{yielded}{attractive}", of_facing(|region| region > 0.0))
     };
     let map = Map {
         title,
         caption: &caption,
         length_unit: units.length.as_deref(),
-        ..Map::new(values.view(), grid, Colouring::Clusters)
+        ..Map::new(values.view(), grid, colouring)
     };
     map.draw(dpi)
 }

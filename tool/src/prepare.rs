@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity_maps::Topography;
 use asperity_maps::io::{read_channel, read_topography, write_topography};
-use asperity_scene::{CutOffKeys, Given, Log, NewLengthsKeys, StepKeys};
+use asperity_scene::{Chosen, CutOffKeys, Log, NewLengthsKeys, StepKeys};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
 use crate::heights::{check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, complain, in_options, name, say, warn};
+use crate::printing::{Printing, aligned, complain, in_options, name, say, warn};
 use crate::scene::SceneFile;
 
 /// Make a measured map into a surface that can be solved.
@@ -35,11 +35,7 @@ pub struct Options {
     channel: Option<String>,
 
     #[command(flatten)]
-    lengths: NewLengthsKeys,
-    #[command(flatten)]
-    steps: StepKeys,
-    #[command(flatten)]
-    cut_off: CutOffKeys,
+    steps: Chosen<(NewLengthsKeys, StepKeys, CutOffKeys)>,
 
     /// File for the result: .npz (with lengths and unit), .gsf (those too, for Gwyddion, in f32) or .npy (heights
     /// alone)
@@ -89,9 +85,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     });
     if options.printing.for_people() {
         log.lines.push(("written", format!("{}{}", name(&options.out), left_out(&options.out, &map))));
-        let width = log.lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        let lines = log.lines.iter().map(|(name, text)| format!("{name:width$}  {text}"));
-        say(&lines.collect::<Vec<_>>().join("\n"));
+        say(&aligned(&log.lines));
     }
     Ok(true)
 }
@@ -112,8 +106,7 @@ fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
         None => read_topography(&options.input)?,
     };
     check_room(map.heights.dim())?;
-    let given = Given::all([&options.lengths.0, &options.steps.0, &options.cut_off.0]);
-    let steps = in_options(given.steps(map.heights.dim(), si, map.unit.as_deref()))?;
+    let steps = in_options(options.steps.0.steps(map.heights.dim(), si, map.unit.as_deref()))?;
     if steps.lengths.is_none() {
         warn_of_unread(&options.input, &map, "stay unknown", &mut warn);
     }

@@ -109,6 +109,13 @@ pub fn check_printed() -> Outcome<()> {
     UNPRINTED.get().map_or(Ok(()), |reason| Err(format!("standard output cannot be written: {reason}").into()))
 }
 
+/// Texts under each other, behind their names.
+pub fn aligned(rows: &[(impl AsRef<str>, String)]) -> String {
+    let width = rows.iter().map(|(name, _)| name.as_ref().len()).max().unwrap_or(0);
+    let lines = rows.iter().map(|(name, text)| format!("{:width$}  {text}", name.as_ref()));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 /// A text that quotes names, with nothing in it that controls a terminal, on one line.
 pub fn on_terminal(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()

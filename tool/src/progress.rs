@@ -1,5 +1,6 @@
 //! The progress bar of a solve, and how fast its error falls.
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use asperity::Grid;
@@ -59,7 +60,7 @@ impl Progress {
 
     /// Shows the state of a solve on nested grids, each to a tolerance of its own; the bar goes on from one grid to the
     /// next, as the error does.
-    pub fn update_on(&mut self, grid: &Grid, state: &Iteration, tolerance: f64) {
+    fn update_on(&mut self, grid: &Grid, state: &Iteration, tolerance: f64) {
         let nodes = grid.nodes() as f64;
         self.until = tolerance;
         if self.nodes != nodes {
@@ -69,6 +70,14 @@ impl Progress {
             self.bar.set_prefix(format!("{nx} x {ny} "));
         }
         self.update(state);
+    }
+
+    /// The listener to a solve on nested grids.
+    pub fn on_grids(&mut self) -> impl FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> {
+        |grid, state, tolerance| {
+            self.update_on(grid, state, tolerance);
+            ControlFlow::Continue(())
+        }
     }
 
     pub fn update(&mut self, state: &Iteration) {
@@ -87,16 +96,11 @@ impl Progress {
         }
         let error = if state.relative_error.is_finite() { format!("{:.1e}", state.relative_error) } else { "?".into() };
         let contact = 100.0 * state.contact_nodes as f64 / self.nodes;
-        if let Some(pace) = &self.pace {
-            self.bar.set_message(format!(
-                "{}; {}: error {error}, contact {contact:.2} %",
-                pace.told(),
-                state.iteration
-            ));
-            return;
-        }
-        let fall = self.fall.told(self.until);
-        self.bar.set_message(format!("{}: error {error}{fall}, contact {contact:.2} %", state.iteration));
+        let (pace, fall) = match &self.pace {
+            Some(pace) => (format!("{}; ", pace.told()), String::new()),
+            None => (String::new(), self.fall.told(self.until)),
+        };
+        self.bar.set_message(format!("{pace}{}: error {error}{fall}, contact {contact:.2} %", state.iteration));
     }
 }
 

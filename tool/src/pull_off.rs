@@ -1,16 +1,13 @@
 //! `asperity pull-off`: the greatest tension under which the surfaces stay together.
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
-
 use asperity::Status;
-use asperity_scene::{AdhesionKeys, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
+use asperity_scene::{AdhesionKeys, Chosen, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
 use clap::Args;
 use serde_json::json;
 
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::printing::{Printing, complain, in_options, say};
+use crate::printing::{Printing, aligned, complain, in_options};
 use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::report;
@@ -30,15 +27,7 @@ use crate::summary::warn;
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    load: PullOffKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
-    #[command(flatten)]
-    units: UnitKeys,
+    problem: Chosen<(SurfaceKeys, PullOffKeys, AdhesionKeys, SolverKeys, UnitKeys)>,
     #[command(flatten)]
     pub strictness: Strictness,
     #[command(flatten)]
@@ -69,8 +58,7 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
 impl Options {
     /// The problem; refuses a surface that yields.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self { surface, load, adhesion, solver, units, .. } = self;
-        let problem = ProblemOptions::of([&surface.0, &load.0, &adhesion.0, &solver.0, &units.0])?;
+        let problem = ProblemOptions::of([&self.problem.0])?;
         problem.check_table()?;
         problem.check_elastic(
             "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
@@ -81,34 +69,24 @@ impl Options {
     fn find<T: Scalar>(
         &self,
         problem: &ProblemOptions,
-        given: Problem,
+        mut given: Problem,
         scene: &SceneFile,
         processes: &Processes,
     ) -> Outcome<bool> {
-        let Problem { surface, adhesion, origin, part, start } = given;
-        let (printing, nodes) = (self.printing, surface.grid().nodes());
-        let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
-        let (surface, of) = (Arc::new(surface), (&adhesion, &origin, &part));
-        let session = session::<T>(problem, surface, of, (&units, scene), self.strictness, processes)?;
+        let (printing, nodes, start) = (self.printing, given.surface.grid().nodes(), given.start.take());
+        let session = session::<T>(problem, given, scene, self.strictness, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
         let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
         let mut progress = Progress::new("", session.tolerance(None)?, nodes, printing.without_bars());
-        let found = session.pull_off(asked, goal, start.map(T::field), &mut |grid, state, tolerance| {
-            progress.update_on(grid, state, tolerance);
-            ControlFlow::Continue(())
-        });
+        let found = session.pull_off(asked, goal, start.map(T::field), &mut progress.on_grids());
         drop(progress);
         let (mut solved, pulled_off) = found?;
         say_new(&mut session.warnings);
         solved.look()?;
         let last = solved.account;
 
-        if printing.for_people() {
-            let rows = pulled_off.rows(&last, &units);
-            let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-            rows.iter().for_each(|(name, text)| say(&format!("{name:width$}  {text}")));
-        }
+        printing.say(&aligned(&pulled_off.rows(&last, session.units())));
         printing.report(|| {
             let mut outcome = json!(pulled_off);
             outcome["last"] = json!(last);

@@ -1,6 +1,7 @@
 //! The scene of a run: its options, its quantities, and the file that repeats it. (`run.rs` reads such files.)
 
 use std::any::TypeId;
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
@@ -80,15 +81,11 @@ impl SceneFile {
             env!("CARGO_PKG_VERSION"),
             self.command
         );
-        let mut sections: Vec<&str> = Vec::new();
-        for entry in &self.entries {
-            if !sections.contains(&entry.section.as_str()) {
-                sections.push(&entry.section);
-            }
-        }
+        let mut known = HashSet::new();
+        let sections = self.entries.iter().map(|entry| &entry.section).filter(|section| known.insert(*section));
         for section in sections {
             text.push_str(&if section.is_empty() { String::new() } else { format!("\n[{section}]\n") });
-            for entry in self.entries.iter().filter(|entry| entry.section == section) {
+            for entry in self.entries.iter().filter(|entry| entry.section == *section) {
                 let values: Vec<_> = entry.values.iter().map(|value| value.text(folder)).collect();
                 let value = if values.len() == 1 { values.concat() } else { format!("[{}]", values.join(", ")) };
                 text.push_str(&format!("{} = {value}\n", entry.key));
@@ -100,14 +97,12 @@ impl SceneFile {
     /// Refuses to replace a file at `path` that was not written as a scene, and names of files that a scene there
     /// cannot have.
     pub fn check(&self, path: &Path) -> Outcome<()> {
-        for entry in &self.entries {
-            for value in &entry.values {
-                if let Literal::Path(name) = value
-                    && seen_from(name, folder_of(path)).to_str().is_none()
-                {
-                    let reason = "is no name in UTF-8, which the scene of this run could not have: rename it";
-                    return Err(Error::file(name, reason).into());
-                }
+        for value in self.entries.iter().flat_map(|entry| &entry.values) {
+            if let Literal::Path(name) = value
+                && seen_from(name, folder_of(path)).to_str().is_none()
+            {
+                let reason = "is no name in UTF-8, which the scene of this run could not have: rename it";
+                return Err(Error::file(name, reason).into());
             }
         }
         match fs::read_to_string(path) {

@@ -1,18 +1,15 @@
 //! `asperity solve`: the equilibrium at one load.
 
 mod beside;
-mod distribution;
-mod problem;
 mod written;
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::Status;
 use asperity_scene::{
-    AccuracyKeys, AdhesionKeys, Asked, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys, NestedKeys,
-    PercolationKeys, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
+    AccuracyKeys, AdhesionKeys, Asked, Boundary, Chosen, ConductorKeys, FindingsKeys, LeakageKeys, Load, LoadKeys,
+    NestedKeys, PercolationKeys, Precision, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write, write_fields,
 };
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
@@ -21,16 +18,15 @@ use self::beside::{BESIDE, Beside};
 use crate::allowed::bins;
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::output::{at_destination, check_apart, commit, output_folder};
 use crate::part::Part;
 use crate::pictures::{MapColours, PictureFormat, Resolution};
-use crate::printing::{Printing, complain, in_options, name, say};
+use crate::printing::{Printing, complain, in_options};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
+use crate::results::{self, REPORT, Results};
 use crate::scene::{self, SceneFile};
 use crate::session::{Strictness, say_new, session};
 use crate::summary::{table, warn};
-use crate::units::Units;
 
 /// Solve a contact problem under one load.
 ///
@@ -45,17 +41,7 @@ use crate::units::Units;
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    load: LoadKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
-    #[command(flatten)]
-    nested: NestedKeys,
-    #[command(flatten)]
-    accuracy: AccuracyKeys,
+    problem: Chosen<(SurfaceKeys, LoadKeys, AdhesionKeys, SolverKeys, NestedKeys, AccuracyKeys)>,
 
     /// Folder for the results, made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -64,13 +50,7 @@ pub struct Options {
     #[arg(long, help_heading = "Output")]
     force: bool,
     #[command(flatten)]
-    findings: FindingsKeys,
-    #[command(flatten)]
-    conductors: ConductorKeys,
-    #[command(flatten)]
-    percolation: PercolationKeys,
-    #[command(flatten)]
-    leakage: LeakageKeys,
+    findings: Chosen<(FindingsKeys, ConductorKeys, PercolationKeys, LeakageKeys)>,
     /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
     /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
     /// that of the other
@@ -83,14 +63,8 @@ pub struct Options {
     distribution: Option<usize>,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
     /// repeated
-    #[arg(
-        long,
-        value_enum,
-        value_name = "FORMAT",
-        default_value = "npy",
-        value_delimiter = ',',
-        help_heading = "Output"
-    )]
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "npy", value_delimiter = ',')]
+    #[arg(help_heading = "Output")]
     format: Vec<Format>,
     #[command(flatten)]
     pub strictness: Strictness,
@@ -107,7 +81,7 @@ pub struct Options {
     #[command(flatten)]
     colours: MapColours,
     #[command(flatten)]
-    units: UnitKeys,
+    units: Chosen<UnitKeys>,
 }
 
 const EXAMPLES: &str = "\
@@ -137,31 +111,13 @@ enum Format {
 const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
 const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
-const REPORT: &str = "report.json";
 const DISTRIBUTION: &str = "distribution.csv";
-/// All files that a solve may leave. The report stands for the run.
-pub const FILES: [&str; 18] = [
-    REPORT,
-    scene::NAME,
-    FIELDS[0],
-    FIELDS[1],
-    FIELDS[2],
-    BESIDE[0],
-    BESIDE[1],
-    BESIDE[2],
-    BESIDE[3],
-    NPZ,
-    VTI,
-    DISTRIBUTION,
-    PICTURES[0][0],
-    PICTURES[0][1],
-    PICTURES[1][0],
-    PICTURES[1][1],
-    PICTURES[2][0],
-    PICTURES[2][1],
-];
-const PICTURES: [[&str; 2]; 3] =
-    [["contact.png", "pressure.png"], ["contact.svg", "pressure.svg"], ["contact.pdf", "pressure.pdf"]];
+const PICTURES: [&str; 2] = ["contact", "pressure"];
+
+/// All files that a solve may leave.
+pub fn files() -> Vec<String> {
+    results::files(&[&FIELDS[..], &BESIDE, &[NPZ, VTI, DISTRIBUTION]].concat(), &PICTURES)
+}
 
 /// Runs the command; whether it converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
@@ -170,27 +126,14 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     options.check_asked(problem, load, processes)?;
     problem.check_loads(&[load])?;
     options.colours.check()?;
-    let pictures = options.picture_format.of(PICTURES);
-    let pictures = pictures.into_iter().filter(|_| !options.no_pictures);
-    let arrays = FIELDS.into_iter().chain(options.beside(&problem.scene)).filter(|_| options.writes(Format::Npy));
-    let archives = [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
-    let fields = arrays.chain(archives.map(|(_, name)| name));
-    let distribution = options.distribution.map(|_| DISTRIBUTION);
-    let names: Vec<_> = fields.chain([REPORT, scene::NAME]).chain(distribution).chain(pictures).collect();
-    processes.first(|| {
-        scene.check(&options.out.join(scene::NAME))?;
-        FILES.iter().try_for_each(|name| check_apart(&options.out.join(name), problem.files()))?;
-        // Only a trial: a solve that is interrupted leaves nothing behind.
-        drop(output_folder(&options.out, &FILES, options.force)?);
-        Ok(())
-    })?;
-    let si = scene.is_si();
-    let given = problem.read(si, processes)?;
-    let units = processes.agree(in_options(problem.given.units(given.origin.unit.as_deref(), si)))?;
+    let results = Results { out: &options.out, scene, files: files(), force: options.force };
+    processes.first(|| results.check(problem.files()))?;
+    let given = problem.read(scene.is_si(), processes)?;
     let full = problem.full_pressure(&given.surface, &[load])?;
-    let (asked, part) = (in_options(problem.given.asked(load, full))?, given.part);
-    part.check(asked.control)?;
-    let job = Job { options, problem, scene, processes, names, asked, units, part };
+    let asked = in_options(problem.given.asked(load, full))?;
+    given.part.check(asked.control)?;
+    let (part, pictures) = (given.part, !options.no_pictures);
+    let job = Job { options, problem, results, processes, asked, part, pictures };
     match problem.scene.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -204,23 +147,21 @@ impl Options {
 
     /// The problem.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self {
-            surface,
-            load,
-            adhesion,
-            solver,
-            nested,
-            accuracy,
-            findings,
-            conductors,
-            percolation,
-            leakage,
-            units,
-            ..
-        } = self;
-        let problem = [&surface.0, &load.0, &adhesion.0, &solver.0, &nested.0, &accuracy.0];
-        let asked = [&findings.0, &conductors.0, &percolation.0, &leakage.0, &units.0];
-        ProblemOptions::of(problem.into_iter().chain(asked))
+        ProblemOptions::of([&self.problem.0, &self.findings.0, &self.units.0])
+    }
+
+    /// Refuses what excludes each other, and what has no form for several processes.
+    fn check_asked(&self, problem: &ProblemOptions, load: Load, processes: &Processes) -> Outcome<()> {
+        let asked = in_options(problem.given.asked(load, 1.0))?;
+        let (scene, started) = (&problem.scene, problem.files.initial_gap.is_some());
+        if self.fields.is_some() && scene.elastic.boundary == Boundary::Free {
+            processes.alone("--fields displacement with a free boundary")?;
+        }
+        if asked.goal.is_some() {
+            processes.alone("--accuracy")?;
+        }
+        problem.check_after(&asked.after, processes)?;
+        in_options(asked.check(&scene.adhesion, scene.method, started))
     }
 }
 
@@ -228,28 +169,36 @@ impl Options {
 struct Job<'a> {
     options: &'a Options,
     problem: &'a ProblemOptions,
-    scene: &'a SceneFile,
+    results: Results<'a>,
     processes: &'a Processes,
-    names: Vec<&'static str>,
     asked: Asked,
-    units: Units,
     part: Part,
+    pictures: bool,
 }
 
 impl Job<'_> {
-    fn run<T: Scalar>(mut self, Problem { surface, adhesion, origin, start, .. }: Problem) -> Outcome<bool> {
-        let Options { out, force, printing, .. } = self.options;
-        let (mut grid, processes) = (*surface.grid(), self.processes);
+    /// The files of these options.
+    fn names(&self) -> Vec<String> {
+        let (options, picture) = (self.options, |name| self.options.picture_format.file(name));
+        let arrays = FIELDS.into_iter().chain(options.beside(&self.problem.scene));
+        let arrays = arrays.filter(|_| options.writes(Format::Npy));
+        let archives =
+            [(Format::Npz, NPZ), (Format::Vti, VTI)].into_iter().filter(|(format, _)| options.writes(*format));
+        let fields = arrays.chain(archives.map(|(_, name)| name)).chain([REPORT, scene::NAME]);
+        let names = fields.chain(options.distribution.map(|_| DISTRIBUTION)).map(str::to_owned);
+        names.chain(PICTURES.into_iter().filter(|_| self.pictures).map(picture)).collect()
+    }
+
+    fn run<T: Scalar>(mut self, mut given: Problem) -> Outcome<bool> {
+        let (options, processes, mut grid) = (self.options, self.processes, *given.surface.grid());
+        let printing = options.printing;
         let fits = !grid.is_shared() || grid.nodes() <= WHOLE;
         if !fits {
             self.leave_out_what_takes_whole_fields()?;
         }
-        let start = start.map(T::field);
-        let surface = Arc::new(surface);
-        let kept = self.options.fields.map(|Beside::Displacement| surface.clone());
-        let of = (&adhesion, &origin, &self.part);
-        let about = (&self.units, self.scene);
-        let session = session::<T>(self.problem, surface, of, about, self.options.strictness, processes)?;
+        let start = given.start.take().map(T::field);
+        let kept = options.fields.map(|Beside::Displacement| given.surface.clone());
+        let session = session::<T>(self.problem, given, self.results.scene, options.strictness, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
         let tolerance = session.tolerance(self.asked.goal)?;
@@ -258,10 +207,7 @@ impl Job<'_> {
             let (plan, time) = session.plan(self.asked.control, goal)?;
             printing.say(&goal.announced(&plan, time));
         }
-        let solved = session.solve(&self.asked, start, &mut |grid, state, tolerance| {
-            progress.update_on(grid, state, tolerance);
-            ControlFlow::Continue(())
-        });
+        let solved = session.solve(&self.asked, start, &mut progress.on_grids());
         drop(progress);
         let mut solved = solved?;
         say_new(&mut session.warnings);
@@ -274,20 +220,20 @@ impl Job<'_> {
         let Solved { found, account } = solved;
         let whole = fits.then(|| found.solution.whole());
         let surface = kept.map(|kept| refined.unwrap_or(kept));
-        let mut beside = self.options.fields_beside(&found, &self.problem.scene.elastic, surface.as_deref())?;
+        let mut beside = options.fields_beside(&found, &self.problem.scene.elastic, surface.as_deref())?;
         let solution = &found.solution;
 
-        let folder = processes.is_first().then(|| output_folder(out, &FILES, *force)).transpose();
-        let folder = processes.agree(folder)?;
-        if self.options.writes(Format::Npy) {
+        let folder = processes.agree(processes.is_first().then(|| self.results.folder()).transpose())?;
+        if options.writes(Format::Npy) {
             let (shown, part) = (&*self.part.of_solution(solution)?, self.part.grid());
             let gap = gap_to_write(shown);
             let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
+            let (folder, out) = (folder.as_ref(), &options.out);
             let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
-            write_fields(processes, folder.as_ref(), out, part, &named)?;
+            write_fields(processes, folder, out, part, &named)?;
             for (name, field) in &beside {
                 let field = self.part.of_field(field.clone())?;
-                write_fields(processes, folder.as_ref(), out, part, &[((*name).to_owned(), &field)])?;
+                write_fields(processes, folder, out, part, &[((*name).to_owned(), &field)])?;
             }
         }
         for (_, field) in beside.iter_mut().filter(|_| fits) {
@@ -296,16 +242,14 @@ impl Job<'_> {
         let mut beyond = None;
         processes.first(|| {
             let Some(folder) = folder else { return Ok(()) };
-            let written = self.write(&folder, whole.as_deref(), &beside, &account);
-            beyond = written.map_err(|error| at_destination(error, out))?;
-            Ok(commit(folder)?)
+            let write = |folder: &_| self.write(folder, session.units(), whole.as_deref(), &beside, &account);
+            beyond = self.results.write(folder, write)?;
+            Ok(())
         })?;
 
-        if printing.for_people() {
-            say(&table(&[], &[&account], &self.units));
-            say(&format!("results in {}: {}", name(out), self.names.join(", ")));
-            beyond.iter().for_each(|load| say(&format!("beyond the colours of the pressure: {load}")));
-        }
+        printing.say(&table(&[], &[&account], session.units()));
+        printing.say(&self.results.told(&self.names()));
+        beyond.iter().for_each(|load| printing.say(&format!("beyond the colours of the pressure: {load}")));
         printing.report(|| json!(account));
         warn("", &account);
         let reached = account.accuracy.as_ref().is_none_or(|reached| reached.reached)
@@ -323,15 +267,12 @@ impl Job<'_> {
         if self.options.distribution.is_some() {
             self.processes.alone("--distribution of more than 4096 x 4096 nodes")?;
         }
-        if !self.options.no_pictures {
-            complain(
-                "warning",
-                "pictures, and a look for mistakes in the heights and in the answer, have no form for several \
-                                 processes and more than 4096 x 4096 nodes: there are none",
-            );
+        if self.pictures {
+            let text = "pictures, and a look for mistakes in the heights and in the answer, have no form for several \
+                        processes and more than 4096 x 4096 nodes: there are none";
+            complain("warning", text);
         }
-        let pictures = self.options.picture_format.of(PICTURES);
-        self.names.retain(|name| !pictures.contains(name));
+        self.pictures = false;
         Ok(())
     }
 }

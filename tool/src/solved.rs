@@ -9,7 +9,7 @@ use asperity_maps::io::read_field;
 use asperity_scene::Boundary;
 use serde_json::Value;
 
-use crate::units::{Units, units_of};
+use crate::units::Units;
 
 /// The files of gap and contact pressure.
 pub const GAP: &str = "gap.npy";
@@ -18,8 +18,8 @@ const REPORT: &str = "report.json";
 
 /// The folder of a solve, with its report.
 pub struct Solved<'a> {
-    folder: &'a Path,
-    report: Value,
+    pub folder: &'a Path,
+    pub report: Value,
 }
 
 impl<'a> Solved<'a> {
@@ -71,4 +71,10 @@ impl<'a> Solved<'a> {
     pub fn units(&self) -> Units {
         units_of(&self.report)
     }
+}
+
+/// The units of the numbers of a report, as far as they are known.
+pub fn units_of(report: &Value) -> Units {
+    let [length, pressure] = ["length_unit", "pressure_unit"].map(|key| report[key].as_str().map(str::to_owned));
+    Units { length, pressure, force: None }
 }

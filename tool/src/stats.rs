@@ -1,12 +1,11 @@
 //! `asperity stats`: statistics and spectrum of a surface.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{LengthsKeys, Skin, statistics};
+use asperity_scene::{Chosen, LengthsKeys, Skin, statistics};
 use clap::Args;
 use serde_json::Map;
 
@@ -14,7 +13,7 @@ use crate::csv;
 use crate::heights::{self, check_complete, check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, write_text};
-use crate::printing::{Printing, warn};
+use crate::printing::{Printing, aligned, warn};
 use crate::report;
 use crate::scene::SceneFile;
 
@@ -33,7 +32,7 @@ pub struct Options {
     #[arg(value_name = "FILE")]
     heights: PathBuf,
     #[command(flatten)]
-    lengths: LengthsKeys,
+    lengths: Chosen<LengthsKeys>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
     /// the density, of which the integral over both wave numbers is the mean square height, and of how many waves it
     /// is the mean
@@ -67,8 +66,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             return Err(format!("{}: {text}: give --lengths", path.display()).into());
         };
         let text = density_table(surface, None, map.unit.as_deref());
-        file.write(|path| write_text(path, &text))?;
-        file.commit()?;
+        file.complete(|path| write_text(path, &text))?;
     }
     let found = match &surface {
         Some(surface) => (surface.statistics(), knee_wavelength(surface)),
@@ -84,10 +82,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
 
 /// The statistics of a map, one to a line.
 pub fn table(map: &Topography, found: &(SurfaceStatistics, Option<f64>)) -> String {
-    let rows = statistics::rows(map, found, Skin::Options);
-    let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-    let lines = rows.iter().map(|(name, value)| format!("{name:width$}  {value}"));
-    lines.collect::<Vec<_>>().join("\n")
+    aligned(&statistics::rows(map, found, Skin::Options))
 }
 
 /// The radially averaged density of a surface as comma-separated values, beside that of a target, with the units of the
@@ -103,11 +98,10 @@ pub fn density_table(surface: &Surface, target: Option<&Spectrum>, unit: Option<
     };
     let columns = [format!("wave_number{of_wave_number}"), format!("density{of_density}"), "waves".to_owned()];
     let aim = target.iter().map(|_| format!("target{of_density}"));
-    let mut text = csv::header(columns.into_iter().chain(aim)) + "\n";
-    for (i, ((q, density), waves)) in psd.wave_numbers.iter().zip(&psd.densities).zip(&psd.waves).enumerate() {
+    let bins = psd.wave_numbers.iter().zip(&psd.densities).zip(&psd.waves).enumerate();
+    let lines = bins.map(|(i, ((q, density), waves))| {
         let aim = target.as_ref().map_or_else(String::new, |target| format!(",{:e}", target[i]));
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{q:e},{density:e},{waves}{aim}");
-    }
-    text
+        format!("{q:e},{density:e},{waves}{aim}")
+    });
+    csv::table(columns.into_iter().chain(aim), lines)
 }

@@ -7,7 +7,7 @@ use asperity::{Grid, SelfAffine, Surface};
 use asperity_maps::io::check_memory;
 use asperity_maps::io::{read_fourier, write_npy, write_topography};
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_scene::{Body, BodyForm, FormKeys, FourierKeys, Given, GridKeys, Roughness, RoughnessKeys, statistics};
+use asperity_scene::{Body, BodyForm, Chosen, FormKeys, FourierKeys, GridKeys, Roughness, RoughnessKeys, statistics};
 use clap::{ArgGroup, Args};
 use serde_json::json;
 
@@ -34,13 +34,13 @@ use crate::threads::use_threads;
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
 pub struct Options {
     #[command(flatten)]
-    grid: GridKeys,
+    grid: Chosen<GridKeys>,
     #[command(flatten)]
-    form: FormKeys,
+    form: Chosen<FormKeys>,
     #[command(flatten)]
-    roughness: RoughnessKeys,
+    roughness: Chosen<RoughnessKeys>,
     #[command(flatten)]
-    fourier: FourierKeys,
+    fourier: Chosen<FourierKeys>,
 
     /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -106,8 +106,9 @@ fn described(options: &Options, scene: &SceneFile) -> Outcome<Described> {
     if unit.is_some() && options.grid.0.lengths(shape).is_none() {
         return Err("the numbers have units, but nothing says how large the map is: give --lengths, as 20um".into());
     }
-    if fourier.is_some() {
-        check_alone(&options.roughness.0)?;
+    if let (Some(_), Some(key)) = (&fourier, options.roughness.0.first()) {
+        let text = format!("{{{key}}} is of random roughness, which {{fourier}} replaces: leave it out");
+        return in_options(Err(text));
     }
     if unit.is_some() && fourier.is_some() && options.fourier.0.fourier_unit().is_none() {
         let text = "the numbers have units, but the coefficients have none: give --fourier-unit, as 0.1mm";
@@ -201,14 +202,4 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         report::report("surface", figures, &made)
     });
     Ok(true)
-}
-
-/// Refuses parameters of self-affine roughness beside coefficients, which are all of it.
-fn check_alone(roughness: &Given) -> Outcome<()> {
-    match roughness.first() {
-        Some(key) => {
-            in_options(Err(format!("{{{key}}} is of random roughness, which {{fourier}} replaces: leave it out")))
-        }
-        None => Ok(()),
-    }
 }

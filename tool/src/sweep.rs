@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use asperity::Error;
 use asperity_scene::{
-    AdhesionKeys, ConductorKeys, Format, FractionsKeys, Keys, LeakageKeys, Load, LoadsKeys, SolverKeys, StiffnessKeys,
-    SurfaceKeys, UnitKeys,
+    AdhesionKeys, Chosen, ConductorKeys, Format, FractionsKeys, Keys, LeakageKeys, Load, LoadsKeys, SolverKeys,
+    StiffnessKeys, SurfaceKeys, UnitKeys,
 };
 use clap::{ArgGroup, Args};
 use serde_json::json;
@@ -13,10 +12,9 @@ use serde_json::json;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
-use crate::printing::in_options;
 use crate::processes::Processes;
 use crate::scene::SceneFile;
-use crate::table::{Fill, Manner, Table, TableOptions};
+use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
@@ -33,15 +31,7 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many()).args(FractionsKeys::KEYS.iter().map(|key| key.name))))]
 pub struct Options {
     #[command(flatten)]
-    surface: SurfaceKeys,
-    #[command(flatten)]
-    loads: LoadsKeys,
-    #[command(flatten)]
-    fractions: FractionsKeys,
-    #[command(flatten)]
-    adhesion: AdhesionKeys,
-    #[command(flatten)]
-    solver: SolverKeys,
+    problem: Chosen<(SurfaceKeys, LoadsKeys, FractionsKeys, AdhesionKeys, SolverKeys)>,
 
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -55,13 +45,7 @@ pub struct Options {
     #[command(flatten)]
     plot: PlotOptions,
     #[command(flatten)]
-    units: UnitKeys,
-    #[command(flatten)]
-    stiffness: StiffnessKeys,
-    #[command(flatten)]
-    conductors: ConductorKeys,
-    #[command(flatten)]
-    leakage: LeakageKeys,
+    asked: Chosen<(UnitKeys, StiffnessKeys, ConductorKeys, LeakageKeys)>,
     #[command(flatten)]
     pub manner: Manner,
 }
@@ -80,41 +64,23 @@ const EXAMPLES: &str = "\
 
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
-    let format = options.format()?;
-    processes.first(|| options.plot.check(&options.out, options.manner.force))?;
-    let problem = &options.problem()?;
-    let table = TableOptions {
-        problem,
-        out: &options.out,
-        format,
-        fields: options.fields.as_deref(),
-        scene,
-        processes,
-        manner: &options.manner,
-        after: in_options(problem.given.after())?,
-        interface: false,
-    };
-    table.fill(options)
+    let Options { out, fields, plot, manner, .. } = options;
+    let format = options.format.map_or_else(|| format_of(out, ", or give --format"), Ok)?;
+    processes.first(|| plot.check(out, manner.force))?;
+    let (problem, fields) = (&options.problem()?, fields.as_deref());
+    TableOptions { problem, out, format, fields, scene, processes, manner, interface: false }.fill(options)
 }
 
 impl Options {
     /// The problem.
     pub fn problem(&self) -> Outcome<ProblemOptions> {
-        let Self { surface, loads, fractions, adhesion, solver, units, stiffness, conductors, leakage, .. } = self;
-        let asked = [&units.0, &stiffness.0, &conductors.0, &leakage.0];
-        let problem = [&surface.0, &loads.0, &fractions.0, &adhesion.0, &solver.0].into_iter().chain(asked);
-        ProblemOptions::of(problem)
-    }
-
-    fn format(&self) -> Outcome<Format> {
-        let refused = || Error::file(&self.out, "does not end in .csv or .jsonl: rename it, or give --format");
-        Ok(self.format.or_else(|| Format::of(&self.out)).ok_or_else(refused)?)
+        ProblemOptions::of([&self.problem.0, &self.asked.0])
     }
 }
 
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
-        let rows = table.solve(&self.out, self.manner.printing)?;
+        let rows = table.solve()?;
         table.first(|| self.plot.draw(&rows, table.session.units()))?;
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {

@@ -2,9 +2,8 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::Arc;
 
-use asperity::{Control, Status};
+use asperity::{Control, Error, Status};
 use asperity_scene::{Account, After, Boundary, Format, Load, Precision, Row, Session, TableFile, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -46,10 +45,19 @@ pub struct TableOptions<'a> {
     pub scene: &'a SceneFile,
     pub processes: &'a Processes,
     pub manner: &'a Manner,
-    /// The findings that are asked for after each row
-    pub after: After,
     /// Whether the table is that of an interface
     pub interface: bool,
+}
+
+/// The format of a table by the ending of its name; `or` is what else than another name would do.
+pub fn format_of(out: &Path, or: &str) -> Outcome<Format> {
+    let refused = || Error::file(out, format!("does not end in .csv or .jsonl: rename it{or}"));
+    Ok(Format::of(out).ok_or_else(refused)?)
+}
+
+/// The number of rows that there will be, if it is known, after a word.
+fn of_rows<T: Scalar>(session: &Session<T>, word: &str) -> String {
+    session.of_rows().map_or(String::new(), |rows| format!("{word}{rows}"))
 }
 
 /// The work of a command on its table, in the precision of its solves; returns whether all rows converged.
@@ -76,27 +84,33 @@ impl<'a> TableOptions<'a> {
     /// Reads the files of the problem, opens the table, and fills it.
     pub fn fill(self, by: &impl Fill) -> Outcome<bool> {
         let problem = self.problem;
+        let mut after = in_options(problem.given.after())?;
+        after.stiffness |= self.interface;
         problem.check_table()?;
         let loads = in_options(problem.given.loads())?;
         problem.check_loads(&loads)?;
-        problem.check_after(&self.after, self.processes)?;
+        problem.check_after(&after, self.processes)?;
         let given = problem.read(self.scene.is_si(), self.processes)?;
         match problem.scene.precision {
-            Precision::F32 => by.fill(&mut self.open::<f32>(given, &loads, by)?),
-            Precision::F64 => by.fill(&mut self.open::<f64>(given, &loads, by)?),
+            Precision::F32 => by.fill(&mut self.open::<f32>(given, &loads, after, by)?),
+            Precision::F64 => by.fill(&mut self.open::<f64>(given, &loads, after, by)?),
         }
     }
 
     /// Opens the table, writes the scene of the run beside it, and says the warnings so far.
-    fn open<T: Scalar>(self, given: Problem, loads: &[Load], by: &impl Fill) -> Outcome<Table<'a, T>> {
-        let Problem { surface, adhesion, origin, part, start } = given;
+    fn open<T: Scalar>(
+        self,
+        mut given: Problem,
+        loads: &[Load],
+        after: After,
+        by: &impl Fill,
+    ) -> Outcome<Table<'a, T>> {
         let Self { problem, out, scene, processes, manner, .. } = self;
         let &Manner { force, strictness, printing } = manner;
-        let grid = *surface.grid();
-        let way = by.way(loads, problem.full_pressure(&surface, loads)?)?;
+        let grid = *given.surface.grid();
+        let way = by.way(loads, problem.full_pressure(&given.surface, loads)?)?;
         let control = way.control(&problem.scene);
-        part.check(control)?;
-        let units = processes.agree(in_options(problem.given.units(origin.unit.as_deref(), scene.is_si())))?;
+        given.part.check(control)?;
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
@@ -104,8 +118,8 @@ impl<'a> TableOptions<'a> {
         if problem.scene.elastic.boundary == Boundary::Free && matches!(way, Way::Cycle(..)) {
             processes.alone("a cycle with --boundary free")?;
         }
-        let of = (&adhesion, &origin, &part);
-        let mut session = session::<T>(problem, Arc::new(surface), of, (&units, scene), strictness, processes)?;
+        let (start, law_table, works) = (given.start.take(), given.adhesion.table.take(), given.adhesion.works.take());
+        let mut session = session::<T>(problem, given, scene, strictness, processes)?;
         let mut scene_file = None;
         processes.first(|| {
             check_apart(out, problem.files().chain(problem.files.initial_gap.as_deref()))?;
@@ -114,17 +128,9 @@ impl<'a> TableOptions<'a> {
             scene_file = Some(scene.written_beside(out)?);
             Ok(())
         })?;
-        let file = TableFile {
-            out: out.to_owned(),
-            format: Some(self.format),
-            fields: self.fields.map(Path::to_owned),
-            force,
-            is_case: false,
-            law_table: adhesion.table,
-            works: adhesion.works,
-            law_differs: false,
-        };
-        session.begin(way, self.after, self.interface, start, Some(file))?;
+        let (path, format, fields) = (out.to_owned(), Some(self.format), self.fields.map(Path::to_owned));
+        let file = TableFile { out: path, format, fields, force, law_table, works, ..TableFile::default() };
+        session.begin(way, after, self.interface, start, Some(file))?;
         let count = session.rows();
         say_new(&mut session.warnings);
         processes.first(|| {
@@ -132,8 +138,7 @@ impl<'a> TableOptions<'a> {
             session.warnings.keep_beside(out, count > 0)
         })?;
         if count > 0 {
-            let of = session.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
-            printing.say(&format!("{} has {count}{of} rows already", name(out)));
+            printing.say(&format!("{} has {count}{} rows already", name(out), of_rows(&session, " of ")));
         }
         let table = Table { options: self, session, control, nodes: grid.nodes() };
         table.stands();
@@ -145,9 +150,8 @@ impl<T: Scalar> Table<'_, T> {
     /// Sets what an interruption says of the rows.
     fn stands(&self) {
         let TableOptions { out, manner, .. } = self.options;
-        let of = self.session.of_rows().map_or(String::new(), |loads| format!(" of {loads}"));
         let command = if manner.force { "the same command without --force" } else { "the same command" };
-        let (rows, out) = (self.session.rows(), out.display());
+        let (rows, of, out) = (self.session.rows(), of_rows(&self.session, " of "), out.display());
         interruption::stands(format!("{rows}{of} rows are in {out}: {command} goes on from there"));
     }
 
@@ -176,11 +180,10 @@ impl<T: Scalar> Table<'_, T> {
     /// warnings; returns no row at the end of the course.
     pub fn extend(&mut self) -> Outcome<Option<Row>> {
         let TableOptions { problem, manner, .. } = self.options;
-        let of = self.session.of_rows();
-        if of == Some(self.session.rows()) {
+        if self.session.of_rows() == Some(self.session.rows()) {
             return Ok(None);
         }
-        let name = format!("{}{}", self.session.rows() + 1, of.map_or(String::new(), |loads| format!("/{loads}")));
+        let name = format!("{}{}", self.session.rows() + 1, of_rows(&self.session, "/"));
         let tolerance = problem.scene.tolerance();
         let mut progress = Progress::new(&name, tolerance, self.nodes, manner.printing.without_bars());
         progress.follow(self.session.pace().copied());
@@ -196,7 +199,8 @@ impl<T: Scalar> Table<'_, T> {
     }
 
     /// Solves all rows that are left, says each in a line, and returns those of the file.
-    pub fn solve(&mut self, out: &Path, printing: Printing) -> Outcome<Vec<Value>> {
+    pub fn solve(&mut self) -> Outcome<Vec<Value>> {
+        let (out, printing) = (self.options.out, self.options.manner.printing);
         let count = self.session.of_rows().unwrap_or_default();
         let width = count.to_string().len();
         while let Some(row) = self.extend()? {
@@ -220,8 +224,8 @@ impl<T: Scalar> Table<'_, T> {
                 format!("normal force {force}  approach {approach}")
             }
             None => {
-                let (pressure, gap) =
-                    (units.number(account.mean_pressure, PRESSURE), units.number(account.mean_gap, LENGTH));
+                let pressure = units.number(account.mean_pressure, PRESSURE);
+                let gap = units.number(account.mean_gap, LENGTH);
                 format!("mean pressure {pressure}  mean gap {gap}")
             }
         };

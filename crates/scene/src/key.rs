@@ -47,6 +47,8 @@ pub use self::given::{Given, Measured, Quantities, Typed};
 pub use self::laws::{LAWS, Law};
 pub use self::leak::{LeakAsked, LeakKeys};
 pub use self::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
+#[cfg(feature = "options")]
+pub use self::options::Chosen;
 pub use self::pair::between;
 pub use self::preparation::{CutOffKeys, Log, NewLengthsKeys, Preparation, StepKeys, in_unit};
 pub use self::scalar::Scalar;
@@ -86,9 +88,37 @@ pub trait Keys {
     const KEYS: &'static [Key];
 }
 
-/// The keys of a list, but for those of files, in whose place Python has arrays and objects, and a page nothing.
-pub fn without_files<L: Keys>() -> impl Iterator<Item = &'static Key> {
-    L::KEYS.iter().filter(|key| !matches!(key.kind.values, Values::File))
+/// A list of keys, or several in the order of the help.
+pub trait Lists {
+    /// The lists.
+    const LISTS: &'static [&'static [Key]];
+
+    /// The keys of all lists.
+    fn keys() -> impl Iterator<Item = &'static Key> {
+        Self::LISTS.iter().copied().flatten()
+    }
+}
+
+impl<L: Keys> Lists for L {
+    const LISTS: &'static [&'static [Key]] = &[L::KEYS];
+}
+
+macro_rules! lists {
+    ($($list:ident)+) => {
+        impl<$($list: Keys),+> Lists for ($($list,)+) {
+            const LISTS: &'static [&'static [Key]] = &[$($list::KEYS),+];
+        }
+    };
+}
+lists!(A B);
+lists!(A B C);
+lists!(A B C D);
+lists!(A B C D E);
+lists!(A B C D E F);
+
+/// The keys of lists, but for those of files, in whose place Python has arrays and objects, and a page nothing.
+pub fn without_files<L: Lists>() -> impl Iterator<Item = &'static Key> {
+    L::keys().filter(|key| !matches!(key.kind.values, Values::File))
 }
 
 /// The kind of the values of a key: what each is, how many there are, and what they exclude.

@@ -1,16 +1,16 @@
 //! The maps and the histograms of a solve.
 
-use std::path::Path;
-
 use asperity::Grid;
 use asperity_maps::io::read_field;
 use asperity_plot::{Chart, Colouring, Map, distribution};
+use asperity_scene::Boundary;
 use ndarray::Zip;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::{FINE, Page};
 use crate::outcome::Outcome;
-use crate::pictures::{MapColours, draw_clusters, draw_pressure, draw_regions, mark_yielded};
+use crate::pictures::{MapColours, draw_contact, draw_pressure, mark_yielded};
+use crate::solved::Solved;
 use crate::units::Units;
 
 /// The finest resolution of the maps.
@@ -21,7 +21,8 @@ const NOTICEABLE: f64 = 0.01;
 const CLASSES: usize = 60;
 
 /// Puts the maps of a solve on a page, with histograms of gap and pressure.
-pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colours: &MapColours) -> Outcome<()> {
+pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapColours) -> Outcome<()> {
+    let Solved { folder, report } = solved;
     let [gap, pressure, contact_pressure] =
         ["gap", "pressure", "contact_pressure"].map(|name| read_field(folder.join(format!("{name}.npy"))));
     let (gap, pressure, contact_pressure) = (gap?, pressure?, contact_pressure?);
@@ -53,12 +54,8 @@ pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colou
     }
     // a pixel for each node, of which those of the picture are 0.25 to 0.5 points
     let dpi = (0.288 * gap.dim().0.max(gap.dim().1) as f64).clamp(FINE, FINEST);
-    // the sides of an original do not meet
-    let sides_meet = report["boundary"] != "free" && !report["solved_shape"].is_array();
-    let contact = match colours.colour_clusters {
-        true => draw_clusters(grid, "Contact", units, (&regions, sides_meet), dpi)?,
-        false => draw_regions(grid, "Contact", units, &regions, dpi)?,
-    };
+    let clusters = colours.clusters(solved.boundary() == Boundary::Periodic);
+    let contact = draw_contact(grid, "Contact", units, &regions, clusters, dpi)?;
     let drawn = if adhesive { &pressure } else { &contact_pressure };
     let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, colours.limits(), dpi)?;
     let gaps = Map {
@@ -73,16 +70,11 @@ pub fn draw(page: &mut Page, folder: &Path, report: &Value, units: &Units, colou
         let told = json!({ "lengths": grid.lengths(), "unit": length, "key": map.key() });
         page.map(&map.svg()?, &told.to_string());
     }
-    for (title, x_label, x_unit, field, y_label) in [
-        ("Distribution of the gap", "gap", length, &gap, "nodes apart"),
-        (
-            "Distribution of the contact pressure",
-            "contact pressure",
-            pressure_unit,
-            &contact_pressure,
-            "nodes in contact",
-        ),
-    ] {
+    let gap = ("gap", length, &gap, "nodes apart");
+    for (x_label, x_unit, field, y_label) in
+        [gap, ("contact pressure", pressure_unit, &contact_pressure, "nodes in contact")]
+    {
+        let title = &format!("Distribution of the {x_label}");
         let curve = distribution(field.iter().copied().filter(|value| *value > 0.0), CLASSES);
         let axes = Chart { title, x_label, x_unit, y_label, y_unit: Some("%"), ..Chart::default() };
         page.figure(&Chart { curves: vec![("", curve)], ..axes }.draw(FINE)?.svg()?);

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use asperity::Error;
-use asperity_scene::corrected;
+use asperity_scene::{corrected, dimension_of};
 use serde_json::Value;
 
 use super::Page;
@@ -15,7 +15,8 @@ use crate::outcome::Outcome;
 use crate::pictures::MapColours;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
 use crate::scene;
-use crate::units::{Units, dimension_of, units_of};
+use crate::solved::Solved;
+use crate::units::Units;
 
 /// The page of a folder of `asperity solve`.
 pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
@@ -25,6 +26,8 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     })?;
     let report: Value =
         serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of a solve: {e}")))?;
+    let solved = Solved { folder, report };
+    let (report, units) = (&solved.report, solved.units());
     let scene = fs::read_to_string(folder.join(scene::NAME)).ok();
     let word = |key: &str| report[key].as_str().unwrap_or_default();
     let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
@@ -38,19 +41,18 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
     }
     let said = report["warnings"].as_array().into_iter().flatten();
     warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
-    let units = units_of(&report);
     if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
     }
     let mut maps = Page::default();
-    if let Err(error) = super::maps::draw(&mut maps, folder, &report, &units, colours) {
+    if let Err(error) = super::maps::draw(&mut maps, &solved, &units, colours) {
         warnings.push(format!("There are no maps on this page: {error}"));
         maps = Page::default();
     }
     page.warnings(&warnings);
     page.heading("Figures");
     page.text.push_str("<div class=\"groups\">\n");
-    for (heading, figures) in groups(&report, &units) {
+    for (heading, figures) in groups(report, &units) {
         let _ = writeln!(page.text, "<section>\n<h3>{heading}</h3>");
         page.figures(None, &figures);
         page.text.push_str("</section>\n");
@@ -61,7 +63,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         page.pictures(&maps.text);
     }
     page.heading("Surface and settings");
-    let number = number_of(&report, &units);
+    let number = number_of(report, &units);
     let (levels, others): (Vec<_>, Vec<_>) = report
         .as_object()
         .into_iter()

@@ -35,12 +35,10 @@ pub fn page(table: &Path) -> Outcome<String> {
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let cycle = columns.iter().any(|column| column == "leg");
     let study = columns.first().is_some_and(|column| column == "case");
-    let command = if study {
-        "study"
-    } else if cycle {
-        "cycle"
-    } else {
-        "sweep"
+    let command = match (study, cycle) {
+        (true, _) => "study",
+        (_, true) => "cycle",
+        _ => "sweep",
     };
     let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
     let bad = |row: &Value| row["status"] != "converged";
@@ -77,17 +75,17 @@ pub fn page(table: &Path) -> Outcome<String> {
     };
     let (settings, mut kept): (Vec<_>, Vec<_>) = filled.partition(is_setting);
     kept.sort_by_key(|(_, column)| if varied.contains(&column.as_str()) { 0 } else { place(column) });
-    let head: String =
-        kept.iter().map(|(_, column)| format!("<th>{}</th>", escaped(&Columns::label(column)))).collect();
-    let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{head}</tr>");
+    let cells = |tag: &str, text: &dyn Fn(&str) -> String| -> String {
+        kept.iter().map(|(_, column)| format!("<{tag}>{}</{tag}>", escaped(&text(column)))).collect()
+    };
+    let _ = writeln!(page.text, "<div class=\"rows\">\n<table>\n<tr>{}</tr>", cells("th", &Columns::label));
     let of = Columns::new(&rows, &units);
     let text = |row: &Value, column: &str| {
         let number = |name: &str, found| of.number(name, if name == column { of.value(row, name) } else { found });
         shown(column, &row[column], &number).unwrap_or_default()
     };
     for row in &rows {
-        let cells: String =
-            kept.iter().map(|(_, column)| format!("<td>{}</td>", escaped(&text(row, column)))).collect();
+        let cells = cells("td", &|column| text(row, column));
         let _ = writeln!(page.text, "<tr{}>{cells}</tr>", if bad(row) { " class=\"bad\"" } else { "" });
     }
     page.text.push_str("</table>\n</div>\n");

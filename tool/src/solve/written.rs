@@ -4,14 +4,15 @@ use asperity::Solution;
 use asperity::contact::PressureDistribution;
 use asperity_maps::io::{OutputFolder, write_npz, write_vti};
 use asperity_scene::{Account, gap_to_write};
-use serde_json::json;
 
 use super::beside::Named;
-use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, Options, PICTURES, REPORT, VTI, distribution};
+use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, Options, PICTURES, VTI};
+use crate::csv;
 use crate::options::Scalar;
 use crate::output::write_text;
 use crate::pictures::{self, Resolution};
-use crate::scene;
+use crate::results::write_report;
+use crate::units::Units;
 
 impl Job<'_> {
     /// Writes the files but for fields of which each process writes its rows; those that take the `whole` solution,
@@ -19,13 +20,13 @@ impl Job<'_> {
     pub(super) fn write<T: Scalar>(
         &self,
         folder: &OutputFolder,
+        units: &Units,
         whole: Option<&Solution<T>>,
         beside: &[Named],
         account: &Account,
     ) -> asperity::Result<Option<String>> {
         let path = |name: &str| folder.path(name);
-        write_text(&path(REPORT), &format!("{:#}\n", json!(account)))?;
-        write_text(&path(scene::NAME), &self.scene.text(&self.options.out))?;
+        write_report(folder, account)?;
         let Some(whole) = whole else { return Ok(None) };
         let (shown, solution) = (self.part.grid().alone(), &*self.part.of_solution(whole)?);
         let gap = gap_to_write(solution);
@@ -42,27 +43,22 @@ impl Job<'_> {
         }
         if let Some(bins) = self.options.distribution {
             let found = PressureDistribution::of_contact_pressure(solution, bins)?;
-            write_text(&path(DISTRIBUTION), &distribution::table(&found, &self.units))?;
+            let names = units.columns(&["from_pressure", "to_pressure", "density"], "", false);
+            write_text(&path(DISTRIBUTION), &csv::density(names, &found.edges, &found.density))?;
         }
-        if !self.options.no_pictures {
-            let (Options { picture_format, resolution: Resolution { dpi }, .. }, units) = (self.options, &self.units);
-            let [contact_name, pressure_name] = picture_format.of(PICTURES);
-            let mut regions = self.part.of_field(whole.regions())?.mapv(f64::from);
-            let depth = solution.plastic_depth.as_ref();
-            depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
-            let contact = match self.options.colours.colour_clusters {
-                true => {
-                    pictures::draw_clusters(shown, "Contact", units, (&regions, self.part.sides_meet(whole)), *dpi)?
-                }
-                false => pictures::draw_regions(shown, "Contact", units, &regions, *dpi)?,
-            };
-            contact.write(path(contact_name))?;
-            let pressure = pictures::pressure_to_draw(solution, self.problem.scene.adhesion.adheres());
-            let limits = self.options.colours.limits();
-            let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, limits, *dpi)?;
-            picture.write(path(pressure_name))?;
-            return Ok(picture.load_beyond().map(str::to_owned));
+        if !self.pictures {
+            return Ok(None);
         }
-        Ok(None)
+        let &Options { picture_format, resolution: Resolution { dpi }, ref colours, .. } = self.options;
+        let [contact_name, pressure_name] = PICTURES.map(|name| path(&picture_format.file(name)));
+        let mut regions = self.part.of_field(whole.regions())?.mapv(f64::from);
+        let depth = solution.plastic_depth.as_ref();
+        depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
+        let meet = self.part.sides_meet(whole);
+        pictures::draw_contact(shown, "Contact", units, &regions, colours.clusters(meet), dpi)?.write(contact_name)?;
+        let pressure = pictures::pressure_to_draw(solution, self.problem.scene.adhesion.adheres());
+        let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, colours.limits(), dpi)?;
+        picture.write(pressure_name)?;
+        Ok(picture.load_beyond().map(str::to_owned))
     }
 }

@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use asperity::Grid;
 use asperity::solver::Iteration;
@@ -52,13 +51,12 @@ impl Run<'_> {
         }
     }
 
-    fn rows<T: Scalar>(&self, given: Problem, loads: &[Load], after: After, warn: Warn<'_>) -> Outcome<()> {
-        let Problem { surface, adhesion, origin, part, start } = given;
+    fn rows<T: Scalar>(&self, mut given: Problem, loads: &[Load], after: After, warn: Warn<'_>) -> Outcome<()> {
         let Self { problem, scene, out, .. } = self;
-        let units = in_options(problem.given.units(origin.unit.as_deref(), scene.is_si()))?;
-        let full = problem.full_pressure(&surface, loads)?;
-        let (surface, of) = (Arc::new(surface), (&adhesion, &origin, &part));
-        let mut session = session::<T>(problem, surface, of, (&units, scene), self.strictness, self.processes)?;
+        let full = problem.full_pressure(&given.surface, loads)?;
+        let (part, start, law_table) = (given.part, given.start.take(), given.adhesion.table.take());
+        let works = given.adhesion.works.take();
+        let mut session = session::<T>(problem, given, scene, self.strictness, self.processes)?;
         // rows that have not converged are counted in the table
         let mut tell = |warnings: &mut Warnings, row: usize, account: Option<&Account>| {
             warnings.tell().iter().for_each(|told| warn(told.to_string()));
@@ -72,7 +70,6 @@ impl Run<'_> {
             };
             part.check(way.control(&problem.scene))?;
             let (out, format, force) = (out.clone(), Some(self.format), self.force);
-            let (law_table, works) = (adhesion.table, adhesion.works);
             let file = TableFile { out, format, force, is_case: true, law_table, works, ..TableFile::default() };
             session.begin(way, after, false, start, Some(file))?;
             tell(&mut session.warnings, 0, None);

@@ -18,6 +18,7 @@ use crate::printing::{on_one_line, on_terminal};
 use crate::quantity::Quantity;
 use crate::scene::{is_path, key, section};
 use crate::synonyms::similar;
+use crate::table::format_of;
 
 /// The commands of which a case may be a run.
 const COMMANDS: [&str; 4] = ["sweep", "cycle", "solve", "pull-off"];
@@ -81,8 +82,7 @@ impl Study {
             (None, None) => return Err(refuse(lacks(&table, "out", "names no table", "study.csv")).into()),
             (None, Some(other)) => return Err(refuse(format!("out is {other}: it must be the name of a file")).into()),
         };
-        let refused = || Error::file(&out, format!("does not end in .csv or .jsonl: rename it{run}"));
-        let format = Format::of(&out).ok_or_else(refused)?;
+        let format = format_of(&out, &run)?;
         let [make, vary] = SECTIONS.map(|name| match table.remove(name) {
             Some(Value::Table(section)) => Ok(Some(section)),
             None => Ok(None),

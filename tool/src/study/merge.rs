@@ -49,14 +49,12 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
             count += 1;
         }
     }
-    let file = OutputFile::create(&study.out, true)?;
-    file.write(|path| {
+    OutputFile::create(&study.out, true)?.complete(|path| {
         write_text(path, &table)?;
         // the rows of cases may not be on the disk yet
         let synced = File::options().append(true).open(path).and_then(|file| file.sync_all());
         synced.map_err(|e| Error::unwritable(path, e))
     })?;
-    file.commit()?;
     write_beside(&study.out, &warnings(study)?)?;
     Ok((count, unconverged))
 }

@@ -1,12 +1,11 @@
 //! Lists of keys, enumerations of words, and records of values, each written once.
 
-/// A list of keys as a type, which holds what is given for them: the names with their help, and the kinds of their
-/// values, by sections.
+/// A list of keys as a type: the names with their help, and the kinds of their values, by sections.
 macro_rules! keys {
     ($(#[$about:meta])* $list:ident { $($section:literal { $($(#[doc = $help:literal])+ $name:ident: $kind:expr,)+ })+ }) => {
         $(#[$about])*
-        #[derive(Clone, Debug, Default)]
-        pub struct $list(pub $crate::key::given::Given);
+        #[derive(Clone, Copy, Debug)]
+        pub struct $list;
 
         impl $crate::key::Keys for $list {
             const KEYS: &'static [$crate::key::Key] = &[$($($crate::key::Key {
@@ -15,29 +14,6 @@ macro_rules! keys {
                 section: $section,
                 kind: $kind,
             },)+)+];
-        }
-
-        #[cfg(feature = "options")]
-        impl clap::FromArgMatches for $list {
-            fn from_arg_matches(matches: &clap::ArgMatches) -> std::result::Result<Self, clap::Error> {
-                Ok(Self($crate::key::options::given(<Self as $crate::key::Keys>::KEYS, matches)))
-            }
-
-            fn update_from_arg_matches(&mut self, matches: &clap::ArgMatches) -> std::result::Result<(), clap::Error> {
-                *self = Self::from_arg_matches(matches)?;
-                Ok(())
-            }
-        }
-
-        #[cfg(feature = "options")]
-        impl clap::Args for $list {
-            fn augment_args(command: clap::Command) -> clap::Command {
-                command.args(<Self as $crate::key::Keys>::KEYS.iter().map($crate::key::Key::option))
-            }
-
-            fn augment_args_for_update(command: clap::Command) -> clap::Command {
-                Self::augment_args(command)
-            }
         }
     };
 }

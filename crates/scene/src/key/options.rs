@@ -1,14 +1,15 @@
 //! The keys as options of the program.
 
 use std::ffi::OsString;
+use std::marker::PhantomData;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, ValueParser};
 use clap::parser::ValueSource;
-use clap::{Arg, ArgAction, ArgMatches};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
 use crate::key::list::list;
-use crate::key::{Given, Key, Quantity, Read, Skin, Values, Word, worded};
+use crate::key::{Given, Key, Lists, Quantity, Read, Skin, Values, Word, worded};
 
 impl Key {
     /// The option of the key.
@@ -59,8 +60,33 @@ impl Key {
     }
 }
 
+/// The options of lists of keys, with what they are given.
+#[derive(Clone, Debug)]
+pub struct Chosen<L>(pub Given, PhantomData<L>);
+
+impl<L: Lists> FromArgMatches for Chosen<L> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        Ok(Self(given(L::keys(), matches), PhantomData))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl<L: Lists> Args for Chosen<L> {
+    fn augment_args(command: Command) -> Command {
+        command.args(L::keys().map(Key::option))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
 /// What the options of some keys are given.
-pub fn given(keys: &'static [Key], matches: &ArgMatches) -> Given {
+fn given(keys: impl Iterator<Item = &'static Key>, matches: &ArgMatches) -> Given {
     let mut given = Given::default();
     for key in keys {
         let id = key.name;

@@ -13,6 +13,17 @@ pub fn header(names: impl IntoIterator<Item = impl AsRef<str>>) -> String {
     names.into_iter().map(|name| word(name.as_ref())).collect::<Vec<_>>().join(",")
 }
 
+/// A table of lines under the names of its columns.
+pub fn table(names: impl IntoIterator<Item = impl AsRef<str>>, lines: impl IntoIterator<Item = String>) -> String {
+    [header(names)].into_iter().chain(lines).map(|line| line + "\n").collect()
+}
+
+/// A density in bins as such a table, by the edges of the bins.
+pub fn density(names: impl IntoIterator<Item = impl AsRef<str>>, edges: &[f64], density: &[f64]) -> String {
+    let bins = edges.windows(2).zip(density);
+    table(names, bins.map(|(edges, density)| format!("{:e},{:e},{density:e}", edges[0], edges[1])))
+}
+
 /// A cell of a row.
 pub fn cell(value: &Value) -> String {
     match value {

@@ -92,6 +92,12 @@ impl OutputFile {
         commit(self.folder)
     }
 
+    /// Writes the file, and puts it in its place.
+    pub fn complete(self, write: impl FnOnce(&Path) -> asperity::Result<()>) -> asperity::Result<()> {
+        self.write(write)?;
+        self.commit()
+    }
+
     /// Puts `files` in their places, and then this one, which stands for all of them: one of its name goes before, so
     /// that it is never beside those of another run.
     pub fn commit_after(self, files: impl IntoIterator<Item = Self>) -> asperity::Result<()> {
