@@ -72,8 +72,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the surface.
     pub fn make(&mut self, given: &str) -> Outcome<Value> {
-        let known = without_files::<FormKeys>().chain(without_files::<RoughnessKeys>());
-        let given = read(given, known.chain(without_files::<GridKeys>()))?;
+        let given = read(given, without_files::<(FormKeys, RoughnessKeys, GridKeys)>())?;
         let (typed, si) = (given.typed(), given.quantities().is_si());
         let shape = given.shape().map_err(reason)?;
         if si && given.lengths(shape).is_none() {
@@ -106,8 +105,7 @@ impl Engine {
     /// # Errors
     /// The key and the remedy, and those of the steps; then the surface stays as it was.
     pub fn prepare(&mut self, given: &str) -> Outcome<Value> {
-        let known = without_files::<StepKeys>().chain(without_files::<NewLengthsKeys>());
-        let given = read(given, known.chain(without_files::<CutOffKeys>()))?;
+        let given = read(given, without_files::<(StepKeys, NewLengthsKeys, CutOffKeys)>())?;
         let map = self.map.as_ref().ok_or("there is no map yet: open or make one")?;
         let typed = given.typed();
         let steps = given.steps(map.heights.dim(), given.quantities().is_si(), map.unit.as_deref()).map_err(reason)?;

@@ -19,13 +19,12 @@ pub use crate::state::Observe;
 
 /// The keys of a solve and of a cycle.
 pub fn of_problem() -> impl Iterator<Item = &'static Key> {
-    let scene = without_files::<SurfaceKeys>().chain(without_files::<AdhesionKeys>());
-    scene.chain(without_files::<SolverKeys>()).chain(of_one_solve()).chain(without_files::<PathKeys>())
+    without_files::<(SurfaceKeys, AdhesionKeys, SolverKeys)>().chain(of_one_solve()).chain(without_files::<PathKeys>())
 }
 
 /// Those that pose no other problem.
 fn of_one_solve() -> impl Iterator<Item = &'static Key> {
-    without_files::<LoadKeys>().chain(without_files::<LoadsKeys>()).chain(without_files::<NestedKeys>())
+    without_files::<(LoadKeys, LoadsKeys, NestedKeys)>()
 }
 
 /// A contact problem on a surface, with its solutions.

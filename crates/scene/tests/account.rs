@@ -223,7 +223,8 @@ fn a_state_that_was_stopped_is_found_again_and_has_no_row() {
     let whole = at_once(&mut posed(), &way, After::default());
     let mut session = posed();
     session.begin(way.clone(), After::default(), false, None, file()).unwrap();
-    let (stopped, _) = session.next(&mut |_| ControlFlow::Break(())).unwrap().unwrap();
+    let sought = session.seek(&mut |_| ControlFlow::Break(())).unwrap().unwrap();
+    let (stopped, _) = session.keep(sought).unwrap();
     assert_eq!((stopped.solution.report.status, session.rows()), (Status::Stopped, 0));
     for (row, _) in &whole {
         assert_eq!(&json!(next(&mut session).unwrap().1.cells(&session.columns())), row);
@@ -232,7 +233,12 @@ fn a_state_that_was_stopped_is_found_again_and_has_no_row() {
     // another run may go on with the file once it is released
     assert!(posed().begin(way.clone(), After::default(), false, None, file()).is_err());
     session.release();
-    posed().begin(way, After::default(), false, None, file()).unwrap();
+    posed().begin(way.clone(), After::default(), false, None, file()).unwrap();
+    // without a place to come back to the way ends
+    let mut session = posed();
+    session.begin(way, After::default(), false, None, None).unwrap();
+    assert!(session.next(&mut |_| ControlFlow::Break(())).unwrap().is_some());
+    assert!(next(&mut session).is_none() && !session.columns().is_empty());
 }
 
 #[test]

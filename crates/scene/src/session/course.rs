@@ -32,6 +32,8 @@ pub(crate) struct Course<T> {
     /// The mean gap at first touch, if its table is that of an interface
     touch: Option<f64>,
     place: Place<T>,
+    /// Whether no state follows
+    pub is_over: bool,
     /// The pace of a cycle
     pace: Option<Pace>,
 }
@@ -107,7 +109,7 @@ impl<T: Scalar> Course<T> {
             Way::Cycle(loads, settings) => Some(Pace::new(loads.len().saturating_sub(1), settings)),
             _ => None,
         };
-        Ok(Self { way, after, touch, place, pace })
+        Ok(Self { way, after, touch, place, is_over: false, pace })
     }
 
     /// The course from a gap in the place of the default start.
@@ -247,6 +249,9 @@ impl<T: Scalar> Course<T> {
         session: &mut Session<T>,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Result<Option<Found<T>>> {
+        if self.is_over {
+            return Ok(None);
+        }
         let (clock, boundary) = (Instant::now(), session.scene().elastic.boundary);
         let yields = session.scene().adhesion.yields();
         let (solver, problem) = session.parts()?;

@@ -51,6 +51,9 @@ pub struct Next<T: Scalar> {
     course: Course<T>,
 }
 
+/// The refusal of a state before there is a way.
+const NOT_BEGUN: &str = "there are no loads to follow: begin first";
+
 impl<T: Scalar> Session<T> {
     /// Begins a way through loads, from a gap or the default start, with what is asked for after each state, or goes on
     /// with its table in a file; that of an interface, if it is one.
@@ -140,16 +143,24 @@ impl<T: Scalar> Session<T> {
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Outcome<Option<Next<T>>> {
-        let Some(mut course) = self.course.clone() else {
-            return Err("there are no loads to follow: begin first".into());
-        };
+        let mut course = self.course.clone().ok_or(NOT_BEGUN)?;
+        let found = self.found_on(&mut course, observe)?;
+        Ok(found.map(|(found, row)| Next { found, row, course }))
+    }
+
+    /// The next state of a course.
+    fn found_on(
+        &mut self,
+        course: &mut Course<T>,
+        observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
+    ) -> Outcome<Option<(Found<T>, Row)>> {
         if let Some(table) = &mut self.table {
             self.processes.first(|| table.claim())?;
         }
         let Some(found) = course.next(self, observe)? else { return Ok(None) };
         let Solved { mut found, account } = self.solved(course.command(), found)?;
         let row = course.row(&mut found, account, self.seed)?;
-        Ok(Some(Next { found, row, course }))
+        Ok(Some((found, row)))
     }
 
     /// Appends the row of a state, and goes on from there, unless its solve was stopped.
@@ -168,7 +179,8 @@ impl<T: Scalar> Session<T> {
         Ok((found, row))
     }
 
-    /// Finds and keeps the next state; none at the end of the way.
+    /// Finds and keeps the next state; none at the end of the way, which ends with a state that was stopped. The fields of
+    /// the place before are not kept meanwhile, as [`Self::seek`] keeps them.
     ///
     /// # Errors
     /// Those of [`Self::seek`] and [`Self::keep`].
@@ -176,7 +188,14 @@ impl<T: Scalar> Session<T> {
         &mut self,
         observe: &mut (dyn FnMut(&Iteration) -> ControlFlow<()> + Send),
     ) -> Outcome<Option<(Found<T>, Row)>> {
-        self.seek(observe)?.map(|next| self.keep(next)).transpose()
+        let mut course = self.course.take().ok_or(NOT_BEGUN)?;
+        let found = self.found_on(&mut course, observe)?;
+        course.is_over |= found.as_ref().is_none_or(|(found, _)| found.solution.report.status == Status::Stopped);
+        if course.is_over {
+            self.course = Some(course);
+            return Ok(found);
+        }
+        found.map(|(found, row)| self.keep(Next { found, row, course })).transpose()
     }
 
     /// Lets other runs write the table until the next state.
