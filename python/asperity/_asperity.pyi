@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
+from ._topography import Topography
 from ._types import Report
 
 __all__ = [
@@ -26,7 +27,6 @@ __all__ = [
     "MaugisDugdale",
     "MaugisSphere",
     "Morse",
-    "Original",
     "PowerLaw",
     "Problem",
     "Tabulated",
@@ -68,9 +68,7 @@ VERSION: str
 
 _Field = NDArray[np.float64]
 _Narrowest = tuple[float, tuple[int, int], NDArray[np.int64]]
-_Given = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None]
-_Origin = tuple[int | None, float | None]
-_Map = tuple[_Field, tuple[float, float] | None, str | None, tuple[int, int] | None, _Origin]
+_Map = dict[str, Any]
 
 @disjoint_base
 class Law:
@@ -215,24 +213,8 @@ class Iteration:
 
 @final
 class Look:
-    def found(
-        self,
-    ) -> tuple[
-        tuple[int, float, float, float, NDArray[np.int64], float, float, float],
-        Report,
-        list[tuple[str, str]],
-    ]: ...
+    def found(self) -> tuple[dict[str, Any], Report, list[tuple[str, str]]]: ...
     def displacements(self) -> tuple[_Field, _Field] | None: ...
-
-@final
-class Original:
-    def __new__(cls, shape: tuple[int, ...], lengths: tuple[float, float], nodes: tuple[int, int]) -> Original: ...
-    @property
-    def shape(self) -> tuple[int, int]: ...
-    @property
-    def lengths(self) -> tuple[float, float]: ...
-    def on(self, shape: tuple[int, ...]) -> Original: ...
-    def mirrored(self, field: _Field) -> _Field: ...
 
 @final
 class Keywords:
@@ -262,7 +244,7 @@ class Problem:
         keywords: list[dict[str, Any]],
         start: str | _Field | None,
         table: tuple[int | None, tuple[str, str | None, bool, _Field | None, _Field | None, bool] | None],
-    ) -> tuple[tuple[list[str], list[list[Any]]], int]: ...
+    ) -> tuple[tuple[list[str], list[dict[str, Any]]], int]: ...
     def pace(self) -> tuple[float | None, str] | None: ...
     def next(self, observe: Callable[[Iteration], object] | None) -> dict[str, Any] | None: ...
     def stability(self, keywords: dict[str, Any], gap: _Field, relative_error: float) -> dict[str, Any]: ...
@@ -279,7 +261,7 @@ def interface_files(
 ) -> list[tuple[str, str]]: ...
 def has_dimension(key: str) -> bool: ...
 def quantity(key: str, text: str) -> float: ...
-def in_metres(given: _Given) -> _Map: ...
+def in_metres(given: Topography) -> _Map: ...
 def meant(word: str, known: Sequence[str]) -> str | None: ...
 def read(path: str, channel: str | None) -> _Map: ...
 def made(
@@ -294,7 +276,7 @@ def spectrum(
     heights: _Field, lengths: tuple[float, float]
 ) -> tuple[_Field, _Field, NDArray[np.int64], float]: ...
 def between(
-    first: _Given, second: _Given, shift: tuple[float, float], boundary: str, absent_missing: bool
+    first: Topography, second: Topography, shift: tuple[float, float], boundary: str, absent_missing: bool
 ) -> _Field: ...
 def contact_modulus(bodies: list[tuple[float, float]]) -> float: ...
 def clusters(map: NDArray[np.bool_], periodic: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
@@ -317,7 +299,7 @@ def conductance(
     contact: NDArray[np.bool_], lengths: tuple[float, float], boundary: str, resistivities: tuple[float, float]
 ) -> tuple[float, float, float]: ...
 def prepare(
-    given: _Given,
+    given: Topography,
     new_lengths: tuple[float, float] | None,
     cut_off_wavelength: float | None,
     in_metres: bool,

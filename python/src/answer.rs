@@ -12,14 +12,15 @@ use serde_pyobject::to_pyobject;
 use crate::look::Look;
 use crate::numbers::Scalar;
 use crate::refusal::refusal_of_session;
+use crate::running::At;
 
 /// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(
-    py: Python<'py>,
-    threads: Option<usize>,
+    at: &At<'py>,
     found: Outcome<(Found<T>, Account)>,
     raised: Option<PyErr>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let (py, threads) = (at.py, at.pool.asked);
     let (Found { solution, sight, mode, refined, .. }, account) = match (found, raised.as_ref()) {
         (Ok(found), _) => found,
         (Err(_), Some(raised)) => return Err(raised.clone_ref(py)),

@@ -10,7 +10,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::numbers::Field;
+use crate::numbers::{Field, whole};
 use crate::refusal::refusal;
 use crate::report::reported;
 
@@ -19,12 +19,10 @@ type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
 
 /// The clusters of a map, whose opposite sides meet if it is periodic.
 #[pyfunction]
-pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> PyResult<Found<'py>> {
+pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> Found<'py> {
     let map = map.as_array();
     let found = py.detach(|| if periodic { Clusters::of(map) } else { Clusters::of_part(map) });
-    let Clusters { sizes, labels, .. } = found;
-    let sizes: Vec<i64> = sizes.into_iter().map(|size| size as i64).collect();
-    Ok((sizes.into_pyarray(py), labels.mapv(|label| label as i64).into_pyarray(py)))
+    (whole(py, found.sizes), found.labels.mapv(|label| label as i64).into_pyarray(py))
 }
 
 /// The colours of the clusters of labels: red, green and blue along the last axis.
@@ -38,7 +36,6 @@ pub fn cluster_colours<'py>(py: Python<'py>, labels: PyReadonlyArray2<'_, i64>) 
 
 /// The end of the scale of the positive pressures, the greatest of them, and the share of their load beyond the end.
 #[pyfunction]
-#[pyo3(signature = (pressure, end))]
 pub fn load_scale(pressure: Field<'_>, end: Option<f64>) -> (f64, f64, f64) {
     let LoadScale { end, greatest, beyond, .. } = LoadScale::of(&pressure.as_array(), end);
     (end, greatest, beyond)
@@ -85,15 +82,9 @@ pub fn contact_tables<'py>(
     let ContactTables { gap, pressure, autocorrelation, spots, .. } = tables;
     found.set_item("gap", tabulated(gap)?)?;
     found.set_item("pressure", tabulated(pressure)?)?;
-    let rows = Array2::from_shape_fn((autocorrelation.len(), 2), |(k, part)| {
-        let (distance, value) = autocorrelation[k];
-        [distance, value][part]
-    });
-    found.set_item("autocorrelation", rows.into_pyarray(py))?;
-    let rows = Array2::from_shape_fn((spots.len(), 4), |(k, part)| {
-        let spot = spots[k];
-        [spot.nodes as f64, spot.area, spot.perimeter, spot.force][part]
-    });
-    found.set_item("clusters", rows.into_pyarray(py))?;
+    let rows: Vec<[f64; 2]> = autocorrelation.into_iter().map(Into::into).collect();
+    found.set_item("autocorrelation", Array2::from(rows).into_pyarray(py))?;
+    let rows: Vec<_> = spots.iter().map(|spot| [spot.nodes as f64, spot.area, spot.perimeter, spot.force]).collect();
+    found.set_item("clusters", Array2::from(rows).into_pyarray(py))?;
     Ok(found)
 }

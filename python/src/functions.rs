@@ -4,7 +4,6 @@ use asperity::Error;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyFloat, PyTuple};
 
 use crate::numbers::Numbers;
 
@@ -77,31 +76,11 @@ pub fn at_arrays<'py>(
     arrays: &[&[f64]],
     one_of_all: bool,
 ) -> PyResult<Vec<f64>> {
-    let (py, count) = (function.py(), arrays.first().map_or(0, |array| array.len()));
-    let call = |arguments: Vec<Bound<'py, PyAny>>| function.call1(PyTuple::new(py, arguments)?);
-    // what is not finite is refused by its place
-    let quiet = py.import("numpy")?.call_method("errstate", (), Some(&[("all", "ignore")].into_py_dict(py)?))?;
-    quiet.call_method0("__enter__")?;
-    let found = call(arrays.iter().map(|array| PyArray1::from_slice(py, array).into_any()).collect());
-    quiet.call_method1("__exit__", (py.None(), py.None(), py.None()))?;
-    let hinted = |raised: PyErr| {
-        let about_arrays = raised.is_instance_of::<PyValueError>(py) || raised.is_instance_of::<PyTypeError>(py);
-        let one = || arrays.iter().filter_map(|array| array.first()).map(|&value| PyFloat::new(py, value).into_any());
-        if !about_arrays || count == 0 || call(one().collect()).is_err() {
-            return raised;
-        }
-        let hint = PyTypeError::new_err(format!(
-            "{name} takes one {of} alone, and is given arrays of {of}s: write numpy.where(...) in the place of if, and \
-             functions of numpy in the place of those of math ({raised})"
-        ));
-        hint.set_cause(py, Some(raised));
-        hint
-    };
-    let found = found.map_err(hinted)?;
-    if py.import("numpy")?.call_method1("iscomplexobj", (&found,))?.extract()? {
-        return Err(PyTypeError::new_err(format!("{name} returned complex numbers: it must return real ones")));
-    }
-    let found: Numbers<'_> = found.extract()?;
+    let py = function.py();
+    let count = arrays.first().map_or(0, |array| array.len());
+    let arrays: Vec<_> = arrays.iter().map(|array| PyArray1::from_slice(py, array)).collect();
+    let called = py.import("asperity._called")?;
+    let found: Numbers<'_> = called.call_method1("called", (function, name, of, arrays))?.extract()?;
     let found = found.as_array();
     match found.len() {
         1 if one_of_all => Ok(vec![found.sum(); count]),

@@ -52,7 +52,8 @@ pub struct Map<'py> {
     pub lengths: (f64, f64),
     /// The name of the surface on the other side, and its shift
     pub against: Option<(String, (f64, f64))>,
-    pub original: Option<PyRef<'py, crate::original::Original>>,
+    /// The nodes of the original of a mirrored one, and the part of it that results are of
+    pub original: Option<(usize, usize)>,
     pub part: Option<String>,
     pub unit: Option<String>,
     pub source: Option<String>,

@@ -1,7 +1,7 @@
 //! What was given for the keys of a scene, as keywords.
 
 use asperity_scene::quantity::Quantity;
-use asperity_scene::{Given, Key, Measured, Quantities, Skin, Typed, without_files};
+use asperity_scene::{Given, Key, Measured, Quantities, Skin, Typed};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -9,15 +9,21 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::law::Law;
 use crate::refusal::reason;
 
+/// The keys of several lists that keywords may give.
+macro_rules! known {
+    ($($list:ident),*) => { std::iter::empty()$(.chain(asperity_scene::without_files::<asperity_scene::$list>()))*.collect::<Vec<_>>() };
+}
+pub(crate) use known;
+
 /// What a dictionary of keywords gives for some of the `known` keys.
-pub fn read(known: impl Iterator<Item = &'static Key>, keywords: &Bound<'_, PyDict>) -> PyResult<Given> {
+pub fn read(known: &[&'static Key], keywords: &Bound<'_, PyDict>) -> PyResult<Given> {
     let of = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let key: String = key.extract()?;
         let typed = typed(&key, &value)?;
         Ok((key, typed))
     };
     let typed = keywords.iter().map(of).collect::<PyResult<Vec<_>>>()?;
-    Given::read(&known.collect::<Vec<_>>(), typed).map_err(reason)
+    Given::read(known, typed).map_err(reason)
 }
 
 /// The value of a keyword: a truth value, a text, a number, or several.
@@ -68,10 +74,8 @@ impl Keywords {
     #[new]
     #[pyo3(signature = (keywords, law, is_si=false))]
     fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, is_si: bool) -> PyResult<Self> {
-        use asperity_scene::{AdhesionKeys, SolverKeys, SurfaceKeys};
-        let known =
-            without_files::<SurfaceKeys>().chain(without_files::<AdhesionKeys>()).chain(without_files::<SolverKeys>());
-        let (given, law) = (read(known, keywords)?, law.map(Law::of).transpose()?);
+        let given = read(&known!(SurfaceKeys, AdhesionKeys, SolverKeys), keywords)?;
+        let law = law.map(Law::of).transpose()?;
         // numbers of a solution in the SI, beside texts, say nothing of units
         let quantities = match is_si {
             true => Quantities::default(),

@@ -15,7 +15,6 @@ mod keywords;
 mod law;
 mod look;
 mod numbers;
-mod original;
 mod pair;
 mod pools;
 mod problem;
@@ -33,35 +32,22 @@ mod _asperity {
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]
-    use crate::command::{command, figures_of, page};
-    #[pymodule_export]
-    use crate::contact::{cluster_colours, clusters, contact_tables, load_scale, pressure_distribution};
-    #[pymodule_export]
-    use crate::exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d};
-    #[pymodule_export]
-    use crate::flow::{conductance, leakage, percolation};
-    #[pymodule_export]
-    use crate::inputs::{has_dimension, quantity};
-    #[pymodule_export]
-    use crate::interface::interface_files;
-    #[pymodule_export]
-    use crate::keywords::Keywords;
-    #[pymodule_export]
-    use crate::law::{CutOff, Law, Tabulated, Varying, check_law};
-    #[pymodule_export]
-    use crate::look::Look;
-    #[pymodule_export]
-    use crate::original::Original;
-    #[pymodule_export]
-    use crate::pair::{between, contact_modulus};
-    #[pymodule_export]
-    use crate::problem::Problem;
-    #[pymodule_export]
-    use crate::refusal::meant;
-    #[pymodule_export]
-    use crate::running::Iteration;
-    #[pymodule_export]
-    use crate::surface::{fourier, in_metres, knee_wavelength, made, prepare, read, spectrum, statistics};
+    use crate::{
+        command::{command, figures_of, page},
+        contact::{cluster_colours, clusters, contact_tables, load_scale, pressure_distribution},
+        exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d},
+        flow::{conductance, leakage, percolation},
+        inputs::{has_dimension, quantity},
+        interface::interface_files,
+        keywords::Keywords,
+        law::{CutOff, Law, Tabulated, Varying, check_law},
+        look::Look,
+        pair::{between, contact_modulus},
+        problem::Problem,
+        refusal::meant,
+        running::Iteration,
+        surface::{fourier, in_metres, knee_wavelength, made, prepare, read, spectrum, statistics},
+    };
 
     use pyo3::prelude::*;
 

@@ -2,10 +2,10 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use asperity::contact::ContactStatistics;
 use asperity_scene::{Account, Sight, Skin, rows};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use serde_pyobject::to_pyobject;
 
 use crate::numbers::Scalar;
 use crate::pools::Pool;
@@ -62,14 +62,12 @@ impl<T: Scalar> Looks for Seen<T> {
             // not on a thread of the pool, which may take up another look while it waits in this one
             let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
             let (sight, account) = &mut *seen;
-            let found = pool.get().install(|| sight.look(account, fields))?;
-            Ok((found, account.clone()))
+            Ok((pool.get().install(|| sight.look(account, fields))?, account.clone()))
         };
         let (found, account) = py.detach(look).map_err(refusal)?;
-        let rows = rows(&[&account], &account.inputs.units(), Skin::Keywords)
-            .into_iter()
-            .map(|(name, texts)| (name, texts.concat()));
-        Ok((statistics_of(py, found), reported(py, &account)?, rows.collect()))
+        let rows = rows(&[&account], &account.inputs.units(), Skin::Keywords).into_iter();
+        let rows = rows.map(|(name, texts)| (name, texts.concat())).collect();
+        Ok((to_pyobject(py, &found)?, reported(py, &account)?, rows))
     }
 
     fn displacements<'py>(&self, py: Python<'py>) -> PyResult<Option<Both<'py>>> {
@@ -90,23 +88,4 @@ impl<T: Scalar> Looks for Seen<T> {
 type Both<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
 
 /// The statistics, the report, and the name and the text of each row of the summary.
-type Looked<'py> = (Statistics<'py>, Bound<'py, PyAny>, Vec<(String, String)>);
-
-/// Nodes in contact, their share, its corrected value, the perimeter, sizes of clusters, and the shares of the nodes
-/// that repel, attract and do not notice each other.
-type Statistics<'py> = (usize, f64, f64, f64, Bound<'py, PyArray1<i64>>, f64, f64, f64);
-
-/// The statistics of a contact, in the order of those of Python.
-fn statistics_of(py: Python<'_>, found: ContactStatistics) -> Statistics<'_> {
-    let sizes: Vec<i64> = found.cluster_sizes.iter().map(|&size| size as i64).collect();
-    (
-        found.contact_nodes,
-        found.contact_fraction,
-        found.corrected_contact_fraction,
-        found.perimeter,
-        sizes.into_pyarray(py),
-        found.repulsive_fraction,
-        found.attractive_fraction,
-        found.apart_fraction,
-    )
-}
+type Looked<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Vec<(String, String)>);

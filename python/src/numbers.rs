@@ -5,7 +5,8 @@ use std::ops::Deref;
 use asperity::Error;
 use numpy::ndarray::{Array2, ArrayD, ArrayViewD, Dimension, Ix2, IxDyn};
 use numpy::{
-    AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
+    AllowTypeChange, Element, IntoPyArray, PyArray, PyArray1, PyArrayLike, PyArrayMethods, PyReadonlyArray,
+    PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -89,7 +90,12 @@ pub fn mapped<'py>(py: Python<'py>, numbers: &Numbers<'py>, of: impl Fn(f64) -> 
 }
 
 /// A function that may refuse a number, at each of some.
-pub fn tried<S>(numbers: ArrayViewD<'_, f64>, of: impl Fn(f64) -> PyResult<S>) -> PyResult<ArrayD<S>> {
-    let values = numbers.iter().map(|&number| of(number)).collect::<PyResult<Vec<S>>>()?;
+pub fn tried<S>(numbers: ArrayViewD<'_, f64>, of: impl Fn(f64) -> asperity::Result<S>) -> PyResult<ArrayD<S>> {
+    let values = numbers.iter().map(|&number| of(number).map_err(refusal)).collect::<PyResult<Vec<S>>>()?;
     ArrayD::from_shape_vec(numbers.raw_dim(), values).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// Whole numbers as an array of int64.
+pub fn whole(py: Python<'_>, numbers: impl IntoIterator<Item = usize>) -> Bound<'_, PyArray1<i64>> {
+    PyArray1::from_iter(py, numbers.into_iter().map(|number| number as i64))
 }

@@ -9,28 +9,28 @@ use pyo3::prelude::*;
 use crate::inputs::named;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal, refusal_of_heights};
-use crate::surface::{Map, topography};
+use crate::surface::Given;
 
 /// The heights between a map and another one that faces it, NaN where one of them has none.
 #[pyfunction]
 pub fn between<'py>(
     py: Python<'py>,
-    first: Map<'py>,
-    second: Map<'py>,
+    first: Given<'py>,
+    second: Given<'py>,
     shift: (f64, f64),
     boundary: &str,
     absent_missing: bool,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let boundary = named("boundary", boundary, "periodic or free")?;
-    let (first, second) = (topography(first)?, topography(second)?);
+    let (first, second) = (first.topography()?, second.topography()?);
     let make = if absent_missing { surface_with_absent } else { Surface::new };
     let Topography { heights, lengths, unit, original, .. } = first;
     let grid = Grid::new(heights.dim(), lengths.unwrap_or((1.0, 1.0))).map_err(refusal)?;
     let pool = Pool::of(None)?;
-    let first = py.detach(|| pool.get().install(|| make(grid, heights))).map_err(refusal_of_heights)?;
+    let first = pool.install(py, || make(grid, heights)).map_err(refusal_of_heights)?;
     let both =
         || asperity_scene::between((&first, unit.as_deref(), original), second, shift, (boundary, absent_missing));
-    let found = py.detach(|| pool.get().install(both)).map_err(reason)?;
+    let found = pool.install(py, both).map_err(reason)?;
     Ok(Topography::from(found).heights.into_pyarray(py))
 }
 

@@ -69,16 +69,40 @@ impl From<&asperity::solver::Iteration> for Iteration {
 /// An observer as the library calls it.
 pub type Observe<'a> = &'a mut (dyn FnMut(&asperity::solver::Iteration) -> ControlFlow<()> + Send);
 
+/// Whether work goes on, as the library asks.
+pub type GoesOn<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// The place of a solve: the interpreter, a pool, and the observer.
+pub struct At<'py> {
+    pub py: Python<'py>,
+    pub pool: Pool,
+    pub observer: Option<Py<PyAny>>,
+}
+
+impl At<'_> {
+    /// Runs a solve, which calls the observer.
+    pub fn run<R: Send>(&self, work: impl FnOnce(Observe<'_>) -> R + Send) -> PyResult<(R, Option<PyErr>)> {
+        run(self.py, &self.pool, self.observer.as_ref(), |observe: Observe<'_>, _: GoesOn<'_>| work(observe))
+    }
+}
+
+/// Does `work` on the shared pool and returns its result, or the exception of a signal, as of Ctrl-C, after which the
+/// work is told not to go on.
+pub fn until_interrupted<R: Send>(py: Python<'_>, work: impl FnOnce(GoesOn<'_>) -> R + Send) -> PyResult<R> {
+    let (found, raised) = run(py, &Pool::of(None)?, None, |_: Observe<'_>, goes_on: GoesOn<'_>| work(goes_on))?;
+    raised.map_or(Ok(found), Err)
+}
+
 /// Runs `work` on a thread of the pool and returns its result, and the exception that stopped it, if one did.
 ///
 /// The lock of the interpreter is free meanwhile. This thread sleeps, wakes for signals, and calls the observer of
 /// Python, so that this sees its own thread. An observer stops the solve by `StopIteration`, which is no exception
 /// here.
-pub fn run<R: Send>(
+fn run<R: Send>(
     py: Python<'_>,
     pool: &Pool,
     observer: Option<&Py<PyAny>>,
-    work: impl FnOnce(Observe<'_>) -> R + Send,
+    work: impl FnOnce(Observe<'_>, GoesOn<'_>) -> R + Send,
 ) -> PyResult<(R, Option<PyErr>)> {
     let (stop, result) = (AtomicBool::new(false), Mutex::new(None));
     let (stop_flag, slot, observed) = (&stop, &result, observer.is_some());
@@ -88,15 +112,17 @@ pub fn run<R: Send>(
         pool.get().in_place_scope(|scope| {
             scope.spawn(move |_| {
                 // the channels end with this closure, and the wait of the other thread with them
-                let found = work(&mut move |state| {
+                let goes_on = || !stop_flag.load(Ordering::Relaxed);
+                let mut observe = move |state: &asperity::solver::Iteration| {
                     if observed && tell.send(state.into()).is_ok() {
                         // the observer may solve, too, and on this pool: its thread must not stand idle
                         while let Err(RecvTimeoutError::Timeout) = answered.recv_timeout(NAP) {
                             rayon::yield_now();
                         }
                     }
-                    if stop_flag.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-                });
+                    if goes_on() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                };
+                let found = work(&mut observe, &goes_on);
                 *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(found);
             });
             let mut raised = None;
@@ -127,32 +153,4 @@ pub fn run<R: Send>(
     let found = result.into_inner().unwrap_or_else(PoisonError::into_inner);
     let found = found.ok_or_else(|| PyRuntimeError::new_err("the solve ended without a result"))?;
     Ok((found, raised))
-}
-
-/// Does `work` on a thread of its own and returns its result, or the exception of a signal, as of Ctrl-C, after which the
-/// work is told not to go on.
-pub fn until_interrupted<R: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> R + Send,
-) -> PyResult<R> {
-    let stop = &AtomicBool::new(false);
-    py.detach(|| {
-        std::thread::scope(|scope| {
-            let (tell, told) = mpsc::channel::<()>();
-            let worker = scope.spawn(move || {
-                // the channel ends with this closure
-                let _tell = tell;
-                work(&|| !stop.load(Ordering::Relaxed))
-            });
-            let mut raised = None;
-            while let Err(RecvTimeoutError::Timeout) = told.recv_timeout(PATIENCE) {
-                if let Err(error) = Python::attach(|py| py.check_signals()) {
-                    stop.store(true, Ordering::Relaxed);
-                    raised.get_or_insert(error);
-                }
-            }
-            let found = worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            raised.map_or(Ok(found), Err)
-        })
-    })
 }
