@@ -2,7 +2,6 @@
 
 use asperity_scene::dimension_of_key;
 use asperity_scene::numbers::plain;
-use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -49,19 +48,6 @@ impl Given {
                 plain(*value)
             ))),
             _ => Ok(value),
-        }
-    }
-
-    /// The value of a parameter as it was typed.
-    pub fn typed<'py>(
-        &self,
-        py: Python<'py>,
-        key: &str,
-        value: impl IntoPyObjectExt<'py>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        match self.texts.iter().find(|(name, _)| name == key) {
-            Some((_, text)) => text.into_bound_py_any(py),
-            None => value.into_bound_py_any(py),
         }
     }
 }

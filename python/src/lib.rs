@@ -6,7 +6,6 @@ mod command;
 mod contact;
 mod exact;
 mod flow;
-mod formulas;
 mod functions;
 mod given;
 mod inputs;
@@ -35,12 +34,12 @@ mod _asperity {
     use crate::{
         command::{command, figures_of, page},
         contact::{cluster_colours, clusters, contact_tables, load_scale, pressure_distribution},
-        exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, WaveContact, WavyLine, closing_pressure_2d},
+        exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, MaugisDugdale, WaveContact, WavyLine, closing_pressure_2d},
         flow::{conductance, leakage, percolation},
         inputs::{has_dimension, quantity},
         interface::interface_files,
         keywords::Keywords,
-        law::{CutOff, Law, Tabulated, Varying, check_law},
+        law::{Law, check_law, cut_off, law, read_law, tabulated, varied},
         look::Look,
         pair::{between, contact_modulus},
         problem::Problem,
@@ -48,13 +47,4 @@ mod _asperity {
         running::Iteration,
         surface::{fourier, in_metres, knee_wavelength, made, prepare, read, spectrum, statistics},
     };
-
-    use pyo3::prelude::*;
-
-    /// The laws, and the sphere of Maugis, whose name a law has.
-    #[pymodule_init]
-    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        crate::formulas::add(module)?;
-        module.add("MaugisSphere", module.py().get_type::<crate::exact::MaugisDugdale>())
-    }
 }
