@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
 from ._topography import Topography
-from ._types import Report
 
 __all__ = [
     "AdhesiveWavyLine",
@@ -19,7 +18,6 @@ __all__ = [
     "Jkr",
     "Keywords",
     "Law",
-    "Look",
     "MaugisDugdale",
     "Problem",
     "VERSION",
@@ -103,11 +101,6 @@ class Iteration:
     def round(self) -> int: ...
     @property
     def smoothed(self) -> bool: ...
-
-@final
-class Look:
-    def found(self) -> tuple[dict[str, Any], Report, list[tuple[str, str]]]: ...
-    def displacements(self) -> tuple[_Field, _Field] | None: ...
 
 @final
 class Keywords:

@@ -95,7 +95,7 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
         of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
     law = None if told["law"] == "none" else told["law"]
     taken = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
-    solution = Solution(of, (_body(told), law), told, {**taken, "look": None})
+    solution = Solution(of, (_body(told), law), told, {**taken, "look": None, "displacements": None})
     both: list[Any] = [taken[name] for name in ("displacement", "against_displacement")]
     parts = None if both[1] is None else tuple(map(solution.part_of, both))
     solution.__dict__.update(_looked=(statistics, told, rows), _displacements=parts)

@@ -182,7 +182,7 @@ class Solution:
         for name in ("plastic_depth", "mode"):
             setattr(self, name, None if found[name] is None else self.part_of(found[name]))
         # the numbers of the report as they are, without what is found of the fields, and what finds that
-        self._told, self._look = told, found["look"]
+        self._told, self._look, self._displace = told, found["look"], found["displacements"]
 
     def part_of(self, field: NDArray[Any]) -> NDArray[Any]:
         """The part of a field on the whole map that the solution is of."""
@@ -197,14 +197,14 @@ class Solution:
 
     @cached_property
     def _looked(self) -> tuple[ContactStatistics, Report, list[tuple[str, str]]]:
-        counted, report, rows = self._look.found()
+        counted, report, rows = self._look()
         counted["cluster_sizes"] = np.array(counted["cluster_sizes"], np.int64)
         return ContactStatistics(*(counted[name] for name in ContactStatistics._fields)), report, rows
 
     def __getstate__(self) -> dict[str, Any]:
         # a solution travels complete, and without its view of the memory of this process
-        complete = {"_looked": self._looked, "_displacements": self._displacements, "_look": None}
-        return {**self.__dict__, **complete}
+        complete = {"_looked": self._looked, "_displacements": self._displacements}
+        return {**self.__dict__, **complete, "_look": None, "_displace": None}
 
     @cached_property
     def contact(self) -> NDArray[np.bool_]:
@@ -362,7 +362,7 @@ class Solution:
 
     @cached_property
     def _displacements(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-        found = None if self._look is None else self._look.displacements()
+        found = None if self._displace is None else self._displace()
         return None if found is None else (self.part_of(found[0]), self.part_of(found[1]))
 
     @property

@@ -237,6 +237,9 @@ def fourier(
     both = _lengths(lengths, nodes)
     source = os.fspath(coefficients) if isinstance(coefficients, str | os.PathLike) else None
     rows: Any = source or np.atleast_2d(np.asarray(coefficients, dtype=np.float64))
+    if source is None and rows.shape[1] != 4:
+        columns = "they must be qX, qY, and the real and the imaginary part"
+        raise ValueError(f"coefficients have {rows.shape[1]} columns: {columns}")
     heights = _asperity.fourier(rows, nodes, both, 1.0 if fourier_unit is None else float(fourier_unit))
     return Topography(heights, both, "m" if given.get() else None, periodic=True, source=source)
 

@@ -119,5 +119,6 @@ def tables(solution: Solution) -> ContactTables:
     """
     gap, pressure = field_of(solution.gap, "gaps"), field_of(solution.contact_pressure, "pressures")
     found = _asperity.contact_tables(gap, pressure, solution.lengths, solution.flow_boundary)
-    densities = [Density(*found[name]) for name in ("gap", "pressure")]
-    return ContactTables(densities[0], densities[1], found["autocorrelation"], found["clusters"], found["figures"])
+    figures = found["figures"]
+    densities = [Density(*(*found[name], figures[f"{name}_exponent"])) for name in ("gap", "pressure")]
+    return ContactTables(densities[0], densities[1], found["autocorrelation"], found["clusters"], figures)

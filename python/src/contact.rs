@@ -4,7 +4,7 @@ use asperity::Grid;
 use asperity::contact::{Clusters, PressureDistribution};
 use asperity_plot::{LoadScale, cluster_colour};
 use asperity_scene::Boundary;
-use asperity_scene::contact::{ContactTables, Density as Tabulated};
+use asperity_scene::contact::ContactTables;
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -59,7 +59,7 @@ pub fn pressure_distribution<'py>(
     Ok((found.density.into_pyarray(py), found.edges.into_pyarray(py)))
 }
 
-/// The tables of a contact: for gap and pressure density, edges and exponent, the autocorrelation by rows of distance
+/// The tables of a contact: its figures, for gap and pressure density and edges, the autocorrelation by rows of distance
 /// and value, and the clusters by rows of nodes, area, perimeter and force.
 #[pyfunction]
 pub fn contact_tables<'py>(
@@ -74,14 +74,11 @@ pub fn contact_tables<'py>(
     let find = || ContactTables::of(gap, pressure, Grid::new(gap.dim(), lengths)?, boundary);
     let tables = py.detach(find).map_err(refusal)?;
     let found = PyDict::new(py);
-    let tabulated = |of: Tabulated| {
-        let exponent = of.exponent.map(|exponent| reported(py, &exponent)).transpose()?;
-        PyResult::Ok((of.density.into_pyarray(py), of.edges.into_pyarray(py), exponent))
-    };
     found.set_item("figures", reported(py, &tables.figures())?)?;
     let ContactTables { gap, pressure, autocorrelation, spots, .. } = tables;
-    found.set_item("gap", tabulated(gap)?)?;
-    found.set_item("pressure", tabulated(pressure)?)?;
+    for (name, of) in [("gap", gap), ("pressure", pressure)] {
+        found.set_item(name, (of.density.into_pyarray(py), of.edges.into_pyarray(py)))?;
+    }
     let rows: Vec<[f64; 2]> = autocorrelation.into_iter().map(Into::into).collect();
     found.set_item("autocorrelation", Array2::from(rows).into_pyarray(py))?;
     let rows: Vec<_> = spots.iter().map(|spot| [spot.nodes as f64, spot.area, spot.perimeter, spot.force]).collect();

@@ -1,7 +1,10 @@
 //! The inputs of a problem beside its keywords.
 
+use asperity::{Grid, Surface};
+use asperity_maps::surface_with_absent;
 use asperity_scene::allowed::Range;
 use asperity_scene::dimension_of_key;
+use numpy::ndarray::Array2;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -10,6 +13,7 @@ use serde::de::{DeserializeOwned, IntoDeserializer};
 use serde_pyobject::from_pyobject;
 
 use crate::numbers::Field;
+use crate::refusal::refusal_of_heights;
 
 /// The value of a keyword by its name, which is one of `names`.
 pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
@@ -74,4 +78,10 @@ impl Begin<'_> {
     pub fn word(&self) -> &'static str {
         if let Self::Word(_) = self { "apart" } else { "array" }
     }
+}
+
+/// The surface of heights, in which missing points may be absent nodes.
+pub fn surface(heights: Array2<f64>, lengths: (f64, f64), absent_missing: bool) -> PyResult<Surface> {
+    let make = if absent_missing { surface_with_absent } else { Surface::new };
+    Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights)).map_err(refusal_of_heights)
 }

@@ -7,12 +7,10 @@ mod contact;
 mod exact;
 mod flow;
 mod functions;
-mod given;
 mod inputs;
 mod interface;
 mod keywords;
 mod law;
-mod look;
 mod numbers;
 mod pair;
 mod pools;
@@ -22,7 +20,6 @@ mod report;
 mod running;
 mod state;
 mod surface;
-mod symbol;
 
 /// The compiled core.
 #[pyo3::pymodule]
@@ -40,7 +37,6 @@ mod _asperity {
         interface::interface_files,
         keywords::Keywords,
         law::{Law, check_law, cut_off, law, read_law, tabulated, varied},
-        look::Look,
         pair::{between, contact_modulus},
         problem::Problem,
         refusal::meant,

@@ -57,22 +57,14 @@ impl Field<'_> {
     /// A copy of the numbers.
     ///
     /// # Errors
-    /// `MemoryError` if there is no room for it.
+    /// `MemoryError` if there is no room for it: an allocation that fails would end the interpreter.
     pub fn to_array(&self) -> PyResult<Array2<f64>> {
         let numbers = self.as_array();
-        afford("a copy of a map", numbers.dim()).map_err(refusal)?;
-        Ok(numbers.to_owned())
-    }
-}
-
-/// Refuses a map that there is no room for: an allocation that fails would end the interpreter.
-pub fn afford(what: &str, (nx, ny): (usize, usize)) -> asperity::Result<()> {
-    match Vec::<f64>::new().try_reserve_exact(nx.saturating_mul(ny)) {
-        Ok(()) => Ok(()),
-        Err(_) => {
-            let bytes = nx as f64 * ny as f64 * size_of::<f64>() as f64;
-            Err(Error::Memory { what: format!("{what} of {nx} x {ny} nodes"), bytes })
+        if Vec::<f64>::new().try_reserve_exact(numbers.len()).is_ok() {
+            return Ok(numbers.to_owned());
         }
+        let what = format!("a copy of a map of {} x {} nodes", numbers.nrows(), numbers.ncols());
+        Err(refusal(Error::Memory { what, bytes: numbers.len() as f64 * size_of::<f64>() as f64 }))
     }
 }
 

@@ -2,9 +2,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use asperity::Surface;
 use asperity::contact::Original;
-use asperity::{Grid, Surface};
-use asperity_maps::surface_with_absent;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{
@@ -15,12 +14,13 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::inputs::{Begin, Map};
+use crate::functions::symbol_of;
+use crate::inputs::{Begin, Map, surface};
 use crate::keywords::{Keywords, known, read};
 use crate::law::Law;
 use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
-use crate::refusal::{reason, refusal, refusal_of_heights, refusal_of_session};
+use crate::refusal::{reason, refusal, refusal_of_session};
 use crate::running::At;
 use crate::state::{self, Answer, Columns, File, Pace};
 
@@ -104,10 +104,7 @@ impl Problem {
         let (given, quantities) = (given.clone(), quantities.clone());
         let mut scene = given.scene().map_err(reason)?;
         let at = At { py, pool: Pool::of(given.threads())?, observer: None };
-        let heights = map.heights.to_array()?;
-        let make = if given.absent_missing() { surface_with_absent } else { Surface::new };
-        let surface = Grid::new(heights.dim(), map.lengths).and_then(|grid| make(grid, heights));
-        let surface = surface.map_err(refusal_of_heights)?;
+        let surface = surface(map.heights.to_array()?, map.lengths, given.absent_missing())?;
         let original = map.original.map(|nodes| Original::new(surface.grid(), nodes)).transpose().map_err(refusal)?;
         let hardness = map.hardness.map(|hardness| hardness.to_array()).transpose()?;
         scene.adhesion.hardness_map = hardness.as_ref().map(|_| "array".to_owned());
@@ -123,7 +120,7 @@ impl Problem {
                 scene.adhesion.formula(None).map_err(refusal)?
             }
         };
-        scene.elastic.symbol = symbol.map(crate::symbol::symbol);
+        scene.elastic.symbol = symbol.map(symbol_of);
         scene.elastic.check().map_err(reason)?;
         scene.elastic.body().map_err(refusal)?;
         let inputs = Inputs {

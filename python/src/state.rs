@@ -41,15 +41,14 @@ fn start<T: Scalar>(
 ) -> PyResult<Option<Array2<f64>>> {
     session.inputs.initial_gap = given.as_ref().map(Begin::word).map(str::to_owned);
     match (given, load) {
+        (None, _) => Ok(None),
         (Some(Begin::Gap(gap)), _) => Ok(Some(gap.as_array().to_owned())),
         (Some(Begin::Word(word)), Some(load)) if word == "apart" => {
             session.apart(load).map(Some).map_err(refusal_of_session)
         }
-        (Some(Begin::Word(word)), _) => {
-            let remedy = "it must be 'apart', with a load that is given, an array of gaps, or a solution";
-            Err(PyValueError::new_err(format!("start is '{word}': {remedy}")))
-        }
-        (None, _) => Ok(None),
+        (Some(Begin::Word(word)), _) => Err(PyValueError::new_err(format!(
+            "start is '{word}': it must be 'apart', with a load that is given, an array of gaps, or a solution"
+        ))),
     }
 }
 
@@ -69,7 +68,7 @@ pub fn solve<'py, T: Scalar>(
         let log = at.py.import("logging")?.call_method1("getLogger", ("asperity",))?;
         log.call_method1("info", (goal.announced(plan, *seconds),))?;
     }
-    let (solved, raised) = at.run(|observe| session.solve(asked, start, &mut |_, state, _| observe(state)))?;
+    let (solved, raised) = at.run(|observe, _| session.solve(asked, start, &mut |_, state, _| observe(state)))?;
     let found = answer(at, solved.map(|solved| (solved.found, solved.account)), raised)?;
     let of = planned.map(|(plan, seconds)| (plan.nodes_per_wave, plan.tolerance, plan.shape, plan.bytes, seconds));
     found.set_item("plan", of)?;
@@ -84,7 +83,8 @@ pub fn pull_off<'py, T: Scalar>(
     begin: Option<Begin<'py>>,
 ) -> Answer<'py> {
     let start = start(session, begin, None)?.map(T::field);
-    let (found, raised) = at.run(|observe| session.pull_off(asked, goal, start, &mut |_, state, _| observe(state)))?;
+    let (found, raised) =
+        at.run(|observe, _| session.pull_off(asked, goal, start, &mut |_, state, _| observe(state)))?;
     let mut of = None;
     let last = found.map(|(last, pulled_off)| {
         of = Some((pulled_off.shortfall(&last.account, Skin::Keywords), pulled_off));
@@ -129,7 +129,7 @@ pub fn begin<'py, T: Scalar>(
 /// The next state; none at the end.
 pub fn next<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
     let before = session.rows();
-    let (sought, raised) = at.run(|observe| session.seek(observe))?;
+    let (sought, raised) = at.run(|observe, _| session.seek(observe))?;
     let goes_on = raised.is_none();
     // a state that was not reached is looked for again from where the ones before lead
     let keep = |next: Next<T>| if goes_on { session.keep(next) } else { Ok((next.found, next.row)) };

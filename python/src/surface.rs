@@ -89,7 +89,7 @@ pub fn made<'py>(
     Ok(drawn.heights.into_pyarray(py))
 }
 
-/// Fourier coefficients as Python passes them: a file, or rows of numbers.
+/// Fourier coefficients as Python passes them: a file, or rows of four numbers.
 #[derive(FromPyObject)]
 pub enum Coefficients<'py> {
     File(PathBuf),
@@ -111,12 +111,8 @@ pub fn fourier<'py>(
         Coefficients::Rows(rows) => {
             let mut series = FourierSeries::new(grid).map_err(refusal)?;
             for (index, row) in rows.as_array().outer_iter().enumerate() {
-                let &[m, n, re, im] = &row.to_vec()[..] else {
-                    let text = "coefficients have {} columns: they must be qX, qY, and the real and the imaginary part";
-                    return Err(PyValueError::new_err(text.replace("{}", &row.len().to_string())));
-                };
                 let refused = |error| PyValueError::new_err(format!("coefficients[{index}]: {error}"));
-                series.add((m, n), (re, im)).map_err(refused)?;
+                series.add((row[0], row[1]), (row[2], row[3])).map_err(refused)?;
             }
             apart(py, || series.surface(unit))?
         }
