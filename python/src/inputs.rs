@@ -7,19 +7,11 @@ use asperity_scene::dimension_of_key;
 use numpy::ndarray::Array2;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use serde::Deserialize;
-use serde::de::value::Error;
-use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde::de::DeserializeOwned;
 use serde_pyobject::from_pyobject;
 
 use crate::numbers::Field;
 use crate::refusal::refusal_of_heights;
-
-/// The value of a keyword by its name, which is one of `names`.
-pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
-    let found: Result<V, Error> = V::deserialize(name.into_deserializer());
-    found.map_err(|_| PyValueError::new_err(format!("{keyword} is {name}: it must be {names}")))
-}
 
 /// The object that a dictionary of keys and values describes.
 pub fn keys<V: DeserializeOwned>(given: Bound<'_, PyAny>) -> PyResult<V> {

@@ -1,6 +1,6 @@
 //! What was given for the keys of a scene, as keywords.
 
-use asperity_scene::quantity::Quantity;
+use asperity_scene::numbers::plain;
 use asperity_scene::{Given, Key, Measured, Quantities, Skin, Typed};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -50,15 +50,12 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
 
 /// The quantities of a law.
 pub fn quantities(law: &Law) -> Quantities {
-    let texts = law.given.texts.iter().filter_map(|(key, text)| {
-        let numbers = Key::named(key)?.any_value(text).ok()?.numbers;
-        Some(Measured::of(key, vec![text.clone()], &numbers, false))
-    });
-    let bare = law.given.bare.iter();
-    let bare = bare.map(|(key, value)| {
-        Measured::of(key, vec![asperity_scene::numbers::plain(*value)], &[Quantity::bare(*value)], false)
-    });
-    texts.chain(bare).collect()
+    let of = |(key, text): (&String, String)| {
+        let numbers = Key::named(key)?.any_value(&text).ok()?.numbers;
+        Some(Measured::of(key, vec![text], &numbers, false))
+    };
+    let texts = law.given.texts.iter().map(|(key, text)| (key, text.clone()));
+    texts.chain(law.given.bare.iter().map(|(key, value)| (key, plain(*value)))).filter_map(of).collect()
 }
 
 /// What was given for the keys of a problem.

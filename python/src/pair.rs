@@ -2,10 +2,11 @@
 
 use asperity::elastic::{Body, HalfSpace, Material, Series};
 use asperity_maps::Topography;
+use asperity_scene::Boundary;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 
-use crate::inputs::{named, surface};
+use crate::inputs::surface;
 use crate::pools::Pool;
 use crate::refusal::{reason, refusal};
 use crate::surface::Given;
@@ -20,7 +21,7 @@ pub fn between<'py>(
     boundary: &str,
     absent_missing: bool,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let boundary = named("boundary", boundary, "periodic or free")?;
+    let boundary = if boundary == "free" { Boundary::Free } else { Boundary::Periodic };
     let (first, second) = (first.topography()?, second.topography()?);
     let Topography { heights, lengths, unit, original, .. } = first;
     let (pool, first) = (Pool::of(None)?, surface(heights, lengths.unwrap_or((1.0, 1.0)), absent_missing)?);
