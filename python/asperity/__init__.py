@@ -16,7 +16,7 @@ from __future__ import annotations
 from . import _flow, _laws, _pair, _prepare, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
-from ._asperity import CutOff, Iteration, Law, Tabulated, Varying, check_law
+from ._asperity import Iteration, Law, check_law
 from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep
 from ._cycle import Cycle, Step
@@ -24,6 +24,7 @@ from ._flow import Flow, Leakage
 from ._folder import load, report
 from ._interface import Interface
 from ._laws import *
+from ._laws import CutOff, Tabulated, Varying
 from ._progress import progress
 from ._pull_off import PullOff
 from ._solution import (

@@ -41,7 +41,7 @@ class Rows(Iterator[T]):
         )
         #: the names of the columns, as in the tool's table
         self.names = tuple(names)
-        self.rows: list[dict[str, Any]] = [dict(zip(self.names, row, strict=True)) for row in rows]
+        self.rows: list[dict[str, Any]] = [self._row(row) for row in rows]
         self._seconds_left: float | None = None
         self._keep(contact.problem.pace())
 
@@ -56,11 +56,15 @@ class Rows(Iterator[T]):
             self._ended, self._seconds_left = True, None
             raise StopIteration
         if found["raised"] is None:
-            self.rows.append({name: found["row"][name] for name in self.names})
+            self.rows.append(self._row(found["row"]))
             # ended by the observer: it goes no further
             self._ended = found["row"]["status"] == "stopped"
         self._keep(found["pace"])
         return self._contact._solution(found)
+
+    def _row(self, found: dict[str, Any]) -> dict[str, Any]:
+        """The columns of a row."""
+        return {name: found.get(name) for name in self.names}
 
     def _keep(self, pace: tuple[float | None, str] | None) -> None:
         """Keeps the time that is left of a cycle, and shows its pace."""

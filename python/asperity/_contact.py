@@ -39,7 +39,7 @@ from ._pull_off import PullOff
 from ._solution import Solution, Start
 from ._stability import Stability
 from ._sweep import Sweep
-from ._topography import Heights, Topography, field_of, original_of, refined, sides, taken
+from ._topography import Heights, Topography, field_of, mirrored, refined, sides, taken
 from ._types import AxisOrder, Lengths
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 from ._words import check
@@ -568,15 +568,14 @@ class Contact:
             raise ValueError(
                 f"shift is {keys['shift']!r}, but there is no surface on the other side: give against, or leave it out"
             )
-        original = original_of(self.topography)
         # with a free boundary the images belong to the body
-        self.original = None if self.whole or boundary != "periodic" else original
+        part = "whole" if self.whole or boundary != "periodic" else "original"
         self._map = {
             "heights": self.topography.heights,
             "lengths": sides(self.topography),
             "against": facing,
-            "original": self.original,
-            "part": None if original is None else "whole" if self.original is None else "original",
+            "original": self.topography.original,
+            "part": None if self.topography.original is None else part,
             "unit": self.topography.unit,
             "source": self.topography.source,
             "scars_removed": self.topography.scars_removed,
@@ -658,7 +657,7 @@ class Contact:
         return Stability(**{**found, "mode": solution.part_of(found["mode"])})
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "problem": None, "original": None, "body": None, "_map": None, "_given": None}
+        return {**self.__dict__, "problem": None, "body": None, "_map": None, "_given": None}
 
     def _split(self, keywords: Any) -> tuple[Start, Any, dict[str, Any]]:
         """The start, the observer, and the keys of a call."""
@@ -700,8 +699,7 @@ class Contact:
         if start is None or isinstance(start, str):
             return start
         gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
-        original = original_of(self.topography)
-        return gap if original is None or gap.shape != original.shape else original.mirrored(gap)
+        return mirrored(gap, self.topography.heights.shape) if gap.shape == self.topography.original else gap
 
     def _solution(self, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""

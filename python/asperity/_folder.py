@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from . import _asperity
 from ._body import Coating, Layer
 from ._solution import ContactStatistics, Solution
-from ._topography import Heights, Topography, field_of, found
+from ._topography import Heights, Topography, field_of, found, mirrored
 
 #: The fields of a folder that every solve leaves, and those that some do.
 _FIELDS = ("gap", "pressure", "contact_pressure")
@@ -66,13 +66,13 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
         fields["heights"] = field_of(found(heights, None), "heights")
         if fields["heights"].shape != shape:
             raise ValueError(f"heights have shape {fields['heights'].shape}: those that were solved have {shape}")
-    original, whole, lengths = None, shape, tuple(told["lengths"])
-    if told["solved_shape"] is not None:
-        whole = tuple(told["solved_shape"])
+    is_whole = told["solved_shape"] is None
+    whole = shape if is_whole else tuple(told["solved_shape"])
+    lengths: Any = tuple(told["lengths"])
+    if not is_whole:
         lengths = tuple(length / m * n for length, n, m in zip(lengths, whole, shape, strict=True))
-        original = _asperity.Original(whole, lengths, shape)
     contact = (fields["gap"] <= 0) | (fields["contact_pressure"] > 0)
-    sizes, _ = _asperity.clusters(contact, told["boundary"] == "periodic" and original is None)
+    sizes, _ = _asperity.clusters(contact, told["boundary"] == "periodic" and is_whole)
     corrected = told["corrected_contact_fraction"]
     repulsive, attractive = told["repulsive_fraction"], told["attractive_fraction"]
     statistics = ContactStatistics(
@@ -87,21 +87,17 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
     )
     rows = _asperity.figures_of(json.dumps(told))
 
-    def mirrored(field: Any) -> Any:
-        return field if original is None or field is None else original.mirrored(field).astype(field.dtype)
-
     is_line = shape[1] == 1
     of: Any = whole[:1] if is_line else whole
     if fields["heights"] is not None:
-        nodes = None if original is None else shape
-        map_of = mirrored(np.asarray(fields["heights"], np.float64))
-        source, unit = told["heights"], told["length_unit"]
+        map_of = mirrored(np.asarray(fields["heights"], np.float64), whole)
+        source, unit, nodes = told["heights"], told["length_unit"], None if is_whole else shape
         of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
     law = None if told["law"] == "none" else told["law"]
-    taken = {name: mirrored(fields[name]) for name in (*_FIELDS, "plastic_depth", "mode")}
-    solution = Solution(of, (_body(told), law), told, {**taken, "look": None})
-    both = [fields[name] for name in ("displacement", "against_displacement")]
-    parts = None if both[1] is None else tuple(solution.part_of(mirrored(field)) for field in both)
+    taken = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
+    solution = Solution(of, (_body(told), law), told, {**taken, "look": None, "displacements": None})
+    both: list[Any] = [taken[name] for name in ("displacement", "against_displacement")]
+    parts = None if both[1] is None else tuple(map(solution.part_of, both))
     solution.__dict__.update(_looked=(statistics, told, rows), _displacements=parts)
     return solution
 

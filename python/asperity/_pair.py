@@ -6,10 +6,10 @@ from dataclasses import replace
 from typing import overload
 
 from . import _asperity
-from ._units import number
-from ._topography import Heights, Topography, known, knows_axes, taken
+from ._topography import Heights, Topography, knows_axes, taken
 from ._types import AxisOrder, Boundary, Quantity
-from ._units import given
+from ._units import given, number
+
 
 def along_both(shift: list[float] | None) -> tuple[float, float]:
     """A shift along both axes."""
@@ -29,7 +29,7 @@ def between(
 ) -> tuple[Topography, str]:
     """The map between two surfaces that face each other, and the name of the second one in reports."""
     other = taken(against, None, None if knows_axes(against) else axes, si)
-    heights = _asperity.between(known(first), known(other), shift, boundary, absent_missing)
+    heights = _asperity.between(first, other, shift, boundary, absent_missing)
     periodic = False if other.periodic is False else first.periodic
     return replace(first, heights=heights, periodic=periodic), other.source or "array"
 
@@ -83,4 +83,4 @@ def contact_modulus(
     if other_young is not None:
         bodies.append((number("other_young", other_young), number("other_poisson", other_poisson)))
     modulus = _asperity.contact_modulus(bodies)
-    return modulus if given.get() is None else f"{modulus!r}Pa"
+    return f"{modulus!r}Pa" if given.get() else modulus

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from . import _asperity
-from ._units import number
-from ._topography import Heights, Topography, _lengths, found, known, plain
+from ._topography import Heights, Topography, _lengths, found, plain
 from ._types import AxisOrder, Lengths, Quantity, RemovedForm, RowAlignment, ScanAxis, Trend
 from ._units import given as units
+from ._units import number
 from ._warnings import warn_of_input
 
 #: The threshold of scars, that of Gwyddion.
@@ -125,12 +127,9 @@ def prepare(
     }
     both = None if lengths is None else _lengths(lengths, given.heights.shape)
     cut_off = None if cut_off_wavelength is None else number("cut_off_wavelength", cut_off_wavelength)
-    prepared = _asperity.prepare(known(given), both, cut_off, units.get() is not None, plain(keys))
-    (made, both, name, original, (_, scars)), log, warnings = prepared
+    made, log, warnings = _asperity.prepare(given, both, cut_off, units.get(), plain(keys))
     for warning in warnings:
         warn_of_input(warning)
     periodic = True if mirror or window else given.periodic
-    is_line = given._is_line and made.shape[1] == 1
-    lines = (*given.log, *log)
-    scars = given.scars_removed if scars is None else scars
-    return Topography(made, both, name, periodic, given.source, original, given.seed, lines, scars, is_line)
+    is_line = given._is_line and made["heights"].shape[1] == 1
+    return replace(given, **made, periodic=periodic, log=(*given.log, *log), _is_line=is_line)

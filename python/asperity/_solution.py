@@ -11,13 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity, _picture, _plot
 from ._accuracy import Plan
+from ._topography import Topography, field_of
 from ._types import Boundary, Report, Status
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from xarray import Dataset
-
-    from ._topography import Topography
 
 
 class ContactStatistics(NamedTuple):
@@ -183,7 +182,7 @@ class Solution:
         for name in ("plastic_depth", "mode"):
             setattr(self, name, None if found[name] is None else self.part_of(found[name]))
         # the numbers of the report as they are, without what is found of the fields, and what finds that
-        self._told, self._look = told, found["look"]
+        self._told, self._look, self._displace = told, found["look"], found["displacements"]
 
     def part_of(self, field: NDArray[Any]) -> NDArray[Any]:
         """The part of a field on the whole map that the solution is of."""
@@ -198,13 +197,14 @@ class Solution:
 
     @cached_property
     def _looked(self) -> tuple[ContactStatistics, Report, list[tuple[str, str]]]:
-        counted, report, rows = self._look.found()
-        return ContactStatistics(*counted), report, rows
+        counted, report, rows = self._look()
+        counted["cluster_sizes"] = np.array(counted["cluster_sizes"], np.int64)
+        return ContactStatistics(*(counted[name] for name in ContactStatistics._fields)), report, rows
 
     def __getstate__(self) -> dict[str, Any]:
         # a solution travels complete, and without its view of the memory of this process
-        complete = {"_looked": self._looked, "_displacements": self._displacements, "_look": None}
-        return {**self.__dict__, **complete}
+        complete = {"_looked": self._looked, "_displacements": self._displacements}
+        return {**self.__dict__, **complete, "_look": None, "_displace": None}
 
     @cached_property
     def contact(self) -> NDArray[np.bool_]:
@@ -240,9 +240,7 @@ class Solution:
         >>> bool(abs(sum(density) * edges[1] - solution.contact_fraction) < 1e-12)
         True
         """
-        gap, pressure = (
-            np.asarray(field, dtype=float).reshape(field.shape[0], -1) for field in (self.gap, self.contact_pressure)
-        )
+        gap, pressure = field_of(self.gap, "gaps"), field_of(self.contact_pressure, "pressures")
         return PressureDistribution(*_asperity.pressure_distribution(gap, pressure, bins))
 
     @property
@@ -264,8 +262,7 @@ class Solution:
         >>> light.x is not None, heavy.x is None
         (True, True)
         """
-        gap = np.asarray(self.gap, dtype=float).reshape(self.gap.shape[0], -1)
-        found = _asperity.percolation(gap, self.lengths, self.flow_boundary)
+        found = _asperity.percolation(field_of(self.gap, "gaps"), self.lengths, self.flow_boundary)
         x, y = (None if along is None else Constriction(*along) for along in found)
         return Percolation(x, y)
 
@@ -297,7 +294,7 @@ class Solution:
         if body is not None:
             raise ValueError(f"the body is a {body}: conductance is that between half-spaces")
         first, second = (float(one) for one in resistivities)
-        gap = np.asarray(self.whole_gap).reshape(self.whole_gap.shape[0], -1)
+        gap = field_of(self.whole_gap, "gaps")
         shares = zip(self.lengths, gap.shape, self._told["shape"], strict=True)
         lx, ly = (length if nodes == part else length / part * nodes for length, nodes, part in shares)
         per_area, _, error = _asperity.conductance(gap <= 0, (lx, ly), self.boundary, (first, second))
@@ -365,7 +362,7 @@ class Solution:
 
     @cached_property
     def _displacements(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-        found = None if self._look is None else self._look.displacements()
+        found = None if self._displace is None else self._displace()
         return None if found is None else (self.part_of(found[0]), self.part_of(found[1]))
 
     @property

@@ -193,7 +193,7 @@ def _made(
     both = _lengths(lengths, nodes)
     body["tilt"] = None if tilt is None else np.ravel(tilt)
     heights = _asperity.made(nodes, both, plain(body), None if roughness is None else plain(roughness))
-    unit = None if given.get() is None else "m"
+    unit = "m" if given.get() else None
     return Topography(heights, both, unit, periodic, seed=seed)
 
 
@@ -231,14 +231,17 @@ def fourier(
     >>> f"{wave.heights.max():.3f}"
     '1.000'
     """
-    if given.get() is not None and fourier_unit is None:
+    if given.get() and fourier_unit is None:
         raise ValueError("the side lengths have a unit, but the coefficients have none: give fourier_unit, as '0.1mm'")
     nodes = (shape, shape) if isinstance(shape, int) else shape
     both = _lengths(lengths, nodes)
     source = os.fspath(coefficients) if isinstance(coefficients, str | os.PathLike) else None
     rows: Any = source or np.atleast_2d(np.asarray(coefficients, dtype=np.float64))
+    if source is None and rows.shape[1] != 4:
+        columns = "they must be qX, qY, and the real and the imaginary part"
+        raise ValueError(f"coefficients have {rows.shape[1]} columns: {columns}")
     heights = _asperity.fourier(rows, nodes, both, 1.0 if fourier_unit is None else float(fourier_unit))
-    return Topography(heights, both, None if given.get() is None else "m", periodic=True, source=source)
+    return Topography(heights, both, "m" if given.get() else None, periodic=True, source=source)
 
 
 def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOrder | None = None) -> SurfaceStatistics:

@@ -133,10 +133,8 @@ def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topo
     FileNotFoundError, ValueError
         If there is no such file or channel, or it cannot be understood.
     """
-    found = _asperity.read(os.fspath(path), None if channel is None else str(channel))
-    heights, lengths, unit, original, (seed, scars) = found
     source = os.fspath(path)
-    return Topography(heights, lengths, unit, source=source, original=original, seed=seed, scars_removed=scars)
+    return Topography(**_asperity.read(source, None if channel is None else str(channel)), source=source)
 
 
 def from_topography(topography: HeightMap) -> Topography:
@@ -174,7 +172,7 @@ def taken(
 ) -> Topography:
     """The map of whatever holds heights, with the side lengths that are given for it; in metres beside units."""
     topography = found(heights, axes)
-    if si or (si is None and units.get() is not None):
+    if units.get() if si is None else si:
         topography = _in_metres(topography)
     return topography if lengths is None else replace(topography, lengths=_lengths(lengths, topography.heights.shape))
 
@@ -183,13 +181,7 @@ def _in_metres(topography: Topography) -> Topography:
     """The map in metres, in which one without a unit is already."""
     if topography.unit in (None, "m"):
         return replace(topography, unit="m")
-    heights, lengths, unit, _, _ = _asperity.in_metres(known(topography))
-    return replace(topography, heights=heights, lengths=lengths, unit=unit)
-
-
-def known(topography: Topography) -> tuple[Any, Any, Any, Any]:
-    """A map as the compiled core takes it."""
-    return (topography.heights, topography.lengths, topography.unit, topography.original)
+    return replace(topography, **_asperity.in_metres(topography))
 
 
 def found(heights: Heights, axes: AxisOrder | None) -> Topography:
@@ -220,18 +212,18 @@ def sides(topography: Topography) -> tuple[float, float]:
     return topography.lengths
 
 
-def original_of(topography: Topography) -> _asperity.Original | None:
-    """The original of a mirrored map, of which the side lengths are known."""
-    if topography.original is None:
-        return None
-    return _asperity.Original(topography.heights.shape, sides(topography), topography.original)
+def mirrored(field: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
+    """A field of the original of a mirrored map, continued by its mirror images to a shape."""
+    return np.pad(field, [(0, nodes - own) for nodes, own in zip(shape, field.shape)], mode="symmetric")
 
 
 def refined(topography: Topography, heights: NDArray[np.float64]) -> Topography:
     """The map on a finer grid."""
-    original = original_of(topography)
-    nodes = None if original is None else original.on(heights.shape).shape
-    return replace(topography, heights=heights, original=nodes)
+    if topography.original is None:
+        return replace(topography, heights=heights)
+    shapes = zip(topography.original, topography.heights.shape, heights.shape)
+    nx, ny = (-(-nodes * now // before) for nodes, before, now in shapes)
+    return replace(topography, heights=heights, original=(nx, ny))
 
 
 def field_of(values: Any, name: str) -> NDArray[np.float64]:

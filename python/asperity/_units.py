@@ -10,8 +10,8 @@ import numpy as np
 
 from . import _asperity
 
-#: The quantities of the call that runs, as they were typed; None if its numbers have no units.
-given: ContextVar[dict[str, str | list[str]] | None] = ContextVar("given", default=None)
+#: Whether the numbers of the call that runs have units, and are in the SI.
+given: ContextVar[bool] = ContextVar("given", default=False)
 
 
 class Quantities:
@@ -36,16 +36,13 @@ class Quantities:
             self._bare.setdefault(key, value)
         return value
 
-    def texts(self) -> dict[str, str | list[str]] | None:
-        """The quantities as they were typed, by the names of reports; None if none has a unit."""
-        if not self._texts:
-            return None
-        for key, value in self._bare.items():
-            other, texts = next(iter(self._texts.items()))
+    def are_si(self) -> bool:
+        """Whether quantities have units; then all have."""
+        for (key, value), (other, texts) in zip(self._bare.items(), self._texts.items()):
             raise ValueError(
                 f"{key} is {value!r}, without a unit, but {other} {' '.join(texts)} has one: give both units, or neither"
             )
-        return {key: texts[0] if len(texts) == 1 else texts for key, texts in self._texts.items()}
+        return bool(self._texts)
 
 
 def _items(value: Any) -> Sequence[Any] | None:

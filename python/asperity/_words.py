@@ -56,7 +56,7 @@ def checked(function: Callable[P, R], module: str = "asperity") -> Callable[P, R
         quantities = Quantities()
         values: Any = [quantities.read(key, value) for key, value in zip(known, args)] + [*args[len(known) :]]
         keywords: Any = {key: quantities.read(key, value) for key, value in kwargs.items()}
-        token = given.set(quantities.texts())
+        token = given.set(quantities.are_si())
         try:
             return function(*values, **keywords)
         finally:

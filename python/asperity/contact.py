@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import _asperity
 from ._solution import ContactStatistics, Solution
+from ._topography import field_of
 
 __all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
 
@@ -116,10 +117,8 @@ def tables(solution: Solution) -> ContactTables:
     >>> bool(abs(found.clusters[:, 3].sum() / 0.01 - 1) < 1e-5)  # the clusters carry the load
     True
     """
-    gap, pressure = (
-        np.asarray(field, dtype=float).reshape(field.shape[0], -1)
-        for field in (solution.gap, solution.contact_pressure)
-    )
+    gap, pressure = field_of(solution.gap, "gaps"), field_of(solution.contact_pressure, "pressures")
     found = _asperity.contact_tables(gap, pressure, solution.lengths, solution.flow_boundary)
-    densities = [Density(*found[name]) for name in ("gap", "pressure")]
-    return ContactTables(densities[0], densities[1], found["autocorrelation"], found["clusters"], found["figures"])
+    figures = found["figures"]
+    densities = [Density(*(*found[name], figures[f"{name}_exponent"])) for name in ("gap", "pressure")]
+    return ContactTables(densities[0], densities[1], found["autocorrelation"], found["clusters"], figures)

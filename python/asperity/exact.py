@@ -17,11 +17,11 @@ from ._asperity import (
     Contact,
     Hertz,
     Jkr,
+    MaugisDugdale,
     WaveContact,
     WavyLine,
     closing_pressure_2d,
 )
-from ._asperity import MaugisSphere as MaugisDugdale
 
 __all__ = [
     "AdhesiveWavyLine",

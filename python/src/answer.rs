@@ -1,25 +1,31 @@
-//! The answer to a solve: the dictionary in which Python gets what was found.
+//! The answer to a solve: the dictionary in which Python gets what was found, and looks at its fields.
+
+use std::sync::{Arc, Mutex, PoisonError};
 
 use asperity::Solution;
 use asperity_maps::Topography;
 use asperity_scene::outcome::Outcome;
-use asperity_scene::{Account, Found, Skin, shortfalls};
-use numpy::{IntoPyArray, PyArrayMethods};
+use asperity_scene::{Account, Found, Sight, Skin, rows, shortfalls};
+use numpy::ndarray::ArrayView2;
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyCFunction, PyDict};
 use serde_pyobject::to_pyobject;
 
-use crate::look::Look;
 use crate::numbers::Scalar;
-use crate::refusal::refusal_of_session;
+use crate::pools::Pool;
+use crate::refusal::{refusal, refusal_of_session};
+use crate::report::reported;
+use crate::running::At;
 
 /// The dictionary of what a solve found, and the exception that ended it early.
 pub fn answer<'py, T: Scalar>(
-    py: Python<'py>,
-    threads: Option<usize>,
+    at: &At<'py>,
     found: Outcome<(Found<T>, Account)>,
     raised: Option<PyErr>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let (py, threads) = (at.py, at.pool.asked);
     let (Found { solution, sight, mode, refined, .. }, account) = match (found, raised.as_ref()) {
         (Ok(found), _) => found,
         (Err(_), Some(raised)) => return Err(raised.clone_ref(py)),
@@ -39,7 +45,13 @@ pub fn answer<'py, T: Scalar>(
     let depth = plastic_depth.map(|depth| depth.into_pyarray(py));
     depth.iter().for_each(|depth| drop(depth.readwrite().make_nonwriteable()));
     found.set_item("plastic_depth", depth)?;
-    found.set_item("look", Look::at(sight, account, threads, fields))?;
+    let fields = fields.map(Bound::unbind);
+    let seen = Arc::new(Seen { seen: Mutex::new((sight, account)), threads, fields });
+    let of = seen.clone();
+    let look = PyCFunction::new_closure(py, None, None, move |given, _| of.look(given.py()));
+    found.set_item("look", look?)?;
+    let displacements = PyCFunction::new_closure(py, None, None, move |given, _| seen.displacements(given.py()));
+    found.set_item("displacements", displacements?)?;
     found.set_item("mode", mode.map(|mode| mode.into_pyarray(py)))?;
     // those of an accuracy
     if let Some(surface) = refined {
@@ -47,4 +59,47 @@ pub fn answer<'py, T: Scalar>(
     }
     found.set_item("raised", raised)?;
     Ok(found)
+}
+
+/// What a look at the fields of a solution needs.
+struct Seen<T: Scalar> {
+    seen: Mutex<(Sight<T>, Account)>,
+    threads: Option<usize>,
+    fields: [Py<PyArray2<T>>; 3],
+}
+
+impl<T: Scalar> Seen<T> {
+    /// Does something with the fields, gap, pressure and contact pressure.
+    fn at<R: Send>(
+        &self,
+        py: Python<'_>,
+        act: impl FnOnce(&mut Sight<T>, &mut Account, [ArrayView2<'_, T>; 3]) -> asperity::Result<R> + Send,
+    ) -> PyResult<R> {
+        let fields = self.fields.each_ref().map(|field| field.bind(py).readonly());
+        let fields = fields.each_ref().map(|field| field.as_array());
+        let pool = Pool::of(self.threads)?;
+        let look = || {
+            // not on a thread of the pool, which may take up another look while it waits in this one
+            let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+            let (sight, account) = &mut *seen;
+            pool.get().install(|| act(sight, account, fields))
+        };
+        py.detach(look).map_err(refusal)
+    }
+
+    /// The statistics of the contact, the whole report, and the rows of the summary.
+    fn look(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let look = self.at(py, |sight, account, fields| Ok((sight.look(account, fields)?, account.clone())));
+        let (found, account) = look?;
+        let rows = rows(&[&account], &account.inputs.units(), Skin::Keywords).into_iter();
+        let rows: Vec<_> = rows.map(|(name, texts)| (name, texts.concat())).collect();
+        (to_pyobject(py, &found)?, reported(py, &account)?, rows).into_py_any(py)
+    }
+
+    /// The displacements of both bodies on all nodes that were solved, if both are elastic.
+    fn displacements(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let found =
+            self.at(py, |sight, account, [_, pressure, _]| sight.displacements(&account.inputs.elastic, pressure));
+        found?.map(|both| both.map(|field| field.into_pyarray(py))).into_py_any(py)
+    }
 }

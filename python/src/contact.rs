@@ -4,13 +4,13 @@ use asperity::Grid;
 use asperity::contact::{Clusters, PressureDistribution};
 use asperity_plot::{LoadScale, cluster_colour};
 use asperity_scene::Boundary;
-use asperity_scene::contact::{ContactTables, Density as Tabulated};
+use asperity_scene::contact::ContactTables;
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::numbers::Field;
+use crate::numbers::{Field, whole};
 use crate::refusal::refusal;
 use crate::report::reported;
 
@@ -19,12 +19,10 @@ type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
 
 /// The clusters of a map, whose opposite sides meet if it is periodic.
 #[pyfunction]
-pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> PyResult<Found<'py>> {
+pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> Found<'py> {
     let map = map.as_array();
     let found = py.detach(|| if periodic { Clusters::of(map) } else { Clusters::of_part(map) });
-    let Clusters { sizes, labels, .. } = found;
-    let sizes: Vec<i64> = sizes.into_iter().map(|size| size as i64).collect();
-    Ok((sizes.into_pyarray(py), labels.mapv(|label| label as i64).into_pyarray(py)))
+    (whole(py, found.sizes), found.labels.mapv(|label| label as i64).into_pyarray(py))
 }
 
 /// The colours of the clusters of labels: red, green and blue along the last axis.
@@ -38,7 +36,6 @@ pub fn cluster_colours<'py>(py: Python<'py>, labels: PyReadonlyArray2<'_, i64>) 
 
 /// The end of the scale of the positive pressures, the greatest of them, and the share of their load beyond the end.
 #[pyfunction]
-#[pyo3(signature = (pressure, end))]
 pub fn load_scale(pressure: Field<'_>, end: Option<f64>) -> (f64, f64, f64) {
     let LoadScale { end, greatest, beyond, .. } = LoadScale::of(&pressure.as_array(), end);
     (end, greatest, beyond)
@@ -62,7 +59,7 @@ pub fn pressure_distribution<'py>(
     Ok((found.density.into_pyarray(py), found.edges.into_pyarray(py)))
 }
 
-/// The tables of a contact: for gap and pressure density, edges and exponent, the autocorrelation by rows of distance
+/// The tables of a contact: its figures, for gap and pressure density and edges, the autocorrelation by rows of distance
 /// and value, and the clusters by rows of nodes, area, perimeter and force.
 #[pyfunction]
 pub fn contact_tables<'py>(
@@ -77,23 +74,14 @@ pub fn contact_tables<'py>(
     let find = || ContactTables::of(gap, pressure, Grid::new(gap.dim(), lengths)?, boundary);
     let tables = py.detach(find).map_err(refusal)?;
     let found = PyDict::new(py);
-    let tabulated = |of: Tabulated| {
-        let exponent = of.exponent.map(|exponent| reported(py, &exponent)).transpose()?;
-        PyResult::Ok((of.density.into_pyarray(py), of.edges.into_pyarray(py), exponent))
-    };
     found.set_item("figures", reported(py, &tables.figures())?)?;
     let ContactTables { gap, pressure, autocorrelation, spots, .. } = tables;
-    found.set_item("gap", tabulated(gap)?)?;
-    found.set_item("pressure", tabulated(pressure)?)?;
-    let rows = Array2::from_shape_fn((autocorrelation.len(), 2), |(k, part)| {
-        let (distance, value) = autocorrelation[k];
-        [distance, value][part]
-    });
-    found.set_item("autocorrelation", rows.into_pyarray(py))?;
-    let rows = Array2::from_shape_fn((spots.len(), 4), |(k, part)| {
-        let spot = spots[k];
-        [spot.nodes as f64, spot.area, spot.perimeter, spot.force][part]
-    });
-    found.set_item("clusters", rows.into_pyarray(py))?;
+    for (name, of) in [("gap", gap), ("pressure", pressure)] {
+        found.set_item(name, (of.density.into_pyarray(py), of.edges.into_pyarray(py)))?;
+    }
+    let rows: Vec<[f64; 2]> = autocorrelation.into_iter().map(Into::into).collect();
+    found.set_item("autocorrelation", Array2::from(rows).into_pyarray(py))?;
+    let rows: Vec<_> = spots.iter().map(|spot| [spot.nodes as f64, spot.area, spot.perimeter, spot.force]).collect();
+    found.set_item("clusters", Array2::from(rows).into_pyarray(py))?;
     Ok(found)
 }

@@ -85,9 +85,14 @@ states! {
     }
 }
 
-/// A solution for a sphere as a class.
-macro_rules! sphere {
-    ($(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*) { $($more:tt)* }) => {
+/// A solution as a class: its states at the likes of loads, single states, and numbers of its own.
+macro_rules! solution {
+    (
+        $(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*) -> $states:ident;
+        at { $($(#[$at_doc:meta])* $at:ident($place:ident);)* }
+        one { $($(#[$one_doc:meta])* $one:ident($of:ident) $found:expr;)* }
+        number { $($(#[$number_doc:meta])* $number:ident;)* }
+    ) => {
         $(#[$doc])*
         #[pyclass(frozen, name = $name, module = "asperity.exact")]
         pub struct $class(exact::$class);
@@ -98,23 +103,43 @@ macro_rules! sphere {
             fn new($($parameter: f64),*) -> PyResult<Self> {
                 exact::$class::new($($parameter),*).map(Self).map_err(refusal)
             }
-            /// Stable contacts at loads P, compression positive.
-            fn at_load(&self, load: Numbers<'_>) -> PyResult<Contact> {
-                tried(load.as_array(), |load| self.0.at_load(load).map_err(refusal)).map(Contact)
+            $($(#[$at_doc])*
+            fn $at(&self, $place: Numbers<'_>) -> PyResult<$states> {
+                tried($place.as_array(), |place| self.0.$at(place)).map($states)
+            })*
+            $($(#[$one_doc])*
+            fn $one(&self) -> PyResult<$states> {
+                let $of = &self.0;
+                Ok($states(ArrayD::from_elem(IxDyn(&[]), $found)))
+            })*
+            $($(#[$number_doc])*
+            #[getter]
+            fn $number(&self) -> f64 {
+                self.0.$number()
+            })*
+        }
+    };
+}
+
+/// A solution for a sphere.
+macro_rules! sphere {
+    ($(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*); $($number:tt)*) => {
+        solution! {
+            $(#[$doc])*
+            $class as $name ($($parameter),*) -> Contact;
+            at {
+                /// Stable contacts at loads P, compression positive.
+                at_load(load);
+                /// Stable contacts at approaches δ.
+                at_approach(approach);
+                /// Contacts of radii a ≥ 0.
+                at_contact_radius(radius);
             }
-            /// Stable contacts at approaches δ.
-            fn at_approach(&self, approach: Numbers<'_>) -> PyResult<Contact> {
-                tried(approach.as_array(), |approach| self.0.at_approach(approach).map_err(refusal)).map(Contact)
+            one {
+                /// Contact of least load: the pull-off force is minus its load.
+                pull_off(sphere) sphere.pull_off();
             }
-            /// Contacts of radii a ≥ 0.
-            fn at_contact_radius(&self, radius: Numbers<'_>) -> PyResult<Contact> {
-                tried(radius.as_array(), |radius| self.0.at_contact_radius(radius).map_err(refusal)).map(Contact)
-            }
-            /// Contact of least load: the pull-off force is minus its load.
-            fn pull_off(&self) -> Contact {
-                Contact(ArrayD::from_elem(IxDyn(&[]), self.0.pull_off()))
-            }
-            $($more)*
+            number { $($number)* }
         }
     };
 }
@@ -128,7 +153,7 @@ sphere! {
     ///     Radius of curvature R, a length.
     /// modulus : float
     ///     Contact modulus E*, a pressure.
-    Hertz as "Hertz" (radius, modulus) {}
+    Hertz as "Hertz" (radius, modulus);
 }
 sphere! {
     /// The contact of Johnson, Kendall and Roberts, with adhesion of no range.
@@ -141,7 +166,7 @@ sphere! {
     ///     Contact modulus E*, a pressure.
     /// work_of_adhesion : float
     ///     Work of adhesion w, an energy per area.
-    Jkr as "Jkr" (radius, modulus, work_of_adhesion) {}
+    Jkr as "Jkr" (radius, modulus, work_of_adhesion);
 }
 sphere! {
     /// Maugis' contact of a sphere, with a constant traction w/ρ up to a gap ρ.
@@ -156,47 +181,31 @@ sphere! {
     ///     Work of adhesion w, an energy per area.
     /// range : float
     ///     Range ρ, a length.
-    MaugisDugdale as "MaugisDugdale" (radius, modulus, work_of_adhesion, range) {
+    MaugisDugdale as "MaugisDugdale" (radius, modulus, work_of_adhesion, range);
     /// Tabor parameter: large for JKR, small for DMT.
-    #[getter]
-    fn tabor_parameter(&self) -> f64 {
-        self.0.tabor_parameter()
-    }
-    }
+    tabor_parameter;
 }
 
-/// A solution for a wave as a class.
+/// A solution for a wave.
 macro_rules! wave {
-    ($(#[$doc:meta])* $class:ident($($parameter:ident),*) { $($more:tt)* }) => {
-        $(#[$doc])*
-        #[pyclass(frozen, module = "asperity.exact")]
-        pub struct $class(exact::$class);
-
-        #[pymethods]
-        impl $class {
-            #[new]
-            fn new($($parameter: f64),*) -> PyResult<Self> {
-                exact::$class::new($($parameter),*).map(Self).map_err(refusal)
+    ($(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*); $one:tt $($number:tt)*) => {
+        solution! {
+            $(#[$doc])*
+            $class as $name ($($parameter),*) -> WaveContact;
+            at {
+                /// Contacts of half-widths a.
+                at_half_width(half_width);
+                /// Contacts at mean pressures p̄: the stable ones.
+                at_mean_pressure(mean_pressure);
+                /// Contacts at mean gaps: the stable ones.
+                at_mean_gap(mean_gap);
             }
-            /// Mean pressure at which the contact closes without adhesion.
-            #[getter]
-            /// Mean pressure at which the contact closes without adhesion.
-    fn closing_pressure(&self) -> f64 {
-                self.0.closing_pressure()
+            one $one
+            number {
+                /// Mean pressure at which the contact closes without adhesion.
+                closing_pressure;
+                $($number)*
             }
-            /// Contacts of half-widths a.
-            fn at_half_width(&self, half_width: Numbers<'_>) -> PyResult<WaveContact> {
-                tried(half_width.as_array(), |a| self.0.at_half_width(a).map_err(refusal)).map(WaveContact)
-            }
-            /// Contacts at mean pressures p̄: the stable ones.
-            fn at_mean_pressure(&self, mean_pressure: Numbers<'_>) -> PyResult<WaveContact> {
-                tried(mean_pressure.as_array(), |p| self.0.at_mean_pressure(p).map_err(refusal)).map(WaveContact)
-            }
-            /// Contacts at mean gaps: the stable ones.
-            fn at_mean_gap(&self, mean_gap: Numbers<'_>) -> PyResult<WaveContact> {
-                tried(mean_gap.as_array(), |gap| self.0.at_mean_gap(gap).map_err(refusal)).map(WaveContact)
-            }
-            $($more)*
         }
     };
 }
@@ -210,7 +219,7 @@ wave! {
     ///     Amplitude h₀ and wavelength λ, lengths.
     /// modulus : float
     ///     Contact modulus E*, a pressure.
-    WavyLine(amplitude, wavelength, modulus) {}
+    WavyLine as "WavyLine" (amplitude, wavelength, modulus); {}
 }
 wave! {
     /// Johnson's contact of a wave on a line, with adhesion of no range.
@@ -223,21 +232,15 @@ wave! {
     ///     Contact modulus E*, a pressure.
     /// work_of_adhesion : float
     ///     Work of adhesion w, an energy per area.
-    AdhesiveWavyLine(amplitude, wavelength, modulus, work_of_adhesion) {
+    AdhesiveWavyLine as "AdhesiveWavyLine" (amplitude, wavelength, modulus, work_of_adhesion);
+    {
+        /// Partial contact of least mean pressure, from which it opens.
+        pull_off(wave) wave.pull_off().map_err(refusal)?;
+        /// Partial contact of largest mean pressure, from which it jumps to full contact.
+        jump_to_full_contact(wave) wave.jump_to_full_contact().map_err(refusal)?;
+    }
     /// Johnson's parameter √(2wλ/(π²E*h₀²)).
-    #[getter]
-    fn alpha(&self) -> f64 {
-        self.0.alpha()
-    }
-    /// Partial contact of least mean pressure, from which it opens.
-    fn pull_off(&self) -> PyResult<WaveContact> {
-        Ok(WaveContact(ArrayD::from_elem(IxDyn(&[]), self.0.pull_off().map_err(refusal)?)))
-    }
-    /// Partial contact of largest mean pressure, from which it jumps to full contact.
-    fn jump_to_full_contact(&self) -> PyResult<WaveContact> {
-        Ok(WaveContact(ArrayD::from_elem(IxDyn(&[]), self.0.jump_to_full_contact().map_err(refusal)?)))
-    }
-    }
+    alpha;
 }
 
 /// The mean pressure √2πE*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion.

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::numbers::Field;
-use crate::pools::Pool;
+use crate::pools::apart;
 use crate::refusal::refusal;
 use crate::report::reported;
 use crate::running::until_interrupted;
@@ -21,11 +21,8 @@ type Narrowest<'py> = (f64, (usize, usize), Bound<'py, PyArray2<i64>>);
 /// The constriction along an axis, if the gap is open along it.
 fn narrowest<'py>(py: Python<'py>, found: &Percolation, axis: Axis) -> Option<Narrowest<'py>> {
     let found = found.along(axis)?;
-    let path = Array2::from_shape_fn((found.path.len(), 2), |(k, part)| {
-        let (i, j) = found.path[k];
-        [i, j][part] as i64
-    });
-    Some((found.gap, found.node, path.into_pyarray(py)))
+    let path: Vec<_> = found.path.iter().map(|&(i, j)| [i as i64, j as i64]).collect();
+    Some((found.gap, found.node, Array2::from(path).into_pyarray(py)))
 }
 
 /// A gap on its grid.
@@ -49,7 +46,6 @@ pub fn percolation<'py>(
 
 /// The leakage through a gap: what its report has, what falls short, and for each axis pressure, flow and constriction.
 #[pyfunction]
-#[pyo3(signature = (gap, lengths, boundary, absent_gap, viscosity, tolerance, max_iterations))]
 #[expect(clippy::too_many_arguments, reason = "called by the Python layer alone, by position")]
 pub fn leakage<'py>(
     py: Python<'py>,
@@ -66,8 +62,7 @@ pub fn leakage<'py>(
         "free" => Boundary::Free,
         other => return Err(PyValueError::new_err(format!("boundary is {other:?}: it must be 'periodic' or 'free'"))),
     };
-    if viscosity.is_some_and(|viscosity| !(viscosity > 0.0 && viscosity.is_finite())) {
-        let given = viscosity.unwrap_or_default();
+    if let Some(given) = viscosity.filter(|viscosity| !(*viscosity > 0.0 && viscosity.is_finite())) {
         return Err(PyValueError::new_err(format!("viscosity is {given}: it must be positive and finite")));
     }
     let settings = Leakage::default().tolerance(tolerance).max_iterations(max_iterations);
@@ -96,8 +91,8 @@ pub fn conductance(
     boundary: &str,
     resistivities: (f64, f64),
 ) -> PyResult<(f64, f64, f64)> {
-    let (contact, periodic, pool) = (contact.as_array(), boundary != "free", Pool::of(None)?);
+    let (contact, periodic) = (contact.as_array(), boundary != "free");
     let find = || Conductance::of_spots(contact, Grid::new(contact.dim(), lengths)?, periodic, resistivities);
-    let found = py.detach(|| pool.get().install(find)).map_err(refusal)?;
+    let found = apart(py, find)?;
     Ok((found.per_area, found.whole, found.relative_error))
 }

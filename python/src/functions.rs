@@ -1,10 +1,11 @@
-//! Functions of Python that are asked for arrays: those of a law that is an object, and others by their names.
+//! Functions of Python that are asked for arrays: those of a law that is an object, and the stiffness of waves.
+
+use std::sync::Arc;
 
 use asperity::Error;
+use asperity_scene::{Stiffness, Symbol};
 use numpy::PyArray1;
-use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyFloat, PyTuple};
 
 use crate::numbers::Numbers;
 
@@ -24,20 +25,8 @@ impl Functions {
     /// # Errors
     /// `TypeError` if it lacks a function.
     pub fn of(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        for method in METHODS {
-            if !object.getattr(method).is_ok_and(|method| method.is_callable()) {
-                let class = object.get_type().name()?;
-                return Err(PyTypeError::new_err(format!(
-                    "law is a {class} without a method {method}(gap): it must have energy, traction and slope, each of \
-                     an array of gaps, or be a law of asperity, as asperity.Exponential(work_of_adhesion, range), or None"
-                )));
-            }
-        }
-        let number = |name| match object.getattr_opt(name)? {
-            Some(value) if !value.is_none() => value.extract().map(Some),
-            _ => Ok(None),
-        };
-        let [work_of_adhesion, range] = [number("work_of_adhesion")?, number("range")?];
+        let scales = object.py().import("asperity._called")?.call_method1("scales", (object,))?;
+        let (work_of_adhesion, range) = scales.extract()?;
         Ok(Self { object: object.clone().unbind(), work_of_adhesion, range })
     }
 }
@@ -70,45 +59,50 @@ impl asperity::adhesion::Functions for Functions {
 /// # Errors
 /// The exception of the function, `TypeError` if it returns complex values, and `ValueError` if it returns another number
 /// of them.
-pub fn at_arrays<'py>(
-    function: &Bound<'py, PyAny>,
+pub fn at_arrays(
+    function: &Bound<'_, PyAny>,
     name: &str,
     of: &str,
     arrays: &[&[f64]],
     one_of_all: bool,
 ) -> PyResult<Vec<f64>> {
-    let (py, count) = (function.py(), arrays.first().map_or(0, |array| array.len()));
-    let call = |arguments: Vec<Bound<'py, PyAny>>| function.call1(PyTuple::new(py, arguments)?);
-    // what is not finite is refused by its place
-    let quiet = py.import("numpy")?.call_method("errstate", (), Some(&[("all", "ignore")].into_py_dict(py)?))?;
-    quiet.call_method0("__enter__")?;
-    let found = call(arrays.iter().map(|array| PyArray1::from_slice(py, array).into_any()).collect());
-    quiet.call_method1("__exit__", (py.None(), py.None(), py.None()))?;
-    let hinted = |raised: PyErr| {
-        let about_arrays = raised.is_instance_of::<PyValueError>(py) || raised.is_instance_of::<PyTypeError>(py);
-        let one = || arrays.iter().filter_map(|array| array.first()).map(|&value| PyFloat::new(py, value).into_any());
-        if !about_arrays || count == 0 || call(one().collect()).is_err() {
-            return raised;
-        }
-        let hint = PyTypeError::new_err(format!(
-            "{name} takes one {of} alone, and is given arrays of {of}s: write numpy.where(...) in the place of if, and \
-             functions of numpy in the place of those of math ({raised})"
-        ));
-        hint.set_cause(py, Some(raised));
-        hint
-    };
-    let found = found.map_err(hinted)?;
-    if py.import("numpy")?.call_method1("iscomplexobj", (&found,))?.extract()? {
-        return Err(PyTypeError::new_err(format!("{name} returned complex numbers: it must return real ones")));
+    let py = function.py();
+    let arrays: Vec<_> = arrays.iter().map(|array| PyArray1::from_slice(py, array)).collect();
+    let called = py.import("asperity._called")?.call_method1("called", (function, name, of, arrays, one_of_all))?;
+    Ok(called.extract::<Numbers<'_>>()?.as_array().iter().copied().collect())
+}
+
+/// A function of Python: of the magnitudes of the wave numbers, or of their two components.
+struct Called {
+    function: Py<PyAny>,
+    name: String,
+    is_isotropic: bool,
+}
+
+/// The body of a function, by its name, that depends on the magnitude of the wave number alone, or not.
+pub fn symbol_of((function, name, is_isotropic): (Py<PyAny>, String, bool)) -> Symbol {
+    Symbol(Arc::new(Called { function, name, is_isotropic }))
+}
+
+impl Stiffness for Called {
+    fn name(&self) -> &str {
+        &self.name
     }
-    let found: Numbers<'_> = found.extract()?;
-    let found = found.as_array();
-    match found.len() {
-        1 if one_of_all => Ok(vec![found.sum(); count]),
-        values if values == count => Ok(found.iter().copied().collect()),
-        _ => Err(PyValueError::new_err(format!(
-            "{name} returned an array of shape {:?} for {of}s of shape [{count}]: it must return one value for each {of}",
-            found.shape(),
-        ))),
+
+    fn is_isotropic(&self) -> bool {
+        self.is_isotropic
+    }
+
+    fn at(&self, qx: &[f64], qy: &[f64]) -> asperity::Result<Vec<f64>> {
+        let magnitudes: Vec<f64>;
+        let arrays = match self.is_isotropic {
+            true => {
+                magnitudes = qx.iter().zip(qy).map(|(qx, qy)| qx.hypot(*qy)).collect();
+                vec![&*magnitudes]
+            }
+            false => vec![qx, qy],
+        };
+        Python::attach(|py| at_arrays(self.function.bind(py), &self.name, "wave", &arrays, false))
+            .map_err(Error::raised)
     }
 }

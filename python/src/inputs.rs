@@ -1,21 +1,17 @@
 //! The inputs of a problem beside its keywords.
 
+use asperity::{Grid, Surface};
+use asperity_maps::surface_with_absent;
 use asperity_scene::allowed::Range;
 use asperity_scene::dimension_of_key;
+use numpy::ndarray::Array2;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use serde::Deserialize;
-use serde::de::value::Error;
-use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde::de::DeserializeOwned;
 use serde_pyobject::from_pyobject;
 
 use crate::numbers::Field;
-
-/// The value of a keyword by its name, which is one of `names`.
-pub fn named<'a, V: Deserialize<'a>>(keyword: &str, name: &'a str, names: &str) -> PyResult<V> {
-    let found: Result<V, Error> = V::deserialize(name.into_deserializer());
-    found.map_err(|_| PyValueError::new_err(format!("{keyword} is {name}: it must be {names}")))
-}
+use crate::refusal::refusal_of_heights;
 
 /// The object that a dictionary of keys and values describes.
 pub fn keys<V: DeserializeOwned>(given: Bound<'_, PyAny>) -> PyResult<V> {
@@ -52,7 +48,8 @@ pub struct Map<'py> {
     pub lengths: (f64, f64),
     /// The name of the surface on the other side, and its shift
     pub against: Option<(String, (f64, f64))>,
-    pub original: Option<PyRef<'py, crate::original::Original>>,
+    /// The nodes of the original of a mirrored one, and the part of it that results are of
+    pub original: Option<(usize, usize)>,
     pub part: Option<String>,
     pub unit: Option<String>,
     pub source: Option<String>,
@@ -73,4 +70,10 @@ impl Begin<'_> {
     pub fn word(&self) -> &'static str {
         if let Self::Word(_) = self { "apart" } else { "array" }
     }
+}
+
+/// The surface of heights, in which missing points may be absent nodes.
+pub fn surface(heights: Array2<f64>, lengths: (f64, f64), absent_missing: bool) -> PyResult<Surface> {
+    let make = if absent_missing { surface_with_absent } else { Surface::new };
+    Grid::new(heights.dim(), lengths).and_then(|grid| make(grid, heights)).map_err(refusal_of_heights)
 }

@@ -2,10 +2,11 @@
 
 use asperity_scene::interface::Code;
 use asperity_scene::units::Units;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde_json::Value;
 
-use crate::inputs::{keys, named};
+use crate::inputs::keys;
 use crate::refusal::reason;
 
 /// The files of the rows of a table for a code: the ends of their names, and their texts.
@@ -17,7 +18,8 @@ pub fn interface_files(
     name: &str,
     units: (Option<String>, Option<String>),
 ) -> PyResult<Vec<(&'static str, String)>> {
-    let code: Code = named("code", code, "'abaqus', 'comsol' or 'moose'")?;
+    let refused = |_| PyValueError::new_err(format!("code is {code}: it must be 'abaqus', 'comsol' or 'moose'"));
+    let code: Code = serde_json::from_value(code.into()).map_err(refused)?;
     let rows = rows.into_iter().map(keys).collect::<PyResult<Vec<Value>>>()?;
     let units = Units { length: units.0, pressure: units.1, force: None };
     code.files(&rows, adhesive, name, &units).map_err(reason)

@@ -1,7 +1,7 @@
 //! What was given for the keys of a scene, as keywords.
 
-use asperity_scene::quantity::Quantity;
-use asperity_scene::{Given, Key, Measured, Quantities, Skin, Typed, without_files};
+use asperity_scene::numbers::plain;
+use asperity_scene::{Given, Key, Measured, Quantities, Skin, Typed};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -9,15 +9,21 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::law::Law;
 use crate::refusal::reason;
 
+/// The keys of several lists that keywords may give.
+macro_rules! known {
+    ($($list:ident),*) => { std::iter::empty()$(.chain(asperity_scene::without_files::<asperity_scene::$list>()))*.collect::<Vec<_>>() };
+}
+pub(crate) use known;
+
 /// What a dictionary of keywords gives for some of the `known` keys.
-pub fn read(known: impl Iterator<Item = &'static Key>, keywords: &Bound<'_, PyDict>) -> PyResult<Given> {
+pub fn read(known: &[&'static Key], keywords: &Bound<'_, PyDict>) -> PyResult<Given> {
     let of = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let key: String = key.extract()?;
         let typed = typed(&key, &value)?;
         Ok((key, typed))
     };
     let typed = keywords.iter().map(of).collect::<PyResult<Vec<_>>>()?;
-    Given::read(&known.collect::<Vec<_>>(), typed).map_err(reason)
+    Given::read(known, typed).map_err(reason)
 }
 
 /// The value of a keyword: a truth value, a text, a number, or several.
@@ -44,15 +50,12 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
 
 /// The quantities of a law.
 pub fn quantities(law: &Law) -> Quantities {
-    let texts = law.given.texts.iter().filter_map(|(key, text)| {
-        let numbers = Key::named(key)?.any_value(text).ok()?.numbers;
-        Some(Measured::of(key, vec![text.clone()], &numbers, false))
-    });
-    let bare = law.given.bare.iter();
-    let bare = bare.map(|(key, value)| {
-        Measured::of(key, vec![asperity_scene::numbers::plain(*value)], &[Quantity::bare(*value)], false)
-    });
-    texts.chain(bare).collect()
+    let of = |(key, text): (&String, String)| {
+        let numbers = Key::named(key)?.any_value(&text).ok()?.numbers;
+        Some(Measured::of(key, vec![text], &numbers, false))
+    };
+    let texts = law.given.texts.iter().map(|(key, text)| (key, text.clone()));
+    texts.chain(law.given.bare.iter().map(|(key, value)| (key, plain(*value)))).filter_map(of).collect()
 }
 
 /// What was given for the keys of a problem.
@@ -68,10 +71,8 @@ impl Keywords {
     #[new]
     #[pyo3(signature = (keywords, law, is_si=false))]
     fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, is_si: bool) -> PyResult<Self> {
-        use asperity_scene::{AdhesionKeys, SolverKeys, SurfaceKeys};
-        let known =
-            without_files::<SurfaceKeys>().chain(without_files::<AdhesionKeys>()).chain(without_files::<SolverKeys>());
-        let (given, law) = (read(known, keywords)?, law.map(Law::of).transpose()?);
+        let given = read(&known!(SurfaceKeys, AdhesionKeys, SolverKeys), keywords)?;
+        let law = law.map(Law::of).transpose()?;
         // numbers of a solution in the SI, beside texts, say nothing of units
         let quantities = match is_si {
             true => Quantities::default(),

@@ -1,21 +1,68 @@
 //! Adhesion laws: those of the library as classes, and any object of Python with the three functions of a law.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use asperity::adhesion::{Values, check_functions};
 use asperity::{AdhesionLaw, adhesion};
-use asperity_scene::{Adhesion, Formula};
+use asperity_scene::numbers::plain;
+use asperity_scene::{Adhesion, Formula, Wall, dimension_of_key};
 use numpy::ndarray::ArrayD;
-use numpy::{PyArray1, ToPyArray};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::functions::Functions;
-use crate::given::{Given, Measure};
+use crate::inputs::{keys, quantity};
 use crate::numbers::{Field, Numbers, mapped, returned};
 use crate::refusal::{refusal, refusal_of_works};
+
+/// A number as it is typed: as one, or as a text with a unit.
+#[derive(FromPyObject)]
+pub enum Measure {
+    #[pyo3(transparent, annotation = "float")]
+    Number(f64),
+    #[pyo3(transparent, annotation = "str")]
+    Text(String),
+}
+
+/// The numbers of a law as they were typed, by their names in reports: all with units, or none.
+#[derive(Clone, Default)]
+pub struct Given {
+    /// Those with a unit
+    pub texts: Vec<(String, String)>,
+    /// The first one without, if it has a dimension
+    pub bare: Option<(String, f64)>,
+}
+
+impl Given {
+    /// The number that was typed, in the SI if it has a unit.
+    pub fn read(&mut self, key: &str, typed: Measure) -> PyResult<f64> {
+        let value = match typed {
+            Measure::Number(value) => {
+                // zero is zero in all units
+                if value != 0.0 && dimension_of_key(key).is_some() {
+                    self.bare.get_or_insert_with(|| (key.to_owned(), value));
+                }
+                value
+            }
+            Measure::Text(text) => {
+                let value = quantity(key, &text)?;
+                self.texts.push((key.to_owned(), text));
+                value
+            }
+        };
+        match (&self.bare, self.texts.first()) {
+            (Some((key, value)), Some((with, text))) => Err(PyValueError::new_err(format!(
+                "{key} is {}, without a unit, but {with} {text} has one: give both units, or neither",
+                plain(*value)
+            ))),
+            _ => Ok(value),
+        }
+    }
+}
 
 /// An adhesion law of the library: functions of the gap between the surfaces, a length.
 #[pyclass(frozen, eq, subclass, module = "asperity")]
@@ -35,6 +82,10 @@ impl PartialEq for Law {
 
 #[pymethods]
 impl Law {
+    #[new]
+    fn new(law: &Bound<'_, Self>) -> Self {
+        law.get().clone()
+    }
     /// Adhesive energy φ(g) per area, of the shape of the gaps.
     fn energy<'py>(&self, py: Python<'py>, gap: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.at(py, &gap, 0)
@@ -51,13 +102,6 @@ impl Law {
     #[getter]
     fn given(&self) -> (HashMap<String, String>, Option<(String, f64)>) {
         (self.given.texts.iter().cloned().collect(), self.given.bare.clone())
-    }
-    /// The constructor's call, with its parameters by name.
-    fn __repr__(law: &Bound<'_, Self>) -> PyResult<String> {
-        let names: Vec<String> = law.getattr("__match_args__")?.extract()?;
-        let values: Vec<Bound<'_, PyAny>> = law.call_method0("__getnewargs__")?.extract()?;
-        let parameters = names.iter().zip(values).map(|(name, value)| Ok(format!("{name}={}", value.repr()?)));
-        Ok(format!("{}({})", law.get_type().name()?, parameters.collect::<PyResult<Vec<_>>>()?.join(", ")))
     }
 }
 
@@ -110,189 +154,87 @@ impl Law {
     }
 }
 
-/// A law of which the traction is a monotone cubic through the points of a table.
-///
-/// Parameters
-/// ----------
-/// gaps : array_like, shape (N,)
-///     Gaps, lengths that rise from zero.
-/// tractions : array_like, shape (N,)
-///     Tractions, attraction positive; the last one is zero.
-/// source : str, optional
-///     File that they come from, as `read` sets it.
-///
-/// Examples
-/// --------
-/// >>> import asperity
-/// >>> law = asperity.Tabulated([0.0, 1e-9, 2e-9], [50e6, 25e6, 0.0])
-/// >>> f"{-law.energy(0.0):.3f}"
-/// '0.050'
-#[pyclass(frozen, extends = Law, module = "asperity")]
-pub struct Tabulated {
-    gaps: Vec<f64>,
-    tractions: Vec<f64>,
-    #[pyo3(get)]
+/// The law of the library of a name and numbers as they were typed, with these; one that is cut leaves the repulsion to
+/// a wall.
+#[pyfunction]
+pub fn law(name: &str, typed: &Bound<'_, PyDict>, cut: Option<bool>) -> PyResult<(Law, Vec<f64>)> {
+    let (mut given, mut numbers, described) = (Given::default(), Vec::new(), PyDict::new(typed.py()));
+    described.set_item("law", name)?;
+    for (key, value) in typed {
+        let key: String = key.extract()?;
+        let number = given.read(&key, value.extract()?)?;
+        described.set_item(key, number)?;
+        numbers.push(number);
+    }
+    let mut adhesion: Adhesion = keys(described.into_any())?;
+    if let Some(cut) = cut {
+        adhesion.wall = if cut { Wall::Hard } else { Wall::None };
+    }
+    Ok((Law { given, ..Law::of_library(adhesion)? }, numbers))
+}
+
+/// A law by a table, with its gaps and tractions and their source.
+type Table<'py> = (Law, (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Option<String>));
+
+fn table(
+    py: Python<'_>,
+    law: asperity::Tabulated,
+    [gaps, tractions]: [Vec<f64>; 2],
     source: Option<String>,
+) -> Table<'_> {
+    let law_table = source.clone().or_else(|| Some("array".to_owned()));
+    let adhesion = Adhesion { law_table, ..Adhesion::of("table") };
+    let law = Law { formula: Arc::new(law), adhesion, given: Given::default() };
+    (law, (gaps.into_pyarray(py), tractions.into_pyarray(py), source))
 }
 
-#[pymethods]
-impl Tabulated {
-    #[classattr]
-    #[expect(non_upper_case_globals, reason = "Python's name")]
-    const __match_args__: (&str, &str, &str) = ("gaps", "tractions", "source");
-    #[new]
-    #[pyo3(signature = (gaps, tractions, source = None))]
-    fn new(gaps: Numbers<'_>, tractions: Numbers<'_>, source: Option<String>) -> PyResult<PyClassInitializer<Self>> {
-        let [gaps, tractions]: [Vec<f64>; 2] =
-            [gaps, tractions].map(|values| values.as_array().iter().copied().collect());
-        let law = asperity::Tabulated::new(&gaps, &tractions).map_err(refusal)?;
-        Ok(Self { gaps, tractions, source }.of_law(law))
-    }
-    /// The law of a file with a gap and a traction on each line.
-    ///
-    /// Parameters
-    /// ----------
-    /// path : str or path
-    ///     A text of two columns, or ``.npy``.
-    #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Py<Self>> {
-        Py::new(py, Self::of_file(&path).map_err(refusal)?)
-    }
-    #[getter]
-    fn gaps<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.gaps.to_pyarray(py)
-    }
-    #[getter]
-    fn tractions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.tractions.to_pyarray(py)
-    }
-    fn __getnewargs__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Option<String>) {
-        (self.gaps(py), self.tractions(py), self.source.clone())
-    }
+/// The law of gaps and tractions.
+#[pyfunction]
+pub fn tabulated<'py>(
+    py: Python<'py>,
+    gaps: Numbers<'py>,
+    tractions: Numbers<'py>,
+    source: Option<String>,
+) -> PyResult<Table<'py>> {
+    let columns = [gaps, tractions].map(|values| values.as_array().iter().copied().collect::<Vec<_>>());
+    let law = asperity::Tabulated::new(&columns[0], &columns[1]).map_err(refusal)?;
+    Ok(table(py, law, columns, source))
 }
 
-impl Tabulated {
-    fn of_file(path: &Path) -> asperity::Result<PyClassInitializer<Self>> {
-        let table = asperity_maps::io::read_field(path)?;
-        let law = asperity_scene::tabulated(path, &table)?;
-        let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
-        let source = Some(path.to_string_lossy().into_owned());
-        Ok(Self { gaps, tractions, source }.of_law(law))
-    }
-
-    fn of_law(self, law: asperity::Tabulated) -> PyClassInitializer<Self> {
-        let law_table = self.source.clone().or_else(|| Some("array".to_owned()));
-        let adhesion = Adhesion { law_table, ..Adhesion::of("table") };
-        let law = Law { formula: Arc::new(law), adhesion, given: Given::default() };
-        PyClassInitializer::from(law).add_subclass(self)
-    }
+/// The law of a file with a gap and a traction on each line.
+#[pyfunction]
+pub fn read_law(py: Python<'_>, path: PathBuf) -> PyResult<Table<'_>> {
+    let read = asperity_maps::io::read_field(&path).map_err(refusal)?;
+    let law = asperity_scene::tabulated(&path, &read).map_err(refusal)?;
+    let columns = [0, 1].map(|column| read.column(column).to_vec());
+    Ok(table(py, law, columns, Some(path.to_string_lossy().into_owned())))
 }
 
-/// A law that ends at a gap, smoothly: zero from there on, with energy, traction and slope continuous.
-///
-/// It keeps its work of adhesion, its equilibrium separation, and its traction in contact; the energy that the tail had
-/// is given back before the end.
-///
-/// Parameters
-/// ----------
-/// law : Law or an object of your own
-///     Law that reaches further.
-/// distance : float
-///     Gap at which it ends, a length: at least a range of the law beyond contact, or beyond its equilibrium
-///     separation.
-///
-/// Examples
-/// --------
-/// >>> import asperity
-/// >>> law = asperity.CutOff(asperity.VanDerWaals(hamaker=6e-20, range=0.165e-9), distance=5e-9)
-/// >>> law.traction(5e-9)
-/// 0.0
-#[pyclass(frozen, extends = Law, module = "asperity")]
-pub struct CutOff {
-    #[pyo3(get)]
-    law: Py<PyAny>,
-    #[pyo3(get)]
-    distance: f64,
+/// A law that ends at a distance, and the distance as a number.
+#[pyfunction]
+pub fn cut_off(law: &Bound<'_, PyAny>, distance: Measure) -> PyResult<(Law, f64)> {
+    let Law { formula, adhesion, mut given } = Law::some(law)?;
+    let distance = given.read("cut_off", distance)?;
+    if formula.is_cut_off() {
+        return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
+    }
+    let formula = formula.cut_off(distance).map_err(refusal)?;
+    // the innermost of several
+    let adhesion = Adhesion { cut_off: adhesion.cut_off.or(Some(distance)), ..adhesion };
+    Ok((Law { formula, adhesion, given }, distance))
 }
 
-#[pymethods]
-impl CutOff {
-    #[classattr]
-    #[expect(non_upper_case_globals, reason = "Python's name")]
-    const __match_args__: (&str, &str) = ("law", "distance");
-    #[new]
-    fn new(law: &Bound<'_, PyAny>, distance: Measure) -> PyResult<PyClassInitializer<Self>> {
-        let Law { formula, adhesion, mut given } = Law::some(law)?;
-        let distance = given.read("cut_off", distance)?;
-        if formula.is_cut_off() {
-            return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
-        }
-        let formula = formula.cut_off(distance).map_err(refusal)?;
-        // the innermost of several
-        let adhesion = Adhesion { cut_off: adhesion.cut_off.or(Some(distance)), ..adhesion };
-        let own = Self { law: law.clone().unbind(), distance };
-        Ok(PyClassInitializer::from(Law { formula, adhesion, given }).add_subclass(own))
+/// A law of which the work of adhesion differs from node to node.
+#[pyfunction]
+pub fn varied(law: &Bound<'_, PyAny>, works: Field<'_>) -> PyResult<Law> {
+    let Law { formula, adhesion, mut given } = Law::some(law)?;
+    given.texts.retain(|(key, _)| key != "work_of_adhesion");
+    if AdhesionLaw::<f64>::hints(&formula).shape.is_some() {
+        return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
     }
-    fn __getnewargs__<'py>(slf: PyRef<'py, Self>) -> PyResult<(Py<PyAny>, Bound<'py, PyAny>)> {
-        let py = slf.py();
-        Ok((slf.law.clone_ref(py), slf.as_super().given.typed(py, "cut_off", slf.distance)?))
-    }
-}
-
-/// A law of which the work of adhesion differs from node to node: energy, traction and slope in proportion to it.
-///
-/// Parameters
-/// ----------
-/// law : Law or an object of your own
-///     Law that varies; its own work of adhesion > 0 is replaced.
-/// work_of_adhesion : array_like, shape (Nx, Ny) or (N,)
-///     Works of adhesion ≥ 0 at the nodes of the heights, energies per area; x along the first axis, or that of the
-///     dimensions x and y of a DataArray.
-///
-/// Examples
-/// --------
-/// >>> import numpy as np, asperity
-/// >>> wetted = np.where(np.arange(64)[:, None] < 32, 0.07, 0.02) * np.ones((64, 64))
-/// >>> law = asperity.Varying(asperity.Exponential(work_of_adhesion=0.07, range=2e-9), wetted)
-/// >>> law.energy(0.0)[[0, 63], 0]
-/// array([-0.07, -0.02])
-#[pyclass(frozen, extends = Law, module = "asperity")]
-pub struct Varying {
-    #[pyo3(get)]
-    law: Py<PyAny>,
-    #[pyo3(get)]
-    work_of_adhesion: Py<PyAny>,
-}
-
-#[pymethods]
-impl Varying {
-    #[classattr]
-    #[expect(non_upper_case_globals, reason = "Python's name")]
-    const __match_args__: (&str, &str) = ("law", "work_of_adhesion");
-    #[new]
-    fn new(law: &Bound<'_, PyAny>, work_of_adhesion: &Bound<'_, PyAny>) -> PyResult<PyClassInitializer<Self>> {
-        let Law { formula, adhesion, mut given } = Law::some(law)?;
-        given.texts.retain(|(key, _)| key != "work_of_adhesion");
-        if AdhesionLaw::<f64>::hints(&formula).shape.is_some() {
-            return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
-        }
-        let maps = law.py().import("asperity._topography")?;
-        let (works, is_line): (Field<'_>, bool) =
-            maps.call_method1("array_of", (work_of_adhesion, "works of adhesion"))?.extract()?;
-        let works = works.to_array()?;
-        let formula = formula.varied(works.view()).map_err(refusal_of_works)?;
-        let works = if is_line { works.column(0).to_owned().into_dyn() } else { works.into_dyn() };
-        let own = Self { law: law.clone().unbind(), work_of_adhesion: returned(law.py(), works)?.unbind() };
-        let work_of_adhesion_map = Some("array".to_owned());
-        let adhesion = Adhesion { work_of_adhesion: None, work_of_adhesion_map, ..adhesion };
-        Ok(PyClassInitializer::from(Law { formula, adhesion, given }).add_subclass(own))
-    }
-    fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyAny>, Py<PyAny>) {
-        (self.law.clone_ref(py), self.work_of_adhesion.clone_ref(py))
-    }
+    let formula = formula.varied(works.as_array()).map_err(refusal_of_works)?;
+    let work_of_adhesion_map = Some("array".to_owned());
+    Ok(Law { formula, adhesion: Adhesion { work_of_adhesion: None, work_of_adhesion_map, ..adhesion }, given })
 }
 
 /// Tells whether the three functions of a law agree with one another.

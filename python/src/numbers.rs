@@ -5,7 +5,8 @@ use std::ops::Deref;
 use asperity::Error;
 use numpy::ndarray::{Array2, ArrayD, ArrayViewD, Dimension, Ix2, IxDyn};
 use numpy::{
-    AllowTypeChange, Element, IntoPyArray, PyArray, PyArrayLike, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
+    AllowTypeChange, Element, IntoPyArray, PyArray, PyArray1, PyArrayLike, PyArrayMethods, PyReadonlyArray,
+    PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -56,22 +57,14 @@ impl Field<'_> {
     /// A copy of the numbers.
     ///
     /// # Errors
-    /// `MemoryError` if there is no room for it.
+    /// `MemoryError` if there is no room for it: an allocation that fails would end the interpreter.
     pub fn to_array(&self) -> PyResult<Array2<f64>> {
         let numbers = self.as_array();
-        afford("a copy of a map", numbers.dim()).map_err(refusal)?;
-        Ok(numbers.to_owned())
-    }
-}
-
-/// Refuses a map that there is no room for: an allocation that fails would end the interpreter.
-pub fn afford(what: &str, (nx, ny): (usize, usize)) -> asperity::Result<()> {
-    match Vec::<f64>::new().try_reserve_exact(nx.saturating_mul(ny)) {
-        Ok(()) => Ok(()),
-        Err(_) => {
-            let bytes = nx as f64 * ny as f64 * size_of::<f64>() as f64;
-            Err(Error::Memory { what: format!("{what} of {nx} x {ny} nodes"), bytes })
+        if Vec::<f64>::new().try_reserve_exact(numbers.len()).is_ok() {
+            return Ok(numbers.to_owned());
         }
+        let what = format!("a copy of a map of {} x {} nodes", numbers.nrows(), numbers.ncols());
+        Err(refusal(Error::Memory { what, bytes: numbers.len() as f64 * size_of::<f64>() as f64 }))
     }
 }
 
@@ -89,7 +82,12 @@ pub fn mapped<'py>(py: Python<'py>, numbers: &Numbers<'py>, of: impl Fn(f64) -> 
 }
 
 /// A function that may refuse a number, at each of some.
-pub fn tried<S>(numbers: ArrayViewD<'_, f64>, of: impl Fn(f64) -> PyResult<S>) -> PyResult<ArrayD<S>> {
-    let values = numbers.iter().map(|&number| of(number)).collect::<PyResult<Vec<S>>>()?;
+pub fn tried<S>(numbers: ArrayViewD<'_, f64>, of: impl Fn(f64) -> asperity::Result<S>) -> PyResult<ArrayD<S>> {
+    let values = numbers.iter().map(|&number| of(number).map_err(refusal)).collect::<PyResult<Vec<S>>>()?;
     ArrayD::from_shape_vec(numbers.raw_dim(), values).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// Whole numbers as an array of int64.
+pub fn whole(py: Python<'_>, numbers: impl IntoIterator<Item = usize>) -> Bound<'_, PyArray1<i64>> {
+    PyArray1::from_iter(py, numbers.into_iter().map(|number| number as i64))
 }

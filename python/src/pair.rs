@@ -1,36 +1,33 @@
 //! Two bodies: the surface between them, and their contact modulus.
 
 use asperity::elastic::{Body, HalfSpace, Material, Series};
-use asperity::{Grid, Surface};
-use asperity_maps::{Topography, surface_with_absent};
+use asperity_maps::Topography;
+use asperity_scene::Boundary;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 
-use crate::inputs::named;
+use crate::inputs::surface;
 use crate::pools::Pool;
-use crate::refusal::{reason, refusal, refusal_of_heights};
-use crate::surface::{Map, topography};
+use crate::refusal::{reason, refusal};
+use crate::surface::Given;
 
 /// The heights between a map and another one that faces it, NaN where one of them has none.
 #[pyfunction]
 pub fn between<'py>(
     py: Python<'py>,
-    first: Map<'py>,
-    second: Map<'py>,
+    first: Given<'py>,
+    second: Given<'py>,
     shift: (f64, f64),
     boundary: &str,
     absent_missing: bool,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let boundary = named("boundary", boundary, "periodic or free")?;
-    let (first, second) = (topography(first)?, topography(second)?);
-    let make = if absent_missing { surface_with_absent } else { Surface::new };
+    let boundary = if boundary == "free" { Boundary::Free } else { Boundary::Periodic };
+    let (first, second) = (first.topography()?, second.topography()?);
     let Topography { heights, lengths, unit, original, .. } = first;
-    let grid = Grid::new(heights.dim(), lengths.unwrap_or((1.0, 1.0))).map_err(refusal)?;
-    let pool = Pool::of(None)?;
-    let first = py.detach(|| pool.get().install(|| make(grid, heights))).map_err(refusal_of_heights)?;
+    let (pool, first) = (Pool::of(None)?, surface(heights, lengths.unwrap_or((1.0, 1.0)), absent_missing)?);
     let both =
         || asperity_scene::between((&first, unit.as_deref(), original), second, shift, (boundary, absent_missing));
-    let found = py.detach(|| pool.get().install(both)).map_err(reason)?;
+    let found = pool.install(py, both).map_err(reason)?;
     Ok(Topography::from(found).heights.into_pyarray(py))
 }
 

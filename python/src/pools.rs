@@ -8,6 +8,8 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::refusal::refusal;
+
 /// The idle pools by their number of threads, and the pool of all cores, which solves share.
 ///
 /// Threads do not survive a fork: the pools belong to one process, and a child makes its own.
@@ -35,7 +37,8 @@ const MOST: usize = 1024;
 
 /// A pool on loan: one of its own for each solve that asks for a number of threads, the shared one for the others.
 pub struct Pool {
-    threads: Option<usize>,
+    /// The number that was asked for
+    pub asked: Option<usize>,
     pool: Arc<ThreadPool>,
 }
 
@@ -54,7 +57,7 @@ impl Pool {
             Some(count) => stock.idle.get_mut(&count).and_then(Vec::pop),
         });
         if let Some(pool) = found {
-            return Ok(Self { threads, pool });
+            return Ok(Self { asked: threads, pool });
         }
         let built = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
         let pool = Arc::new(built.map_err(|error| PyRuntimeError::new_err(format!("no threads: {error}")))?);
@@ -62,7 +65,7 @@ impl Pool {
             None => with_stock(|stock| stock.shared.get_or_insert(pool).clone()),
             Some(_) => pool,
         };
-        Ok(Self { threads, pool })
+        Ok(Self { asked: threads, pool })
     }
 
     /// The number of its threads.
@@ -74,12 +77,22 @@ impl Pool {
     pub fn get(&self) -> &ThreadPool {
         &self.pool
     }
+
+    /// Does something on its threads, without the lock of the interpreter.
+    pub fn install<R: Send>(&self, py: Python<'_>, act: impl FnOnce() -> R + Send) -> R {
+        py.detach(|| self.pool.install(act))
+    }
 }
 
 impl Drop for Pool {
     fn drop(&mut self) {
-        if let Some(count) = self.threads {
+        if let Some(count) = self.asked {
             with_stock(|stock| stock.idle.entry(count).or_default().push(self.pool.clone()));
         }
     }
+}
+
+/// Does something on the shared pool, without the lock of the interpreter.
+pub fn apart<R: Send>(py: Python<'_>, act: impl FnOnce() -> asperity::Result<R> + Send) -> PyResult<R> {
+    Pool::of(None)?.install(py, act).map_err(refusal)
 }

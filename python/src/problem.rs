@@ -2,26 +2,27 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use asperity::{Grid, Surface};
-use asperity_maps::surface_with_absent;
+use asperity::Surface;
+use asperity::contact::Original;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::PRESSURE;
 use asperity_scene::{
-    AccuracyKeys, Adhesion, After, AnySession, Boundary, ConductorKeys, Either, FindingsKeys, FractionsKeys, Given,
-    Input, Inputs, Key, LeakageKeys, Load, LoadKeys, LoadsKeys, NestedKeys, PathKeys, Precision, PullOffKeys,
-    Quantities, Scene, Session, Skin, StiffnessKeys, Way, either, without_files,
+    Adhesion, After, AnySession, Boundary, Either, Given, Input, Inputs, Load, Precision, Quantities, Scene, Session,
+    Skin, Way, either,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::inputs::{Begin, Map};
-use crate::keywords::{Keywords, read};
+use crate::functions::symbol_of;
+use crate::inputs::{Begin, Map, surface};
+use crate::keywords::{Keywords, known, read};
 use crate::law::Law;
 use crate::numbers::{Field, Scalar};
 use crate::pools::Pool;
-use crate::refusal::{reason, refusal, refusal_of_heights, refusal_of_session};
-use crate::state::{self, At, Columns, File, Pace};
+use crate::refusal::{reason, refusal, refusal_of_session};
+use crate::running::At;
+use crate::state::{self, Answer, Columns, File, Pace};
 
 /// A contact problem.
 #[pyclass(module = "asperity._asperity")]
@@ -35,15 +36,19 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// The pool of a solve, and the session.
-    fn parts(&mut self) -> PyResult<(Pool, &mut AnySession)> {
-        Ok((Pool::of(self.given.threads())?, self.session.get_mut().unwrap_or_else(PoisonError::into_inner)))
+    /// The place of its solves.
+    fn at<'py>(&self, py: Python<'py>, observer: Option<Py<PyAny>>) -> PyResult<At<'py>> {
+        Ok(At { py, pool: Pool::of(self.given.threads())?, observer })
+    }
+
+    /// The session.
+    fn session(&mut self) -> &mut AnySession {
+        self.session.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The scene.
     fn scene(&mut self) -> &Scene {
-        let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner);
-        either!(session = session => session.scene())
+        either!(session = self.session() => session.scene())
     }
 
     /// What was given for the problem and for several parts of a call, whose quantities all have units, or none has.
@@ -51,18 +56,16 @@ impl Problem {
         let of_call = parts.iter().map(Given::quantities);
         let quantities = Quantities::all(std::iter::once(self.quantities.clone()).chain(of_call));
         quantities.check(Skin::Keywords).map_err(reason)?;
-        let (_, session) = self.parts()?;
-        either!(session = session => session.inputs.given = quantities.given());
+        either!(session = self.session() => session.inputs.given = quantities.given());
         Ok(Given::all(std::iter::once(&self.given).chain(parts)))
     }
 
     /// Poses the problem anew where it has been solved.
     fn renew(&mut self) -> PyResult<()> {
-        let is_used = std::mem::replace(&mut self.is_used, true);
-        match (is_used && self.surface.is_some(), self.parts()?) {
-            (true, (_, session)) => either!(session = session => session.renew()).map_err(refusal),
-            (false, _) => Ok(()),
+        if std::mem::replace(&mut self.is_used, true) && self.surface.is_some() {
+            either!(session = self.session() => session.renew()).map_err(refusal)?;
         }
+        Ok(())
     }
 
     /// The findings that are asked for after a state, of an interface with its stiffness.
@@ -74,30 +77,22 @@ impl Problem {
     }
 
     /// The pressure of which a reduced pressure is a part, if one is among loads that the problem has.
-    fn full_pressure(&mut self, py: Python<'_>, loads: &[Load]) -> PyResult<f64> {
-        let (pool, session) = self.parts()?;
-        let find = || either!(session = session => session.full_pressure(loads));
-        py.detach(|| pool.get().install(find)).map_err(refusal_of_session)
+    fn full_pressure(&mut self, at: &At<'_>, loads: &[Load]) -> PyResult<f64> {
+        let find = || either!(session = self.session() => session.full_pressure(loads));
+        at.pool.install(at.py, find).map_err(refusal_of_session)
     }
 }
 
 /// The session of a scene, with the slopes of its surface.
-fn session<T: Scalar>(
-    py: Python<'_>,
-    pool: &Pool,
-    scene: &Scene,
-    input: Input,
-    inputs: Inputs,
-) -> PyResult<Session<T>> {
+fn session<T: Scalar>(at: &At<'_>, scene: &Scene, input: Input, inputs: Inputs) -> PyResult<Session<T>> {
     let units = inputs.units();
     let make = || Ok(Session::new(scene, input, inputs, units, &Processes::start()?)?.with_slopes()?);
-    py.detach(|| pool.get().install(make)).map_err(refusal_of_session)
+    at.pool.install(at.py, make).map_err(refusal_of_session)
 }
 
 #[pymethods]
 impl Problem {
     #[new]
-    #[pyo3(signature = (map, keywords, symbol, is_kept))]
     fn new(
         py: Python<'_>,
         map: Map<'_>,
@@ -108,11 +103,9 @@ impl Problem {
         let Keywords { given, law, quantities } = keywords;
         let (given, quantities) = (given.clone(), quantities.clone());
         let mut scene = given.scene().map_err(reason)?;
-        let pool = Pool::of(given.threads())?;
-        let heights = map.heights.to_array()?;
-        let make = if given.absent_missing() { surface_with_absent } else { Surface::new };
-        let surface = Grid::new(heights.dim(), map.lengths).and_then(|grid| make(grid, heights));
-        let surface = surface.map_err(refusal_of_heights)?;
+        let at = At { py, pool: Pool::of(given.threads())?, observer: None };
+        let surface = surface(map.heights.to_array()?, map.lengths, given.absent_missing())?;
+        let original = map.original.map(|nodes| Original::new(surface.grid(), nodes)).transpose().map_err(refusal)?;
         let hardness = map.hardness.map(|hardness| hardness.to_array()).transpose()?;
         scene.adhesion.hardness_map = hardness.as_ref().map(|_| "array".to_owned());
         let formula = match law {
@@ -127,18 +120,18 @@ impl Problem {
                 scene.adhesion.formula(None).map_err(refusal)?
             }
         };
-        scene.elastic.symbol = symbol.map(crate::symbol::symbol);
+        scene.elastic.symbol = symbol.map(symbol_of);
         scene.elastic.check().map_err(reason)?;
         scene.elastic.body().map_err(refusal)?;
         let inputs = Inputs {
             heights: map.source,
             shift: map.against.as_ref().map(|(_, shift)| *shift),
             against: map.against.map(|(name, _)| name),
-            part: map.part,
+            part: map.part.clone(),
             length_unit: map.unit,
             pressure_unit: quantities.is_si().then(|| PRESSURE.si.to_owned()),
             given: quantities.given(),
-            ..scene.inputs(surface.grid().shape(), map.lengths, pool.threads())
+            ..scene.inputs(surface.grid().shape(), map.lengths, at.pool.threads())
         };
         let surface = Arc::new(surface);
         let kept = is_kept.then(|| surface.clone());
@@ -146,64 +139,57 @@ impl Problem {
             surface,
             formula,
             hardness,
-            original: map.original.map(|original| original.0),
+            original: original.filter(|_| map.part.as_deref() == Some("original")),
             converted_from: None,
             scars_removed: map.scars_removed,
             is_strict: false,
             skin: Skin::Keywords,
         };
         let session = match scene.precision {
-            Precision::F64 => Either::F64(session(py, &pool, &scene, input, inputs)?),
-            Precision::F32 => Either::F32(session(py, &pool, &scene, input, inputs)?),
+            Precision::F64 => Either::F64(session(&at, &scene, input, inputs)?),
+            Precision::F32 => Either::F32(session(&at, &scene, input, inputs)?),
         };
         Ok(Self { session: Mutex::new(session), given, quantities, surface: kept, is_used: false })
     }
 
     /// The equilibrium at a load.
-    #[pyo3(signature = (keywords, start, observe))]
     fn solve<'py>(
         &mut self,
         py: Python<'py>,
         keywords: &Bound<'py, PyDict>,
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let known =
-            without_files::<LoadKeys>().chain(without_files::<NestedKeys>()).chain(without_files::<FindingsKeys>());
-        let known = known.chain(without_files::<ConductorKeys>()).chain(without_files::<AccuracyKeys>());
+    ) -> Answer<'py> {
         self.renew()?;
-        let given = self.given(&[read(known, keywords)?])?;
+        let known = known!(LoadKeys, NestedKeys, FindingsKeys, ConductorKeys, AccuracyKeys);
+        let given = self.given(&[read(&known, keywords)?])?;
         self.after(&given, false)?;
         let load = given.load().map_err(reason)?;
         let scene = self.scene();
         let asked = given.asked(load, 1.0).map_err(reason)?;
         asked.check(&scene.adhesion, scene.method, start.is_some()).map_err(reason)?;
-        let asked = given.asked(load, self.full_pressure(py, &[load])?).map_err(reason)?;
-        let (threads, (pool, session)) = (self.given.threads(), self.parts()?);
-        let at = At { pool: &pool, threads, observer: observe.as_ref() };
-        either!(session = session => state::solve(session, py, at, &asked, start))
+        let at = self.at(py, observe)?;
+        let asked = given.asked(load, self.full_pressure(&at, &[load])?).map_err(reason)?;
+        either!(session = self.session() => state::solve(session, &at, &asked, start))
     }
 
     /// The pull-off, with the last state that holds.
-    #[pyo3(signature = (keywords, start, observe))]
     fn pull_off<'py>(
         &mut self,
         py: Python<'py>,
         keywords: &Bound<'py, PyDict>,
         start: Option<Begin<'py>>,
         observe: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    ) -> Answer<'py> {
         self.renew()?;
-        let given = self.given(&[read(without_files::<PullOffKeys>(), keywords)?])?;
+        let given = self.given(&[read(&known!(PullOffKeys), keywords)?])?;
         let asked = (given.pull_off(), given.goal().map_err(reason)?);
-        let (threads, (pool, session)) = (self.given.threads(), self.parts()?);
-        let at = At { pool: &pool, threads, observer: observe.as_ref() };
-        either!(session = session => state::pull_off(session, py, at, asked, start))
+        let at = self.at(py, observe)?;
+        either!(session = self.session() => state::pull_off(session, &at, asked, start))
     }
 
     /// Begins a sweep, the law of an interface or a cycle, through several lists of loads, or goes on with its table in a
-    /// file. Returns the names of its columns, the cells of the rows that the table has, and the number of loads.
-    #[pyo3(signature = (way, keywords, start, table))]
+    /// file. Returns the names of its columns, the rows that the table has, and the number of loads.
     fn begin<'py>(
         &mut self,
         py: Python<'py>,
@@ -212,16 +198,12 @@ impl Problem {
         start: Option<Begin<'py>>,
         table: (Option<u64>, Option<File<'py>>),
     ) -> PyResult<(Columns<'py>, usize)> {
-        let of_state = || without_files::<ConductorKeys>().chain(without_files::<LeakageKeys>());
-        let known: Vec<&'static Key> = match way {
-            "cycle" => without_files::<LoadsKeys>().chain(without_files::<PathKeys>()).collect(),
-            "interface" => without_files::<LoadsKeys>().chain(of_state()).collect(),
-            _ => {
-                let known = without_files::<LoadsKeys>().chain(without_files::<FractionsKeys>());
-                known.chain(without_files::<StiffnessKeys>()).chain(of_state()).collect()
-            }
+        let known = match way {
+            "cycle" => known!(LoadsKeys, PathKeys),
+            "interface" => known!(LoadsKeys, ConductorKeys, LeakageKeys),
+            _ => known!(LoadsKeys, FractionsKeys, StiffnessKeys, ConductorKeys, LeakageKeys),
         };
-        let parts = keywords.iter().map(|keywords| read(known.iter().copied(), keywords));
+        let parts = keywords.iter().map(|keywords| read(&known, keywords));
         let parts = parts.collect::<PyResult<Vec<_>>>()?;
         let given = self.given(&parts)?;
         let loads = parts.iter().map(|part| part.loads().map_err(reason)).collect::<PyResult<Vec<_>>>()?.concat();
@@ -232,34 +214,30 @@ impl Problem {
                 "boundary is 'free': an interface has its law per area of a periodic cell",
             ));
         }
-        let full = self.full_pressure(py, &loads)?;
-        let count = loads.len();
+        let at = self.at(py, None)?;
+        let (full, count) = (self.full_pressure(&at, &loads)?, loads.len());
         let way = match way {
             "cycle" => Way::cycle(&loads, full, given.path()).map_err(reason)?,
             _ => Way::sweep(&loads, full),
         };
-        let (pool, session) = self.parts()?;
-        either!(session = session => {
+        either!(session = self.session() => {
             session.seed = table.0;
-            Ok((state::begin(session, py, &pool, (way, after, is_interface), start, table.1)?, count))
+            Ok((state::begin(session, &at, (way, after, is_interface), start, table.1)?, count))
         })
     }
 
     /// The seconds that are left of a cycle that was begun, as far as they are known, and its pace in words.
-    fn pace(&mut self) -> PyResult<Pace> {
-        Ok(either!(session = self.parts()?.1 => state::pace(session)))
+    fn pace(&mut self) -> Pace {
+        either!(session = self.session() => state::pace(session))
     }
 
     /// The next state of the sweep or the cycle that was begun last; none at its end.
-    #[pyo3(signature = (observe))]
     fn next<'py>(&mut self, py: Python<'py>, observe: Option<Py<PyAny>>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let (threads, (pool, session)) = (self.given.threads(), self.parts()?);
-        let at = At { pool: &pool, threads, observer: observe.as_ref() };
-        either!(session = session => state::next(session, py, at))
+        let at = self.at(py, observe)?;
+        either!(session = self.session() => state::next(session, &at))
     }
 
     /// The stability of a gap under a load, of which the certified error is known.
-    #[pyo3(signature = (keywords, gap, relative_error))]
     fn stability<'py>(
         &mut self,
         py: Python<'py>,
@@ -268,9 +246,8 @@ impl Problem {
         relative_error: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.renew()?;
-        let load = read(without_files::<LoadKeys>(), keywords)?.load().map_err(reason)?;
-        let control = load.control(self.full_pressure(py, &[load])?);
-        let (pool, session) = self.parts()?;
-        either!(session = session => state::stability(session, py, &pool, control, (gap, relative_error)))
+        let (load, at) = (read(&known!(LoadKeys), keywords)?.load().map_err(reason)?, self.at(py, None)?);
+        let control = load.control(self.full_pressure(&at, &[load])?);
+        either!(session = self.session() => state::stability(session, &at, control, (gap, relative_error)))
     }
 }

@@ -6,6 +6,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
+use asperity::solver::Iteration as State;
 use pyo3::exceptions::{PyRuntimeError, PyStopIteration};
 use pyo3::prelude::*;
 
@@ -17,9 +18,32 @@ const PATIENCE: Duration = Duration::from_millis(20);
 /// The time for which a thread of a pool waits for an observer before it looks for other work.
 const NAP: Duration = Duration::from_micros(200);
 
+/// The numbers of an iteration as getters.
+macro_rules! getters {
+    ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {
+        #[pymethods]
+        impl Iteration {
+            $($(#[$doc])*
+            #[getter]
+            fn $name(&self) -> $kind {
+                self.0.$name
+            })*
+            fn __repr__(&self) -> String {
+                let State { iteration, relative_error, energy, mean_gap, contact_nodes, .. } = self.0;
+                format!(
+                    "Iteration({iteration}: relative_error={relative_error:.1e}, energy={energy:e}, \
+                     mean_gap={mean_gap:e}, contact_nodes={contact_nodes})"
+                )
+            }
+        }
+    };
+}
+
 /// The state of an iteration, as an observer sees it.
-#[pyclass(frozen, get_all, module = "asperity")]
-pub struct Iteration {
+#[pyclass(frozen, module = "asperity")]
+pub struct Iteration(State);
+
+getters! {
     /// Number of steps.
     iteration: usize,
     /// Number of operator applications of this solve so far.
@@ -40,119 +64,83 @@ pub struct Iteration {
     smoothed: bool,
 }
 
-#[pymethods]
-impl Iteration {
-    fn __repr__(&self) -> String {
-        format!(
-            "Iteration({}: relative_error={:.1e}, energy={:e}, mean_gap={:e}, contact_nodes={})",
-            self.iteration, self.relative_error, self.energy, self.mean_gap, self.contact_nodes
-        )
-    }
-}
-
-impl From<&asperity::solver::Iteration> for Iteration {
-    fn from(state: &asperity::solver::Iteration) -> Self {
-        Self {
-            iteration: state.iteration,
-            operator_applications: state.operator_applications,
-            relative_error: state.relative_error,
-            load_error: state.load_error,
-            energy: state.energy,
-            mean_gap: state.mean_gap,
-            contact_nodes: state.contact_nodes,
-            round: state.round,
-            smoothed: state.smoothed,
-        }
-    }
-}
-
 /// An observer as the library calls it.
-pub type Observe<'a> = &'a mut (dyn FnMut(&asperity::solver::Iteration) -> ControlFlow<()> + Send);
+pub type Observe<'a> = &'a mut (dyn FnMut(&State) -> ControlFlow<()> + Send);
 
-/// Runs `work` on a thread of the pool and returns its result, and the exception that stopped it, if one did.
-///
-/// The lock of the interpreter is free meanwhile. This thread sleeps, wakes for signals, and calls the observer of
-/// Python, so that this sees its own thread. An observer stops the solve by `StopIteration`, which is no exception
-/// here.
-pub fn run<R: Send>(
-    py: Python<'_>,
-    pool: &Pool,
-    observer: Option<&Py<PyAny>>,
-    work: impl FnOnce(Observe<'_>) -> R + Send,
-) -> PyResult<(R, Option<PyErr>)> {
-    let (stop, result) = (AtomicBool::new(false), Mutex::new(None));
-    let (stop_flag, slot, observed) = (&stop, &result, observer.is_some());
-    let raised = py.detach(|| {
-        let (tell, told) = mpsc::channel::<Iteration>();
-        let (answer, answered) = mpsc::channel::<()>();
-        pool.get().in_place_scope(|scope| {
-            scope.spawn(move |_| {
-                // the channels end with this closure, and the wait of the other thread with them
-                let found = work(&mut move |state| {
-                    if observed && tell.send(state.into()).is_ok() {
-                        // the observer may solve, too, and on this pool: its thread must not stand idle
-                        while let Err(RecvTimeoutError::Timeout) = answered.recv_timeout(NAP) {
-                            rayon::yield_now();
-                        }
-                    }
-                    if stop_flag.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-                });
-                *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(found);
-            });
-            let mut raised = None;
-            loop {
-                let outcome = match told.recv_timeout(PATIENCE) {
-                    Ok(state) => {
-                        let outcome = Python::attach(|py| match observer {
-                            Some(observer) if raised.is_none() => {
-                                observer.call1(py, (state,)).and_then(|_| py.check_signals())
-                            }
-                            _ => Ok(()),
-                        });
-                        stop.fetch_or(outcome.is_err(), Ordering::Relaxed);
-                        let _ = answer.send(());
-                        outcome
-                    }
-                    Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals()),
-                    Err(RecvTimeoutError::Disconnected) => return raised,
-                };
-                if let Err(error) = outcome {
-                    stop.store(true, Ordering::Relaxed);
-                    raised.get_or_insert(error);
-                }
-            }
-        })
-    });
-    let raised = raised.filter(|error| !error.is_instance_of::<PyStopIteration>(py));
-    let found = result.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let found = found.ok_or_else(|| PyRuntimeError::new_err("the solve ended without a result"))?;
-    Ok((found, raised))
+/// Whether work goes on, as the library asks.
+pub type GoesOn<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// The place of a solve: the interpreter, a pool, and the observer.
+pub struct At<'py> {
+    pub py: Python<'py>,
+    pub pool: Pool,
+    pub observer: Option<Py<PyAny>>,
 }
 
-/// Does `work` on a thread of its own and returns its result, or the exception of a signal, as of Ctrl-C, after which the
+/// Does `work` on the shared pool and returns its result, or the exception of a signal, as of Ctrl-C, after which the
 /// work is told not to go on.
-pub fn until_interrupted<R: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> R + Send,
-) -> PyResult<R> {
-    let stop = &AtomicBool::new(false);
-    py.detach(|| {
-        std::thread::scope(|scope| {
-            let (tell, told) = mpsc::channel::<()>();
-            let worker = scope.spawn(move || {
-                // the channel ends with this closure
-                let _tell = tell;
-                work(&|| !stop.load(Ordering::Relaxed))
-            });
-            let mut raised = None;
-            while let Err(RecvTimeoutError::Timeout) = told.recv_timeout(PATIENCE) {
-                if let Err(error) = Python::attach(|py| py.check_signals()) {
-                    stop.store(true, Ordering::Relaxed);
-                    raised.get_or_insert(error);
+pub fn until_interrupted<R: Send>(py: Python<'_>, work: impl FnOnce(GoesOn<'_>) -> R + Send) -> PyResult<R> {
+    let at = At { py, pool: Pool::of(None)?, observer: None };
+    let (found, raised) = at.run(|_, goes_on| work(goes_on))?;
+    raised.map_or(Ok(found), Err)
+}
+
+impl At<'_> {
+    /// Runs `work` on a thread of the pool and returns its result, and the exception that stopped it, if one did.
+    ///
+    /// The lock of the interpreter is free meanwhile. This thread sleeps, wakes for signals, and calls the observer of
+    /// Python, so that this sees its own thread. An observer stops the solve by `StopIteration`, which is no exception
+    /// here.
+    pub fn run<R: Send>(&self, work: impl FnOnce(Observe<'_>, GoesOn<'_>) -> R + Send) -> PyResult<(R, Option<PyErr>)> {
+        let &Self { py, ref pool, ref observer } = self;
+        let (stop, result) = (AtomicBool::new(false), Mutex::new(None));
+        let (stop_flag, slot, observed) = (&stop, &result, observer.is_some());
+        let raised = py.detach(|| {
+            let (tell, told) = mpsc::channel::<Iteration>();
+            let (answer, answered) = mpsc::channel::<()>();
+            pool.get().in_place_scope(|scope| {
+                scope.spawn(move |_| {
+                    // the channels end with this closure, and the wait of the other thread with them
+                    let goes_on = || !stop_flag.load(Ordering::Relaxed);
+                    let mut observe = move |state: &State| {
+                        if observed && tell.send(Iteration(*state)).is_ok() {
+                            // the observer may solve, too, and on this pool: its thread must not stand idle
+                            while let Err(RecvTimeoutError::Timeout) = answered.recv_timeout(NAP) {
+                                rayon::yield_now();
+                            }
+                        }
+                        if goes_on() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                    };
+                    let found = work(&mut observe, &goes_on);
+                    *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(found);
+                });
+                let mut raised = None;
+                loop {
+                    let outcome = match told.recv_timeout(PATIENCE) {
+                        Ok(state) => {
+                            let outcome = Python::attach(|py| match observer {
+                                Some(observer) if raised.is_none() => {
+                                    observer.call1(py, (state,)).and_then(|_| py.check_signals())
+                                }
+                                _ => Ok(()),
+                            });
+                            stop.fetch_or(outcome.is_err(), Ordering::Relaxed);
+                            let _ = answer.send(());
+                            outcome
+                        }
+                        Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals()),
+                        Err(RecvTimeoutError::Disconnected) => return raised,
+                    };
+                    if let Err(error) = outcome {
+                        stop.store(true, Ordering::Relaxed);
+                        raised.get_or_insert(error);
+                    }
                 }
-            }
-            let found = worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            raised.map_or(Ok(found), Err)
-        })
-    })
+            })
+        });
+        let raised = raised.filter(|error| !error.is_instance_of::<PyStopIteration>(py));
+        let found = result.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let found = found.ok_or_else(|| PyRuntimeError::new_err("the solve ended without a result"))?;
+        Ok((found, raised))
+    }
 }

@@ -1,15 +1,14 @@
-"""The laws that are formulas are those of the compiled core in its stub and in `_laws.py`; run as a program, it writes them."""
+"""The stubs have the laws that are formulas, and the names of the compiled core; run as a program, it writes them."""
 
 import inspect
 import pathlib
 import re
 
 import asperity
-from asperity import _asperity
+from asperity import _asperity, _laws
 
 FOLDER = pathlib.Path(__file__).resolve().parents[1] / "asperity"
-OTHERS = (asperity.CutOff, asperity.Tabulated, asperity.Varying)
-LAWS = [law for law in asperity.Law.__subclasses__() if law not in OTHERS]
+LAWS = _laws._Formula.__subclasses__()
 
 
 def class_of(law):
@@ -28,23 +27,18 @@ def class_of(law):
 
 def files():
     """What the stub and the module have to be, by their paths."""
-    names = sorted(law.__name__ for law in LAWS)
-    module = (
-        '"""The laws that are formulas, as `tests/test_stub.py` writes them."""\n\n'
-        f"from ._asperity import {', '.join(names)}\n\n__all__ = [{', '.join(map(repr, names))}]\n"
-    )
-    stub = (FOLDER / "_asperity.pyi").read_text(encoding="utf-8")
+    core, laws = FOLDER / "_asperity.pyi", FOLDER / "_laws.pyi"
     exported = "".join(f'    "{name}",\n' for name in sorted(_asperity.__all__))
-    stub = re.sub(r"(?s)(?<=__all__ = \[\n).*?(?=\]\n)", exported, stub)
-    classes = "\n".join(line for law in LAWS for line in class_of(law))
-    stub = re.sub(r"(?s)(?<=# laws that are formulas\n).*?(?=# other laws\n)", classes + "\n", stub)
-    return {FOLDER / "_laws.py": module.replace("'", '"'), FOLDER / "_asperity.pyi": stub}
+    stub = re.sub(r"(?s)(?<=__all__ = \[\n).*?(?=\]\n)", exported, core.read_text(encoding="utf-8"))
+    classes = "\n".join(line for law in LAWS for line in class_of(law)) + "\n"
+    formulas = r"(?s)(?<=# laws that are formulas\n).*?(?=# other laws\n)"
+    return {core: stub, laws: re.sub(formulas, classes, laws.read_text(encoding="utf-8"))}
 
 
-def test_laws_are_those_of_the_core():
+def test_the_stubs_have_all_laws_and_names():
     for path, text in files().items():
         assert path.read_text(encoding="utf-8") == text, f"run python {__file__}"
-    assert {law.__name__ for law in (*LAWS, *OTHERS)} <= set(asperity.__all__)
+    assert {law.__name__ for law in LAWS} <= set(asperity.__all__)
 
 
 if __name__ == "__main__":
