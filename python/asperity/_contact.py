@@ -539,7 +539,7 @@ class Contact:
         if law is not None:
             _refuse_beside("law", _OF_LAWS, keys)
         if keys.get("law") == "table":
-            raise ValueError("law is table: give its values, as law=asperity.Tabulated(gap, traction)")
+            raise ValueError("law is table: give its values, as law=asperity.Tabulated(gaps, tractions), or read its file by its read")
         wall = keys.get("wall")
         for name, described in (("wall", wall), ("body", body)):
             if isinstance(described, Measured):

@@ -6,6 +6,7 @@ import inspect
 import os
 from typing import Any, ClassVar
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _asperity
@@ -30,6 +31,9 @@ class _Described(Law):
     @classmethod
     def _of(cls, law: Law, values: tuple[Any, ...]) -> Any:
         own: Any = Law.__new__(cls, law)
+        for value in values:
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
         own._values = values
         return own
 

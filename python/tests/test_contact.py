@@ -220,7 +220,7 @@ def test_a_cycle_smooths_jumps_unless_it_is_told_not_to():
 
 
 def test_a_law_of_a_table_is_an_object(rough):
-    with pytest.raises(ValueError, match=r"law is table: give its values, as law=asperity.Tabulated\(gap, traction\)"):
+    with pytest.raises(ValueError, match=r"law is table: give its values, as law=asperity.Tabulated\(gaps, tractions\)"):
         asperity.Contact(rough, modulus=1.0, law="table")
 
 
