@@ -539,7 +539,10 @@ class Contact:
         if law is not None:
             _refuse_beside("law", _OF_LAWS, keys)
         if keys.get("law") == "table":
-            raise ValueError("law is table: give its values, as law=asperity.Tabulated(gaps, tractions), or read its file by its read")
+            raise ValueError(
+                "law is table: give its values, as law=asperity.Tabulated(gaps, tractions), or its file, as "
+                "law=asperity.Tabulated.read(path)"
+            )
         wall = keys.get("wall")
         for name, described in (("wall", wall), ("body", body)):
             if isinstance(described, Measured):

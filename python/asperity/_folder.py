@@ -71,8 +71,16 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
     lengths: Any = tuple(told["lengths"])
     if not is_whole:
         lengths = tuple(length / m * n for length, n, m in zip(lengths, whole, shape, strict=True))
-    contact = (fields["gap"] <= 0) | (fields["contact_pressure"] > 0)
-    sizes, _ = _asperity.clusters(contact, told["boundary"] == "periodic" and is_whole)
+    is_line = shape[1] == 1
+    of: Any = whole[:1] if is_line else whole
+    if fields["heights"] is not None:
+        map_of = mirrored(np.asarray(fields["heights"], np.float64), whole)
+        source, unit, nodes = told["heights"], told["length_unit"], None if is_whole else shape
+        of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
+    law = None if told["law"] == "none" else told["law"]
+    taken = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
+    solution = Solution(of, (_body(told), law), told, {**taken, "look": None, "displacements": None})
+    sizes, _ = _asperity.clusters(solution.contact.reshape(shape), solution.flow_boundary == "periodic")
     corrected = told["corrected_contact_fraction"]
     repulsive, attractive = told["repulsive_fraction"], told["attractive_fraction"]
     statistics = ContactStatistics(
@@ -86,16 +94,6 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
         apart_fraction=1.0 - repulsive - attractive,
     )
     rows = _asperity.figures_of(json.dumps(told))
-
-    is_line = shape[1] == 1
-    of: Any = whole[:1] if is_line else whole
-    if fields["heights"] is not None:
-        map_of = mirrored(np.asarray(fields["heights"], np.float64), whole)
-        source, unit, nodes = told["heights"], told["length_unit"], None if is_whole else shape
-        of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
-    law = None if told["law"] == "none" else told["law"]
-    taken = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
-    solution = Solution(of, (_body(told), law), told, {**taken, "look": None, "displacements": None})
     both: list[Any] = [taken[name] for name in ("displacement", "against_displacement")]
     parts = None if both[1] is None else tuple(map(solution.part_of, both))
     solution.__dict__.update(_looked=(statistics, told, rows), _displacements=parts)

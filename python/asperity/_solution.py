@@ -545,9 +545,7 @@ class Solution:
             )
         title, clusters = f"contact {100 * self.contact_fraction:.3g} %", None
         if colour_clusters:
-            # the sides of the original of a mirrored map do not meet
-            periodic = self.boundary == "periodic" and self._told["solved_shape"] is None
-            sizes, clusters = _asperity.clusters(self.contact, periodic)
+            sizes, clusters = _asperity.clusters(self.contact, self.flow_boundary == "periodic")
             title += f", {len(sizes)} cluster{'' if len(sizes) == 1 else 's'}"
         return _plot.contact_and_pressure(
             self.contact,

@@ -38,7 +38,8 @@ class Quantities:
 
     def are_si(self) -> bool:
         """Whether quantities have units; then all have."""
-        for (key, value), (other, texts) in zip(self._bare.items(), self._texts.items()):
+        if self._bare and self._texts:
+            (key, value), (other, texts) = next(zip(self._bare.items(), self._texts.items()))
             raise ValueError(
                 f"{key} is {value!r}, without a unit, but {other} {' '.join(texts)} has one: give both units, or neither"
             )

@@ -14,6 +14,7 @@ mod boundary;
 mod elastic;
 mod formula;
 mod given;
+mod kind;
 mod laws;
 mod leak;
 pub mod list;
@@ -44,6 +45,7 @@ pub use self::boundary::Boundary;
 pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
 pub use self::formula::{AnyLaw, Formula, tabulated};
 pub use self::given::{Given, Measured, Quantities, Typed};
+pub use self::kind::{Kind, Values, Word};
 pub use self::laws::{LAWS, Law};
 pub use self::leak::{LeakAsked, LeakKeys};
 pub use self::load::{FractionsKeys, Load, LoadKeys, LoadsKeys};
@@ -60,7 +62,7 @@ pub use self::wall::{Constraint, Wall};
 pub use self::words::{Skin, worded};
 
 pub(crate) use self::after::{ERROR, LEAKAGE};
-pub(crate) use self::allowed::{Range, THREADS, unit};
+pub(crate) use self::allowed::{Range, unit};
 pub(crate) use self::boundary::peak;
 pub(crate) use self::given::Read;
 pub(crate) use self::laws::WORK;
@@ -119,190 +121,6 @@ lists!(A B C D E F);
 /// The keys of lists, but for those of files, in whose place Python has arrays and objects, and a page nothing.
 pub fn without_files<L: Lists>() -> impl Iterator<Item = &'static Key> {
     L::keys().filter(|key| !matches!(key.kind.values, Values::File))
-}
-
-/// The kind of the values of a key: what each is, how many there are, and what they exclude.
-#[derive(Clone, Copy, Debug)]
-pub struct Kind {
-    /// What a value is.
-    pub values: Values,
-    /// The symbols of the values in the help.
-    pub symbols: &'static [&'static str],
-    /// The least and the greatest number of values.
-    pub count: (usize, usize),
-    /// The value if none is given.
-    pub default: Option<&'static str>,
-    /// The value if the key stands alone.
-    pub alone: Option<&'static str>,
-    /// The keys beside which it may not stand.
-    pub excludes: &'static [&'static str],
-    /// The keys without which it may not stand.
-    pub needs: &'static [&'static str],
-    /// The key whose value it replaces, if it stands behind that.
-    pub replaces: Option<&'static str>,
-    /// Whether values stand with commas between.
-    pub commas: bool,
-    /// Whether it has to be given.
-    pub required: bool,
-}
-
-/// What a value of a key is.
-#[derive(Clone, Copy, Debug)]
-pub enum Values {
-    /// A number with a unit or without one.
-    Quantity(Dimension, Range),
-    /// A number without a dimension.
-    Number(Range),
-    /// A whole number from the first to the second, with what it must be in words.
-    Whole(u64, u64, &'static str),
-    /// True, or left out.
-    Switch,
-    /// One of some words.
-    Word(fn() -> Vec<Word>),
-    /// A text in a form of its own, which is checked by a function.
-    Text(fn(&str) -> Result<(), String>),
-    /// The name of a file.
-    File,
-    /// Quantities, and ranges of them, with commas between.
-    Quantities(Dimension, Range),
-    /// Numbers, and ranges of them, with commas between.
-    Numbers(Range),
-}
-
-/// A word that a key may have.
-#[derive(Clone, Copy, Debug)]
-pub struct Word {
-    /// The word.
-    pub name: &'static str,
-    /// What it stands for; nothing if that goes without saying.
-    pub help: &'static str,
-}
-
-impl Word {
-    /// Words that go without saying.
-    pub(crate) fn all(names: &[&'static str]) -> Vec<Self> {
-        names.iter().map(|name| Self { name, help: "" }).collect()
-    }
-}
-
-impl Kind {
-    const fn new(values: Values, symbols: &'static [&'static str]) -> Self {
-        let (default, alone, replaces, commas, required) = (None, None, None, false, false);
-        Self { values, symbols, count: (1, 1), default, alone, excludes: &[], needs: &[], replaces, commas, required }
-    }
-
-    /// A quantity.
-    pub(crate) const fn quantity(dimension: Dimension, range: Range, symbol: &'static [&'static str]) -> Self {
-        Self::new(Values::Quantity(dimension, range), symbol)
-    }
-
-    /// A number.
-    pub(crate) const fn number(range: Range, symbol: &'static [&'static str]) -> Self {
-        Self::new(Values::Number(range), symbol)
-    }
-
-    /// A whole number.
-    pub(crate) const fn whole(symbol: &'static [&'static str]) -> Self {
-        Self::new(Values::Whole(0, u64::MAX, "a whole number from 0"), symbol)
-    }
-
-    /// A number of nodes along a side; more than 2²⁴ are taken for a slip of the pen.
-    pub(crate) const fn nodes(symbol: &'static [&'static str]) -> Self {
-        Self::new(Values::Whole(1, 1 << 24, "a whole number from 1 to 16777216"), symbol)
-    }
-
-    /// A number of threads; more than 1024 are taken for a slip of the pen.
-    pub(crate) const fn threads() -> Self {
-        Self::new(Values::Whole(1, 1024, THREADS), &["N"])
-    }
-
-    /// A list of quantities, and of ranges of them.
-    pub(crate) const fn quantities(dimension: Dimension, range: Range) -> Self {
-        Self::new(Values::Quantities(dimension, range), &["LIST"])
-    }
-
-    /// A list of numbers, and of ranges of them.
-    pub(crate) const fn numbers(range: Range) -> Self {
-        Self::new(Values::Numbers(range), &["LIST"])
-    }
-
-    /// One of some words.
-    pub(crate) const fn word(words: fn() -> Vec<Word>, symbol: &'static [&'static str]) -> Self {
-        Self::new(Values::Word(words), symbol)
-    }
-
-    /// A text.
-    pub(crate) const fn text(check: fn(&str) -> Result<(), String>, symbol: &'static [&'static str]) -> Self {
-        Self::new(Values::Text(check), symbol)
-    }
-
-    /// A truth value.
-    pub(crate) const fn switch() -> Self {
-        Self::new(Values::Switch, &[])
-    }
-
-    /// The name of a file.
-    pub(crate) const fn file() -> Self {
-        Self::new(Values::File, &["FILE"])
-    }
-
-    /// Several values, from so many on.
-    pub(crate) const fn from(self, least: usize) -> Self {
-        Self { count: (least, self.symbols.len()), ..self }
-    }
-
-    /// As many values as symbols.
-    pub(crate) const fn each(self) -> Self {
-        self.from(self.symbols.len())
-    }
-
-    /// Values with commas between, or the key again.
-    pub(crate) const fn commas(self) -> Self {
-        Self { commas: true, ..self }
-    }
-
-    /// The value if none is given.
-    pub(crate) const fn or(self, default: &'static str) -> Self {
-        Self { default: Some(default), ..self }
-    }
-
-    /// The value if the key stands alone.
-    pub(crate) const fn alone(self, value: &'static str) -> Self {
-        Self { alone: Some(value), count: (0, 1), ..self }
-    }
-
-    /// The keys beside which it may not stand.
-    pub(crate) const fn excludes(self, excludes: &'static [&'static str]) -> Self {
-        Self { excludes, ..self }
-    }
-
-    /// The keys without which it may not stand.
-    pub(crate) const fn needs(self, needs: &'static [&'static str]) -> Self {
-        Self { needs, ..self }
-    }
-
-    /// The key whose value it replaces, if it stands behind that.
-    pub(crate) const fn replaces(self, key: &'static str) -> Self {
-        Self { replaces: Some(key), ..self }
-    }
-
-    /// A key that has to be given.
-    pub(crate) const fn required(self) -> Self {
-        Self { required: true, ..self }
-    }
-
-    /// Whether there may be several values.
-    pub fn is_several(&self) -> bool {
-        self.count.1 > 1 || self.commas
-    }
-
-    /// The dimension of the numbers, if they have one.
-    pub fn dimension(&self) -> Option<Dimension> {
-        match self.values {
-            Values::Quantity(dimension, _) | Values::Quantities(dimension, _) => Some(dimension),
-            _ => None,
-        }
-    }
 }
 
 /// All lists of keys.
