@@ -13,6 +13,7 @@ mod gsf;
 mod gwy;
 mod memory;
 mod npy;
+mod npy_writer;
 mod npz;
 mod output;
 mod refusal;
@@ -21,13 +22,12 @@ mod units;
 mod vti;
 mod xyz;
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::ops::Range;
 use std::path::Path;
 
-use ndarray::{Array2, AsArray, Axis, Ix2, Slice};
-use ndarray_npy::WritableElement;
+use ndarray::{Array2, Axis, Slice};
 
 use crate::Topography;
 use asperity::{Error, Result};
@@ -37,6 +37,7 @@ pub use gwy::Channel;
 use gwy::{GWY, read_gwy};
 pub use memory::{available_memory, check_memory};
 use npy::{NPY, read_npy, read_npy_rows};
+pub use npy_writer::{create_npy, write_npy, write_npy_rows};
 use npz::{ZIP, read_npz};
 pub use npz::{map_as_npz, npz, write_npz};
 pub use output::OutputFolder;
@@ -212,52 +213,6 @@ pub fn read_rows(
     read().map_err(|refusal: Refusal| refusal.of(path))
 }
 
-/// Creates a `.npy` of zeros of a shape, over a file that may be there, for [`write_npy_rows`].
-///
-/// # Errors
-///
-/// [`Error::File`] if the file cannot be written.
-pub fn create_npy<T: WritableElement>(path: impl AsRef<Path>, shape: (usize, usize)) -> Result<()> {
-    let path = path.as_ref();
-    let file = File::create(path).map_err(|e| Error::unwritable(path, e))?;
-    ndarray_npy::write_zeroed_npy::<T, _>(&file, shape).map_err(|e| Error::unwritable(path, e))
-}
-
-/// Writes some rows of a field into a `.npy` that [`create_npy`] has made, from the row `first` on. Several processes
-/// may write rows into one file.
-///
-/// ```
-/// use asperity_maps::io::{create_npy, read_field, write_npy_rows};
-/// let folder = tempfile::tempdir()?;
-/// let path = folder.path().join("gap.npy");
-/// create_npy::<f64>(&path, (3, 2))?;
-/// write_npy_rows(&path, (3, 2), 1, &ndarray::array![[1.0, 2.0], [3.0, 4.0]])?;
-/// assert_eq!(read_field(&path)?, ndarray::array![[0.0, 0.0], [1.0, 2.0], [3.0, 4.0]]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-///
-/// [`Error::File`] if the file cannot be written, [`Error::Shape`] if the rows are not rows of that shape.
-pub fn write_npy_rows<'a, T: WritableElement + Clone + 'a>(
-    path: impl AsRef<Path>,
-    shape: (usize, usize),
-    first: usize,
-    rows: impl AsArray<'a, T, Ix2>,
-) -> Result<()> {
-    let path = path.as_ref();
-    let rows = rows.into();
-    let (count, ny) = rows.dim();
-    Error::shape("rows to write", (first + count, ny), ((first + count).min(shape.0), shape.1))?;
-    let mut file = OpenOptions::new().write(true).open(path).map_err(|e| Error::unwritable(path, e))?;
-    // the numbers are all that follows the header
-    let size = file.metadata().map_err(|e| Error::unwritable(path, e))?.len();
-    let numbers = ((shape.0 - first) * ny * size_of::<T>()) as u64;
-    file.seek(SeekFrom::Start(size.saturating_sub(numbers))).map_err(|e| Error::unwritable(path, e))?;
-    let rows = rows.as_standard_layout();
-    T::write_slice(rows.as_slice().unwrap_or_default(), &mut file).map_err(|e| Error::unwritable(path, e))
-}
-
 /// Writes a map, over a file that may be there; the ending of `path` decides on the format.
 ///
 /// - `.npz`: `heights`, and if they are known `lengths`, `unit`, `original` (two numbers of nodes), `seed` (a text), and
@@ -304,25 +259,6 @@ pub fn write_topography(path: impl AsRef<Path>, map: &Topography) -> Result<()> 
 /// The ending of a name, behind its last point, in small letters.
 fn ending(path: &Path) -> String {
     path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
-}
-
-/// Writes a field as `.npy`, over a file that may be there.
-///
-/// # Errors
-///
-/// [`Error::File`] if the file cannot be written.
-///
-/// ```
-/// use asperity_maps::io::{read_field, write_npy};
-/// let folder = tempfile::tempdir()?;
-/// let path = folder.path().join("gap.npy");
-/// let gap = ndarray::array![[0.0_f32, 1.5]];
-/// write_npy(&path, &gap)?;
-/// assert_eq!(read_field(&path)?, gap.mapv(f64::from));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn write_npy<'a, T: WritableElement + 'a>(path: impl AsRef<Path>, field: impl AsArray<'a, T, Ix2>) -> Result<()> {
-    ndarray_npy::write_npy(&path, &field.into()).map_err(|e| Error::unwritable(path, e))
 }
 
 /// A file and its size; `kinds` are those that can be read.

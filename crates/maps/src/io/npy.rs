@@ -107,16 +107,6 @@ pub(super) fn read_npy_text(reader: &mut impl Read, size: u64) -> Parsed<String>
     characters.take_while(|c| *c != Some('\0')).collect::<Option<String>>().ok_or_else(|| DAMAGED.into())
 }
 
-/// A text without dimensions in the form of `.npy`, of version 1.
-pub(super) fn text_as_npy(text: &str) -> Vec<u8> {
-    let dictionary = format!("{{'descr': '<U{}', 'fortran_order': False, 'shape': (), }}", text.chars().count());
-    // the data start at a multiple of 64 bytes
-    let header = format!("{dictionary:width$}\n", width = (dictionary.len() + 11).next_multiple_of(64) - 11);
-    let length = (header.len() as u16).to_le_bytes();
-    let characters = text.chars().flat_map(|c| u32::from(c).to_le_bytes());
-    [NPY, &[1, 0], &length, header.as_bytes()].concat().into_iter().chain(characters).collect()
-}
-
 /// Reads the dictionary of an array that takes `size` bytes, and finds how many bytes of data follow.
 fn read_header(reader: &mut impl Read, size: u64) -> Parsed<(String, u64)> {
     let mut start = [0; 8];

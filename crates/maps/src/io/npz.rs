@@ -4,18 +4,17 @@ use std::fs;
 use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use ndarray::{ArrayView2, arr1};
-use ndarray_npy::{NpzWriter, WritableElement, WriteNpyError, WriteNpyExt, WriteNpzError};
+use ndarray::ArrayView2;
 use zip::read::ZipFile;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipArchive};
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use super::foreign::by_member;
-use super::npy::{read_npy, read_npy_text, text_as_npy};
+use super::npy::{read_npy, read_npy_text};
+use super::npy_writer::{header, text_as_npy, write_field};
 use super::{DAMAGED, Parsed, is_side, quoted, refuse, unreadable};
 use crate::Topography;
-use asperity::Grid;
-use asperity::{Error, Result};
+use asperity::{Error, Grid, Real, Result};
 
 /// The first bytes of a zip file: those of its first entry, or those of its end if it has none.
 pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
@@ -150,11 +149,7 @@ fn read_entry<R: Read + Seek, T>(
 /// # Errors
 ///
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
-pub fn write_npz<T: WritableElement>(
-    path: impl AsRef<Path>,
-    grid: &Grid,
-    fields: &[(&str, ArrayView2<'_, T>)],
-) -> Result<()> {
+pub fn write_npz<T: Real>(path: impl AsRef<Path>, grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result<()> {
     let path = path.as_ref();
     fs::write(path, npz(grid, fields)?).map_err(|e| Error::unwritable(path, e))
 }
@@ -164,7 +159,7 @@ pub fn write_npz<T: WritableElement>(
 /// # Errors
 ///
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if there is no memory for the bytes.
-pub fn npz<T: WritableElement>(grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result<Vec<u8>> {
+pub fn npz<T: Real>(grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result<Vec<u8>> {
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
     let known = Known { lengths: Some(grid.lengths()), ..Known::default() };
     archive(fields, &known).map_err(|e| Error::unwritable("fields.npz", e))
@@ -195,42 +190,37 @@ struct Known<'a> {
 
 /// The bytes of an archive. Written straight into a file that cannot take them, the writer of the archive would say so
 /// on standard error when it is dropped.
-fn archive<T: WritableElement>(
-    fields: &[(&str, ArrayView2<'_, T>)],
-    known: &Known<'_>,
-) -> std::result::Result<Vec<u8>, WriteNpzError> {
+fn archive<T: Real>(fields: &[(&str, ArrayView2<'_, T>)], known: &Known<'_>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let size =
         fields.iter().map(|(_, field)| size_of::<T>() * field.len() + ENTRY).sum::<usize>() + ARRAYS.len() * ENTRY;
-    bytes.try_reserve_exact(size).map_err(|e| WriteNpyError::from(io::Error::from(e)))?;
+    bytes.try_reserve_exact(size)?;
     // in sizes of more than 32 bits, where one could need them
     let large = fields.iter().any(|(_, field)| field.len() >= 1 << 28);
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(large);
-    let mut npz = NpzWriter::new_with_options(Cursor::new(bytes), options);
-    fields.iter().try_for_each(|(name, field)| npz.add_array(*name, field))?;
+    let mut npz = ZipWriter::new(Cursor::new(bytes));
+    for (name, field) in fields {
+        npz.start_file(format!("{name}.npy"), options)?;
+        write_field(&mut npz, *field)?;
+    }
+    let mut add = |name: &str, array: Vec<u8>| {
+        npz.start_file(format!("{name}.npy"), options)?;
+        npz.write_all(&array)
+    };
+    let numbers = |dtype: &str, values: &[[u8; 8]]| [header(dtype, false, &[values.len()]), values.concat()].concat();
     if let Some((lx, ly)) = known.lengths {
-        npz.add_array("lengths", &arr1(&[lx, ly]))?;
+        add("lengths", numbers("<f8", &[lx, ly].map(f64::to_le_bytes)))?;
     }
     for (name, text) in [("unit", known.unit), ("seed", known.seed)] {
-        text.map_or(Ok(()), |text| npz.add_array(name, &Text(text)))?;
+        text.map_or(Ok(()), |text| add(name, text_as_npy(text)))?;
     }
     if let Some((nx, ny)) = known.original {
-        npz.add_array("original", &arr1(&[nx as u64, ny as u64]))?;
+        add("original", numbers("<u8", &[nx as u64, ny as u64].map(u64::to_le_bytes)))?;
     }
     if let Some(threshold) = known.scars_removed {
-        npz.add_array("scars_removed", &arr1(&[threshold]))?;
+        add("scars_removed", numbers("<f8", &[threshold.to_le_bytes()]))?;
     }
-    npz.finish().map(Cursor::into_inner)
-}
-
-/// A text, as numpy has it in an array without dimensions.
-struct Text<'a>(&'a str);
-
-impl WriteNpyExt for Text<'_> {
-    fn write_npy<W: Write>(&self, mut writer: W) -> std::result::Result<(), WriteNpyError> {
-        writer.write_all(&text_as_npy(self.0))?;
-        Ok(writer.flush()?)
-    }
+    Ok(npz.finish()?.into_inner())
 }
 
 #[cfg(test)]

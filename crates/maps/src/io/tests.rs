@@ -81,7 +81,7 @@ fn written_npy_is_read_back() {
     assert_eq!(read_field(&path).unwrap(), field);
     write_npy(&path, &field.mapv(|v| v as f32)).unwrap();
     assert_eq!(read_field(&path).unwrap(), field);
-    let fortran = Array2::from_shape_fn((2, 3).f(), |(i, j)| (3 * i + j) as i16);
+    let fortran = Array2::from_shape_fn((2, 3).f(), |(i, j)| (3 * i + j) as f32);
     write_npy(&path, &fortran).unwrap();
     assert_eq!(read_field(&path).unwrap(), fortran.mapv(f64::from));
     assert_refused(write_npy(folder.path().join("missing/field.npy"), &field), &["cannot be written"]);

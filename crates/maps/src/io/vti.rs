@@ -4,12 +4,10 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use asperity::{Error, Grid, Real, Result};
 use ndarray::ArrayView2;
-use ndarray_npy::WritableElement;
 
-use asperity::Grid;
-use asperity::Real;
-use asperity::{Error, Result};
+use super::npy_writer::write_numbers;
 
 /// Writes fields as VTK image data (`.vti`, for ParaView), over a file that may be there.
 ///
@@ -29,11 +27,7 @@ use asperity::{Error, Result};
 /// # Errors
 ///
 /// [`Error::Shape`] if a field does not fit the grid, [`Error::File`] if the file cannot be written.
-pub fn write_vti<T: Real + WritableElement>(
-    path: impl AsRef<Path>,
-    grid: &Grid,
-    fields: &[(&str, ArrayView2<'_, T>)],
-) -> Result<()> {
+pub fn write_vti<T: Real>(path: impl AsRef<Path>, grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result<()> {
     let path = path.as_ref();
     fields.iter().try_for_each(|(_, field)| Error::shape("field", field.dim(), grid.shape()))?;
     write(path, grid, fields).map_err(|e| Error::unwritable(path, e))
@@ -61,13 +55,7 @@ fn write<T: Real>(path: &Path, grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]
     for (_, field) in fields {
         file.write_all(&bytes.to_le_bytes())?;
         // x runs fastest
-        for value in field.t().iter() {
-            if width == 4 {
-                file.write_all(&(value.widen() as f32).to_le_bytes())?;
-            } else {
-                file.write_all(&value.widen().to_le_bytes())?;
-            }
-        }
+        write_numbers(&mut file, field.t())?;
     }
     file.write_all(b"\n</AppendedData>\n</VTKFile>\n")?;
     file.into_inner().map_err(io::IntoInnerError::into_error).map(drop)

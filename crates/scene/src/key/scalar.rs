@@ -4,14 +4,13 @@ use std::sync::Arc;
 
 use asperity::{AdhesionLaw, Real};
 use ndarray::Array2;
-use ndarray_npy::WritableElement;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::key::Formula;
 
 /// A scalar in which one can solve, and that can be written: `f32` or `f64`.
-pub trait Scalar: Real + WritableElement + Serialize + DeserializeOwned {
+pub trait Scalar: Real + Serialize + DeserializeOwned {
     /// A law in this precision.
     fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>>;
 
