@@ -1,7 +1,7 @@
 //! Writing fields and texts as NumPy arrays (`.npy`).
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use asperity::{Error, Real, Result};
@@ -89,15 +89,19 @@ pub(super) fn write_field<T: Real>(writer: &mut impl Write, field: ArrayView2<'_
 
 /// Writes numbers in the precision of `T`, row after row.
 pub(super) fn write_numbers<T: Real>(writer: &mut impl Write, numbers: ArrayView2<'_, T>) -> io::Result<()> {
-    let mut writer = BufWriter::new(writer);
-    for value in numbers {
-        if T::NAME == "f32" {
-            writer.write_all(&(value.widen() as f32).to_le_bytes())?;
-        } else {
-            writer.write_all(&value.widen().to_le_bytes())?;
+    let mut buffer = [0; 1 << 13];
+    let mut numbers = numbers.iter();
+    while numbers.len() > 0 {
+        let size = buffer.len().min(numbers.len() * size_of::<T>());
+        for (bytes, number) in buffer[..size].chunks_exact_mut(size_of::<T>()).zip(numbers.by_ref()) {
+            match bytes.len() {
+                4 => bytes.copy_from_slice(&(number.widen() as f32).to_le_bytes()),
+                _ => bytes.copy_from_slice(&number.widen().to_le_bytes()),
+            }
         }
+        writer.write_all(&buffer[..size])?;
     }
-    writer.flush()
+    Ok(())
 }
 
 /// A text without dimensions.
