@@ -89,17 +89,24 @@ pub(super) fn write_field<T: Real>(writer: &mut impl Write, field: ArrayView2<'_
 
 /// Writes numbers in the precision of `T`, row after row.
 pub(super) fn write_numbers<T: Real>(writer: &mut impl Write, numbers: ArrayView2<'_, T>) -> io::Result<()> {
-    let mut buffer = [0; 1 << 13];
+    if T::NAME == "f32" {
+        write_blocks(writer, numbers, |number| (number.widen() as f32).to_le_bytes())
+    } else {
+        write_blocks(writer, numbers, |number| number.widen().to_le_bytes())
+    }
+}
+
+fn write_blocks<T: Real, const N: usize>(
+    writer: &mut impl Write,
+    numbers: ArrayView2<'_, T>,
+    bytes: impl Fn(T) -> [u8; N],
+) -> io::Result<()> {
+    let mut block = vec![[0; N]; numbers.len().min(1 << 13)];
     let mut numbers = numbers.iter();
     while numbers.len() > 0 {
-        let size = buffer.len().min(numbers.len() * size_of::<T>());
-        for (bytes, number) in buffer[..size].chunks_exact_mut(size_of::<T>()).zip(numbers.by_ref()) {
-            match bytes.len() {
-                4 => bytes.copy_from_slice(&(number.widen() as f32).to_le_bytes()),
-                _ => bytes.copy_from_slice(&number.widen().to_le_bytes()),
-            }
-        }
-        writer.write_all(&buffer[..size])?;
+        let count = block.len().min(numbers.len());
+        block.iter_mut().zip(numbers.by_ref()).for_each(|(slot, number)| *slot = bytes(*number));
+        writer.write_all(block[..count].as_flattened())?;
     }
     Ok(())
 }
