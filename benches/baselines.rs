@@ -15,10 +15,11 @@ use asperity::{
     ContactConstraint, Control, Exponential, Grid, Penalty, Projection, Settings, Solution, Solver, Status, Surface,
     Uzawa,
 };
-use common::{Make, authors, group, none, problem, rough};
+use common::{Make, group, none, problem};
 use cpu_time::ProcessTime;
 use criterion::{Criterion, criterion_group, criterion_main};
 use ndarray::Array2;
+use oracles::{authors, rough};
 
 const NODES: usize = 256;
 const ERRORS: [f64; 3] = [1e-2, 1e-3, 1e-4];

@@ -83,7 +83,7 @@ fn shaped((nx, ny): (usize, usize)) -> Surface {
     if long == short {
         return rough_square(long);
     }
-    let line = common::rough::rough(Grid::line(long, 1.0).expect("a good grid"), 64, 1);
+    let line = oracles::rough::rough(Grid::line(long, 1.0).expect("a good grid"), 64, 1);
     let side = |n: usize| n as f64 / long as f64;
     let grid = Grid::new((nx, ny), (side(nx), side(ny))).expect("a good grid");
     let heights = Array2::from_shape_fn((nx, ny), |(i, j)| {

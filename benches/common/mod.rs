@@ -1,11 +1,6 @@
 //! The cases that the benches solve.
 #![allow(dead_code, reason = "each bench uses its part")]
 
-#[path = "../../tests/common/authors.rs"]
-pub mod authors;
-#[path = "../../tests/common/rough.rs"]
-pub mod rough;
-
 use std::time::{Duration, Instant};
 
 use asperity::{
@@ -43,7 +38,7 @@ pub fn half_space<T: Real>(grid: Grid) -> asperity::Result<Westergaard<T>> {
 
 /// A square with waves of 4 to 64 periods, rms slope 1.
 pub fn rough_square(n: usize) -> Surface {
-    rough::rough(Grid::square(n, 1.0).expect("a good grid"), 64, 1)
+    oracles::rough::rough(Grid::square(n, 1.0).expect("a good grid"), 64, 1)
 }
 
 pub fn problem<T: Real>(surface: &Surface, law: Law<T>) -> Problem<T> {

@@ -1,9 +1,9 @@
 //! Algorithm 3 of the paper as it is printed: what each of its misprints does, by experiment.
 
-use crate::common::rough::rough;
 use asperity::solver::Criterion;
 use asperity::*;
 use ndarray::Array2;
+use oracles::rough::rough;
 
 /// The misprints, each of which can be left in.
 #[derive(Clone, Copy)]

@@ -119,20 +119,16 @@ fn a_thin_layer_is_a_foundation_of_springs_or_flows_if_it_is_incompressible() {
 fn on(body: impl Body + 'static, n: usize, control: Control) -> Solution<f64> {
     let grid = Grid::square(n, 1.0).unwrap();
     let operator = Spectral::of(grid, body).unwrap();
-    crate::common::solve(
-        &mut Problem::new(&crate::common::rough::rough(grid, 12, 3), operator, NoAdhesion).unwrap(),
-        control,
-        1e-8,
-    )
+    oracles::solve(&mut Problem::new(&oracles::rough::rough(grid, 12, 3), operator, NoAdhesion).unwrap(), control, 1e-8)
 }
 
 #[test]
 fn contact_on_a_thick_layer_is_that_on_the_half_space() {
     let grid = Grid::square(64, 1.0).unwrap();
     let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
-    let mut problem = Problem::new(&crate::common::rough::rough(grid, 12, 3), half_space, NoAdhesion).unwrap();
+    let mut problem = Problem::new(&oracles::rough::rough(grid, 12, 3), half_space, NoAdhesion).unwrap();
     for control in [Control::MeanPressure(0.05), Control::MeanGap(0.02)] {
-        let expected = crate::common::solve(&mut problem, control, 1e-8);
+        let expected = oracles::solve(&mut problem, control, 1e-8);
         let mut last = f64::INFINITY;
         for thickness in [0.25, 0.5, 1.0, 2.0] {
             for solution in [on(sliding(thickness), 64, control), on(bonded(thickness, 0.5), 64, control)] {
@@ -157,7 +153,7 @@ fn contact_on_a_thin_layer_is_that_on_springs_whose_rest_is_where_the_base_is() 
     let (n, thickness, nu, load) = (64, 1e-5, 0.3, 0.2);
     let stiffness = material(1.0, nu).confined_modulus() / thickness;
     let grid = Grid::square(n, 1.0).unwrap();
-    let surface = crate::common::rough::rough(grid, 12, 3);
+    let surface = oracles::rough::rough(grid, 12, 3);
     let solution = on(bonded(thickness, nu), n, Control::MeanPressure(load));
     assert_eq!(solution.report.status, Status::Converged);
     // the base: the mean of the displaced surface, less the compression of the layer as a whole

@@ -5,8 +5,6 @@ use asperity::solver::Criterion;
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common;
-
 /// An adhesive traction that is given at each node, whatever the gap.
 struct Held(Vec<f64>);
 
@@ -45,7 +43,7 @@ fn by_held_tractions(
         let held = Held(gap.iter().map(|&gap| law.traction(gap)).collect());
         let half_space = Westergaard::new(*surface.grid(), 1.0).unwrap();
         let mut problem = Problem::new(surface, half_space, held).unwrap();
-        let found = common::solve_to(&mut problem, control, settings, Start::From(&gap));
+        let found = oracles::solve_to(&mut problem, control, settings, Start::From(&gap));
         let change = found.gap.iter().zip(&gap).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         gap = found.gap;
         if change < 1e-7 * law.hints().range {
@@ -61,7 +59,7 @@ fn both(surface: &Surface, law: impl AdhesionLaw<f64> + 'static, control: Contro
     let mut problem = Problem::new(surface, half_space, law).unwrap();
     [Branch::Loading, Branch::Unloading].map(|branch| {
         let settings = Settings::default().branch(branch).tolerance(1e-7);
-        let found = common::solve_to(&mut problem, control, settings, Start::Default);
+        let found = oracles::solve_to(&mut problem, control, settings, Start::Default);
         assert_eq!((found.report.status, found.report.branch), (Status::Converged, Some(branch)));
         found
     })
@@ -81,7 +79,7 @@ fn energy(report: &Report) -> f64 {
 fn loading_finds_the_largest_equilibrium_and_unloading_the_smallest() {
     let wave = Surface::wave_2d(Grid::square(32, 1.0).unwrap(), 0.02, 1).unwrap();
     let line = Surface::wave(Grid::line(128, 1.0).unwrap(), 0.02, 1).unwrap();
-    let rough = |seed| common::rough::rough(Grid::square(48, 1.0).unwrap(), 6, seed);
+    let rough = |seed| oracles::rough::rough(Grid::square(48, 1.0).unwrap(), 6, seed);
     let (mut several, mut one) = (0, 0);
     for (surface, w, range) in [
         (&line, 4e-4, 4e-3),
@@ -167,7 +165,7 @@ fn the_branch_follows_the_load_unless_it_is_given() {
     }
     assert_eq!(Solver::default().solve(&mut bare, pressure(0.01)).unwrap().report.branch, None);
     let from =
-        common::solve_to(&mut problem, pressure(0.01), Settings::default(), Start::From(&Array2::zeros((32, 32))));
+        oracles::solve_to(&mut problem, pressure(0.01), Settings::default(), Start::From(&Array2::zeros((32, 32))));
     assert_eq!(from.report.branch, None);
     let mut springs = Solver { settings: Settings::default(), constraint: Penalty::new(100.0).unwrap() };
     assert_eq!(springs.solve(&mut problem, pressure(0.01)).unwrap().report.branch, unloading);
@@ -239,7 +237,7 @@ fn tips_under_next_to_no_load_find_the_force_that_holds_them() {
 #[test]
 fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
     let grid = Grid::square(64, 1.0).unwrap();
-    let surface = common::rough::rough(grid, 5, 1);
+    let surface = oracles::rough::rough(grid, 5, 1);
     let (mut taken, mut scenes) = ([0; 2], 0);
     println!("mu_rho  pressure  loading  largest  unloading  applications");
     for (w, range) in [(1.42e-2, 2.9e-2), (6e-3, 1e-2), (3e-3, 4e-3), (2e-3, 2e-3), (1.42e-3, 1e-3)] {
@@ -249,7 +247,7 @@ fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
             let control = Control::MeanPressure(pressure);
             let [loading, unloading] = [Branch::Loading, Branch::Unloading].map(|branch| {
                 let settings = Settings::default().branch(branch);
-                common::solve_to(&mut problem, control, settings, Start::Default)
+                oracles::solve_to(&mut problem, control, settings, Start::Default)
             });
             let largest = by_held_tractions(&surface, &law, control, &loading.gap + 100.0 * range);
             let of_largest = largest.iter().filter(|&&gap| gap == 0.0).count() as f64 / 4096.0;
@@ -285,7 +283,7 @@ fn a_branch_that_is_not_found_agrees_with_none() {
     // a tension that holds surfaces which were pressed flat, and none that come together
     let [loading, unloading] = [Branch::Loading, Branch::Unloading].map(|branch| {
         let settings = Settings::default().branch(branch);
-        common::solve_to(&mut problem, Control::MeanPressure(-0.02), settings, Start::Default)
+        oracles::solve_to(&mut problem, Control::MeanPressure(-0.02), settings, Start::Default)
     });
     assert_eq!((loading.report.status, unloading.report.status), (Status::Detached, Status::Converged));
     assert!(!loading.agrees_with(&unloading) && !loading.agrees_with(&loading));

@@ -4,13 +4,13 @@
 //! random scenes for stiffnesses of all sizes, and what it costs; `CASES` says on how many.
 //! `cargo test --release --test library constraints::figures -- --ignored --nocapture` prints the table of the guide.
 
-use crate::common::outrun::Outrun;
-use crate::common::scenes::{Features, Kind, Precision, Scene};
-use crate::common::{energy_norms, rough, solve, sphere};
 use approx::assert_relative_eq;
 use asperity::adhesion::Values;
 use asperity::constraint::{Springs, Wall, check_constraint};
 use asperity::*;
+use oracles::outrun::Outrun;
+use oracles::scenes::{Features, Kind, Precision, Scene};
+use oracles::{energy_norms, rough, solve, sphere};
 
 fn with<T: Real, C: ContactConstraint<T> + 'static>(
     problem: &mut Problem<T>,

@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 use std::ops::ControlFlow;
 
-use crate::common::{solve, sphere};
 use approx::assert_relative_eq;
 use asperity::exact::AdhesiveWavyLine;
 use asperity::*;
 use ndarray::Array2;
+use oracles::{solve, sphere};
 
 #[test]
 fn hertz_contact_nodes_and_pressure() {
@@ -73,7 +73,7 @@ fn solve_fine(problem: &mut Problem<f64>, mean_gap: f64, tolerance: f64, start: 
             ControlFlow::Continue(())
         })
         .unwrap();
-    crate::common::check(&solution);
+    oracles::check(&solution);
     solution.report
 }
 
@@ -203,7 +203,7 @@ fn units_and_size_do_not_matter() {
     let (n, gap) = (48, 0.3);
     let run = |length: f64, height: f64, modulus: f64| {
         let grid = Grid::square(n, length).unwrap();
-        let unit = crate::common::rough::rough(Grid::square(n, 1.0).unwrap(), 16, 3);
+        let unit = oracles::rough::rough(Grid::square(n, 1.0).unwrap(), 16, 3);
         let surface = Surface::new(grid, unit.heights().mapv(|h| h * height)).unwrap();
         let pressure = modulus * height / length;
         let law = Exponential::new(0.3 * pressure * 0.004 * height, 0.004 * height).unwrap();

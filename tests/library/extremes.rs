@@ -3,9 +3,9 @@
 mod properties;
 mod regressions;
 
-use crate::common::{check, solve};
 use asperity::*;
 use ndarray::Array2;
+use oracles::{check, solve};
 
 type Boxed<T> = Box<dyn AdhesionLaw<T>>;
 
@@ -165,7 +165,7 @@ fn a_spike_a_step_and_elongated_grids<T: Real>() {
 
 fn the_lightest_loads_are_not_certified_on_rounding<T: Real>() {
     for load in [1e-6, 1e-8, 1e-10, 1e-12] {
-        let mut problem = crate::common::rough::<T>(64, 16, bare());
+        let mut problem = oracles::rough::<T>(64, 16, bare());
         let solution = solve(&mut problem, Control::MeanPressure(load), loose::<T>());
         let report = &solution.report;
         let missed = report.relative_error.max(report.load_error) > loose::<T>();

@@ -14,8 +14,8 @@ use asperity::*;
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
 
-use crate::common::dense::{Dense, Held};
-use crate::common::followed;
+use oracles::dense::{Dense, Held};
+use oracles::followed;
 
 /// A free half-space of unit modulus against a surface.
 fn problem(surface: &Surface, law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {

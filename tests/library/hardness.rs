@@ -6,15 +6,15 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow::{Break, Continue};
 
-use crate::common::dense::Dense;
-use crate::common::rough::rough as rough_surface;
-use crate::common::{Kept, followed, rough, sphere, swept};
 use approx::assert_relative_eq;
 use asperity::path::{Path, PathSettings};
 use asperity::solver::Iteration;
 use asperity::*;
 use asperity_maps::surface_with_absent;
 use ndarray::{Array2, Zip};
+use oracles::dense::Dense;
+use oracles::rough::rough as rough_surface;
+use oracles::{Kept, followed, rough, sphere, swept};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -117,7 +117,7 @@ fn dense_capped(body: &Dense, heights: &[f64], caps: &[f64], mean: f64) -> Optio
         if m == 0 {
             return None;
         }
-        let found = crate::common::dense::eliminate(rows, right)?;
+        let found = oracles::dense::eliminate(rows, right)?;
         let (wanted, level) = (&found[..m], found[m]);
         // as far as the bounds allow
         let mut step = 1.0_f64;

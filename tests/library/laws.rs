@@ -8,9 +8,9 @@ use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::dense::Dense;
-use crate::common::rough::rough;
 use crate::constraints::short;
+use oracles::dense::Dense;
+use oracles::rough::rough;
 
 fn unit(n: usize) -> (Grid, Westergaard<f64>) {
     let grid = Grid::square(n, 1.0).unwrap();

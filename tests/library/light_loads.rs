@@ -9,7 +9,7 @@ use asperity::solver::Iteration;
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::dense::Dense;
+use oracles::dense::Dense;
 
 fn solved<T: Real>(heights: &Array2<f64>, control: Control, tolerance: f64) -> Solution<T> {
     let grid = Grid::new(heights.dim(), (1.0, 1.0)).unwrap();

@@ -1,8 +1,5 @@
 //! The library, as its users see it: exact solutions, the paper, properties that hold for every input, and costs.
 
-#[path = "../common/mod.rs"]
-mod common;
-
 mod accuracy;
 mod algorithm3;
 mod architecture;
@@ -10,7 +7,6 @@ mod bodies;
 mod branches;
 mod constraints;
 mod cut_off;
-#[cfg(feature = "serde")]
 mod data;
 mod ends;
 mod exact;

@@ -1,8 +1,8 @@
 //! Nested grids: they find what the finest grid alone finds, with less work, and need no more memory.
 
-use crate::common::rough;
 use asperity::nested::NestedSolution;
 use asperity::*;
+use oracles::rough;
 
 type Law<T> = Box<dyn AdhesionLaw<T>>;
 

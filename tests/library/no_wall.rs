@@ -9,8 +9,8 @@ use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::dense::{Dense, Held};
-use crate::common::{Kept, followed, swept};
+use oracles::dense::{Dense, Held};
+use oracles::{Kept, followed, swept};
 
 fn without_wall(tolerance: f64) -> Solver<NoWall> {
     Solver { settings: Settings::default().tolerance(tolerance), constraint: NoWall }

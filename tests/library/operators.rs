@@ -117,12 +117,12 @@ impl ElasticOperator<f64> for Plain {
 #[test]
 fn a_plain_operator_solves_the_same_problem() {
     let grid = Grid::square(64, 1.0).unwrap();
-    let surface = crate::common::rough::rough(grid, 16, 1);
+    let surface = oracles::rough::rough(grid, 16, 1);
     let mut fast = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), NoAdhesion).unwrap();
     let mut plain = Problem::new(&surface, Plain(Westergaard::new(grid, 1.0).unwrap()), NoAdhesion).unwrap();
     for control in [Control::MeanPressure(0.05), Control::MeanGap(0.02)] {
-        let a = crate::common::solve(&mut fast, control, 1e-10);
-        let b = crate::common::solve(&mut plain, control, 1e-10);
+        let a = oracles::solve(&mut fast, control, 1e-10);
+        let b = oracles::solve(&mut plain, control, 1e-10);
         assert_eq!((a.report.status, b.report.status), (Status::Converged, Status::Converged));
         assert_eq!(a.report.contact_nodes, b.report.contact_nodes);
         assert_relative_eq!(a.report.mean_gap, b.report.mean_gap, max_relative = 1e-9);

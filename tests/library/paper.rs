@@ -1,7 +1,7 @@
 //! The numbers of Rey, Anciaux and Molinari (2017) that can be reproduced, in the authors' convention.
 
-use crate::common::authors;
 use asperity::*;
+use oracles::authors;
 
 fn problem(n: usize) -> (Surface, Problem<f64>) {
     let surface = authors::surface(n).unwrap();

@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use crate::common::{Kept, check, followed, rough, sphere};
 use asperity::path::{Event, Jump, Path, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
+use oracles::{Kept, check, followed, rough, sphere};
 
 /// One wave of a line, with Johnson's α = 0.2.
 const AMPLITUDE: f64 = 0.02;
@@ -344,7 +344,7 @@ fn a_path_goes_on_through_a_bifurcation_bit_for_bit() {
 fn a_path_on_a_free_half_space_goes_on_bit_for_bit() {
     let grid = Grid::square(24, 1.0).unwrap();
     let heights =
-        Surface::paraboloid(grid, 2.0).unwrap().heights() + &(0.01 * crate::common::rough::rough(grid, 8, 1).heights());
+        Surface::paraboloid(grid, 2.0).unwrap().heights() + &(0.01 * oracles::rough::rough(grid, 8, 1).heights());
     let surface = Surface::new(grid, heights).unwrap();
     let law = Exponential::new(2e-3, 8e-3).unwrap();
     let new = || Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), law).unwrap();

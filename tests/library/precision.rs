@@ -1,12 +1,12 @@
 //! f32 beside f64, and the same bits from any number of threads.
 
-#[cfg(feature = "parallel")]
-use crate::common::sphere;
-use crate::common::{rough, solve};
 use approx::assert_relative_eq;
 use asperity::solver::{Criterion, Iteration};
 use asperity::*;
 use ndarray::Array2;
+#[cfg(feature = "parallel")]
+use oracles::sphere;
+use oracles::{rough, solve};
 
 #[test]
 fn f32_reaches_what_it_certifies() {
@@ -68,7 +68,7 @@ fn f32_converges_or_says_where_it_stalled() {
 #[test]
 fn the_datum_of_the_heights_costs_no_digits() {
     let grid = Grid::square(64, 1.0).unwrap();
-    let surface = crate::common::rough::rough(grid, 16, 1);
+    let surface = oracles::rough::rough(grid, 16, 1);
     let raised =
         Surface::new(grid, surface.heights().mapv(|h| (h * 2_f64.powi(30)).round() / 2_f64.powi(30) + 1024.0)).unwrap();
     let lowered = Surface::new(grid, raised.heights().mapv(|h| h - 1024.0)).unwrap();
@@ -91,7 +91,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             let single = solve(&mut sphere::<f32>(128, NoAdhesion), Control::MeanGap(0.0398), 1e-5);
             let grid = Grid::line(6000, 1.0).unwrap();
             let half_space = Westergaard::<f64>::new(grid, 1.0).unwrap();
-            let mut line = Problem::new(&crate::common::rough::rough(grid, 32, 1), half_space, law).unwrap();
+            let mut line = Problem::new(&oracles::rough::rough(grid, 32, 1), half_space, law).unwrap();
             let line = solve(&mut line, Control::MeanGap(0.01), 1e-8);
             (rough, single, line)
         })

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 
-use crate::common::published::{NODES, Rand, runs, surface};
+use oracles::published::{NODES, Rand, runs, surface};
 
 #[test]
 fn the_generator_is_that_of_the_gnu_c_library() {

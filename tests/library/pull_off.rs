@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use crate::common::followed;
 use asperity::exact::Sphere;
 use asperity::path::{Path, PathSettings};
 use asperity::{
     AdhesionLaw, Boussinesq, Branch, Control, Error, Exponential, Grid, MaugisDugdale, NoAdhesion, Penalty, Problem,
     PullOff, SelfAffine, Settings, Solver, Start, Status, Surface, Westergaard, exact,
 };
+use oracles::followed;
 
 fn sphere(nodes: usize, side: f64, radius: f64, law: impl AdhesionLaw<f64> + 'static) -> Problem<f64> {
     let grid = Grid::square(nodes, side).unwrap();

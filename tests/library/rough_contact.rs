@@ -4,10 +4,10 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use crate::common::check;
 use asperity::contact::ContactStatistics;
 use asperity::*;
 use ndarray::Array2;
+use oracles::check;
 
 /// The load of Figures 6 and 7.
 const LOAD: f64 = 0.003;

@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::common::{rough, solve, solve_from, sphere};
 use approx::assert_relative_eq;
 use asperity::adhesion::{Discretisation, Hints, Values};
 use asperity::solver::{Criterion, Method};
 use asperity::*;
 use ndarray::Array2;
+use oracles::{rough, solve, solve_from, sphere};
 
 fn limited(max_iterations: usize, tolerance: f64) -> Solver {
     Solver::new(Settings::default().max_iterations(max_iterations).tolerance(tolerance))
@@ -29,11 +29,11 @@ fn the_certificate_is_never_below_the_true_error() {
         let mut sharpest = f64::INFINITY;
         for iterations in 0..24 {
             let state = limited(iterations, 1e-14).solve(&mut problem, control).unwrap();
-            crate::common::check(&state);
+            oracles::check(&state);
             // a state under pressure control is certified at its own mean gap
             let exact = solve(&mut problem, Control::MeanGap(state.report.mean_gap), 1e-12);
             assert_eq!(exact.report.status, Status::Converged);
-            let (error, size, flat) = crate::common::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
+            let (error, size, flat) = oracles::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
             // without contact the surface's own size may stand for that of the displacement
             let size = if state.report.contact_nodes > 0 { size } else { size.max(flat) };
             let (error, bound) = ((error / size).sqrt(), state.report.relative_error);
@@ -63,7 +63,7 @@ fn the_certificate_of_springs_is_never_below_the_true_error() {
             let state = solve(&mut problem, control, iterations, 1e-14);
             let exact = solve(&mut problem, Control::MeanGap(state.report.mean_gap), 1000, 1e-12);
             assert_eq!(exact.report.status, Status::Converged);
-            let (error, size, _) = crate::common::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
+            let (error, size, _) = oracles::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
             let (error, bound) = ((error / size).sqrt(), state.report.relative_error);
             assert!(error <= bound * (1.0 + 1e-6) + 2e-12, "{stiffness} {iterations}: {error:e} > {bound:e}");
         }
@@ -191,7 +191,7 @@ fn both_methods_find_the_same_state() {
         let ours = solve(&mut problem, control, 1e-9);
         let mut paper = Solver::new(Settings::rey2017().criterion(Criterion::Complementarity).tolerance(1e-11));
         let paper = paper.solve(&mut problem, control).unwrap();
-        crate::common::check(&paper);
+        oracles::check(&paper);
         assert_eq!((paper.report.status, paper.report.method), (Status::Converged, Method::Rey2017));
         assert!(paper.report.complementarity <= 1e-11 && paper.report.relative_error < 1e-5);
         assert_eq!(ours.report.contact_nodes, paper.report.contact_nodes);
@@ -334,7 +334,7 @@ fn an_observer_can_stop_and_the_limit_is_kept() {
         })
         .unwrap();
     assert_eq!((seen, stopped.report.status), (vec![0, 1, 2, 3], Status::Stopped));
-    crate::common::check(&stopped);
+    oracles::check(&stopped);
     // from every start, and from a gap in any layout
     let by_columns = stopped.gap.t().as_standard_layout().into_owned().reversed_axes();
     assert!(!by_columns.is_standard_layout() && by_columns == stopped.gap);

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use crate::common::dense::{Dense, Held};
-use crate::common::{rough, solve, sphere};
 use asperity::path::{Path, PathSettings};
 use asperity::solver::Iteration;
 use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
+use oracles::dense::{Dense, Held};
+use oracles::{rough, solve, sphere};
 
 fn tight() -> StabilityTest {
     StabilityTest::default().tolerance(1e-6)
@@ -116,18 +116,18 @@ fn a_mode_takes_about_twice_as_many_applications_as_the_solve() {
 #[test]
 fn the_certificate_bounds_the_error_of_a_stable_equilibrium() {
     let mut problem = rough::<f64>(64, 16, Exponential::new(4e-4, 4e-3).unwrap());
-    let surface = crate::common::rough::rough(*problem.grid(), 16, 1);
+    let surface = oracles::rough::rough(*problem.grid(), 16, 1);
     let mut operator = Westergaard::<f64>::new(*problem.grid(), 1.0).unwrap();
     let mut larger = 0;
     for control in [Control::MeanGap(0.012), Control::MeanGap(0.03)] {
         let Control::MeanGap(gap) = control else { unreachable!() };
         let beside = solve(&mut problem, Control::MeanGap(1.05 * gap), 1e-6);
         let start = Some(&beside.gap);
-        let exact = crate::common::solve_from(&mut problem, control, 1e-11, start);
+        let exact = oracles::solve_from(&mut problem, control, 1e-11, start);
         for tolerance in [1e-2, 1e-3, 1e-4] {
-            let rough = crate::common::solve_from(&mut problem, control, tolerance, start);
+            let rough = oracles::solve_from(&mut problem, control, tolerance, start);
             let stability = StabilityTest::default().run(&mut problem, &rough).unwrap();
-            let (error, work, _) = crate::common::energy_norms(&surface, &mut operator, &rough.gap, &exact.gap);
+            let (error, work, _) = oracles::energy_norms(&surface, &mut operator, &rough.gap, &exact.gap);
             let (error, bound) = ((error / work).sqrt(), stability.error_bound.unwrap());
             assert!(error <= bound, "{error:e} {bound:e}");
             larger += usize::from(error > rough.report.relative_error);

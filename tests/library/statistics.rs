@@ -2,13 +2,13 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{rough, sphere};
 use asperity::adhesion::Varying;
 use asperity::contact::{ContactArea, ContactStatistics, PressureDistribution};
 use asperity::exact::{self, Periodic};
 use asperity::*;
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
+use oracles::{rough, sphere};
 
 fn statistics<T: Real>(problem: &mut Problem<T>, control: Control) -> (Solution<T>, ContactStatistics) {
     let solution = Solver::default().solve(problem, control).unwrap();

@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{rough, solve, solve_from, sphere};
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::*;
 use asperity_maps::surface_with_absent;
+use oracles::{rough, solve, solve_from, sphere};
 
 const PUNCH: f64 = 0.3;
 

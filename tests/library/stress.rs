@@ -11,12 +11,12 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::result::Result;
 
-use crate::common::scenes::{Body, Constraint, Features, Kind, Precision, Scene};
 use asperity::solver::Iteration;
 use asperity::stability::Verdict;
 use asperity::*;
 use ndarray::Array2;
 use oracle::Judge;
+use oracles::scenes::{Body, Constraint, Features, Kind, Precision, Scene};
 
 /// How a solve ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::common::rough::rough as rough_surface;
-use crate::common::{Kept, check, rough, sphere, swept};
 use asperity::*;
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
+use oracles::rough::rough as rough_surface;
+use oracles::{Kept, check, rough, sphere, swept};
 
 fn gaps(values: &[f64]) -> Vec<Control> {
     values.iter().copied().map(Control::MeanGap).collect()

@@ -6,8 +6,8 @@ use ndarray::Array2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use crate::common::dense::{Dense, mean_product};
-use crate::common::scenes::{Features, Kind, Law, Scene};
+use oracles::dense::{Dense, mean_product};
+use oracles::scenes::{Features, Kind, Law, Scene};
 
 /// Hard walls, and laws that leave the problem convex.
 const CONVEX: Features = Features {

@@ -7,8 +7,8 @@ use asperity::stability::{StabilityTest, Verdict};
 use asperity::*;
 use ndarray::Array2;
 
-use crate::common::dense::{Dense, Held, dot};
-use crate::common::scenes::{Constraint, Kind, Scene};
+use oracles::dense::{Dense, Held, dot};
+use oracles::scenes::{Constraint, Kind, Scene};
 
 /// The roundings that a sum over some nodes may have.
 const ROUNDINGS: f64 = 64.0;
@@ -527,7 +527,7 @@ impl<'a, T: Real> Judge<'a, T> {
             return least;
         }
         let right = free.iter().map(|&i| nodes * dense.share[i]).collect();
-        let step = crate::common::dense::eliminate(dense.hessian(free, held, slopes, 0.0), right).unwrap_or_default();
+        let step = oracles::dense::eliminate(dense.hessian(free, held, slopes, 0.0), right).unwrap_or_default();
         if step.len() == free.len() { dense.work(&step).sqrt() } else { 0.0 }
     }
 

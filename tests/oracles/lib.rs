@@ -1,5 +1,4 @@
 //! Problems with known solutions, and the properties that every solution must have.
-#![allow(dead_code, reason = "each test uses its part")]
 
 pub mod authors;
 pub mod dense;
@@ -71,22 +70,14 @@ pub fn followed<T: Real>(
     iter::from_fn(|| path.next(solver, problem).expect("the input is good")).collect()
 }
 
-/// A value that is its own checkpoint: by JSON with the feature `serde`, otherwise by a copy.
+/// A value that is its own checkpoint, by JSON.
 pub trait Kept: Sized {
     fn read_again(&self) -> Self;
 }
 
-#[cfg(feature = "serde")]
 impl<A: serde::Serialize + serde::de::DeserializeOwned> Kept for A {
     fn read_again(&self) -> Self {
         serde_json::from_str(&serde_json::to_string(self).unwrap()).unwrap()
-    }
-}
-
-#[cfg(not(feature = "serde"))]
-impl<A: Clone> Kept for A {
-    fn read_again(&self) -> Self {
-        self.clone()
     }
 }
 
