@@ -147,11 +147,14 @@ impl Reducer {
         chunks: A,
         f: impl Fn(usize, A::Part) -> S + Sync + Send,
     ) -> S {
-        let first = self.slab.first_node();
-        par::update(chunks, &mut self.chunks, |i, chunk, numbers| {
-            *numbers = if wanted(i) { f(first + i * CHUNK, chunk) } else { S::NONE }.numbers();
-        });
+        self.each(chunks, &|i, first, chunk| if wanted(i) { f(first, chunk) } else { S::NONE }.numbers());
         self.total()
+    }
+
+    /// Keeps the numbers `f(number of the chunk, first node, chunk)`: a loop that is compiled once for each kind of chunks.
+    fn each<A: Parts>(&mut self, chunks: A, f: &(dyn Fn(usize, usize, A::Part) -> Numbers + Sync)) {
+        let first = self.slab.first_node();
+        par::update(chunks, &mut self.chunks, |i, chunk, numbers| *numbers = f(i, first + i * CHUNK, chunk));
     }
 
     /// Keeps a number of each chunk of the last pass, for a later one.

@@ -236,7 +236,8 @@ fn most<P: Parts>(parts: &P) -> usize {
 }
 
 /// Runs `f` on the parts, the first of which has the index `first`. A few parts run one after the other.
-fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(impl Fn(usize, P::Part) + Sync)) {
+/// It is compiled once for each kind of parts, whatever is done with them.
+fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(dyn Fn(usize, P::Part) + Sync)) {
     let count = parts.count();
     if count > most {
         let half = count / 2;

@@ -120,7 +120,12 @@ macro_rules! sums {
                     })?
                     start += size;
                 }
-                [$(part.$field),*] = lanes.map(|l| ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7])));
+                let mut sums = [0.0; COUNT];
+                for s in 0..COUNT {
+                    let l = &lanes[s];
+                    sums[s] = ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
+                }
+                [$(part.$field),*] = sums;
                 $(for low in least {
                     part.$least.0 = if low < part.$least.0 { low } else { part.$least.0 };
                 })?

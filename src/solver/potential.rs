@@ -113,7 +113,7 @@ impl<'a, T: Real> Potential<'a, T> {
         window: &Window,
         first: usize,
         chunk: N,
-        f: &impl Fn(&Self, usize, N) -> S,
+        f: &dyn Fn(&Self, usize, N) -> S,
     ) -> S {
         let (whole, nothing) = (Self { window: None, ..*self }, Self::nothing());
         let (mut total, mut rest) = (S::NONE, Some(chunk));
