@@ -15,11 +15,10 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / ".ci" / "browser"))
 
-from browser import Browser  # noqa: E402
-from host import Host  # noqa: E402
-from page import SET, WINDOWS, Page  # noqa: E402
+from browser import Browser
+from host import Host
+from page import SET, WINDOWS, Page
 
 PICTURES = ROOT / "target" / "web-pictures"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Opens pages of `asperity report` in Chromium, uses them by mouse and keys, and takes pictures of them.
 
-    .ci/browser/report.py BROWSER PAGE...
+    web/tests/report.py BROWSER PAGE...
 
 The browser has no window and no network. Exits with 1 and the complaints if a page is not as it should be.
 """
