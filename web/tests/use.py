@@ -14,12 +14,11 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-
 from browser import Browser
 from host import Host
 from page import SET, WINDOWS, Page
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "target" / "web-pictures"
 
 # the colours on the map of the contact: black nodes, and nodes of all
