@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "7 GB: cargo test --release --test units-of-library sums_of_f32 -- --ignored"]
+    #[ignore = "7 GB: cargo test --release --test units_of_library sums_of_f32 -- --ignored"]
     fn sums_of_f32_are_accurate_over_16384_by_16384_nodes() {
         sums_are_accurate(16384);
     }
