@@ -235,8 +235,8 @@ fn most<P: Parts>(parts: &P) -> usize {
     }
 }
 
-/// Runs `f` on the parts, the first of which has the index `first`. A few parts run one after the other.
-/// It is compiled once for each kind of parts, whatever is done with them.
+/// Runs `f` on the parts, the first of which has the index `first`. A few parts run one after the other. The call of `f`
+/// is not inlined, so that the loop is compiled once for each kind of parts.
 fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(dyn Fn(usize, P::Part) + Sync)) {
     let count = parts.count();
     if count > most {

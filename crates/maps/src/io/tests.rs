@@ -79,6 +79,9 @@ fn written_npy_is_read_back() {
     let field = array![[1.5, f64::INFINITY], [-0.0, 2.0], [3.0, 4.0]];
     write_npy(&path, &field).unwrap();
     assert_eq!(read_field(&path).unwrap(), field);
+    // as numpy.save writes it
+    let header = format!("{:117}\n", "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }");
+    assert!(fs::read(&path).unwrap().starts_with(&[b"\x93NUMPY\x01\x00\x76\x00", header.as_bytes()].concat()));
     write_npy(&path, &field.mapv(|v| v as f32)).unwrap();
     assert_eq!(read_field(&path).unwrap(), field);
     let fortran = Array2::from_shape_fn((2, 3).f(), |(i, j)| (3 * i + j) as f32);
