@@ -60,11 +60,8 @@ fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
 /// Reads a file of heights, of several channels the one of a number or title.
 #[pyfunction]
 pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<Made<'_>> {
-    let read = || match &channel {
-        Some(channel) => asperity_maps::io::read_channel(&path, channel),
-        None => asperity_maps::io::read_topography(&path),
-    };
-    Ok(Made::of(py, apart(py, read)?))
+    let reading = asperity_maps::io::Reading { channel, ..Default::default() };
+    Ok(Made::of(py, apart(py, || reading.read(&path))?))
 }
 
 /// The heights of a body of a simple form with self-affine roughness or without it, both by their keys; NaN beyond the

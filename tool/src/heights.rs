@@ -165,14 +165,14 @@ fn or_unit_square(path: &Path, map: &Topography, known: Option<(f64, f64)>, warn
     })
 }
 
-/// Warns of the arrays of a file that were not read, if its side lengths are unknown and may be among them; `are` says
+/// Warns of what stands beside the heights in a file, if its side lengths are unknown and may be among them; `are` says
 /// which values are taken for these.
 pub fn warn_of_unread(path: &Path, map: &Topography, are: &str, warn: Warn<'_>) {
     if map.lengths.is_none() && !map.unread.is_empty() {
         let names: Vec<_> = map.unread.iter().take(MOST_NAMES).map(|name| format!("{name:?}")).collect();
         let more = if map.unread.len() > MOST_NAMES { ", ..." } else { "" };
         let text = format!(
-            "{} has no array named lengths, and of its others {}{more} were not read: the side lengths {are}; give \
+            "{} has no side lengths that are understood, and beside its heights {}{more}: the side lengths {are}; give \
              --lengths, or name their array lengths",
             path.display(),
             names.join(", ")

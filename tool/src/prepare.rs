@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity_maps::Topography;
-use asperity_maps::io::{read_channel, read_topography, write_topography};
+use asperity_maps::io::{Reading, write_topography};
 use asperity_scene::{Chosen, CutOffKeys, Log, NewLengthsKeys, StepKeys};
 use clap::{ArgGroup, Args};
 use serde_json::json;
@@ -26,13 +26,22 @@ use crate::scene::SceneFile;
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("scan_lines").args(StepKeys::OF_LINES).multiple(true)))]
 pub struct Options {
-    /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, Gwyddion's text export, or a text matrix
+    /// The map: .npy, .npz, .gwy or .gsf (Gwyddion), points x y z, or a text matrix
     #[arg(value_name = "IN")]
     input: PathBuf,
 
-    /// Channel of a .gwy file, by its number or its title, if several have heights
+    /// Channel of a .gwy file, or of a text with several blocks, by its number or its title, if several have heights
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
+    /// Lines at the start of a text that are left out, as a heading
+    #[arg(long, value_name = "LINES", default_value_t = 0, hide_default_value = true)]
+    skip_lines: usize,
+    /// Word of a text that stands for missing points, beside nan, NA, Bad, #N/A and the like; may be repeated
+    #[arg(long, value_name = "WORD")]
+    missing_word: Vec<String>,
+    /// Takes the points under the mask of a .gwy file for missing
+    #[arg(long)]
+    masked: bool,
 
     #[command(flatten)]
     steps: Chosen<(NewLengthsKeys, StepKeys, CutOffKeys)>,
@@ -101,10 +110,13 @@ fn left_out(out: &Path, map: &Topography) -> String {
 
 /// Takes the steps, and prints the warnings.
 fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
-    let map = match &options.channel {
-        Some(channel) => read_channel(&options.input, channel)?,
-        None => read_topography(&options.input)?,
+    let reading = Reading {
+        channel: options.channel.clone(),
+        skip_lines: options.skip_lines,
+        missing: options.missing_word.clone(),
+        masked: options.masked,
     };
+    let map = reading.read(&options.input)?;
     check_room(map.heights.dim())?;
     let steps = in_options(options.steps.0.steps(map.heights.dim(), si, map.unit.as_deref()))?;
     if steps.lengths.is_none() {

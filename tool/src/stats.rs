@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
+use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::{Chosen, LengthsKeys, Skin, statistics};
 use clap::Args;
@@ -16,6 +17,7 @@ use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, aligned, warn};
 use crate::report;
 use crate::scene::SceneFile;
+use crate::units::Units;
 
 /// Print the statistics of a rough surface.
 ///
@@ -58,6 +60,10 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let (map, _) = heights::map(path, &options.lengths.0, scene.is_si())?;
     check_room(map.heights.dim())?;
     warn_of_unread(path, &map, "stay unknown", &mut warn);
+    let units = Units::of_map(map.unit.as_deref());
+    let no_heights = [WarningCode::Axes, WarningCode::ByteOrder, WarningCode::MissingCode];
+    let found = Warning::of_topography(&map).into_iter().filter(|found| no_heights.contains(&found.code));
+    found.for_each(|found| warn(units.told(&found).to_string()));
     check_complete(path, &map)?;
     let surface = map.lengths.map(|_| map.clone().surface()).transpose()?;
     if let Some(file) = psd {

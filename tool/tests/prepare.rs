@@ -576,3 +576,29 @@ fn offsets_of_lines_along_the_other_axis_are_told() {
     assert!(said.starts_with("warning: scan-axis: lines along y are offset") && said.contains(" nm, "), "{said}");
     assert_eq!(told("--scan-axis y --out b.npz"), (String::new(), vec![]));
 }
+
+#[test]
+fn texts_of_instruments_are_read_by_what_the_options_say_of_them() {
+    let bench = Bench::new();
+    let channel = |title: &str, heights: &str| {
+        format!("# Kanal: {title}\n# Breite: 3 \u{b5}m\n# H\u{f6}he: 2000 nm\n# Einheiten: nm\n{heights}\n")
+    };
+    let both = channel("Topo", "1 2 4\n4 6 3") + &channel("Topo zur\u{fc}ck", "9 2 1\n4 6 3");
+    bench.write("two.txt", &both);
+    bench.refused_with("prepare two.txt --out two.npz", &["2 channels (0 \"Topo\", 1 \"Topo zurück\")"]);
+    bench.said("prepare two.txt --channel 1 --out two.npz");
+    let map = read_topography(bench.path("two.npz")).unwrap();
+    assert_eq!((map.heights.dim(), map.heights[[0, 1]], map.lengths), ((3, 2), 9e-9, Some((3e-6, 2e-6))));
+
+    bench.write("words.txt", "Height (nm)\nof a tip\n1 2 lost\n4 7 6\n");
+    bench.refused_with("stats words.txt", &["line 3: \"lost\"", "--missing-word \"lost\""]);
+    let refused = ["line 1: \"Height\"", "--skip-lines 2"];
+    bench.refused_with("prepare words.txt --missing-word lost --out words.npz", &refused);
+    let said = bench.said("prepare words.txt --skip-lines 2 --missing-word lost --out words.npz");
+    assert!(said.contains("2 x 3 heights, 1 missing"), "{said}");
+    bench.refused_with("prepare words.npz --masked --out masked.npz", &["has no masks"]);
+
+    bench.write("table.csv", "0,1,2,3,4,5\n1,5,2,7,3,1\n2,8,1,6,3,4\n");
+    let said = text(&bench.run("stats table.csv").stderr);
+    assert!(said.contains("warning: axes: the first line"), "{said}");
+}

@@ -1,7 +1,7 @@
 //! The engine: a map, the surface that is made of it, and the solves on that.
 
 use asperity::Grid;
-use asperity_maps::io::{channels, check_memory, map_as_npz, read_bytes};
+use asperity_maps::io::{Reading, channels, check_memory, map_as_npz};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
 use asperity_plot::distribution;
@@ -51,15 +51,17 @@ impl Engine {
     /// Reads a map, or tells the channels of a file of which one has to be chosen.
     ///
     /// # Errors
-    /// Those of [`read_bytes`].
+    /// Those of [`Reading::read_bytes`].
     pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>) -> Outcome<Value> {
-        let channels = channels(name, bytes)?;
+        let read = Reading { channel: channel.clone(), ..Reading::default() }.read_bytes(name, bytes);
+        // what has one map alone has nothing beside it
+        let is_one = read.as_ref().is_ok_and(|map| map.unread.is_empty());
+        let channels = if is_one { Vec::new() } else { channels(name, bytes)? };
         let told: Vec<_> = channels.iter().map(|found| format!("{}: {}", found.number, found.title)).collect();
-        let fit = channels.iter().filter(|channel| channel.is_of_heights).count();
-        if channel.is_none() && channels.len() > 1 && fit != 1 {
+        if read.is_err() && channel.is_none() && channels.len() > 1 {
             return Ok(json!({ "name": name, "channels": told, "heights": null }));
         }
-        let map = read_bytes(name, bytes, channel.as_deref())?;
+        let map = read?;
         check_memory("a map", map.heights.dim(), 32)?;
         self.origin = Origin { source: Source::Opened { name: name.to_owned(), channel }, steps: None };
         let mut found = self.take(map, None);

@@ -2,20 +2,23 @@
 //!
 //! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`,
 //! `.xyz` and text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone,
-//! [`read_channel`] one of several [`channels`], [`read_bytes`] what is in memory, and [`read_fourier`] Fourier
-//! coefficients. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file,
+//! a [`Reading`] chooses among [`channels`] and reads what is in memory, and [`read_fourier`] takes Fourier coefficients. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file,
 //! for numpy and for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are
 //! complete.
 
+mod channels;
 mod foreign;
 mod fourier;
 mod gsf;
 mod gwy;
+mod heading;
+mod lines;
 mod memory;
 mod npy;
 mod npy_writer;
 mod npz;
 mod output;
+mod reading;
 mod refusal;
 mod text;
 mod units;
@@ -23,7 +26,7 @@ mod vti;
 mod xyz;
 
 use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
+use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::ops::Range;
 use std::path::Path;
 
@@ -31,9 +34,9 @@ use ndarray::{Array2, Axis, Slice};
 
 use crate::Topography;
 use asperity::{Error, Result};
+pub use channels::Channel;
 pub use fourier::read_fourier;
 use gsf::{GSF, read_gsf, write_gsf};
-pub use gwy::Channel;
 use gwy::{GWY, read_gwy};
 pub use memory::{available_memory, check_memory};
 use npy::{NPY, read_npy, read_npy_rows};
@@ -41,10 +44,10 @@ pub use npy_writer::{create_npy, write_npy, write_npy_rows};
 use npz::{ZIP, read_npz};
 pub use npz::{map_as_npz, npz, write_npz};
 pub use output::OutputFolder;
+pub use reading::Reading;
 use refusal::{DAMAGED, Parsed, Refusal, TRUNCATED, check_room, quoted, refuse, reserve, unreadable};
-use text::read_text;
+use text::Text;
 pub use vti::write_vti;
-use xyz::read_xyz;
 
 /// The largest number of characters of a unit in a file that is written; far more than any has.
 pub const LONGEST_UNIT: usize = 64;
@@ -80,17 +83,22 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 /// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
 ///   `lengths`, two numbers, `unit`, a text, and what [`write_topography`] says of mirrors and seeds are taken beside
 ///   that; [`Topography::unread`] names all others.
-/// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length;
-///   [`read_channel`] takes any. Masks and shown corrections are left where they are; [`Topography::unread`] names the
-///   other channels.
+/// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length; a [`Reading`]
+///   takes any. [`Topography::unread`] names the other channels, and a mask. Shown corrections are left where they are.
 /// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
-/// - text: one row per line; numbers separated by white space, or by commas, or by semicolons. `#` and `%`
-///   start a comment, blank lines are skipped. Decimal commas are not understood.
-/// - Gwyddion's text export, which is a text with comments `# Width:`, `# Height:` and `# Value units:` in English.
+/// - text: one row per line; numbers separated by white space, or by tabs, or by commas, or by semicolons. A line ends
+///   with LF, CR or both. Numbers may be in quotes, and have Fortran's exponent D. Decimal commas are refused.
+///   - Missing points are words, as nan, `1.#QNAN`, `#N/A`, NA, Bad or null, or nothing between separators.
+///   - `#`, `%`, `!` and `//` start a comment at the start of a line or behind a blank, `;` at the start of a line.
+///   - Comments and headings of the form `name: number unit` or `name = number unit` tell sizes, pixels and units, as
+///     those of Gwyddion in any language, SPIP, Attocube, Nova, Keyence and ESRI. The lines are those of an image then.
+///     What may tell a size and is not understood is in [`Topography::unread`].
+///   - Blocks of numbers with blank lines or headings between are channels, of which a [`Reading`] takes one.
+///   - Three columns x, y and z of a whole grid are points, as in `.xyz`.
 /// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
 ///   order. Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its
-///   spacing. All three in one unit, which the format does not tell. Nx and Ny follow from the spacings, and the side
-///   lengths are Nx Δx and Ny Δy.
+///   spacing. A heading may tell units, as `X[um] Y[um] Z[nm]`. Nx and Ny follow from the spacings, and the side lengths
+///   are Nx Δx and Ny Δy.
 ///
 /// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x.
 /// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's three formats becomes column Ny −
@@ -125,49 +133,21 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_topography(path: impl AsRef<Path>) -> Result<Topography> {
-    let path = path.as_ref();
-    read_any(path, None).map_err(|refusal| refusal.of(path))
+    Reading::default().read(path)
 }
 
-/// Reads one of the channels of a `.gwy` file, by its number or its title; otherwise as [`read_topography`].
-///
-/// ```no_run
-/// let retrace = asperity_maps::io::read_channel("scan.gwy", "Height Retrace")?;
-/// # Ok::<(), asperity::Error>(())
-/// ```
+/// The channels in the bytes of a file of a name: of a `.gwy` file, or of a text with several blocks of numbers; none if
+/// it has one map.
 ///
 /// # Errors
 ///
-/// As for [`read_topography`], and [`Error::File`] if the file has no such channel, or is of a format without channels.
-pub fn read_channel(path: impl AsRef<Path>, channel: &str) -> Result<Topography> {
-    let path = path.as_ref();
-    read_any(path, Some(channel)).map_err(|refusal| refusal.of(path))
-}
-
-/// Reads a height map from the bytes of a file of a name, or one of its channels; otherwise as [`read_topography`] and
-/// [`read_channel`], where there are no files, as in a browser.
-///
-/// ```
-/// let map = asperity_maps::io::read_bytes("heights.txt", b"1 2 3\n4 5 6\n", None)?;
-/// assert_eq!(map.heights, ndarray::array![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
-/// # Ok::<(), asperity::Error>(())
-/// ```
-///
-/// # Errors
-///
-/// As for [`read_channel`], with the name in the place of the path.
-pub fn read_bytes(name: &str, bytes: &[u8], channel: Option<&str>) -> Result<Topography> {
-    let path = Path::new(name);
-    read_from(Cursor::new(bytes), bytes.len() as u64, &ending(path), channel).map_err(|refusal| refusal.of(path))
-}
-
-/// The channels in the bytes of a file of a name; none if its format has none.
-///
-/// # Errors
-///
-/// [`Error::File`] if a `.gwy` file is truncated or damaged.
+/// [`Error::File`] if the file is truncated or damaged.
 pub fn channels(name: &str, bytes: &[u8]) -> Result<Vec<Channel>> {
-    let found = if bytes.starts_with(GWY) { gwy::channels(bytes) } else { Ok(Vec::new()) };
+    let found = match format_of(bytes, &ending(Path::new(name))) {
+        Ok(Format::Gwy) => gwy::channels(bytes),
+        Ok(Format::Text { binary: None }) => Text::read(bytes, &Reading::default()).and_then(|text| text.several()),
+        _ => Ok(Vec::new()),
+    };
     found.map_err(|refusal| refusal.of(Path::new(name)))
 }
 
@@ -272,30 +252,65 @@ fn opened(path: &Path, kinds: &str) -> Parsed<(BufReader<File>, u64)> {
     Ok((BufReader::new(File::open(path).map_err(unreadable)?), metadata.len()))
 }
 
-fn read_any(path: &Path, channel: Option<&str>) -> Parsed<Topography> {
+fn read_any(path: &Path, reading: &Reading) -> Parsed<Topography> {
     let (reader, size) = opened(path, "a .npy, .npz, .gwy, .gsf, .xyz or text file")?;
-    read_from(reader, size, &ending(path), channel)
+    read_from(reader, size, &ending(path), reading)
+}
+
+/// A format that is read.
+enum Format {
+    Gwy,
+    Gsf,
+    Npy,
+    Npz,
+    Points,
+    /// A text, unless it cannot be read since it is binary, for this reason.
+    Text {
+        binary: Option<String>,
+    },
+}
+
+/// The format of a file that starts so, and whose name has an ending; refused if it is known and not read.
+fn format_of(start: &[u8], ending: &str) -> Parsed<Format> {
+    Ok(match () {
+        () if start.starts_with(GWY) => Format::Gwy,
+        () if start.starts_with(NPY) => Format::Npy,
+        () if ZIP.iter().any(|magic| start.starts_with(magic)) => Format::Npz,
+        () if start.starts_with(GSF) => Format::Gsf,
+        () => match (foreign::by_start(start), foreign::by_ending(start, ending)) {
+            (Some(reason), _) => return refuse(reason),
+            (None, None) if ending == "xyz" => Format::Points,
+            (None, binary) => Format::Text { binary },
+        },
+    })
 }
 
 /// Reads a map of `size` bytes from a file whose name has an ending.
-fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, channel: Option<&str>) -> Parsed<Topography> {
-    let start = reader.fill_buf().map_err(unreadable)?;
-    let map = if start.starts_with(GWY) {
-        read_gwy(&mut reader, size, channel)
-    } else if channel.is_some() {
-        refuse("has no channels, as only .gwy files do: leave the channel out")
-    } else if start.starts_with(NPY) {
-        read_npy(&mut reader, size).map(Topography::new)
-    } else if ZIP.iter().any(|magic| start.starts_with(magic)) {
-        read_npz(reader, size)
-    } else if start.starts_with(GSF) {
-        read_gsf(&mut reader, size)
-    } else if let Some(reason) = foreign::by_start(start) {
-        refuse(reason)
-    } else {
-        let binary = foreign::by_ending(start, ending);
-        let text = if ending == "xyz" { read_xyz(reader) } else { read_text(reader) };
-        text.map_err(|refusal| binary.map_or(refusal, Refusal::Reason))
+fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, reading: &Reading) -> Parsed<Topography> {
+    let format = format_of(reader.fill_buf().map_err(unreadable)?, ending)?;
+    let is_text = matches!(format, Format::Text { .. } | Format::Points);
+    let given = [
+        (
+            reading.channel.is_some() && !(matches!(format, Format::Gwy | Format::Text { .. })),
+            "channels",
+            "the channel",
+        ),
+        (reading.skip_lines > 0 && !is_text, "lines", "the number of lines"),
+        (!reading.missing.is_empty() && !is_text, "words", "words for missing points"),
+        (reading.masked && !matches!(format, Format::Gwy), "masks", "that masked points are missing"),
+    ];
+    if let Some((_, what, option)) = given.iter().find(|(is_useless, ..)| *is_useless) {
+        return refuse(format!("has no {what}, as files of this format: leave {option} out"));
+    }
+    let map = match format {
+        Format::Gwy => read_gwy(&mut reader, size, reading),
+        Format::Npy => read_npy(&mut reader, size).map(Topography::new),
+        Format::Npz => read_npz(reader, size),
+        Format::Gsf => read_gsf(&mut reader, size),
+        Format::Points => Text::read(reader, reading).and_then(Text::points),
+        Format::Text { binary } => Text::read(reader, reading)
+            .and_then(|text| text.map(reading))
+            .map_err(|refusal| binary.map_or(refusal, Refusal::Reason)),
     }?;
     // units that are not those of the file may have made them so
     if let Some((lx, ly)) = map.lengths.filter(|(lx, ly)| !(is_side(*lx) && is_side(*ly))) {

@@ -11,6 +11,7 @@ mod body;
 mod code;
 mod extremes;
 mod heights;
+mod layout;
 mod lines;
 mod load;
 mod part;
@@ -150,6 +151,9 @@ impl Warning {
     /// [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and
     /// [`Flat`](WarningCode::Flat). The first three are none where the boundary is free.
     ///
+    /// Before all, numbers that are no heights: [`Axes`](WarningCode::Axes), and [`ByteOrder`](WarningCode::ByteOrder),
+    /// which comes alone.
+    ///
     /// Takes a few passes over the heights. Where there are codes for missing points, the warnings that these codes
     /// would cause are left out. Tilt and edges are looked at along sides of 16 nodes and more.
     ///
@@ -158,7 +162,12 @@ impl Warning {
     pub fn of_surface(surface: &Surface) -> Vec<Self> {
         let surface = &*surface.whole();
         let extremes = Extremes::of(surface.heights());
+        let heights = surface.heights();
+        if let Some(warning) = layout::byte_order(heights) {
+            return vec![warning];
+        }
         let mut found: Vec<_> = cells(surface.grid()).into_iter().chain(ends_within(surface)).collect();
+        found.extend(layout::axes(heights));
         if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
             let text = "all heights are {}: there is nothing that could touch first; check the file, or the map";
             found.push(Self::told(WarningCode::Flat, 0.0, text, [Length(extremes.low)]));
@@ -179,7 +188,8 @@ impl Warning {
 
     /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode),
     /// and, where the side lengths are known and no such code is there, [`Steep`](WarningCode::Steep), which here is an
-    /// rms slope above 100, and [`Smooth`](WarningCode::Smooth).
+    /// rms slope above 100, and [`Smooth`](WarningCode::Smooth). Before these, numbers that are no heights, as
+    /// [`of_surface`](Self::of_surface) finds them.
     ///
     /// ```
     /// use asperity_maps::warning::Warning;
@@ -191,12 +201,17 @@ impl Warning {
     /// assert!(Warning::of_topography(&map.declare_missing(-99.0)).is_empty());
     /// ```
     pub fn of_topography(map: &Topography) -> Vec<Self> {
-        let extremes = Extremes::of(&map.heights.as_standard_layout().into_owned());
-        let codes = extremes.codes();
-        if codes.is_empty() {
-            return map.rms_slope().and_then(|found| slope(found, STEEP_MAP)).into_iter().collect();
+        let heights = map.heights.as_standard_layout().into_owned();
+        if let Some(warning) = layout::byte_order(&heights) {
+            return vec![warning];
         }
-        codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)).collect()
+        let extremes = Extremes::of(&heights);
+        let codes = extremes.codes().into_iter().map(|(value, count)| missing_code(value, count, &extremes));
+        let mut found: Vec<_> = layout::axes(&heights).into_iter().chain(codes).collect();
+        if found.is_empty() {
+            found.extend(map.rms_slope().and_then(|found| slope(found, STEEP_MAP)));
+        }
+        found
     }
 
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*

@@ -196,7 +196,8 @@ fn side_lengths_under_another_name_are_not_ignored_in_silence() {
         let output = run(bench.path(), command);
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!((output.status.code(), said.lines().count()), (Some(0), 1), "{command}: {said}");
-        let parts = ["map.npz has no array named lengths", "\"length\", \"x\" were not read", "--lengths"];
+        let parts =
+            ["map.npz has no side lengths that are understood", "\"length\", \"x\": the side lengths", "--lengths"];
         assert!(parts.iter().all(|part| said.contains(part)), "{command}: {said}");
         assert!(said.contains(if command.contains("--heights") { "1 x 1" } else { "stay unknown" }), "{said}");
         let output = run(bench.path(), &format!("{command} --lengths 1 1 --force"));
@@ -233,7 +234,7 @@ fn binary_files_are_named_with_a_remedy_and_none_of_their_bytes_reaches_the_term
     for (name, start, parts) in [
         ("map.gwy", &b"GWYOGwyContainer\0"[..], ["Gwyddion 1 (.gwy)", "as .gsf"]),
         ("map.spm", b"\\*File list\r\n\\Version: 0x05120000\r\n", ["Nanoscope file (.spm)", "Gwyddion"]),
-        ("map.tif", b"II*\0\x08\0\0\0", ["TIFF image (.tif)", "numpy.save"]),
+        ("map.tif", b"II*\0\x08\0\0\0", ["TIFF image (.tif)", "thumbnail"]),
         ("map.sur", b"DIGITAL SURF\0", ["Digital Surf file (.sur)", "Gwyddion"]),
         ("map.al3d", b"AliconaImaging\0\r\n", ["Alicona file (.al3d)", "Gwyddion"]),
         ("map.ibw", b"\x05\0", ["Igor file (.ibw)", "Gwyddion"]),

@@ -10,16 +10,19 @@ const UNPACK: &str = "unpack it first";
 type Format = (&'static [&'static [u8]], &'static str, &'static str);
 
 /// The formats that are known by their first bytes.
-const STARTS: [Format; 26] = [
+const STARTS: [Format; 29] = [
     (&[b"GWYO"], "a file of Gwyddion 1 (.gwy)", GWYDDION),
     (&[b"\\*File list", b"?*File list"], "a Nanoscope file (.spm)", GWYDDION),
+    (&[b"\"\\*File list"], "a text of a Nanoscope file", "open the file itself in Gwyddion, and save it as .gwy"),
+    (&[b"Zygo XYZ Data File"], "a file of Zygo's points (.xyz)", GWYDDION),
+    (&[b"Wyko ASCII Data File"], "a text of Wyko (.asc)", GWYDDION),
     (&[b"\\*Force file list"], "a Nanoscope file of force curves (.spm)", "save a map of heights instead"),
     (&[b"DIGITAL SURF", b"DSCOMPRESSED"], "a Digital Surf file (.sur)", GWYDDION),
     (&[b"AliconaImaging\0"], "an Alicona file (.al3d)", GWYDDION),
     (&[b"\x01\0Directory"], "a Wyko file (.opd)", GWYDDION),
     (&[b"VCA DATA\x01\0"], "a Bruker file (.opdx)", GWYDDION),
     (&[b"\x01\xb0\x93\xff"], "an NT-MDT file (.mdt)", GWYDDION),
-    (&[b"aBCR-", b"bBCR-"], "a surface data file (.sdf)", GWYDDION),
+    (&[b"aBCR-", b"bBCR-", b"aISO-", b"bISO-"], "a surface data file (.sdf)", GWYDDION),
     (&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"], "a MetroPro file (.dat)", GWYDDION),
     (&[b"VK4_"], "a Keyence file (.vk4)", GWYDDION),
     (&[b"FRTM_"], "a MicroProf file (.frt)", GWYDDION),
@@ -39,8 +42,10 @@ const STARTS: [Format; 26] = [
     (&[b"\xff\xfe", b"\xfe\xff"], "a text in UTF-16", "save it in UTF-8"),
 ];
 
-const TIFF: &str = "open it in Gwyddion, and save its heights as .gsf; \
-                    or in Python: numpy.save(\"heights.npy\", tifffile.imread(file))";
+const TIFF: &str = "open it in Gwyddion, and save its heights as .gsf, since its first page may be a thumbnail and its \
+                    numbers may have a scale; or in Python: \
+                    asperity.from_topography(SurfaceTopography.read_topography(file))";
+const CONTAINER: &str = "in Python: asperity.from_topography(SurfaceTopography.read_container(file)[0][0])";
 const NETCDF: &str = "in Python: numpy.save(\"heights.npy\", xarray.open_dataset(file)[name])";
 const MATLAB: &str = "in MATLAB: writematrix(heights, \"heights.txt\", \"Delimiter\", \" \")";
 const PICKLE: &str = "load it in Python, and save its heights by numpy.save";
@@ -54,9 +59,11 @@ const ENDINGS: [(&str, &str, &str); 4] = [
 ];
 
 /// Members of zip archives that are no `.npz`.
-const MEMBERS: [(&str, &str, &str); 3] = [
+const MEMBERS: [(&str, &str, &str); 5] = [
     ("main.xml", "a surface in the format of ISO 25178-72 (.x3p)", GWYDDION),
     ("index.xml", "a Sensofar file (.plux)", GWYDDION),
+    ("header.properties", "a JPK file of force curves (.jpk-force)", "save a map of heights instead"),
+    ("meta.yml", "a container of contact.engineering", CONTAINER),
     ("[Content_Types].xml", "a document of an office program", "save the sheet of heights as text, with tabs"),
 ];
 

@@ -6,9 +6,9 @@ use std::path::Path;
 use asperity::surface::FourierSeries;
 use asperity::{Grid, Result, Surface};
 
+use super::lines::{Line, for_each_line};
 use super::refusal::{Parsed, Refusal, refuse, unreadable};
-use super::text::for_each_line;
-use super::{foreign, opened};
+use super::{Reading, foreign, opened};
 
 const COLUMNS: &str = "expected lines of four numbers: qX, qY, and the real and the imaginary part of h(q)";
 
@@ -47,13 +47,23 @@ pub fn read_fourier(path: impl AsRef<Path>, grid: Grid, unit: f64) -> Result<Sur
         let (mut reader, _) = opened(path, "a text file of Fourier coefficients")?;
         let start = reader.fill_buf().map_err(unreadable)?;
         let binary = foreign::by_start(start).or_else(|| foreign::by_ending(start, "")).map(|_| BINARY);
-        let each = |line: usize, numbers: &[f64]| {
-            let &[m, n, re, im] = numbers else {
-                return refuse(format!("line {line} has {} numbers, {COLUMNS}", numbers.len()));
-            };
-            series.add((m, n), (re, im)).map_err(|error| Refusal::from(format!("line {line}: {error}")))
+        let mut count = 0;
+        let each = |line: usize, found: Line<'_>| match found {
+            Line::Empty(_) | Line::Comment(_) => Ok(()),
+            Line::Heading(_, reason) | Line::Broken(_, reason) => refuse(format!("{reason}: {COLUMNS}")),
+            Line::Row(row) => {
+                let &[m, n, re, im] = row.values else {
+                    return refuse(format!("line {line} has {} numbers, {COLUMNS}", row.values.len()));
+                };
+                count += 1;
+                series.add((m, n), (re, im)).map_err(|error| Refusal::from(format!("line {line}: {error}")))
+            }
         };
-        for_each_line(reader, COLUMNS, |_| {}, each).map_err(|refusal| binary.map_or(refusal, Refusal::from))?;
+        let read = for_each_line(reader, &Reading::default(), each);
+        read.map_err(|refusal| binary.map_or(refusal, Refusal::from))?;
+        if count == 0 {
+            return refuse(format!("holds no numbers: {COLUMNS}"));
+        }
         series.surface(unit).map_err(|error| Refusal::from(format!("cannot be a surface: {error}")))
     };
     read().map_err(|refusal| refusal.of(path))

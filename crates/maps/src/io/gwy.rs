@@ -5,31 +5,45 @@ mod items;
 use std::collections::BTreeMap;
 use std::io::Read;
 
-use ndarray::Array2;
+use ndarray::{Array2, Zip};
 
 use self::items::{Bytes, Value};
+use super::channels::{Channel, chosen, others};
 use super::units::{in_one_unit, is_length};
-use super::{DAMAGED, Parsed, quoted, refuse, reserve, unreadable};
+use super::{DAMAGED, Parsed, Reading, quoted, refuse, reserve, unreadable};
 use crate::Topography;
 
 pub(super) const GWY: &[u8] = b"GWYP";
-/// The most channels that a message names.
-const MOST_NAMES: usize = 10;
 
 /// Reads a channel of a Gwyddion file of `size` bytes, by its number or title; without one, the only channel, or the
 /// only one of heights.
 ///
 /// Behind four letters there is one object, and in objects there are items: name, letter of the type, value. Objects
 /// and arrays have their size before them, so that those of no interest are skipped unread.
-pub(super) fn read_gwy(reader: &mut impl Read, size: u64, channel: Option<&str>) -> Parsed<Topography> {
+pub(super) fn read_gwy(reader: &mut impl Read, size: u64, reading: &Reading) -> Parsed<Topography> {
     let mut bytes = Vec::new();
     reserve(&mut bytes, usize::try_from(size).unwrap_or(usize::MAX))?;
     reader.take(size).read_to_end(&mut bytes).map_err(unreadable)?;
-    let channels = fields(&bytes)?;
-    let number = chosen(&channels, channel)?;
-    let field = channels.get(&number).and_then(|channel| channel.field).ok_or(DAMAGED)?;
+    let channels = channels(&bytes)?;
+    let place = chosen(&channels, reading.channel.as_deref())?;
+    let fields = fields(&bytes)?;
+    let Titled { field: Some(field), mask, .. } = &fields[&channels[place].number] else { return refuse(DAMAGED) };
     let mut map = Field::new(field)?.map()?;
-    map.unread = channels.iter().filter(|(n, _)| **n != number).map(|(n, channel)| channel.name(*n)).collect();
+    map.unread = others(&channels, place);
+    let mask = mask.map(|mask| Field::new(mask)?.upright()).transpose()?.filter(|mask| mask.dim() == map.heights.dim());
+    let count = mask.iter().flatten().filter(|on| **on > 0.0).count();
+    match mask {
+        Some(mask) if reading.masked => Zip::from(&mut map.heights).and(&mask).for_each(|h, on| {
+            if *on > 0.0 {
+                *h = f64::NAN;
+            }
+        }),
+        _ if reading.masked => {
+            return refuse("has no mask over this channel: leave out that masked points are missing");
+        }
+        _ if count > 0 => map.unread.push(format!("a mask over {count} points, which --masked takes for missing")),
+        _ => {}
+    }
     Ok(map)
 }
 
@@ -50,23 +64,13 @@ fn fields(bytes: &[u8]) -> Parsed<BTreeMap<usize, Titled<'_>>> {
         let Ok(number) = number.parse() else { continue };
         match (what, value) {
             ("data", Value::Object(b"GwyDataField", field)) => channels.entry(number).or_default().field = Some(field),
+            ("mask", Value::Object(b"GwyDataField", field)) => channels.entry(number).or_default().mask = Some(field),
             ("data/title", Value::Text(title)) => channels.entry(number).or_default().title = text(title),
             _ => {}
         }
     }
     channels.retain(|_, channel| channel.field.is_some());
     Ok(channels)
-}
-
-/// A channel of a Gwyddion file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Channel {
-    /// The number.
-    pub number: usize,
-    /// The title; empty if it has none.
-    pub title: String,
-    /// Whether heights and sides both are in units of length.
-    pub is_of_heights: bool,
 }
 
 /// The channels of a Gwyddion file.
@@ -79,39 +83,12 @@ pub(super) fn channels(bytes: &[u8]) -> Parsed<Vec<Channel>> {
     Ok(fields(bytes)?.into_iter().map(named).collect())
 }
 
-/// The number of the channel that is asked for, or of the only one that it can be.
-fn chosen(channels: &BTreeMap<usize, Titled<'_>>, asked: Option<&str>) -> Parsed<usize> {
-    let fits: Vec<usize> = match asked {
-        Some(asked) => {
-            let number = asked.parse().ok().filter(|number| channels.contains_key(number));
-            let titled = channels.iter().filter(|(_, channel)| channel.title == asked).map(|(number, _)| *number);
-            number.map_or_else(|| titled.collect(), |number| vec![number])
-        }
-        None if channels.len() == 1 => channels.keys().copied().collect(),
-        None => channels.iter().filter(|(_, channel)| channel.is_of_heights()).map(|(number, _)| *number).collect(),
-    };
-    let names: Vec<_> = channels.iter().take(MOST_NAMES).map(|(number, channel)| channel.name(*number)).collect();
-    let more = if channels.len() > MOST_NAMES { ", ..." } else { "" };
-    let found = format!("{} channels ({}{more})", channels.len(), names.join(", "));
-    match (&fits[..], asked) {
-        (&[number], _) => Ok(number),
-        (_, None) if channels.is_empty() => refuse("holds no channel of heights: save one in it"),
-        ([], Some(asked)) => refuse(format!("holds {found}, none of which is {}: name one of these", quoted(asked))),
-        (_, Some(asked)) => refuse(format!("holds {found}, several of which are {}: give a number", quoted(asked))),
-        (_, None) => {
-            let heights = fits.len();
-            refuse(format!(
-                "holds {found}, {heights} of them of heights: choose one, by asperity prepare --channel NUMBER"
-            ))
-        }
-    }
-}
-
-/// A channel: its title, and its field.
+/// A channel: its title, its field, and the mask over it.
 #[derive(Default)]
 struct Titled<'a> {
     title: String,
     field: Option<&'a [u8]>,
+    mask: Option<&'a [u8]>,
 }
 
 impl Titled<'_> {
@@ -119,10 +96,6 @@ impl Titled<'_> {
     fn is_of_heights(&self) -> bool {
         let field = self.field.and_then(|field| Field::new(field).ok());
         field.is_some_and(|field| is_length(&field.lateral) && is_length(&field.vertical))
-    }
-
-    fn name(&self, number: usize) -> String {
-        if self.title.is_empty() { number.to_string() } else { format!("{number} {}", quoted(&self.title)) }
     }
 }
 
@@ -156,6 +129,11 @@ impl<'a> Field<'a> {
     }
 
     fn map(&self) -> Parsed<Topography> {
+        in_one_unit(self.upright()?, Some(self.lengths), &self.lateral, &self.vertical)
+    }
+
+    /// The values, with y upwards.
+    fn upright(&self) -> Parsed<Array2<f64>> {
         let ((nx, ny), found) = (self.nodes, self.data.len());
         let shape = usize::try_from(nx).ok().zip(usize::try_from(ny).ok()).filter(|(nx, ny)| *nx > 0 && *ny > 0);
         let Some((nx, ny)) = shape.filter(|(nx, ny)| nx.checked_mul(*ny) == Some(found)) else {
@@ -166,8 +144,7 @@ impl<'a> Field<'a> {
         // line by line from the top: the last one has y = 0
         let lines = || self.data.chunks_exact(nx).rev();
         values.extend((0..nx).flat_map(|i| lines().map(move |line| f64::from_le_bytes(line[i]))));
-        let heights = Array2::from_shape_vec((nx, ny), values).map_err(|e| e.to_string())?;
-        in_one_unit(heights, Some(self.lengths), &self.lateral, &self.vertical)
+        Ok(Array2::from_shape_vec((nx, ny), values).map_err(|e| e.to_string())?)
     }
 }
 
@@ -189,7 +166,6 @@ fn text(bytes: &[u8]) -> String {
 mod tests {
     use ndarray::array;
 
-    use super::super::read_channel;
     use super::super::tests::{assert_refused, read, read_map};
     use super::*;
 
@@ -233,7 +209,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("map.gwy");
         std::fs::write(&path, file).unwrap();
-        read_channel(&path, name)
+        Reading { channel: Some(name.into()), ..Reading::default() }.read(&path)
     }
 
     #[test]
@@ -255,7 +231,14 @@ mod tests {
         assert_eq!((map.heights.dim(), map.missing(), map.unit.as_deref()), ((3, 2), 1, Some("m")));
         assert_eq!(map.heights.column(1), array![1e-9, 2e-9, 3e-9]);
         assert_eq!((map.heights[[0, 0]], map.heights[[2, 0]]), (4e-9, 6e-9));
-        assert_eq!((map.lengths, map.unread.len()), (Some((6e-6, 2e-6)), 0));
+        assert_eq!(map.lengths, Some((6e-6, 2e-6)));
+        // the mask is over five of six points, and NaN is in none
+        assert_eq!(map.unread, ["a mask over 5 points, which --masked takes for missing"]);
+        let file = gwy(&[&others[..], &[channel(0, "Height", &field("nm"))]].concat());
+        let reading = Reading { masked: true, ..Reading::default() };
+        assert_eq!(reading.read_bytes("map.gwy", &file).unwrap().missing(), 6);
+        assert_refused(reading.read_bytes("map.gwy", &gwy(&[channel(0, "Height", &field("nm"))])), &["no mask"]);
+        assert_refused(reading.read_bytes("map.txt", b"1 2\n3 4\n"), &["no masks", "leave"]);
     }
 
     #[test]
@@ -275,7 +258,7 @@ mod tests {
         assert_refused(read_one(&same, "Height"), &["several", "give a number"]);
         assert_refused(read(gwy(&[volts])), &["\"V\""]);
         assert_refused(read(gwy(&[])), &["no channel of heights"]);
-        assert_refused(read_one(b"1 2\n3 4\n", "0"), &["no channels", "leave"]);
+        assert_refused(read_one(b"1 2\n3 4\n", "1"), &["1 channels (0)", "none of which is \"1\""]);
     }
 
     #[test]
@@ -285,7 +268,7 @@ mod tests {
         let told: Vec<_> = told.iter().map(|found| (found.number, &found.title[..], found.is_of_heights)).collect();
         assert_eq!(told, [(0, "Trace", true), (3, "Error", false)]);
         assert_eq!(super::super::channels("map.txt", b"1 2\n").unwrap(), []);
-        let read = super::super::read_bytes("scan.gwy", &file, None).unwrap();
+        let read = Reading::default().read_bytes("scan.gwy", &file).unwrap();
         assert_eq!(read.heights.column(1), read_map(&file, "scan.gwy").unwrap().heights.column(1));
     }
 

@@ -62,6 +62,15 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
     let (header, data_size) = read_header(reader, size)?;
     let (dtype, fortran, shape) = parse_header(&header).ok_or(HEADER)?;
     let Some(decoder) = decoder(dtype) else {
+        // as [('z', '<f8'), ('q', '<f4')]
+        let columns: Vec<_> = dtype.split("('").skip(1).filter_map(|column| column.split('\'').next()).collect();
+        if let [first, ..] = columns[..] {
+            let names = quoted(&columns.join(", "));
+            return refuse(format!(
+                "is a record array with the columns {names}: save one, as array[{}]",
+                quoted(first)
+            ));
+        }
         let dtype = quoted(dtype);
         return refuse(format!(
             "has dtype {dtype}, expected real numbers (f4, f8 or integers): convert with .astype('f8')"
@@ -71,8 +80,10 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
         [rows] => (rows, 1),
         [rows, columns] => (rows, columns),
         _ => {
+            let least = shape.iter().min().copied().unwrap_or_default();
+            let one = if shape.first() == Some(&least) { "array[0]" } else { "array[..., 0]" };
             return refuse(format!(
-                "has shape {shape:?}, expected two dimensions [Nx, Ny], or one: save one height map"
+                "has shape {shape:?}, expected two dimensions [Nx, Ny], or one: save one height map, as {one}"
             ));
         }
     };
@@ -309,7 +320,7 @@ pub(super) mod tests {
             assert_refused(read(file), &[&format!("dtype \"{dtype}\""), "astype"]);
         }
         let fields = "[('shape', '<f8'), ('y', '<i4')]";
-        assert_refused(read(npy(fields, "False", "(1,)", &[0; 12])), &[&format!("dtype \"{fields}\""), "astype"]);
+        assert_refused(read(npy(fields, "False", "(1,)", &[0; 12])), &["columns \"shape, y\"", "array[\"shape\"]"]);
     }
 
     #[test]

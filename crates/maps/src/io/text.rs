@@ -1,146 +1,291 @@
-//! Height maps in text files: one row of numbers a line.
+//! Height maps in text files: one row of numbers a line, or one point x y z.
 
 use std::io::BufRead;
+use std::ops::Range;
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis, Slice};
 
-use super::units::in_one_unit;
-use super::{Parsed, quoted, refuse, reserve, unreadable};
+use super::channels::{Channel, chosen, others};
+use super::heading::{Heading, Sizes};
+use super::lines::{Line, Row, for_each_line};
+use super::units::{in_one_unit, is_length};
+use super::xyz::{is_grid, map_of_points};
+use super::{Parsed, Reading, quoted, refuse, reserve};
 use crate::Topography;
 
-pub(super) const NUMBERS: &str =
-    "expected a .npy, .npz, .gwy or .gsf file, or rows of numbers with decimal points (comments behind # or %)";
+/// What is expected where a word is no number.
+const NUMBERS: &str = "expected a .npy, .npz, .gwy or .gsf file, or rows of numbers with decimal points (comments \
+                       behind # or %)";
 
-/// Reads a matrix, one row of nodes along y per line; with the header of Gwyddion's text export, one row along x, from
-/// the top, and side lengths and units.
-pub(super) fn read_text(reader: impl BufRead) -> Parsed<Topography> {
-    let (mut values, mut rows, mut columns) = (Vec::new(), 0, 0);
-    let mut header = Header::default();
-    for_each_line(
-        reader,
-        NUMBERS,
-        |comment| header.read(comment),
-        |number, row| {
-            if rows == 0 {
-                columns = row.len();
-            } else if row.len() != columns {
+/// The fewest points of which a text is known for one of points by its numbers.
+const FEWEST_POINTS: usize = 9;
+
+/// A block of rows of numbers, with what is told above it.
+struct Block {
+    heading: Heading,
+    rows: usize,
+    columns: usize,
+    /// The place of its numbers among all.
+    values: Range<usize>,
+    /// The numbers of rows of which the first and the last field are empty.
+    open: [usize; 2],
+}
+
+/// The blocks of numbers of a text.
+#[derive(Default)]
+pub(super) struct Text {
+    blocks: Vec<Block>,
+    values: Vec<f64>,
+    /// What is told behind the last row.
+    heading: Heading,
+    /// Whether a blank line is behind the last row.
+    is_ended: bool,
+    /// The fields of empty rows on top, and how many these are.
+    empty: (usize, usize),
+    /// Whether each row may be one number with a decimal comma.
+    is_like_decimals: bool,
+}
+
+impl Text {
+    pub fn read(reader: impl BufRead, reading: &Reading) -> Parsed<Self> {
+        let mut text = Self { is_like_decimals: true, ..Self::default() };
+        for_each_line(reader, reading, |number, line| {
+            match line {
+                Line::Comment(comment) => text.heading.read(comment),
+                Line::Heading(words, reason) if text.blocks.is_empty() || words.contains([':', '=']) => {
+                    text.heading.read_words(number, words, format!("{reason}: {NUMBERS}"))?;
+                }
+                Line::Heading(_, reason) => return refuse(format!("{reason}: {NUMBERS}")),
+                Line::Broken(word, reason) => {
+                    return refuse(format!(
+                        "{reason}: write numbers with decimal points; if it stands for a missing point, say so by asperity \
+                         prepare --missing-word {}",
+                        quoted(word)
+                    ));
+                }
+                Line::Empty(fields) => text.take_empty(fields)?,
+                Line::Row(row) => text.take(number, &row)?,
+            }
+            Ok(())
+        })?;
+        if text.blocks.is_empty() {
+            text.heading.check_words(false)?;
+            return refuse(format!("holds no numbers: {NUMBERS}"));
+        }
+        let told_last = std::mem::take(&mut text.heading);
+        told_last.check_words(false)?;
+        if let Some(block) = text.blocks.last_mut() {
+            block.heading.append(told_last);
+        }
+        if text.is_like_decimals && text.values.len() > 2 {
+            return refuse(
+                "has two whole numbers with a comma between on each line: are these decimal commas? write decimal points, \
+                 or tabs between two columns",
+            );
+        }
+        text.join_single_rows();
+        text.drop_open_ends();
+        Ok(text)
+    }
+
+    /// Takes a line of so many empty fields: a row of missing points, or a blank line.
+    fn take_empty(&mut self, fields: usize) -> Parsed<()> {
+        match self.blocks.last_mut() {
+            Some(block) if fields > 1 && fields == block.columns && !self.is_ended => {
+                reserve(&mut self.values, fields)?;
+                self.values.extend(std::iter::repeat_n(f64::NAN, fields));
+                block.rows += 1;
+                block.values.end = self.values.len();
+                block.open = block.open.map(|count| count + 1);
+            }
+            Some(_) => self.is_ended = true,
+            None if fields > 1 => {
+                let (before, count) = self.empty;
+                self.empty = (fields, if before == fields { count + 1 } else { 1 });
+            }
+            None => {}
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, number: usize, row: &Row<'_>) -> Parsed<()> {
+        self.is_like_decimals &= row.is_like_decimal;
+        if self.blocks.is_empty() || self.is_ended || self.heading.tells() {
+            let heading = std::mem::take(&mut self.heading);
+            let start = self.values.len();
+            // empty rows on top of the first one
+            let (fields, empty) = std::mem::take(&mut self.empty);
+            let rows = if fields == row.values.len() { empty } else { 0 };
+            reserve(&mut self.values, rows * fields)?;
+            self.values.extend(std::iter::repeat_n(f64::NAN, rows * fields));
+            let columns = row.values.len();
+            self.blocks.push(Block { heading, rows, columns, values: start..self.values.len(), open: [rows; 2] });
+            self.is_ended = false;
+        }
+        let Some(block) = self.blocks.last_mut() else { return Ok(()) };
+        block.heading.append(std::mem::take(&mut self.heading));
+        let mut values = row.values;
+        if values.len() == block.columns + 1 && row.is_open[1] {
+            values = &values[..block.columns];
+        }
+        if values.len() != block.columns {
+            let skip = if block.rows == 1 {
+                format!(", or leave lines on top out by --skip-lines {}", number - 1)
+            } else {
+                String::new()
+            };
+            return refuse(format!(
+                "line {number} has {} numbers, expected {} as in the first row: write nan for missing points{skip}",
+                values.len(),
+                block.columns
+            ));
+        }
+        reserve(&mut self.values, values.len())?;
+        self.values.extend_from_slice(values);
+        block.rows += 1;
+        block.values.end = self.values.len();
+        for (count, is_open) in block.open.iter_mut().zip(row.is_open) {
+            *count += usize::from(is_open);
+        }
+        Ok(())
+    }
+
+    /// Takes rows with blank lines between all of them for one block.
+    fn join_single_rows(&mut self) {
+        let [first, others @ ..] = &mut self.blocks[..] else { return };
+        let is_one = first.rows == 1
+            && others.iter().all(|block| block.rows == 1 && block.columns == first.columns && !block.heading.tells());
+        if is_one {
+            for other in others.iter() {
+                first.rows += 1;
+                first.values.end = other.values.end;
+                first.open = [0, 1].map(|end| first.open[end] + other.open[end]);
+            }
+            self.blocks.truncate(1);
+        }
+    }
+
+    /// Drops the first and the last column where they are empty in all rows, as where separators stand around each.
+    fn drop_open_ends(&mut self) {
+        for block in &mut self.blocks {
+            let [first, last] = block.open.map(|count| usize::from(count == block.rows && block.columns > 1));
+            if first + last == 0 || block.columns <= first + last {
+                continue;
+            }
+            let (columns, start) = (block.columns, block.values.start);
+            let kept = columns - first - last;
+            for row in 0..block.rows {
+                let from = start + row * columns + first;
+                self.values.copy_within(from..from + kept, start + row * kept);
+            }
+            block.columns = kept;
+            block.values.end = start + block.rows * kept;
+        }
+    }
+
+    /// The channels, by their places and titles.
+    pub fn channels(&self) -> Parsed<Vec<Channel>> {
+        let channel = |(number, block): (usize, &Block)| {
+            let vertical = block.heading.sizes((block.rows, block.columns))?.units[2].clone().unwrap_or_default();
+            let is_of_heights = vertical.is_empty() || is_length(&vertical);
+            Ok(Channel { number, title: block.heading.title(), is_of_heights })
+        };
+        self.blocks.iter().enumerate().map(channel).collect()
+    }
+
+    /// The channels, if it has several.
+    pub fn several(&self) -> Parsed<Vec<Channel>> {
+        if self.blocks.len() == 1 || self.is_of_points() { Ok(Vec::new()) } else { self.channels() }
+    }
+
+    /// The map of its points, or of one of its blocks.
+    pub fn map(self, reading: &Reading) -> Parsed<Topography> {
+        if reading.channel.is_none() && self.is_of_points() {
+            return self.points();
+        }
+        let channels = self.channels()?;
+        let asked = reading.channel.as_deref();
+        let place = chosen(&channels, asked).map_err(|refusal| match asked {
+            None if channels.iter().all(|channel| channel.title.is_empty()) => {
+                let block = |block: &Block| format!("{} x {}", block.rows, block.columns);
+                let shapes: Vec<_> = self.blocks.iter().take(4).map(block).collect();
+                let more = if shapes.len() < self.blocks.len() { ", ..." } else { "" };
+                format!(
+                    "holds {} blocks of numbers ({}{more}) with blank lines or comments between: choose one, by asperity \
+                     prepare --channel NUMBER from 0 on, or take the lines between out if they are one map",
+                    self.blocks.len(),
+                    shapes.join(", ")
+                )
+                .into()
+            }
+            _ => refusal,
+        })?;
+        let mut map = self.map_of(place)?;
+        map.unread.extend(others(&channels, place));
+        Ok(map)
+    }
+
+    fn map_of(mut self, place: usize) -> Parsed<Topography> {
+        let Block { heading, mut rows, mut columns, values, .. } = self.blocks.swap_remove(place);
+        let sizes = heading.sizes((rows, columns))?;
+        let is_image = sizes.is_image();
+        let Sizes { pixels, sides, units, factor, missing, unread } = sizes;
+        self.values.truncate(values.end);
+        self.values.drain(..values.start);
+        heading.check_words(is_image)?;
+        if let [Some(nx), Some(ny)] = pixels {
+            if columns == 1 && nx.checked_mul(ny) == Some(rows) {
+                (rows, columns) = (ny, nx);
+            }
+            if (nx, ny) != (columns, rows) {
                 return refuse(format!(
-                    "line {number} has {} numbers, expected {columns} as in the first row: write nan for missing points",
-                    row.len()
+                    "is said to have {nx} x {ny} points, but has {rows} lines of {columns} numbers: it is damaged, or save \
+                     it with one line of the image on each"
                 ));
             }
-            reserve(&mut values, row.len())?;
-            values.extend_from_slice(row);
-            rows += 1;
-            Ok(())
-        },
-    )?;
-    let heights = Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())?;
-    let Header { width: Some(width), height: Some(height), unit: Some(unit) } = header else {
-        return Ok(Topography::new(heights));
-    };
-    // from the top to the bottom
-    let upright = heights.slice_axis(ndarray::Axis(0), ndarray::Slice::new(0, None, -1)).reversed_axes();
-    let ((lx, lateral), (ly, other)) = (length(&width)?, length(&height)?);
-    if lateral != other {
-        return refuse(format!(
-            "has a width of {} and a height of {}, expected one unit",
-            quoted(&width),
-            quoted(&height)
-        ));
-    }
-    in_one_unit(upright.as_standard_layout().into_owned(), Some((lx, ly)), lateral, &unit)
-}
-
-/// The header of Gwyddion's text export, in its comments.
-#[derive(Default)]
-struct Header {
-    width: Option<String>,
-    height: Option<String>,
-    unit: Option<String>,
-}
-
-impl Header {
-    fn read(&mut self, comment: &str) {
-        let Some((name, value)) = comment.split_once(':') else { return };
-        let field = match name.trim() {
-            "Width" => &mut self.width,
-            "Height" => &mut self.height,
-            "Value units" => &mut self.unit,
-            _ => return,
-        };
-        *field = Some(value.trim().to_owned());
-    }
-}
-
-/// A number and its unit.
-fn length(text: &str) -> Parsed<(f64, &str)> {
-    let (number, unit) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-    let number = number.parse().map_err(|_| {
-        format!("has a side length of {}, expected a number with a decimal point and its unit", quoted(text))
-    })?;
-    Ok((number, unit.trim()))
-}
-
-/// Hands on comments, of lines that hold nothing else, and rows of numbers with the number of their line; refuses what
-/// is no number, by what is `expected`.
-pub(super) fn for_each_line(
-    mut reader: impl BufRead,
-    expected: &str,
-    mut comment: impl FnMut(&str),
-    mut row: impl FnMut(usize, &[f64]) -> Parsed<()>,
-) -> Parsed<()> {
-    let (mut line, mut values, mut rows) = (Vec::new(), Vec::new(), 0);
-    for number in 1.. {
-        line.clear();
-        read_line(&mut reader, &mut line)?;
-        if line.is_empty() {
-            break;
         }
-        // Cut before decoding: instruments write their units in any encoding.
-        let end = line.iter().position(|b| b"#%".contains(b)).unwrap_or(line.len());
-        let text = String::from_utf8_lossy(&line[..end]);
-        let text = text.trim_start_matches('\u{feff}').trim();
-        if text.is_empty() {
-            if end < line.len() {
-                comment(&String::from_utf8_lossy(&line[end + 1..]));
+        let mut heights = Array2::from_shape_vec((rows, columns), self.values).map_err(|e| e.to_string())?;
+        if factor.is_some() || missing.is_some() {
+            let factor = factor.unwrap_or(1.0);
+            heights.mapv_inplace(|h| if missing == Some(h) { f64::NAN } else { factor * h });
+        }
+        if is_image {
+            // from the top to the bottom
+            let upright = heights.slice_axis(Axis(0), Slice::new(0, None, -1)).reversed_axes();
+            heights = upright.as_standard_layout().into_owned();
+        }
+        let vertical = units[2].clone().unwrap_or_default();
+        let (lengths, lateral) = sides.map_or((None, String::new()), |(sides, unit)| (Some(sides), unit));
+        let mut map = in_one_unit(heights, lengths, &lateral, &vertical)?;
+        map.unread = unread;
+        Ok(map)
+    }
+
+    /// Whether three columns are named x, y and z, or the first two are of a whole grid.
+    fn is_of_points(&self) -> bool {
+        let has_three = self.blocks.iter().all(|block| block.columns == 3);
+        let (points, _) = self.values.as_chunks();
+        has_three && (self.blocks[0].heading.has_columns() || points.len() >= FEWEST_POINTS && is_grid(points))
+    }
+
+    /// The map of its points.
+    pub fn points(mut self) -> Parsed<Topography> {
+        let mut heading = Heading::default();
+        for block in &mut self.blocks {
+            if block.columns != 3 {
+                return refuse(format!(
+                    "has a row of {} numbers, expected x, y and z: end its name otherwise if it is a matrix",
+                    block.columns
+                ));
             }
-            continue;
+            heading.append(std::mem::take(&mut block.heading));
         }
-        // One kind of separator per line: with "0,5; 0,7" or "0,5 0,7" the words are not numbers, whereas
-        // splitting at all of them would turn decimal commas into twice as many columns.
-        let separator = [';', ','].into_iter().find(|&c| text.contains(c));
-        let text = separator.and_then(|c| text.strip_suffix(c)).unwrap_or(text);
-        let mut take = |word: &str| -> Parsed<()> {
-            let value: f64 =
-                word.parse().map_err(|_| format!("line {number}: {} is not a number: {expected}", quoted(word)))?;
-            reserve(&mut values, 1)?;
-            values.push(value);
-            Ok(())
-        };
-        match separator {
-            Some(c) => text.split(c).map(str::trim).try_for_each(&mut take)?,
-            None => text.split_whitespace().try_for_each(&mut take)?,
-        }
-        row(number, &values)?;
-        values.clear();
-        rows += 1;
-    }
-    if rows == 0 { refuse(format!("holds no numbers: {expected}")) } else { Ok(()) }
-}
-
-/// Reads on to the end of a line, or of the file.
-fn read_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> Parsed<()> {
-    loop {
-        let bytes = reader.fill_buf().map_err(unreadable)?;
-        let end = bytes.iter().position(|byte| *byte == b'\n');
-        let count = end.map_or(bytes.len(), |end| end + 1);
-        reserve(line, count)?;
-        line.extend_from_slice(&bytes[..count]);
-        reader.consume(count);
-        if end.is_some() || count == 0 {
-            return Ok(());
-        }
+        heading.check_words(heading.has_columns())?;
+        let Sizes { units, unread, .. } = heading.sizes((0, 0))?;
+        let (points, _) = self.values.as_chunks();
+        let mut map = map_of_points(points, units)?;
+        map.unread = unread;
+        Ok(map)
     }
 }
 
@@ -149,6 +294,7 @@ mod tests {
     use ndarray::array;
 
     use super::super::tests::{assert_refused, read, read_map};
+    use super::*;
 
     #[test]
     fn text_separators_comments_and_line_ends() {
@@ -156,66 +302,238 @@ mod tests {
         for text in [
             "1 -2.5 3e-6\n4 5 6\n",
             "1\t-2.5\t3E-6\r\n4\t5\t6\r\n",
+            "1\t-2.5\t3E-6\r4\t5\t6",
+            "\t1\t-2.5\t3E-6\t\n\t4\t5\t6\t\n",
+            "1 -2.5\t3E-6\n4 5\t6\n",
             "  1   -2.5 3e-6  \n\n \t \n4 5 6",
             "1,-2.5,3e-6\n4,5,6\n",
             "1, -2.5, +3e-6,\n4 , 5 , 6,\n",
             "1;-2.5;3e-6\n4; 5; 6;\n",
-            "# a, b; c\n% d\n1 -2.5 3e-6 # first\n  # between\n4 5 6% last\n#",
+            "# a, b; c\n% d\n1 -2.5 3e-6 # first\n  # between\n4 5 6 % last\n#",
+            "! a\n// b\n; c\n1 -2.5 3e-6 ! first\n4 5 6 // last\n",
             "\u{feff}1 -2.5 3e-6\n4 5 6\n",
+            "1.0D0 -2.5d+00 3D-6\n4 5 6\n",
+            "\"1\",\"-2.5\",\"3e-6\"\n\"4\",\"5\",\"6\"\n",
+            "1 \u{2212}2.5 3e\u{2212}6\n4 5 6\n",
         ] {
             assert_eq!(read(text).unwrap(), expected, "{text:?}");
         }
-        // A unit in Latin-1.
-        assert_eq!(read(b"# heights in \xb5m\n1 2\n").unwrap(), array![[1.0, 2.0]]);
         assert_eq!(read("1\n2\n3").unwrap(), array![[1.0], [2.0], [3.0]]);
         assert_eq!(read("7").unwrap(), array![[7.0]]);
+        let skipped = Reading { skip_lines: 2, ..Reading::default() };
+        assert_eq!(
+            skipped.read_bytes("a", b"any words\n7 8\n1 2\n3 4\n").unwrap().heights,
+            array![[1.0, 2.0], [3.0, 4.0]]
+        );
+    }
+
+    /// The places of missing points.
+    fn missing(text: &str) -> Vec<(usize, usize)> {
+        let heights = read(text).unwrap();
+        heights.indexed_iter().filter(|(_, h)| h.is_nan()).map(|(node, _)| node).collect()
     }
 
     #[test]
-    fn text_with_values_that_are_not_finite() {
-        let field = read("nan NaN -inf\nInf 1 2\n").unwrap();
-        assert!(field[[0, 0]].is_nan() && field[[0, 1]].is_nan());
-        assert_eq!((field[[0, 2]], field[[1, 0]]), (f64::NEG_INFINITY, f64::INFINITY));
+    fn missing_points_are_words_or_nothing_between_separators() {
+        let words = [
+            "nan",
+            "NaN",
+            "-nan(ind)",
+            "1.#QNAN",
+            "-1.#IND00",
+            "#N/A",
+            "#NV",
+            "#DIV/0!",
+            "NA",
+            "Bad",
+            "null",
+            "No Data",
+            "--",
+        ];
+        for word in words {
+            assert_eq!(missing(&format!("1,2,{word}\n3,{word},5\n")), [(0, 2), (1, 1)], "{word}");
+            assert_eq!(missing(&format!("{word}\t2\t3\n4\t5\t{word}\n")), [(0, 0), (1, 2)], "{word}");
+        }
+        for (text, places) in [
+            ("1,,3\n4,5,6\n", vec![(0, 1)]),
+            ("1\t\t3\n4\t5\t6\n", vec![(0, 1)]),
+            ("\t2\t3\n4\t5\t6\n", vec![(0, 0)]),
+            ("1\t2\t\n4\t5\t6\n", vec![(0, 2)]),
+            ("1\t2\t3\n4\t5\t\n", vec![(1, 2)]),
+            ("\t\t\n4\t5\t6\n", vec![(0, 0), (0, 1), (0, 2)]),
+            ("1;2;3\n;;\n4;5;6\n", vec![(1, 0), (1, 1), (1, 2)]),
+            ("1,2,3,\n4,5,,\n", vec![(1, 2)]),
+            ("1,2,3\n4,5,6,\n", vec![]),
+        ] {
+            assert_eq!(missing(text), places, "{text:?}");
+            assert_eq!(read(text).unwrap().ncols(), 3, "{text:?}");
+        }
+        let field = read("-inf 1 2\nInf 1 2\n").unwrap();
+        assert_eq!((field[[0, 0]], field[[1, 0]]), (f64::NEG_INFINITY, f64::INFINITY));
+        let reading = Reading { missing: vec!["lost".into()], ..Reading::default() };
+        assert_eq!(reading.read_bytes("a", b"1 lost\n3 4\n").unwrap().missing(), 1);
+        assert_refused(read("1 lost\n3 4\n"), &["\"lost\" is not a number"]);
     }
 
     #[test]
     fn text_that_is_no_matrix_is_refused() {
-        assert_refused(read("1 2 3\n# comment\n4 5\n"), &["line 3", "2 numbers", "expected 3"]);
+        assert_refused(read("1 2 3\n# comment\n4 5\n"), &["line 3", "2 numbers", "expected 3", "--skip-lines 2"]);
         assert_refused(read("1\n2 3\n"), &["line 2", "2 numbers", "expected 1"]);
         assert_refused(read("1 2\n3 abc\n"), &["line 2", "\"abc\" is not a number", "rows of numbers"]);
-        assert_refused(read("x y\n1 2\n"), &["line 1", "\"x\""]);
-        assert_refused(read("1,,3\n"), &["line 1", "\"\" is not a number"]);
+        assert_refused(read("heights of\nx y\n1 2\n"), &["line 1", "\"heights\"", "--skip-lines 2", "put #"]);
+        assert_refused(read("1 2\n3 4%\n"), &["line 2", "\"4%\""]);
         assert_refused(read("1,5;2,5\n"), &["\"1,5\" is not a number", "decimal points"]);
         assert_refused(read("1,5 2,5\n"), &["\"5 2\" is not a number", "decimal points"]);
-        assert_refused(read("1,2\r3,4\r"), &["\"2\\r3\" is not a number"]);
+        assert_refused(read("\"1,5\",\"2,5\"\n"), &["\"\\\"1\" is not a number", "decimal points"]);
+        assert_refused(read("0,00\n-9,30\n15,92\n"), &["decimal commas?", "tabs"]);
         assert_refused(read("(1+2j) 3\n"), &["\"(1+2j)\""]);
         for empty in ["", "\n\n", "# only a comment\n", "\r\n % \r\n"] {
             assert_refused(read(empty), &["holds no numbers", ".npy"]);
         }
         assert_refused(read("x".repeat(100_000)), &["line 1", "...\" is not a number"]);
+        assert_refused(read("words\n".repeat(10_000)), &["line 1", "\"words\" is not a number"]);
     }
 
     #[test]
-    fn the_text_export_of_gwyddion() {
-        let text = "# Channel: Height\n# Width: 3.0 \u{b5}m\n# Height: 20 \u{b5}m\n# Value units: m\n1 2 3\n4 5 6\n";
-        let map = read_map(text, "a.txt").unwrap();
-        assert_eq!(map.heights, array![[4.0, 1.0], [5.0, 2.0], [6.0, 3.0]]);
-        assert!(map.heights.is_standard_layout());
-        let (lx, ly) = map.lengths.unwrap();
-        assert!((lx - 3e-6).abs() < 1e-20 && (ly - 2e-5).abs() < 1e-20 && map.unit.as_deref() == Some("m"));
-        // with a part of the header only it is a matrix as any other
-        let plain = read_map(text.replace("Width", "width"), "a.txt").unwrap();
-        assert_eq!((plain.heights.dim(), plain.lengths, plain.unit), ((2, 3), None, None));
-        // without units
-        let bare = text.replace(" \u{b5}m", "").replace("units: m", "units:");
-        assert_eq!(read_map(bare, "a.txt").unwrap().lengths, Some((3.0, 20.0)));
-        for (old, new, parts) in [
-            ("3.0", "3,0", vec!["\"3,0 \u{b5}m\"", "decimal point"]),
-            ("3.0", "-3", vec!["positive"]),
-            ("20 \u{b5}m", "20 nm", vec!["one unit"]),
-            ("units: m", "units: V", vec!["\"V\"", "channel of heights"]),
+    fn blocks_of_numbers_are_channels() {
+        let blocks = "1 2\n3 4\n\n5 6\n7 8\n";
+        assert_refused(read(blocks), &["2 blocks", "2 x 2, 2 x 2", "--channel NUMBER"]);
+        assert_refused(read("1 2\n3 4\n\n5 6\n"), &["2 blocks", "2 x 2, 1 x 2"]);
+        let channel = |text: &str, channel: &str| {
+            Reading { channel: Some(channel.into()), ..Reading::default() }.read_bytes("a.txt", text.as_bytes())
+        };
+        assert_eq!(channel(blocks, "1").unwrap().heights, array![[5.0, 6.0], [7.0, 8.0]]);
+        assert_refused(channel(blocks, "2"), &["2 channels (0, 1)", "none of which"]);
+        let titled = |unit: &str| {
+            format!(
+                "# Channel: A\n# Width: 1 um\n# Height: 1 um\n# Value units: nm\n1 2\n3 4\n\
+                 # Channel: B\n# Width: 1 um\n# Height: 1 um\n# Value units: {unit}\n5 6\n7 8\n"
+            )
+        };
+        assert_refused(read(titled("nm")), &["2 channels (0 \"A\", 1 \"B\")", "2 of them of heights"]);
+        assert_eq!(channel(&titled("nm"), "B").unwrap().heights, array![[7e-9, 5e-9], [8e-9, 6e-9]]);
+        assert_eq!(super::super::channels("a.txt", titled("V").as_bytes()).unwrap()[1].title, "B");
+        // the only one of heights needs no name
+        let map = read_map(titled("V"), "a.txt").unwrap();
+        assert_eq!((map.heights[[0, 1]], &map.unread[..]), (1e-9, &["1 \"B\"".to_owned()][..]));
+        // rows with blank lines between all are one map
+        assert_eq!(read("1 2\n\n3 4\n\n5 6\n").unwrap(), array![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
+    }
+
+    /// A heading above an image of three by two heights.
+    fn headed(heading: &str) -> asperity::Result<Topography> {
+        Reading::default().read_bytes("a.txt", format!("{heading}\n1 2 3\n4 5 6\n").as_bytes())
+    }
+
+    #[test]
+    fn headings_tell_sizes_and_units_in_any_language() {
+        let expected =
+            headed("# Channel: Height\n# Width: 3.0 \u{b5}m\n# Height: 20 \u{b5}m\n# Value units: nm").unwrap();
+        assert_eq!(expected.heights, array![[4e-9, 1e-9], [5e-9, 2e-9], [6e-9, 3e-9]]);
+        assert!(expected.heights.is_standard_layout());
+        let (lx, ly) = expected.lengths.unwrap();
+        assert!((lx - 3e-6).abs() < 1e-20 && (ly - 2e-5).abs() < 1e-20 && expected.unit.as_deref() == Some("m"));
+        for heading in [
+            "# Kanal: H\n# Breite: 3.0 \u{b5}m\n# H\u{f6}he: 20 \u{b5}m\n# Einheiten: nm",
+            "# Canal : H\n# Largeur : 3.0 um\n# Hauteur : 20um\n# Unit\u{e9}s : nm",
+            "# \u{901a}\u{9053}\u{ff1a}H\n# \u{5bbd}\u{ff1a}3000 nm\n# \u{9ad8}\u{ff1a}20 \u{3bc}m\n# \u{5355}\u{4f4d}\u{ff1a}nm",
+            "# x-pixels = 3\n# y-pixels = 2\n# x-length = 3000\n# y-length = 20000\n# x-offset = 0\n# z-unit = nm",
+            "% x-length: 3\n% y-length: 20\n% x-unit: um\n% y-unit: um\n% z-unit: nm",
+            "# x-pixels = 3\n# y-pixels = 2\n# x-length = 3000\n# y-length = 20000\n# Bit2nm: 1",
+            "NX = 3\nNY = 2\nScale X = 1\nScale Y = 10\nUnit X = um\nUnit Data = nm\nScale Data = 7\nDataScaleNeeded = no",
+            "\"X Calibration\",\"1\",\"um\"\n\"Y Calibration\",\"10\",\"um\"\n\"Horizontal\",\"3\"\n\"Vertical\",\"2\"\n\"Unit\",\"nm\"",
+            "X Size\t3\nY Size\t2\nPixel size x: 1 um\nPixel size y: 10 um\nz unit [nm]\nz-unit: [nm]",
         ] {
-            assert_refused(read_map(text.replace(old, new), "a.txt"), &parts);
+            let found = headed(heading);
+            assert_eq!(found.as_ref().unwrap(), &expected, "{heading}");
         }
+        let latin = b"# Kanal: H\n# Breite: 3 \xb5m\n# H\xf6he: 20 \xb5m\n# Einheiten: nm\n1 2 3\n4 5 6\n";
+        assert_eq!(Reading::default().read_bytes("a", latin).unwrap(), expected);
+        let grid = headed("ncols 3\nnrows 2\ncellsize 0.5\nNODATA_value 5").unwrap();
+        assert_eq!((grid.lengths, grid.unit.clone(), grid.missing()), (Some((1.5, 1.0)), None, 1));
+        assert!(grid.heights[[1, 0]].is_nan());
+        // one number a line
+        let map = read_map("# x-pixels: 3\n# y-pixels: 2\n1\n2\n3\n4\n5\n6\n", "a.txt").unwrap();
+        assert_eq!(map.heights, array![[4.0, 1.0], [5.0, 2.0], [6.0, 3.0]]);
+    }
+
+    #[test]
+    fn what_a_heading_tells_and_is_not_understood_is_named() {
+        for (heading, unread) in [
+            ("# Breite: 3,0 um\n# a: 1", "Breite: 3,0 um"),
+            ("# Weite: 3 um", "Weite: 3 um"),
+            ("# Width: 3 um\n# Value units: nm", "3 um"),
+        ] {
+            let map = headed(heading).unwrap();
+            assert_eq!((map.heights.dim(), map.lengths, &map.unread[..]), ((2, 3), None, &[unread.to_owned()][..]));
+        }
+        // neither lengths nor units
+        for comment in ["# rate: 3 Hz", "# Created by me: 2020", "# heights in micrometres", "# y = 3", "# Scale: 2"] {
+            let map = headed(comment).unwrap();
+            assert_eq!(
+                (map.heights.dim(), map.lengths, map.unread.len(), map.unit),
+                ((2, 3), None, 0, None),
+                "{comment}"
+            );
+        }
+        let gwyddion = |width: &str, height: &str, unit: &str| {
+            headed(&format!("# Channel: H\n# Width: {width}\n# Height: {height}\n# Value units: {unit}"))
+        };
+        assert_eq!(gwyddion("3", "20", "").unwrap().lengths, Some((3.0, 20.0)));
+        assert_refused(gwyddion("3,0 um", "20 um", "m"), &["3,0 um", "decimal point"]);
+        assert_refused(gwyddion("-3 um", "20 um", "m"), &["-3 um", "decimal point"]);
+        assert_refused(gwyddion("3 um", "20 V", "m"), &["\"um\" and \"V\"", "units of length"]);
+        assert_refused(gwyddion("3 um", "20 um", "V"), &["\"V\"", "channel of heights"]);
+        assert_refused(headed("# x-pixels: 4\n# y-pixels: 2"), &["4 x 2 points", "2 lines of 3 numbers"]);
+    }
+
+    /// Reads texts that were changed at random, so many, and counts those that are refused.
+    fn changed_texts(count: u64) -> u64 {
+        let texts = [
+            "# Channel: A\n# Width: 3 um\n# Height: 2 um\n# Value units: nm\n1.5\t2\t-3\n4\tnan\t6e-3\n",
+            "ncols 3\nnrows 2\ncellsize 0.5\nNODATA_value -9999\n1 2 -9999\n4 5 6\n",
+            "\"XY Calibration\",\"1\",\"um\"\n\"Horizontal\",\"3\"\n\"Unit\",\"nm\"\n\n\"1\",\"2\",\"3\"\n,#N/A,-1.#IND\n",
+            "# X[um] Y[um] Z[nm]\n0 0 1\n0 1 2\n\n1 0 3\n1 1 4\n",
+            "1;2;;\r\n;;;\r\n4;5;6;\r\n\r\n1;2;3 ! end\r\n",
+        ];
+        let mut state = 1_u64;
+        let mut below = |most: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % most
+        };
+        let mut refused = 0;
+        for k in 0..count {
+            let mut bytes = texts[k as usize % texts.len()].as_bytes().to_vec();
+            for _ in 0..1 + below(6) {
+                let (at, other) = (below(bytes.len()), below(bytes.len()));
+                let drawn = b"\n\r\t ,;#%:=\"'-.eD0123456789xN/!\xb5\xff\0"[below(33)];
+                match below(4) {
+                    0 => bytes[at] = drawn,
+                    1 => bytes.insert(at, drawn),
+                    2 if bytes.len() > 1 => drop(bytes.drain(at..(at + 1 + below(8)).min(bytes.len() - 1).max(at))),
+                    _ => bytes = [&bytes[..at], &bytes[other..], b"\n"].concat(),
+                }
+            }
+            for name in ["a.txt", "a.xyz"] {
+                match Reading::default().read_bytes(name, &bytes) {
+                    Ok(map) => assert!(!map.heights.is_empty() && map.heights.is_standard_layout()),
+                    Err(_) => refused += 1,
+                }
+            }
+            let _ = super::super::channels("a.txt", &bytes);
+        }
+        refused
+    }
+
+    #[test]
+    fn changed_texts_are_read_or_refused() {
+        let refused = changed_texts(2000);
+        assert!((1000..3900).contains(&refused), "{refused}");
+    }
+
+    #[test]
+    #[ignore = "long: cargo test --release -p asperity-tests --test units_of_maps -- --ignored changed"]
+    fn many_changed_texts_are_read_or_refused() {
+        assert!(changed_texts(100_000) > 25_000);
     }
 }

@@ -6,13 +6,13 @@ use super::{Parsed, is_side, quoted, refuse};
 use crate::Topography;
 
 /// The number of units of length in a metre, a whole one: division by it rounds only once.
-fn per_metre(unit: &str) -> Option<f64> {
+pub(super) fn per_metre(unit: &str) -> Option<f64> {
     Some(match unit {
         "pm" => 1e12,
         "Å" | "\u{212b}" | "Angstrom" | "angstrom" => 1e10,
         "nm" => 1e9,
         // the micro sign, the Greek letter, and what stands for them
-        "µm" | "\u{3bc}m" | "um" => 1e6,
+        "µm" | "\u{3bc}m" | "um" | "micron" | "microns" => 1e6,
         "mm" => 1e3,
         "cm" => 1e2,
         "m" => 1.0,

@@ -1,11 +1,9 @@
 //! Height maps in lists of points (x, y, z).
 
-use std::io::BufRead;
-
 use ndarray::Array2;
 
-use super::text::{NUMBERS, for_each_line};
-use super::{Parsed, check_room, quoted, refuse, reserve};
+use super::units::in_one_unit;
+use super::{Parsed, check_room, quoted, refuse};
 use crate::Topography;
 
 /// The largest distance of a point from its place on the grid, in spacings.
@@ -13,28 +11,29 @@ const SLACK: f64 = 0.1;
 /// The most nodes of a grid for each of its points: a bound on the memory that a small file can ask for.
 const SPARSEST: f64 = 4.0;
 
-/// Reads points x y z of a regular grid, in any order; those that are not there are missing.
-pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
-    let mut points: Vec<[f64; 3]> = Vec::new();
-    for_each_line(
-        reader,
-        NUMBERS,
-        |_| {},
-        |number, words| {
-            let &[x, y, z] = words else {
-                let count = words.len();
-                return refuse(format!(
-                    "line {number} has {count} numbers, expected x, y and z: end its name otherwise if it is a matrix"
-                ));
-            };
-            if !(x.is_finite() && y.is_finite()) {
-                return refuse(format!("line {number} has the coordinates {x} and {y}, expected finite numbers"));
-            }
-            reserve(&mut points, 1)?;
-            points.push([x, y, z]);
-            Ok(())
-        },
-    )?;
+/// Whether points are those of a whole regular grid of several lines, each once.
+pub(super) fn is_grid(points: &[[f64; 3]]) -> bool {
+    let axis = |k: usize| {
+        let is_finite = points.iter().all(|point| point[k].is_finite());
+        if is_finite { Axis::new(points.iter().map(|point| point[k]).collect()) } else { None }
+    };
+    let (Some(x), Some(y)) = (axis(0), axis(1)) else { return false };
+    let mut taken = vec![false; points.len()];
+    x.nodes > 1
+        && y.nodes > 1
+        && x.nodes * y.nodes == points.len()
+        && points.iter().all(|point| {
+            let node = x.index(point[0]) * y.nodes + y.index(point[1]);
+            !std::mem::replace(&mut taken[node], true)
+        })
+}
+
+/// The map of points x y z of a regular grid, in any order, with the units of x, y and z as far as they are told; points
+/// that are not there are missing.
+pub(super) fn map_of_points(points: &[[f64; 3]], units: [Option<String>; 3]) -> Parsed<Topography> {
+    if let Some([x, y, _]) = points.iter().find(|[x, y, _]| !(x.is_finite() && y.is_finite())) {
+        return refuse(format!("has a point with the coordinates {x} and {y}, expected finite numbers"));
+    }
     // what the axes and the map take at most
     check_room(points.len().saturating_mul(64))?;
     let axis = |k: usize, name: &str| {
@@ -63,7 +62,7 @@ pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
     };
     let mut heights = Array2::from_elem((x.nodes, y.nodes), f64::NAN);
     let mut taken = vec![false; heights.len()];
-    for &[px, py, z] in &points {
+    for &[px, py, z] in points {
         let (i, j) = (x.index(px), y.index(py));
         if std::mem::replace(&mut taken[i * y.nodes + j], true) {
             let place = quoted(&format!("{px} {py}"));
@@ -73,9 +72,11 @@ pub(super) fn read_xyz(reader: impl BufRead) -> Parsed<Topography> {
         }
         heights[[i, j]] = z;
     }
-    let mut map = Topography::new(heights);
-    map.lengths = Some((dx * x.nodes as f64, dy * y.nodes as f64));
-    Ok(map)
+    let [along, across, up] = units.map(Option::unwrap_or_default);
+    if along != across {
+        return refuse(format!("has x in {} and y in {}, expected one unit", quoted(&along), quoted(&across)));
+    }
+    in_one_unit(heights, Some((dx * x.nodes as f64, dy * y.nodes as f64)), &along, &up)
 }
 
 /// Equidistant coordinates.
@@ -178,6 +179,27 @@ mod tests {
     }
 
     #[test]
+    fn units_and_points_of_any_name_are_known() {
+        let points: String = (0..12).map(|k| format!("{} {} {}\n", k % 4, k / 4, 7 * k * k % 11)).collect();
+        let plain = read_map(&points, "a.xyz").unwrap();
+        assert_eq!((plain.heights.dim(), plain.lengths), ((4, 3), Some((4.0, 3.0))));
+        let blocks = points.replace("3 0", "3 0 ").replace("\n0 1", "\n\n0 1").replace("\n0 2", "\n\n0 2");
+        for text in [points.clone(), blocks] {
+            assert_eq!(read_map(text, "a.txt").unwrap(), plain);
+        }
+        for heading in
+            ["# X[um] Y[um] Z[nm]", "x (um), y (um), z (nm)", "x/um y/um z/nm", "#Lateral units: um\n#Value units: nm"]
+        {
+            let map = read_map(format!("{heading}\n{points}"), "a.xyz").unwrap();
+            assert_eq!((map.unit.as_deref(), map.lengths), (Some("m"), Some((4e-6, 3e-6))), "{heading}");
+            assert_eq!(map.heights, &plain.heights / 1e9, "{heading}");
+        }
+        // a matrix of three columns is none of points
+        let matrix: String = (0..12).map(|k| format!("{} {} {}\n", k % 4, k / 3, k * k % 11)).collect();
+        assert_eq!(read_map(matrix, "a.txt").unwrap().heights.dim(), (12, 3));
+    }
+
+    #[test]
     fn what_is_no_grid_is_refused() {
         let scattered: String = (0..50).map(|k| format!("{} {} 1\n", (k * k * 7) % 101, (k * 31) % 97)).collect();
         assert_refused(read_map(scattered, "a.xyz"), &["not on a regular grid", "50 points", "interpolate"]);
@@ -186,10 +208,12 @@ mod tests {
         assert_refused(read_map("0 0 1\n0 1 2\n0.4 0 1\n1 1 1\n", "a.xyz"), &["common spacing along x"]);
         assert_refused(read_map("0 0 1\n1 0 2\n1 0 3\n", "a.xyz"), &["two points", "\"1 0\""]);
         assert_refused(read_map("3 4 1\n", "a.xyz"), &["one place"]);
-        assert_refused(read_map("0 0 1\n0 1\n", "a.xyz"), &["line 2", "2 numbers", "x, y and z"]);
-        assert_refused(read_map("0 inf 1\n", "a.xyz"), &["line 1", "inf", "finite"]);
+        assert_refused(read_map("0 0 1\n0 1\n", "a.xyz"), &["line 2", "2 numbers"]);
+        assert_refused(read_map("0 1\n", "a.xyz"), &["2 numbers", "x, y and z"]);
+        assert_refused(read_map("0 inf 1\n", "a.xyz"), &["0 and inf", "finite"]);
         assert_refused(read_map("-1e308 0 1\n1e308 0 1\n", "a.xyz"), &["common spacing"]);
         assert_refused(read_map("# nothing\n", "a.xyz"), &["holds no numbers"]);
-        assert_refused(read_map("x y z\n0 0 1\n", "a.xyz"), &["line 1", "\"x\" is not a number"]);
+        assert_refused(read_map("x y w\n0 0 1\n", "a.xyz"), &["line 1", "\"x\" is not a number", "--skip-lines 1"]);
+        assert_refused(read_map("# x[um] y[nm] z[nm]\n0 0 1\n0 1 1\n", "a.xyz"), &["x in \"um\" and y in \"nm\""]);
     }
 }

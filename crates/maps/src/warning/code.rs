@@ -32,6 +32,10 @@ pub enum WarningCode {
     Spikes,
     /// A value far outside the rest that stands for missing points, as −9999.
     MissingCode,
+    /// The first line or column runs evenly, as coordinates do.
+    Axes,
+    /// The magnitudes of the numbers are those of bytes in the wrong order.
+    ByteOrder,
     /// The cells of the grid are far from square.
     Cells,
     /// The range of adhesion exceeds the heights, or is too short for the grid.
@@ -66,6 +70,8 @@ impl WarningCode {
             Self::ThinBody => "thin-body",
             Self::Spikes => "spikes",
             Self::MissingCode => "missing-code",
+            Self::Axes => "axes",
+            Self::ByteOrder => "byte-order",
             Self::Cells => "cells",
             Self::Range => "range",
             Self::Flat => "flat",

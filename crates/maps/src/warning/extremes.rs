@@ -6,8 +6,28 @@ use ndarray::Array2;
 /// highest: codes for missing points are chosen to be far away, levels of a real surface are not.
 const FAR: f64 = 3.0;
 
-/// Codes for missing points that are recognised where they stand once, too.
-const CODES: [f64; 9] = [-9999.0, -99999.0, -999.0, 9999.0, 99999.0, -32768.0, 32767.0, 65535.0, -2147483648.0];
+/// Codes for missing points that are recognised where they stand once, too, as numbers of 4 bytes have them.
+const CODES: [f32; 15] = [
+    -9999.0,
+    -99999.0,
+    -999.0,
+    9999.0,
+    99999.0,
+    -32768.0,
+    32767.0,
+    65535.0,
+    -2147483648.0,
+    1000001.0,
+    1e30,
+    -1e30,
+    1.70141e38,
+    1.701_411_8e38,
+    f32::MAX,
+];
+
+/// The distance of a single value from the rest, in interquartile ranges of all heights, from which it is a code whatever
+/// it is.
+const BEYOND: f64 = 1e4;
 
 /// The lowest and the highest of some heights; ∞ and −∞ of none.
 pub fn range(heights: impl Iterator<Item = f64>) -> (f64, f64) {
@@ -25,6 +45,8 @@ pub struct Extremes {
     counts: [usize; 2],
     /// The lowest and the highest of the other heights; ∞ and −∞ if there are none.
     pub rest: (f64, f64),
+    /// The interquartile range of all, where a single one is far from the rest.
+    middle: f64,
 }
 
 impl Extremes {
@@ -32,7 +54,28 @@ impl Extremes {
         let finite = || heights.iter().copied().filter(|h| h.is_finite());
         let (low, high) = range(finite());
         let counts = finite().fold([0, 0], |[a, b], h| [a + usize::from(h == low), b + usize::from(h == high)]);
-        Self { low, high, counts, rest: range(finite().filter(|h| *h != low && *h != high)) }
+        let rest = range(finite().filter(|h| *h != low && *h != high));
+        let mut extremes = Self { low, high, counts, rest, middle: 0.0 };
+        if [(low, counts[0]), (high, counts[1])].iter().any(|(value, count)| *count == 1 && extremes.is_far(*value)) {
+            let mut sorted: Vec<f64> = finite().collect();
+            let mut at = |quarter: usize| {
+                let place = quarter * (sorted.len() - 1) / 4;
+                *sorted.select_nth_unstable_by(place, f64::total_cmp).1
+            };
+            extremes.middle = at(3) - at(1);
+        }
+        extremes
+    }
+
+    /// How far a value is outside the rest, if there is a range of it.
+    fn distance(&self, value: f64) -> Option<f64> {
+        let (low, high) = self.rest;
+        // of two or three levels none is a code
+        (high > low).then(|| (low - value).max(value - high))
+    }
+
+    fn is_far(&self, value: f64) -> bool {
+        self.distance(value).is_some_and(|distance| distance > FAR * (self.rest.1 - self.rest.0))
     }
 
     /// The highest less the lowest height; infinite if the difference is beyond `f64`.
@@ -40,13 +83,15 @@ impl Extremes {
         self.high - self.low
     }
 
-    /// The extreme values that stand for missing points, and at how many nodes: far outside the rest, and repeated or
-    /// well known.
+    /// The extreme values that stand for missing points, and at how many nodes: far outside the rest, and repeated,
+    /// well known, or beyond all measure.
     pub fn codes(&self) -> Vec<(f64, usize)> {
-        let (low, high) = self.rest;
-        // of two or three levels none is a code
-        let is_far = |value: f64| high > low && (low - value).max(value - high) > FAR * (high - low);
-        let is_code = |&(value, count): &(f64, usize)| is_far(value) && (count > 1 || CODES.contains(&value));
+        let is_known = |value: f64| CODES.contains(&(value as f32));
+        let is_beyond = |value: f64| {
+            self.middle > 0.0 && self.distance(value).is_some_and(|distance| distance > BEYOND * self.middle)
+        };
+        let is_code =
+            |&(value, count): &(f64, usize)| self.is_far(value) && (count > 1 || is_known(value) || is_beyond(value));
         [self.low, self.high].into_iter().zip(self.counts).filter(is_code).collect()
     }
 }

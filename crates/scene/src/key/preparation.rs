@@ -16,7 +16,7 @@ use crate::key::{Given, LENGTH, Told, Units, power_of_length, times_ten_to};
 use crate::numbers::plain;
 pub use steps::{CutOffKeys, NewLengthsKeys, StepKeys};
 
-use described::{changed, described, described_form, holes, quantity, removed, rms, sides};
+use described::{beside, changed, described, described_form, holes, quantity, removed, rms, sides};
 
 /// The steps that make a surface of a measured map, in the order of the fields; no step by default.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -162,7 +162,7 @@ impl Preparation {
     /// # Errors
     /// Those of the steps: see [`Topography`].
     pub fn run(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
-        log.tell("read", described(&map));
+        log.tell("read", format!("{}{}", described(&map), beside(&map)));
         if let Some((lengths, unit)) = &self.lengths {
             let before = map.lengths.map_or("unknown".to_owned(), |before| sides(before, map.unit.as_deref()));
             (map.lengths, map.unit) = (Some(*lengths), unit.clone());
@@ -189,6 +189,8 @@ impl Preparation {
             map = map.crop(x..x.saturating_add(nx), y..y.saturating_add(ny))?;
             log.tell("crop", format!("from index [{x}, {y}] on: {}", described(&map)));
         }
+        let is_no_height = |warning: &Warning| matches!(warning.code, WarningCode::Axes | WarningCode::ByteOrder);
+        log.warn(Warning::of_topography(&map).into_iter().filter(is_no_height), &map);
         if self.flip {
             map = map.flip();
             log.tell("flip", "peaks are valleys now");
@@ -277,7 +279,12 @@ impl Preparation {
             log.tell("left", format!("points are missing still, {holes}: fill them before solving"));
         }
         // where codes for missing points are among the heights, they alone make the slope
-        log.warn(Warning::of_topography(&map).into_iter().filter(|found| !is_code(found) && !has_codes), &map);
+        log.warn(
+            Warning::of_topography(&map)
+                .into_iter()
+                .filter(|found| !(is_code(found) || is_no_height(found) || has_codes)),
+            &map,
+        );
         Ok(map)
     }
 }

@@ -7,6 +7,9 @@ use ndarray::Array2;
 use crate::key::{LENGTH, PER_LENGTH, Units};
 use crate::numbers::plain;
 
+/// The most names in a line.
+const MOST_NAMES: usize = 4;
+
 /// A sphere, or a cylinder and its direction.
 pub fn described_form(fit: &FormFit, map: &Topography) -> String {
     let (radius, side) = (quantity(fit.radius.abs(), map), if fit.radius > 0.0 { "upwards" } else { "downwards" });
@@ -16,6 +19,15 @@ pub fn described_form(fit: &FormFit, map: &Topography) -> String {
             let degrees = plain(axis.to_degrees());
             format!("cylinder of radius {radius}, bulging {side}, its axis at {degrees} degrees from x,")
         }
+    }
+}
+
+/// What its file has beside a map.
+pub fn beside(map: &Topography) -> String {
+    let names = &map.unread[..map.unread.len().min(MOST_NAMES)];
+    match map.unread.len() {
+        0 => String::new(),
+        all => format!("; beside it {}{}", names.join(", "), if all > MOST_NAMES { ", ..." } else { "" }),
     }
 }
 

@@ -1,0 +1,119 @@
+//! The warnings about numbers that are no heights: coordinates on a first line or column, and bytes in the wrong order.
+
+use ndarray::{Array2, ArrayView1, Axis};
+
+use super::part::Part::{Figure, Word};
+use super::{Warning, WarningCode};
+
+/// The fewest numbers of an axis: of fewer, heights may be evenly spaced by chance.
+const FEWEST: usize = 5;
+
+/// The difference between steps of an axis, in steps: coordinates are rounded.
+const UNEVEN: f64 = 0.01;
+
+/// The decades between the quartiles of magnitudes from which bytes are in the wrong order: those of heights have one or
+/// two, those of exponents made of other bytes dozens.
+const DECADES: f64 = 12.0;
+
+/// The most magnitudes that are looked at.
+const MOST: usize = 4096;
+
+/// Whether the numbers of a line behind its first one, which may be a corner, rise or fall evenly.
+fn is_even(line: ArrayView1<'_, f64>) -> bool {
+    let steps = || line.iter().skip(1).zip(line.iter().skip(2)).map(|(a, b)| b - a);
+    let mean = steps().sum::<f64>() / (line.len() - 2) as f64;
+    mean != 0.0 && steps().all(|step| (step - mean).abs() <= UNEVEN * mean.abs())
+}
+
+/// Coordinates on the first line or column of a table.
+pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
+    let is_axis = |axis: Axis| {
+        let lines = heights.len_of(axis);
+        let line = |index| heights.index_axis(axis, index);
+        lines > 1 && line(0).len() > FEWEST && is_even(line(0)) && !is_even(line(1))
+    };
+    let is_profile = heights.ncols() == 2;
+    let (what, numbers, remedy) = match [Axis(0), Axis(1)].map(is_axis) {
+        [false, false] => return None,
+        [_, true] if is_profile => ("first column", heights.column(0), "is it a profile? give the second column alone"),
+        [true, false] => ("first line", heights.row(0), AXES),
+        [is_both, _] => {
+            (if is_both { "first line and the first column" } else { "first column" }, heights.column(0), AXES)
+        }
+    };
+    let text = "the {} of the numbers runs evenly, up to {}, which heights do not: {}";
+    let last = numbers[numbers.len() - 1];
+    Some(Warning::told(WarningCode::Axes, 0.0, text, [Word(what.into()), Figure(last), Word(remedy.into())]))
+}
+
+const AXES: &str = "are these coordinates? leave them out, and give the side lengths (lengths)";
+
+/// Numbers of which the bytes are in the wrong order.
+pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
+    let stride = heights.len().div_ceil(MOST).max(1);
+    let magnitudes = heights.iter().step_by(stride).map(|h| h.abs().log10());
+    let mut powers: Vec<f64> = magnitudes.filter(|power| power.is_finite()).collect();
+    if powers.len() < 4 {
+        return None;
+    }
+    powers.sort_unstable_by(f64::total_cmp);
+    let [low, high] = [1, 3].map(|quarter| powers[quarter * (powers.len() - 1) / 4]);
+    // whole numbers become less than the least normal one
+    if high - low < DECADES && high >= f64::MIN_POSITIVE.log10() {
+        return None;
+    }
+    let power = |power: f64| Word(format!("1e{power:.0}"));
+    let text = "half of the magnitudes are from {} to {}, which no heights are: are their bytes in the wrong order? in \
+                Python: array.byteswap()";
+    Some(Warning::told(WarningCode::ByteOrder, high - low, text, [power(low), power(high)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rough(i: usize, j: usize) -> f64 {
+        ((7 * i + 5 * j * j) as f64).sin()
+    }
+
+    fn found(heights: &Array2<f64>) -> Vec<String> {
+        let both = axes(heights).into_iter().chain(byte_order(heights));
+        both.map(|warning| warning.to_string()).collect()
+    }
+
+    #[test]
+    fn coordinates_are_found_and_heights_are_not() {
+        let heights = Array2::from_shape_fn((9, 12), |(i, j)| rough(i, j));
+        assert!(found(&heights).is_empty());
+        let mut table = heights.clone();
+        table.row_mut(0).iter_mut().enumerate().for_each(|(j, h)| *h = 0.25 * j as f64);
+        assert!(found(&table)[0].starts_with("axes: the first line of the numbers runs evenly, up to 2.75"));
+        table.column_mut(0).iter_mut().enumerate().for_each(|(i, h)| *h = 3.0 - i as f64);
+        table[[0, 0]] = f64::NAN;
+        assert!(found(&table)[0].contains("first line and the first column"));
+        assert!(found(&table.t().to_owned())[0].contains("up to 2.75"));
+        let profile = Array2::from_shape_fn((12, 2), |(i, j)| if j == 0 { 0.1 * i as f64 } else { rough(i, j) });
+        assert!(found(&profile)[0].contains("a profile?"));
+        // a plane, a wedge, a flat, a line of heights
+        let made: [fn(usize, usize) -> f64; 3] = [|i, j| (2 * i + 3 * j) as f64, |i, _| i as f64, |_, _| 1.0];
+        for of in made {
+            assert!(found(&Array2::from_shape_fn((9, 12), |(i, j)| of(i, j))).is_empty());
+        }
+        assert!(found(&Array2::from_shape_fn((9, 1), |(i, _)| i as f64)).is_empty());
+    }
+
+    #[test]
+    fn bytes_in_the_wrong_order_are_found() {
+        let heights = Array2::from_shape_fn((20, 30), |(i, j)| 1e-9 * rough(i, j));
+        let swapped = heights.mapv(|h| f64::from_bits(h.to_bits().swap_bytes()));
+        assert!(found(&swapped)[0].starts_with("byte-order: half of the magnitudes"), "{:?}", found(&swapped));
+        let single = heights.mapv(|h| f64::from(f32::from_bits((h as f32).to_bits().swap_bytes())));
+        assert!(found(&single)[0].starts_with("byte-order"));
+        // whole numbers become the least that there are
+        let whole =
+            Array2::from_shape_fn((20, 30), |(i, j)| f64::from_bits(((1 + i * j) as f64).to_bits().swap_bytes()));
+        assert!(found(&whole)[0].starts_with("byte-order"));
+        // heights of many magnitudes
+        assert!(found(&Array2::from_shape_fn((20, 30), |(i, j)| (-((i + j) as f64) / 2.0).exp())).is_empty());
+    }
+}
