@@ -115,7 +115,8 @@ fn numbers<'a>(row: &'a str, reading: &Reading, values: &mut Vec<f64>) -> Parsed
 /// many columns.
 fn fields(row: &str) -> Fields<'_> {
     // blanks within the fields of a row with tabs separate numbers
-    let is_between = |c: char| c != '\t' || !row.split('\t').any(|field| has_numbers(field.trim()));
+    let is_between =
+        |c: char| c != '\t' || !row.contains(' ') || !row.split('\t').any(|field| has_numbers(field.trim()));
     match [';', ',', '\t'].into_iter().find(|c| row.contains(*c)).filter(|c| is_between(*c)) {
         Some(separator) => Fields::Between(row.split(separator)),
         None => Fields::Words(row.split_whitespace()),
