@@ -327,6 +327,14 @@ fn unusable_input_is_refused_by_name() {
     let gap = Gap::new(values.view(), grid).unwrap();
     let named = |error: asperity::Error| error.to_string();
     assert!(named(Gap::new(values.view(), Grid::square(5, 1.0).unwrap()).unwrap_err()).contains("gap"));
+    // heights, but not what a solve leaves of zero, nor what has no surface
+    for (own, refused) in [(-26.3, true), (-1e-5, true), (-1e-7, false), (f64::NEG_INFINITY, false)] {
+        let mut heights = values.clone();
+        heights[[2, 1]] = own;
+        let found = Gap::new(heights.view(), grid);
+        let is_named = |error: &asperity::Error| matches!(error, asperity::Error::Value { value, .. } if *value == own);
+        assert_eq!(found.err().as_ref().map(is_named), refused.then_some(true), "{own}");
+    }
     assert!(named(gap.clone().absent(-1.0).unwrap_err()).contains("gap of absent nodes is -1"));
     for tolerance in [0.0, 1.0, f64::NAN] {
         assert!(named(Leakage::default().tolerance(tolerance).through(&gap).unwrap_err()).contains("tolerance"));
