@@ -85,7 +85,7 @@ def leakage(
     ----------
     gap : Solution or array_like, shape (Nx, Ny)
         Solution, or an array of gaps. The gap is open at nodes where it is positive, and a node is absent where it is
-        not finite.
+        not finite. An array with negative values is refused, as heights are.
     lengths : float or (float, float), optional
         Side lengths; Lx alone means square cells. 1 by 1 by default. A solution has its own.
     boundary : {"periodic", "free"}, optional
@@ -120,7 +120,8 @@ def leakage(
     if isinstance(gap, Solution):
         if lengths is not None:
             raise ValueError("the solution has its side lengths: leave lengths out")
-        values: ArrayLike = gap.gap
+        # a wall of springs lets the surfaces overlap
+        values: ArrayLike = np.maximum(gap.gap, 0)
         sides, own = gap.lengths, gap.flow_boundary
     else:
         values, own = gap, "periodic"

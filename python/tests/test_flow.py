@@ -59,6 +59,12 @@ def test_a_solution_leaks_and_percolates(solution):
     for along, other in zip(solution.percolation(), (found.x.constriction, found.y.constriction)):
         assert along is not None and along.gap == other.gap == solution.gap[along.node]
         assert (solution.gap[tuple(along.path.T)] >= along.gap).all()
+    # a wall of springs lets the surfaces overlap, which heights and an array of gaps may not
+    soft = asperity.solve(solution.topography, modulus=2.0, mean_pressure=0.02, wall=asperity.Penalty(20.0))
+    assert soft.gap.min() < 0 and asperity.leakage(soft).x.constriction.gap == soft.percolation().x.gap
+    for wrong in (soft.gap, solution.topography.heights):
+        with pytest.raises(ValueError, match=r"least gap is -.*Is it a gap\?.*of heights solve first"):
+            asperity.leakage(wrong)
     pressed = asperity.solve(solution.topography, modulus=2.0, mean_pressure=1.0)
     assert pressed.percolation() == (None, None)
     closed = asperity.leakage(pressed)

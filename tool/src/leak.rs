@@ -35,7 +35,7 @@ use crate::units::Units;
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Folder of a solve, or a file of gaps, shape (Nx, Ny): .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, or a text
-    /// matrix
+    /// matrix. Gaps are distances of the surfaces; heights are refused by their negative values
     #[arg(value_name = "GAP")]
     gap: PathBuf,
     #[command(flatten)]
@@ -122,7 +122,9 @@ impl Options {
         let path = &self.gap;
         if path.is_dir() {
             let solved = Solved::read(path)?;
-            let (map, boundary) = (solved.map(GAP)?, solved.boundary());
+            let (mut map, boundary) = (solved.map(GAP)?, solved.boundary());
+            // a wall of springs lets the surfaces overlap
+            map.heights.mapv_inplace(|gap| if gap < 0.0 { 0.0 } else { gap });
             if self.lengths.0.first().is_some() {
                 return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
             }

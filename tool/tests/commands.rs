@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use asperity_maps::io::write_npy;
+use ndarray::Array2;
 use tempfile::TempDir;
 
 const TOOL: &str = env!("CARGO_BIN_EXE_asperity");
@@ -54,6 +56,8 @@ impl Reader {
             } else if let Some((_, "txt" | "gsf" | "gwy")) = word.rsplit_once('.') {
                 // the content and not the ending decides
                 fs::write(self.folder.path().join(word), measured(!word.ends_with(".txt"))).unwrap();
+            } else if word == "gap.npy" {
+                write_npy(self.folder.path().join(word), &Array2::from_elem((64, 64), height)).unwrap();
             } else if word.ends_with(".npy") {
                 let roughness = format!("--lengths {side}{unit} --k-l 2 --k-s 20 --rms-height {height}{unit}");
                 let made = self.shell(&format!("asperity surface --size 64 {roughness} --force --quiet --out {word}"));

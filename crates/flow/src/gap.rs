@@ -36,6 +36,9 @@ pub(crate) struct Step {
     pub cells: [i32; 2],
 }
 
+/// How far surfaces overlap at most, over the greatest gap: as much as a solve in single precision may leave.
+const OVERLAP: f64 = 1e-6;
+
 /// The gap between two surfaces, at the nodes of a grid: where it is positive it is open, elsewhere it is closed.
 ///
 /// A node is a cell of the size of the spacing, with the gap at its middle. In a periodic gap opposite sides meet, and
@@ -65,8 +68,8 @@ impl<'a> Gap<'a> {
     /// A periodic gap. Nodes without a surface, where `values` are not finite, are closed.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the values are not on the grid; [`Error::Value`] if there are more than 2³⁰ nodes;
-    /// [`Error::Shared`] if several processes share the grid.
+    /// [`Error::Shape`] if the values are not on the grid; [`Error::Value`] if there are more than 2³⁰ nodes, or if one is
+    /// below -1e-6 of the greatest, as heights are; [`Error::Shared`] if several processes share the grid.
     pub fn new(values: impl Into<ArrayView2<'a, f64>>, grid: Grid) -> Result<Self> {
         let values = values.into();
         if grid.is_shared() {
@@ -77,6 +80,13 @@ impl<'a> Gap<'a> {
         if grid.nodes() > 1 << 30 {
             let (name, requirement) = ("number of nodes of a gap", "at most 2^30");
             return Err(Error::Value { name, value: grid.nodes() as f64, requirement });
+        }
+        let finite = || values.iter().copied().filter(|gap| gap.is_finite());
+        let (least, greatest) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
+        if least < -OVERLAP * greatest {
+            let requirement = "zero or positive. Is it a gap? A gap is the distance between the surfaces, as gap.npy of \
+                               a solve: of heights solve first, and where surfaces overlap set it to zero";
+            return Err(Error::Value { name: "least gap", value: least, requirement });
         }
         Ok(Self { values: rows(values), grid, periodic: true, absent: 0.0 })
     }

@@ -36,6 +36,10 @@ const CLOSED: f64 = 64.0;
 /// conductances, so that conservation is exact. Both bounds are widened by the rounding of their sums. A gap through which
 /// nothing percolates has a transmissivity of zero, both bounds.
 ///
+/// The least upper bound and the greatest lower one are kept. Among them are those of a pressure that is uniform across the
+/// axis, the harmonic mean along it of the arithmetic means of g³ across it, and of a flow along straight lines, the
+/// arithmetic mean across the axis of the harmonic means along it: a gap of stripes needs no iteration.
+///
 /// The distance of the bounds does not tell what the grid itself leaves out: compare two grids for that.
 ///
 /// Memory: see [`Leakage::memory`].
@@ -228,7 +232,7 @@ impl Leakage {
 
     fn with(&self, gap: &Gap<'_>, prepared: &Prepared, axis: Axis, goes_on: &dyn Fn() -> bool) -> Result<Flow> {
         let network = &prepared.network;
-        let mut enclosed = Enclosed::new(prepared, axis, self, goes_on);
+        let mut enclosed = Enclosed::new(gap, prepared, axis, self, goes_on);
         let hubs: Vec<f64> = network.hubs(&enclosed.pressure, axis).collect();
         enclosed.pressure.extend(hubs);
         if gap.is_periodic() {
@@ -288,25 +292,33 @@ pub(crate) struct Enclosed {
 
 impl Enclosed {
     /// Iterates while it goes on, until the bounds are as close as the tolerance, or rounding keeps them apart.
-    fn new(prepared: &Prepared, axis: Axis, settings: &Leakage, goes_on: &dyn Fn() -> bool) -> Self {
+    fn new(gap: &Gap<'_>, prepared: &Prepared, axis: Axis, settings: &Leakage, goes_on: &dyn Fn() -> bool) -> Self {
         let Leakage { tolerance, max_iterations } = *settings;
         let Prepared { network, elimination, tree } = prepared;
         let n = network.ground();
-        // the pressure of the ground, behind those of the rims, is zero
-        let mut pressure = tree.still(network, axis);
-        pressure.truncate(n + 1);
-        let [mut residual, mut change, mut direction] = [(); 3].map(|()| vec![0.0; n + 1]);
-        let [mut preconditioned, mut work] = [(); 2].map(|()| vec![0.0; n]);
-        network.gained(&pressure, axis, &mut residual);
         let mut best = Self {
             bounds: Bounds { lower: 0.0, upper: f64::INFINITY },
             pressure: Vec::new(),
             flow: Vec::new(),
             iterations: 0,
         };
+        for mut start in [tree.still(network, axis), network.layered(gap, axis)] {
+            // the pressure of the ground, behind those of the rims, is zero
+            start.truncate(n + 1);
+            best.keep_pressure(network, &start, axis);
+        }
+        best.keep_flow(network, network.lined(gap, axis), axis);
+        if best.bounds.width() <= tolerance {
+            return best;
+        }
+        // the pressure with the lesser bound is the nearer one to the solution
+        let mut pressure = best.pressure.clone();
+        let [mut residual, mut change, mut direction] = [(); 3].map(|()| vec![0.0; n + 1]);
+        let [mut preconditioned, mut work] = [(); 2].map(|()| vec![0.0; n]);
+        network.gained(&pressure, axis, &mut residual);
         // both bounds are computed when the square of the error in the energy norm, by the preconditioner, is below a
         // share of the tolerance of the upper bound, which each step lowers
-        let (mut share, mut upper) = (0.1, network.upper(&pressure, axis));
+        let (mut share, mut upper) = (0.1, best.bounds.upper);
         let (mut first, mut before) = (f64::INFINITY, f64::INFINITY);
         for iterations in 0.. {
             elimination.solve(&residual[..n], &mut preconditioned, &mut work);
@@ -343,20 +355,31 @@ impl Enclosed {
 
     /// Computes both bounds at a pressure, and keeps the better ones; whether one is better.
     fn look_at(&mut self, network: &Network, tree: &Tree, pressure: &[f64], axis: Axis) -> bool {
+        let lowered = self.keep_pressure(network, pressure, axis);
+        let conserved = tree.conserved(network, pressure, axis);
+        conserved.is_some_and(|flow| self.keep_flow(network, flow, axis)) || lowered
+    }
+
+    /// Keeps a pressure if its upper bound is the least so far; whether it is.
+    fn keep_pressure(&mut self, network: &Network, pressure: &[f64], axis: Axis) -> bool {
         let upper = network.upper(pressure, axis);
         let is_lower = upper < self.bounds.upper;
         if is_lower {
             self.bounds.upper = upper;
             self.pressure = pressure.to_vec();
         }
-        let Some((flow, unit)) = tree.conserved(network, pressure, axis) else { return is_lower };
+        is_lower
+    }
+
+    /// Keeps a flow, in integers of a unit, if its lower bound is the greatest so far; whether it is.
+    fn keep_flow(&mut self, network: &Network, (flow, unit): (Vec<i64>, f64), axis: Axis) -> bool {
         let lower = network.lower(&flow, axis);
         let is_higher = lower > self.bounds.lower || self.flow.is_empty();
         if is_higher {
             self.bounds.lower = lower;
             self.flow = flow.into_iter().map(|flow| flow as f64 * unit).collect();
         }
-        is_lower || is_higher
+        is_higher
     }
 }
 

@@ -18,6 +18,7 @@ mod leakage;
 mod network;
 mod percolation;
 mod tree;
+mod trial;
 
 pub use conductance::Conductance;
 pub use gap::{Axis, Gap};

@@ -5,7 +5,7 @@ use crate::gap::Axis;
 use crate::network::{Edge, Network};
 
 /// The greatest flow on an edge, in units of the flow: integers that are exact in `f64`.
-const GREATEST: f64 = (1_u64 << 52) as f64;
+pub(crate) const GREATEST: f64 = (1_u64 << 52) as f64;
 
 /// A tree of the edges with the largest conductances, over all vertices and the ground.
 ///

@@ -184,6 +184,60 @@ fn bounds_enclose_dense_solutions_and_close() {
     assert!(flowing > 200, "{flowing}");
 }
 
+/// The bounds of the conductance by means of the cubes: of a flow along straight lines, and of a pressure that is uniform
+/// across the axis.
+fn means(values: &Array2<f64>, (lx, ly): (f64, f64), axis: Axis) -> [f64; 2] {
+    let cubes = values.mapv(|gap| gap.powi(3));
+    let (along, across) = (ndarray::Axis(axis as usize), ndarray::Axis(1 - axis as usize));
+    let cells = cubes.len_of(along) as f64 / cubes.len_of(across) as f64;
+    let shape = if axis == Axis::X { ly / lx } else { lx / ly } * cells;
+    let lines = cubes.mapv(f64::recip).sum_axis(along).mapv(f64::recip).sum();
+    let layers = cubes.sum_axis(across).mapv(f64::recip).sum().recip();
+    [shape * lines, shape * layers]
+}
+
+#[test]
+fn bounds_of_means_enclose_dense_solutions_and_are_kept() {
+    let lengths = (1.0, 1.7);
+    let mut open = 0;
+    for (case, (values, periodic)) in random_gaps(23).take(500).enumerate() {
+        let gap = Gap::new(values.view(), Grid::new(values.dim(), lengths).unwrap()).unwrap();
+        let gap = if periodic { gap } else { gap.free() };
+        for axis in Axis::BOTH {
+            let [lines, layers] = means(&values, lengths, axis).map(|bound| bound / 12.0);
+            // the rounding of sums of some ten terms
+            let slack = 1.0 + 1e-13;
+            let exact = dense(&values, lengths, periodic, axis) / 12.0;
+            assert!(lines <= exact * slack && exact <= layers * slack, "{case}: {lines} {exact} {layers}");
+            let leakage = Leakage::default().tolerance(0.99).max_iterations(1);
+            let bounds = leakage.along(&gap, &gap.percolation(), axis).unwrap().transmissivity;
+            assert!(lines <= bounds.lower * slack && bounds.upper <= layers * slack, "{case}: {bounds:?}");
+            open += usize::from(lines > 0.0);
+        }
+    }
+    assert!(open > 100, "{open}");
+}
+
+#[test]
+fn stripes_of_any_contrast_are_exact() {
+    let n = 32;
+    let grid = Grid::square(n, 1.0).unwrap();
+    for narrow in [1e-2, 1e-4, 1e-6] {
+        let values = Array2::from_shape_fn((n, n), |(_, j)| if j % 8 < 4 { 1.0 } else { narrow });
+        let gap = Gap::new(values.view(), grid).unwrap();
+        for gap in [gap.clone(), gap.free()] {
+            // pressures near 1 that are rounded lose 1e-32 at each of 2000 wide edges, beside 2e-18
+            let leak = Leakage::default().tolerance(1e-10).through(&gap).unwrap();
+            let cube = narrow * narrow * narrow;
+            for (axis, exact) in Axis::BOTH.into_iter().zip([0.5 * (1.0 + cube), 2.0 / (1.0 + 1.0 / cube)]) {
+                let flow = leak.along(axis);
+                assert!(flow.reached && flow.iterations == 0, "{narrow} {axis:?}: {:?}", flow.transmissivity);
+                assert_relative_eq!(12.0 * flow.transmissivity.upper, exact, max_relative = 1e-10);
+            }
+        }
+    }
+}
+
 #[test]
 fn both_axes_at_once_are_each_axis_alone() {
     let mut apart = 0;
@@ -273,6 +327,14 @@ fn unusable_input_is_refused_by_name() {
     let gap = Gap::new(values.view(), grid).unwrap();
     let named = |error: asperity::Error| error.to_string();
     assert!(named(Gap::new(values.view(), Grid::square(5, 1.0).unwrap()).unwrap_err()).contains("gap"));
+    // heights, but not what a solve leaves of zero, nor what has no surface
+    for (own, refused) in [(-26.3, true), (-1e-5, true), (-1e-7, false), (f64::NEG_INFINITY, false)] {
+        let mut heights = values.clone();
+        heights[[2, 1]] = own;
+        let found = Gap::new(heights.view(), grid);
+        let is_named = |error: &asperity::Error| matches!(error, asperity::Error::Value { value, .. } if *value == own);
+        assert_eq!(found.err().as_ref().map(is_named), refused.then_some(true), "{own}");
+    }
     assert!(named(gap.clone().absent(-1.0).unwrap_err()).contains("gap of absent nodes is -1"));
     for tolerance in [0.0, 1.0, f64::NAN] {
         assert!(named(Leakage::default().tolerance(tolerance).through(&gap).unwrap_err()).contains("tolerance"));

@@ -49,12 +49,34 @@ fn a_quantity_has_the_bits_of_the_number_in_si_units() {
         (CONDUCTIVITY, "400W/mK", 400.0),
         (CONDUCTIVITY, "0.4 kW/(m·K)", 400.0),
         (CONDUCTIVITY, "4W/cm K", 400.0),
+        (LENGTH, "5micron", 5e-6),
+        (LENGTH, "2.5 microns", 2.5e-6),
+        (PRESSURE, "0.2TPa", 0.2e12),
+        (PRESSURE, "3bar", 3e5),
+        (PRESSURE, "20mbar", 2e3),
+        (PRESSURE, "1.5kbar", 1.5e8),
+        (PRESSURE, "30psi", 30e3 * 6.894757293168361),
+        (PRESSURE, "30ksi", 30e6 * 6.894757293168361),
+        (ENERGY_PER_AREA, "50erg/cm²", 50e-3),
+        (ENERGY_PER_AREA, "50 erg/cm2", 50e-3),
+        (ENERGY_PER_AREA, "50 erg cm^-2", 50e-3),
+        (ENERGY_PER_AREA, "72dyn/cm", 72e-3),
+        (ENERGY_PER_AREA, "50 mJ m-2", 50e-3),
+        (FORCE_PER_LENGTH, "40 N m-1", 40.0),
+        (FORCE_PER_LENGTH, "40 N m\u{2212}1", 40.0),
+        (FORCE_PER_LENGTH, "40 N·m⁻¹", 40.0),
+        (PER_LENGTH, "2um-1", 2e6),
+        (CONDUCTIVITY, "400 W m-1 K-1", 400.0),
+        (CONDUCTIVITY, "4 W cm^-1 K^-1", 400.0),
         (LENGTH, "0.1", 0.1),
     ] {
         let found = dimension.within(Range::FINITE)(text).unwrap();
         assert_eq!((found.value, found.has_unit), (value, text != "0.1"), "{text}");
     }
-    assert_eq!(["nm", "m", "Pa", "px", ""].map(power_of_length), [Some(-9), Some(0), None, None, None]);
+    assert_eq!(
+        ["nm", "m", "micron", "Pa", "px", ""].map(power_of_length),
+        [Some(-9), Some(0), Some(-6), None, None, None]
+    );
     assert_eq!((times_ten_to(-9, 2.7), times_ten_to(9, 4e-6)), (2.7e-9, 4000.0));
 }
 
@@ -70,12 +92,23 @@ fn units_of_other_dimensions_and_nonsense_are_refused() {
         let error = pressure(text).unwrap_err();
         assert!(error.contains("positive and finite") && error.contains("as 70GPa"), "{text}: {error}");
     }
-    for (text, mistake) in
-        [("70gpa", "gpa is no unit"), ("70um", "um is a unit of something else"), ("-1GPa", "it must")]
-    {
+    for (text, mistake) in [
+        ("70gpa", "gpa is no unit that is known (did you mean GPa?), it must"),
+        ("70MPA", "MPA is no unit that is known (did you mean MPa or mPa?), it must"),
+        ("4n/MM2", "n/MM2 is no unit that is known (did you mean N/Mm2 or N/mm2?), it must"),
+        ("70pA", "pA is a unit of something else (did you mean Pa?), it must"),
+        ("70px", "px is no unit that is known, it must"),
+        ("70GPa1", "GPa1 is no unit that is known, it must"),
+        ("70um", "um is a unit of something else, it must"),
+        ("-1GPa", "it must"),
+        ("-0.1", "it must"),
+        ("-25", "it must"),
+    ] {
         let error = pressure(text).unwrap_err();
         assert!(error.starts_with(mistake), "{text}: {error}");
     }
+    // a long text has no more spellings than are looked at
+    assert!(pressure(&format!("1{}", "MM ".repeat(1000))).unwrap_err().starts_with("MM MM"));
     assert!(LENGTH.within(Range::NON_NEGATIVE)("0nm").is_ok() && LENGTH.within(Range::FINITE)("-6nm").is_ok());
     // zero says nothing of units
     assert!(

@@ -83,7 +83,8 @@ impl<T: Real> Found<T> {
         }
         let part = self.part()?;
         let free = elastic.boundary == Boundary::Free || self.sight.original.is_some();
-        let widened = part.gap.mapv(T::widen);
+        // a wall of springs lets the surfaces overlap
+        let widened = part.gap.mapv(|gap| gap.widen().max(0.0));
         let gap = Gap::new(widened.view(), part.grid)?;
         if let Some(tolerance) = after.leakage {
             let asked = LeakAsked {

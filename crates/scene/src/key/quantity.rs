@@ -105,8 +105,8 @@ impl Dimension {
     pub fn within(self, range: Range) -> impl Fn(&str) -> Result<Quantity, String> + Clone + Send + Sync + 'static {
         move |text| match self.parse(text.trim()) {
             Some(found) if range.has(found.value) => Ok(found),
-            _ => {
-                let mistake = self.mistaken_unit(text.trim()).unwrap_or_default();
+            found => {
+                let mistake = if found.is_none() { self.mistaken_unit(text.trim()) } else { None }.unwrap_or_default();
                 Err(format!("{mistake}it must be {}, alone or with a unit of {}", range.words, self.what))
             }
         }
@@ -115,11 +115,30 @@ impl Dimension {
     /// The fault of the unit behind a number, if it has one.
     fn mistaken_unit(self, text: &str) -> Option<String> {
         let (_, unit) = number_and_unit(text).filter(|(_, unit)| !unit.is_empty())?;
-        match Unit::parse(unit) {
-            None => Some(format!("{unit} is no unit that is known, ")),
-            Some(found) if !self.has(found) => Some(format!("{unit} is a unit of something else, ")),
-            Some(_) => None,
+        let mistake = match Unit::parse(unit) {
+            None => "no unit that is known",
+            Some(found) if !self.has(found) => "a unit of something else",
+            Some(_) => return None,
+        };
+        let mut meant = self.respelled(unit).join(" or ");
+        if !meant.is_empty() {
+            meant = format!(" (did you mean {meant}?)");
         }
+        Some(format!("{unit} is {mistake}{meant}, "))
+    }
+
+    /// The units of this dimension that differ from a text by capital letters alone, those with the fewest of them first.
+    fn respelled(self, text: &str) -> Vec<String> {
+        let mut begun = vec![String::new()];
+        for part in text.split_inclusive(SEPARATORS) {
+            let (symbol, _) = powers(part.trim_end_matches(SEPARATORS));
+            let (names, rest) = (respellings(symbol), &part[symbol.len()..]);
+            let with = |begun: &String| names.iter().map(|name| format!("{begun}{name}{rest}")).collect::<Vec<_>>();
+            begun = begun.iter().flat_map(with).take(MOST_RESPELLED).collect();
+        }
+        begun.retain(|text| Unit::parse(text).is_some_and(|unit| self.has(unit)));
+        begun.sort_by_key(|found| found.chars().zip(text.chars()).filter(|(one, other)| one != other).count());
+        begun
     }
 
     /// Whether a unit is of this dimension.
@@ -167,14 +186,21 @@ struct Unit {
 }
 
 /// The symbols of units: their powers, the power of ten, and a factor. Metre and kelvin come before millikelvin.
-const SYMBOLS: [(&str, [i32; 5], i32, f64); 23] = [
+const SYMBOLS: [(&str, [i32; 5], i32, f64); 30] = [
     ("m", [0, 1, 0, 0, 0], 0, 1.0),
     ("s", [0, 0, 1, 0, 0], 0, 1.0),
     ("Pa", [1, -2, 0, 0, 0], 0, 1.0),
     ("Pas", [1, -2, 1, 0, 0], 0, 1.0),
+    ("bar", [1, -2, 0, 0, 0], 5, 1.0),
+    ("psi", [1, -2, 0, 0, 0], 3, PSI),
+    ("ksi", [1, -2, 0, 0, 0], 6, PSI),
     ("N", [1, 0, 0, 0, 0], 0, 1.0),
+    ("dyn", [1, 0, 0, 0, 0], -5, 1.0),
     ("J", [1, 1, 0, 0, 0], 0, 1.0),
+    ("erg", [1, 1, 0, 0, 0], -7, 1.0),
     ("eV", [1, 1, 0, 0, 0], -19, 1.602176634),
+    ("micron", [0, 1, 0, 0, 0], -6, 1.0),
+    ("microns", [0, 1, 0, 0, 0], -6, 1.0),
     ("Å", [0, 1, 0, 0, 0], -10, 1.0),
     ("\u{212b}", [0, 1, 0, 0, 0], -10, 1.0),
     ("Angstrom", [0, 1, 0, 0, 0], -10, 1.0),
@@ -193,8 +219,11 @@ const SYMBOLS: [(&str, [i32; 5], i32, f64); 23] = [
     ("\u{2126}", [1, 1, -1, -2, 0], 0, 1.0),
 ];
 
+/// A pound-force per square inch, 0.45359237 kg times 9.80665 m/s² over (0.0254 m)², in kPa.
+const PSI: f64 = 6.894757293168361;
+
 /// The prefixes; of µ the micro sign, the Greek letter, and what stands for them.
-const PREFIXES: [(&str, i32); 14] = [
+const PREFIXES: [(&str, i32); 15] = [
     ("", 0),
     ("z", -21),
     ("a", -18),
@@ -209,10 +238,27 @@ const PREFIXES: [(&str, i32); 14] = [
     ("k", 3),
     ("M", 6),
     ("G", 9),
+    ("T", 12),
 ];
 
+/// What stands between the symbols of a unit.
+const SEPARATORS: [char; 6] = [' ', '·', '*', '/', '(', ')'];
+
+/// The most spellings of a unit that are looked at.
+const MOST_RESPELLED: usize = 64;
+
+/// The symbols with prefixes that differ from one by capital letters alone; itself where there is none.
+fn respellings(symbol: &str) -> Vec<String> {
+    let names =
+        SYMBOLS.iter().flat_map(|(symbol, ..)| PREFIXES.iter().map(move |(prefix, _)| format!("{prefix}{symbol}")));
+    let mut found: Vec<_> = names.filter(|name| name.to_lowercase() == symbol.to_lowercase()).collect();
+    found.sort_unstable();
+    found.dedup();
+    if found.is_empty() { vec![symbol.to_owned()] } else { found }
+}
+
 impl Unit {
-    /// A product of units with powers, as `mJ/m2`, `N/m²`, `MPa µm` or `W/(m·K)`.
+    /// A product of units with powers, as `mJ/m2`, `N/m²`, `MPa µm`, `W/(m·K)` or `W m-1 K-1`.
     fn parse(text: &str) -> Option<Self> {
         let (above, below) = text.split_once('/').map_or((text, None), |(above, below)| (above, Some(below)));
         let below = below.map(|below| below.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(below));
@@ -247,12 +293,15 @@ impl Unit {
     }
 }
 
-/// A symbol, and its power behind it.
+/// A symbol, and its power behind it: m2, m^2, m², and of negative ones m-1, m^-1, m⁻¹.
 fn powers(factor: &str) -> (&str, i32) {
-    for (digit, power) in [('2', 2), ('²', 2), ('3', 3), ('³', 3)] {
-        if let Some(symbol) = factor.strip_suffix(digit) {
-            return (symbol.strip_suffix('^').unwrap_or(symbol), power);
-        }
+    let digits = [('1', 1), ('¹', 1), ('2', 2), ('²', 2), ('3', 3), ('³', 3)];
+    let power = digits.into_iter().find_map(|(digit, power)| Some((factor.strip_suffix(digit)?, power)));
+    let Some((base, power)) = power else { return (factor, 1) };
+    match base.strip_suffix(['-', '\u{2212}', '⁻']) {
+        Some(base) => (base.strip_suffix('^').unwrap_or(base), -power),
+        // one is not written
+        None if power == 1 => (factor, 1),
+        None => (base.strip_suffix('^').unwrap_or(base), power),
     }
-    (factor, 1)
 }
