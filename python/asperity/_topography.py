@@ -117,25 +117,45 @@ Heights: TypeAlias = ArrayLike | Topography | HeightMap | str | os.PathLike[str]
 def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topography:
     """Reads a file of heights.
 
+    Files of instruments are read by SurfaceTopography, which ``pip install 'asperity[instruments]'`` brings:
+    Nanoscope, JPK, NT-MDT, Igor, Park, ISO 25178-72 (.x3p), Digital Surf, Keyence, Zygo, Wyko, Sensofar, Alicona,
+    NetCDF, HDF5 and others. Texts are read by asperity alone.
+
     Parameters
     ----------
     path : str or path
         ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
+        Or the file of an instrument, with that package.
     channel : int or str, optional
-        Channel of a ``.gwy`` file, by number or title; needed only if several have heights.
+        Channel of a ``.gwy`` file or of that of an instrument, by number or title; needed only if several have heights.
 
     Returns
     -------
     Topography
-        In metres where the file has a unit of length; missing points are NaN.
+        In metres where the file has a unit of length; missing points are NaN. The first line of an image is that of the
+        largest y.
 
     Raises
     ------
     FileNotFoundError, ValueError
         If there is no such file or channel, or it cannot be understood.
+
+    Examples
+    --------
+    >>> import asperity, numpy, os, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "scan.npz")
+    ...     numpy.savez(path, heights=numpy.eye(3), lengths=(2.0, 2.0), unit="m")
+    ...     asperity.read(path)
+    Topography(3 x 3 heights, 2 x 2 m)
     """
     source = os.fspath(path)
-    return Topography(**_asperity.read(source, None if channel is None else str(channel)), source=source)
+    try:
+        return Topography(**_asperity.read(source, None if channel is None else str(channel)), source=source)
+    except ValueError as refused:
+        from . import _instruments
+
+        return _instruments.read(source, channel, refused)
 
 
 def from_topography(topography: HeightMap) -> Topography:
