@@ -1,4 +1,4 @@
-"""Files of instruments, which the package SurfaceTopography reads."""
+"""Files of instruments, which the package SurfaceTopography reads, and the command that converts them."""
 
 import sys
 import warnings
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import _instruments
+from asperity import __main__, _instruments
 
 HEIGHTS = 1e-9 * np.random.default_rng(1).normal(size=(12, 8))
 MISSING = np.ma.masked_array(HEIGHTS, HEIGHTS == HEIGHTS[3, 5])
@@ -133,3 +133,48 @@ def test_a_file_that_nothing_reads_keeps_its_refusal(tmp_path, scan):
         asperity.read(tmp_path / "none.x3p")
     with pytest.raises(ValueError, match="is a folder"):
         asperity.read(tmp_path)
+
+
+@pytest.fixture
+def convert(tmp_path, monkeypatch, capsys):
+    """Runs the command in the folder of the test: its exit code, output and errors."""
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["asperity", "convert", *arguments])
+        return __main__.main(), *capsys.readouterr()
+
+    monkeypatch.chdir(tmp_path)
+    return run
+
+
+def test_convert_writes_what_read_reads(tmp_path, scan, convert):
+    scan.to_x3p(tmp_path / "scan.x3p")
+    found = asperity.read(tmp_path / "scan.x3p")
+    for ending, precision in [("npz", 0), ("npy", 0), ("gsf", 1e-7)]:
+        code, said, errors = convert("scan.x3p", f"scan.{ending}")
+        assert (code, errors) == (0, "") and said.startswith("written  Topography(12 x 8 heights, 1 missing, 3e-06 x")
+        again = asperity.read(tmp_path / f"scan.{ending}")
+        assert np.allclose(again.heights, found.heights, rtol=precision, atol=0, equal_nan=True)
+        if ending != "npy":
+            assert again.lengths == pytest.approx(found.lengths, rel=1e-15) and again.unit == "m"
+
+
+def test_convert_refuses_on_one_line(tmp_path, convert):
+    np.save(tmp_path / "map.npy", HEIGHTS)
+    (tmp_path / "taken.npz").write_bytes(b"kept")
+    (tmp_path / "words.txt").write_text("no numbers\n")
+    for arguments, message in [
+        (["map.npy", "taken.npz"], "exists: use --force"),
+        (["map.npy", "map.txt"], "choose .npz, .npy or .gsf"),
+        (["none.npy", "out.npz"], "does not exist"),
+        (["words.txt", "out.npz"], "is not a number"),
+        (["map.npy"], "required: OUT"),
+        (["map.npy", "out.npz", "--chanel", "1"], "unrecognized arguments: --chanel"),
+    ]:
+        code, said, errors = convert(*arguments)
+        assert (code, said) == (1, "") and errors.startswith("error: ") and message in errors
+        assert errors.count("\n") == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["map.npy", "taken.npz", "words.txt"]
+    assert (tmp_path / "taken.npz").read_bytes() == b"kept"
+    assert convert("map.npy", "taken.npz", "--force")[0] == 0
+    assert np.array_equal(asperity.read(tmp_path / "taken.npz").heights, HEIGHTS)
