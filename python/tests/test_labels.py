@@ -43,7 +43,8 @@ def test_a_table_with_coordinates_is_a_data_array_with_them(frame):
     expected = asperity.prepare(data)
     rotated = frame(HEIGHTS, X, Y).rename_axis(index="x", columns="y")
     falling = frame(HEIGHTS[::-1, ::-1].T, Y[::-1], X[::-1])
-    for table in (frame(), falling, frame().rename_axis(index="row", columns="X"), rotated):
+    same = frame().rename_axis(index="x", columns="x")
+    for table in (frame(), falling, frame().rename_axis(index="row", columns="X"), same, rotated):
         found = asperity.prepare(table)
         assert np.array_equal(found.heights, HEIGHTS) and found.lengths == expected.lengths
     assert expected.lengths == pytest.approx((3.0, 1.2), rel=1e-14) and np.array_equal(expected.heights, HEIGHTS)
