@@ -3,14 +3,21 @@
 import signal
 import sys
 
+from . import _convert
 from ._asperity import command
 
 
 def main() -> int:
-    """Runs the program; its exit code."""
+    """Runs the program, or the command of the package; the exit code."""
+    arguments = sys.argv[1:]
+    if arguments[:1] == ["convert"]:
+        return _convert.run(arguments[1:])
     # an interruption is for the program, which says what stands
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    return command(["asperity", *sys.argv[1:]])
+    code = command(["asperity", *arguments])
+    if arguments in (["--help"], ["-h"], ["help"]):
+        print(_convert.HELP, end="")
+    return code
 
 
 if __name__ == "__main__":

@@ -103,7 +103,7 @@ def solve(
 
     Parameters
     ----------
-    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
+    heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
         Heights of the rigid surface, shape (Nx, Ny), or (N,) on a line; peaks up. Any float type, order or stride. A
         C-ordered array of float64 is copied once, as the solver needs it; others are converted first. Missing points,
         NaN or masked, are refused: `prepare` fills them, or ``absent_missing`` takes them as they are.
@@ -125,7 +125,7 @@ def solve(
     body : Layer, Coating or Symbol, optional
         Body that deforms, a half-space by default; with a periodic boundary. ``layer`` or ``coating`` with their
         parameters say the same without an object.
-    against : array_like, Topography, SurfaceTopography, DataArray or path of a file, optional
+    against : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file, optional
         Heights of the surface on the other side, peaks up as they were measured, of the same shape, side lengths and
         unit; flat without it. The other surface is turned over about the y axis, so that it faces this one: the
         heights that are solved are ``heights + against[::-1]``.

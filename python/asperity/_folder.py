@@ -30,7 +30,7 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
     ----------
     folder : str or path
         Folder with ``report.json``, and the fields as ``.npy`` or in ``fields.npz``.
-    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file, optional
+    heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file, optional
         Heights that were solved, of the shape of the fields. `Solution.save` keeps them; a folder of the program has
         none, and without them the solution has no ``heights``, ``topography`` and ``displacement``.
 

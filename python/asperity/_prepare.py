@@ -43,13 +43,17 @@ def prepare(
 
     Parameters
     ----------
-    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
-        Heights; NaN, infinite and masked points are missing.
+    heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
+        Heights; NaN, infinite and masked points are missing. A DataFrame whose index and columns are numbers has them
+        as coordinates, y along its index and x along its columns, unless their names x and y or ``axes`` say otherwise.
+        Integers that count, as pandas sets them, and words are no coordinates: it is an array then. Coordinates along
+        one of the two alone are refused.
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly); one alone means square cells. Those of the map by default.
     axes : {"xy", "yx"}, optional
         Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray whose
-        dimensions are named x and y does not need it. The result has x along the first axis.
+        dimensions are named x and y, or a DataFrame with coordinates, does not need it. The result has x along the first
+        axis.
     unit : str, optional
         Unit of the heights after ``scale``, and of the side lengths.
     missing : float or list of float, optional

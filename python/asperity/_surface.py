@@ -249,7 +249,7 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
 
     Parameters
     ----------
-    heights : array_like, Topography, SurfaceTopography, DataArray or path of a file
+    heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
         Heights of a periodic surface, shape (Nx, Ny).
     lengths : float or (float, float), optional
         Side lengths, of which slopes, curvatures and Nayak's parameter are NaN if the heights do not bring them either.

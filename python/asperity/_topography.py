@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, replace
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 import numpy as np
@@ -116,25 +117,45 @@ Heights: TypeAlias = ArrayLike | Topography | HeightMap | str | os.PathLike[str]
 def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topography:
     """Reads a file of heights.
 
+    Files of instruments are read by SurfaceTopography, which ``pip install 'asperity[instruments]'`` brings:
+    Nanoscope, JPK, NT-MDT, Igor, Park, ISO 25178-72 (.x3p), Digital Surf, Keyence, Zygo, Wyko, Sensofar, Alicona,
+    NetCDF, HDF5 and others. Texts are read by asperity alone.
+
     Parameters
     ----------
     path : str or path
         ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
+        Or the file of an instrument, with that package.
     channel : int or str, optional
-        Channel of a ``.gwy`` file, by number or title; needed only if several have heights.
+        Channel of a ``.gwy`` file or of that of an instrument, by number or title; needed only if several have heights.
 
     Returns
     -------
     Topography
-        In metres where the file has a unit of length; missing points are NaN.
+        In metres where the file has a unit of length; missing points are NaN. The first line of an image is that of the
+        largest y.
 
     Raises
     ------
     FileNotFoundError, ValueError
         If there is no such file or channel, or it cannot be understood.
+
+    Examples
+    --------
+    >>> import asperity, numpy, os, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "scan.npz")
+    ...     numpy.savez(path, heights=numpy.eye(3), lengths=(2.0, 2.0), unit="m")
+    ...     asperity.read(path)
+    Topography(3 x 3 heights, 2 x 2 m)
     """
     source = os.fspath(path)
-    return Topography(**_asperity.read(source, None if channel is None else str(channel)), source=source)
+    try:
+        return Topography(**_asperity.read(source, None if channel is None else str(channel)), source=source)
+    except ValueError as refused:
+        from . import _instruments
+
+        return _instruments.read(source, channel, refused)
 
 
 def from_topography(topography: HeightMap) -> Topography:
@@ -194,6 +215,7 @@ def found(heights: Heights, axes: AxisOrder | None) -> Topography:
         return read(heights)
     if _is_topography(heights):
         return from_topography(heights)
+    heights = _labelled(heights, axes)
     if _is_data_array(heights):
         return _from_data_array(heights, axes)
     array, is_line = array_of(heights, axes=axes)
@@ -234,15 +256,22 @@ def field_of(values: Any, name: str) -> NDArray[np.float64]:
 def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) -> tuple[NDArray[np.float64], bool]:
     """Values as a matrix of float64 with x along its first axis, and whether they are one line.
 
-    Masked points become NaN.
+    Masked points become NaN, and coordinates rise.
     """
+    values = _labelled(values, axes, name)
     order = _order(values, axes)
     if _is_data_array(values):
-        values = np.ma.masked_invalid(values.values)
+        values = np.ma.masked_invalid(values.values[tuple(map(_rising, map(values.coords.get, values.dims)))])
     masked = isinstance(values, np.ma.MaskedArray)
     array: Any = values if masked else np.asarray(values)
+    if array.dtype.names is not None:
+        columns = ", ".join(array.dtype.names)
+        raise TypeError(f'{name} are a record array of {columns}: give one column, as a["{array.dtype.names[0]}"]')
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{name} are an array of {array.dtype}: they must be real numbers")
+    if array.ndim == 3 and array.size > 0:
+        channel = ("array[..., 0]", "array[:, 0]", "array[0]")[int(np.argmin(array.shape[::-1]))]
+        raise ValueError(f"{name} have shape {array.shape}, as channels on each other: give one of them, as {channel}")
     if array.ndim not in (1, 2) or array.size == 0:
         raise ValueError(f"{name} have shape {array.shape}: they must be (Nx, Ny), or (N,) on a line")
     if masked:
@@ -265,6 +294,38 @@ def _order(values: Any, axes: AxisOrder | None) -> str:
     if axes not in (None, named):
         raise ValueError(f"axes is {axes!r}, but the dimensions are {tuple(values.dims)}: leave axes out, or rename them")
     return named
+
+
+def _rising(coordinate: Any) -> slice:
+    """The part of an axis that is all of it, with its coordinate rising."""
+    falls = coordinate is not None and coordinate.values.size > 1 and coordinate.values[-1] < coordinate.values[0]
+    return slice(None, None, -1 if falls else None)
+
+
+def _labelled(values: Any, axes: AxisOrder | None, name: str = "heights") -> Any:
+    """A pandas.DataFrame with coordinates as a DataArray; all else as it is."""
+    if not (hasattr(values, "to_numpy") and hasattr(values, "index") and hasattr(values, "columns")):
+        return values
+    labels = [values.index, values.columns]
+    known = [_are_coordinates(np.asarray(label)) for label in labels]
+    if not any(known):
+        return values
+    if not all(known):
+        has, lacks = ("index", "columns") if known[0] else ("columns", "index")
+        raise ValueError(
+            f"{name} are a DataFrame with coordinates as its {has} and none as its {lacks}: give both as numbers, by "
+            f"frame.{lacks} = frame.{lacks}.astype(float), or the array alone, by frame.to_numpy()"
+        )
+    dims = [str(label.name) for label in labels]
+    if dims[0] == dims[1] or not {"x", "y"} & {dim.lower() for dim in dims}:
+        dims = list(axes or "yx")
+    coords = {dim: SimpleNamespace(values=label.to_numpy(), attrs={}) for dim, label in zip(dims, labels)}
+    return SimpleNamespace(values=values.to_numpy(), dims=dims, coords=coords, attrs={})
+
+
+def _are_coordinates(labels: NDArray[Any]) -> bool:
+    """Whether labels are coordinates: numbers that do not just count rows or columns."""
+    return labels.dtype.kind == "f" or (labels.dtype.kind in "iu" and bool(np.any(np.diff(labels) != 1)))
 
 
 def _is_data_array(values: Any) -> bool:
@@ -295,16 +356,14 @@ def _from_data_array(data: Any, axes: AxisOrder | None) -> Topography:
     units = {data.attrs.get("units")}
     lengths = []
     dims = data.dims[::-1] if _order(data, axes) == "yx" else data.dims
-    for axis, dim in enumerate(dims):
+    for dim in dims:
         if dim not in data.coords:
             break
         coordinate = np.asarray(data.coords[dim].values, dtype=np.float64)
         units.add(data.coords[dim].attrs.get("units"))
         steps = np.diff(coordinate)
-        if steps.size == 0 or np.ptp(steps) > _EQUIDISTANT * abs(steps[0]):
+        if steps.size == 0 or not np.ptp(steps) <= _EQUIDISTANT * abs(steps[0]):
             raise ValueError(f"coordinate {dim} is not equidistant: interpolate the heights on a uniform grid first")
-        if steps[0] < 0:
-            heights = np.flip(heights, axis)
         lengths.append(abs(coordinate[-1] - coordinate[0]) * coordinate.size / (coordinate.size - 1))
     units.discard(None)
     if len(units) > 1:

@@ -41,6 +41,6 @@ mod _asperity {
         problem::Problem,
         refusal::meant,
         running::Iteration,
-        surface::{fourier, in_metres, knee_wavelength, made, prepare, read, spectrum, statistics},
+        surface::{fourier, in_metres, knee_wavelength, made, prepare, read, spectrum, statistics, write},
     };
 }

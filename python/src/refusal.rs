@@ -77,6 +77,7 @@ fn refused(error: Error, also: &str) -> PyErr {
             "choose one, by asperity prepare --channel NUMBER",
             "choose one, by asperity.read(path, channel=NUMBER)",
         )
+        .replace("; or in Python: asperity.from_topography(SurfaceTopography.read_topography(file))", "")
         .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
         .replace("the traction of the law is", "law.traction is")
         .replace("the energy of the law", "law.energy")

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use asperity::surface::{FourierSeries, Psd};
 use asperity::{Grid, Surface};
 use asperity_maps::Topography;
-use asperity_maps::io::{check_memory, read_fourier};
+use asperity_maps::io::{check_memory, read_fourier, write_topography};
+use asperity_scene::output::OutputFile;
 use asperity_scene::quantity::LENGTH;
 use asperity_scene::{Body, Log, Preparation, Roughness, in_unit};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -62,6 +63,14 @@ fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
 pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<Made<'_>> {
     let reading = asperity_maps::io::Reading { channel, ..Default::default() };
     Ok(Made::of(py, apart(py, || reading.read(&path))?))
+}
+
+/// Writes a map to a file, in the format of its ending; with `force` over one that is there.
+#[pyfunction]
+pub fn write(given: Given<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+    let map = given.topography()?;
+    let file = OutputFile::create(&path, force).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    file.complete(|path| write_topography(path, &map)).map_err(refusal)
 }
 
 /// The heights of a body of a simple form with self-affine roughness or without it, both by their keys; NaN beyond the

@@ -67,7 +67,6 @@ def folders(tmp_path):
 SOLVE = ["solve", "--heights", "heights.npy", "--out", "out"]
 LINES = [
     (0, ["--version"]),
-    (0, ["--help"]),
     (0, ["solve", "--help"]),
     (0, ["completions", "zsh"]),
     (0, ["laws"]),
@@ -92,6 +91,16 @@ def test_a_command_does_what_the_program_does(folders, command, tool, code, argu
     found, expected = (told(by, folder, *arguments) for by, folder in zip((command, [tool]), folders, strict=True))
     assert found == expected and found[0] == code
     assert files(folders[0]) == files(folders[1])
+
+
+def test_the_help_is_that_of_the_program_with_the_command_of_the_package(folders, command, tool):
+    for ask in ("--help", "-h", "help"):
+        (code, said, errors), expected = (told(by, folders[0], ask) for by in (command, [tool]))
+        assert (code, errors) == (0, []) and said[: len(expected[1])] == expected[1]
+        assert said[len(expected[1]) :][1:2] == ["Command of the Python package:"] and "  convert " in said[-1]
+    code, said, errors = told(command, folders[0], "convert", "heights.npy", "heights.gsf")
+    assert (code, said, errors) == (0, ["written  Topography(64 x 64 heights, unknown side lengths)"], [])
+    assert "--channel NAME" in "".join(told(command, folders[0], "convert", "--help")[1])
 
 
 def test_nobody_has_to_listen(folders, command):
