@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
@@ -114,7 +115,14 @@ class Topography:
 Heights: TypeAlias = ArrayLike | Topography | HeightMap | str | os.PathLike[str]
 
 
-def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topography:
+def read(
+    path: str | os.PathLike[str],
+    channel: int | str | None = None,
+    *,
+    skip_lines: int = 0,
+    missing_words: str | Sequence[str] = (),
+    masked: bool = False,
+) -> Topography:
     """Reads a file of heights.
 
     Files of instruments are read by SurfaceTopography, which ``pip install 'asperity[instruments]'`` brings:
@@ -127,13 +135,21 @@ def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topo
         ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
         Or the file of an instrument, with that package.
     channel : int or str, optional
-        Channel of a ``.gwy`` file or of that of an instrument, by number or title; needed only if several have heights.
+        Channel of a ``.gwy`` file, of a text with several blocks of numbers, or of the file of an instrument, by number
+        or title; needed only if several have heights.
+    skip_lines : int
+        Number of lines at the start of a text that are left out, as a heading.
+    missing_words : str or list of str
+        Words of a text that stand for missing points, beside nan, NA, Bad, #N/A and the like.
+    masked : bool
+        Whether the points under the mask of a ``.gwy`` file are missing.
 
     Returns
     -------
     Topography
         In metres where the file has a unit of length; missing points are NaN. The first line of an image is that of the
-        largest y.
+        largest y. The ``log`` names what stands beside the heights: other channels, a mask, and lines that may tell a size
+        and are not understood.
 
     Raises
     ------
@@ -151,11 +167,15 @@ def read(path: str | os.PathLike[str], channel: int | str | None = None) -> Topo
     """
     source = os.fspath(path)
     try:
-        return Topography(**_asperity.read(source, None if channel is None else str(channel)), source=source)
+        words = [missing_words] if isinstance(missing_words, str) else list(missing_words)
+        of = None if channel is None else str(channel)
+        made, beside = _asperity.read(source, of, skip_lines, words, masked)
     except ValueError as refused:
         from . import _instruments
 
         return _instruments.read(source, channel, refused)
+    log = (f"beside: {', '.join(beside)}".replace("--masked", "masked=True"),) if beside else ()
+    return Topography(**made, source=source, log=log)
 
 
 def from_topography(topography: HeightMap) -> Topography:

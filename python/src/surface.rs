@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::surface::{FourierSeries, Psd};
 use asperity::{Grid, Surface};
 use asperity_maps::Topography;
-use asperity_maps::io::{check_memory, read_fourier, write_topography};
+use asperity_maps::io::{Reading, check_memory, read_fourier, write_topography};
 use asperity_scene::output::OutputFile;
 use asperity_scene::quantity::LENGTH;
 use asperity_scene::{Body, Log, Preparation, Roughness, in_unit};
@@ -58,11 +58,20 @@ fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
     Grid::new(heights.dim(), lengths).and_then(|grid| Surface::new(grid, heights)).map_err(refusal)
 }
 
-/// Reads a file of heights, of several channels the one of a number or title.
+/// Reads a file of heights, of several channels the one of a number or title, and tells what stands beside them.
 #[pyfunction]
-pub fn read(py: Python<'_>, path: PathBuf, channel: Option<String>) -> PyResult<Made<'_>> {
-    let reading = asperity_maps::io::Reading { channel, ..Default::default() };
-    Ok(Made::of(py, apart(py, || reading.read(&path))?))
+pub fn read(
+    py: Python<'_>,
+    path: PathBuf,
+    channel: Option<String>,
+    skip_lines: usize,
+    missing: Vec<String>,
+    masked: bool,
+) -> PyResult<(Made<'_>, Vec<String>)> {
+    let reading = Reading { channel, skip_lines, missing, masked };
+    let mut map = apart(py, || reading.read(&path))?;
+    let unread = std::mem::take(&mut map.unread);
+    Ok((Made::of(py, map), unread))
 }
 
 /// Writes a map to a file, in the format of its ending; with `force` over one that is there.

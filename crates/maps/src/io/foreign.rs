@@ -1,7 +1,8 @@
 //! Formats that are not read, and how to convert them.
 
-const GWYDDION: &str = "open it in Gwyddion, and save it as .gwy or its heights as .gsf; \
-                        or in Python: asperity.from_topography(SurfaceTopography.read_topography(file))";
+const GWYDDION: &str = "read it in Python by asperity.read, after pip install 'asperity[instruments]'; \
+                        or open it in Gwyddion, and save it as .gwy or its heights as .gsf";
+const TEXT: &str = "open it in Gwyddion, and save it as .gwy; or export its heights as a text matrix";
 const IMAGE: &str = "if its grey values are heights, import it in Gwyddion and save it as .gsf; \
                      else export the heights from the program of the instrument";
 const UNPACK: &str = "unpack it first";
@@ -10,24 +11,26 @@ const UNPACK: &str = "unpack it first";
 type Format = (&'static [&'static [u8]], &'static str, &'static str);
 
 /// The formats that are known by their first bytes.
-const STARTS: [Format; 29] = [
+const STARTS: [Format; 31] = [
     (&[b"GWYO"], "a file of Gwyddion 1 (.gwy)", GWYDDION),
     (&[b"\\*File list", b"?*File list"], "a Nanoscope file (.spm)", GWYDDION),
     (&[b"\"\\*File list"], "a text of a Nanoscope file", "open the file itself in Gwyddion, and save it as .gwy"),
-    (&[b"Zygo XYZ Data File"], "a file of Zygo's points (.xyz)", GWYDDION),
-    (&[b"Wyko ASCII Data File"], "a text of Wyko (.asc)", GWYDDION),
+    (&[b"Zygo XYZ Data File"], "a file of Zygo's points (.xyz)", TEXT),
+    (&[b"Wyko ASCII Data File"], "a text of Wyko (.asc)", TEXT),
     (&[b"\\*Force file list"], "a Nanoscope file of force curves (.spm)", "save a map of heights instead"),
     (&[b"DIGITAL SURF", b"DSCOMPRESSED"], "a Digital Surf file (.sur)", GWYDDION),
     (&[b"AliconaImaging\0"], "an Alicona file (.al3d)", GWYDDION),
     (&[b"\x01\0Directory"], "a Wyko file (.opd)", GWYDDION),
     (&[b"VCA DATA\x01\0"], "a Bruker file (.opdx)", GWYDDION),
     (&[b"\x01\xb0\x93\xff"], "an NT-MDT file (.mdt)", GWYDDION),
-    (&[b"aBCR-", b"bBCR-", b"aISO-", b"bISO-"], "a surface data file (.sdf)", GWYDDION),
+    (&[b"aBCR-", b"bBCR-", b"aISO-", b"bISO-"], "a surface data file (.sdf)", TEXT),
     (&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"], "a MetroPro file (.dat)", GWYDDION),
     (&[b"VK4_"], "a Keyence file (.vk4)", GWYDDION),
     (&[b"FRTM_"], "a MicroProf file (.frt)", GWYDDION),
     (&[b":NANONIS_VERSION:"], "a Nanonis file (.sxm)", GWYDDION),
     (&[b"WSxM file copyright"], "a WSxM file", GWYDDION),
+    (&[b"DSAA", b"DSBB", b"DSRB"], "a grid of Surfer (.grd)", "save it as an ESRI grid (.asc)"),
+    (&[b"IGOR"], "a text of Igor (.itx)", "save its heights as a text matrix"),
     (&[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"], "a TIFF image (.tif)", TIFF),
     (&[b"\x89PNG\r\n\x1a\n"], "a PNG image", IMAGE),
     (&[b"\xff\xd8\xff"], "a JPEG image", IMAGE),
@@ -42,9 +45,8 @@ const STARTS: [Format; 29] = [
     (&[b"\xff\xfe", b"\xfe\xff"], "a text in UTF-16", "save it in UTF-8"),
 ];
 
-const TIFF: &str = "open it in Gwyddion, and save its heights as .gsf, since its first page may be a thumbnail and its \
-                    numbers may have a scale; or in Python: \
-                    asperity.from_topography(SurfaceTopography.read_topography(file))";
+const TIFF: &str = "open it in Gwyddion, and save its heights as .gsf: its first page may be a thumbnail, and its numbers \
+                    counts; in Python look at all pages of tifffile.TiffFile(file)";
 const CONTAINER: &str = "in Python: asperity.from_topography(SurfaceTopography.read_container(file)[0][0])";
 const NETCDF: &str = "in Python: numpy.save(\"heights.npy\", xarray.open_dataset(file)[name])";
 const MATLAB: &str = "in MATLAB: writematrix(heights, \"heights.txt\", \"Delimiter\", \" \")";

@@ -20,15 +20,30 @@ impl Pair {
             .or_else(|| line.split_once('\t'))
             .or_else(|| line.split_once(' ').filter(|(_, number)| number.trim().parse::<f64>().is_ok()))?;
         let plain = |text: &str| text.replace("\",\"", " ").replace('"', "").trim().to_owned();
-        Some(Self { name: plain(name), value: plain(value) })
+        let (name, mut value) = (plain(name), plain(value));
+        // the unit may stand behind the name, as in `Width (µm): 3`
+        let within = name.split_once(['(', '[']).map(|(name, unit)| (name.trim().to_owned(), bare(unit).to_owned()));
+        match within.filter(|(_, unit)| per_metre(unit).is_some()) {
+            Some((name, unit)) => {
+                value = format!("{value} {unit}");
+                Some(Self { name, value })
+            }
+            None => Some(Self { name, value }),
+        }
     }
 
     /// The number at the start of the value, and the unit behind it.
     fn quantity(&self) -> Option<(f64, &str)> {
-        let value = &self.value;
-        let ends = value.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
-        let parsed = |end: usize| value[..end].parse().ok().filter(|number: &f64| number.is_finite());
-        ends.filter_map(|end| Some((parsed(end)?, bare(&value[end..])))).next()
+        quantity(&self.value)
+    }
+
+    /// The quantities along x and y, of one number or of two, as `3 µm x 2 µm` and `512 x 512`.
+    fn quantities(&self) -> Option<[(f64, &str); 2]> {
+        let Some((x, y)) = self.value.split_once(['x', '\u{d7}', '*']) else {
+            return self.quantity().map(|both| [both; 2]);
+        };
+        let (x, y) = (quantity(x)?, quantity(y)?);
+        Some([if x.1.is_empty() { (x.0, y.1) } else { x }, y])
     }
 
     /// A positive length with its unit.
@@ -45,6 +60,14 @@ impl Pair {
         let unit = self.value.split([' ', '\t']).next_back().unwrap_or_default();
         self.is_length() || self.quantity().is_some() && per_metre(bare(unit)).is_some()
     }
+}
+
+/// The number at the start of a text, and the unit behind it.
+fn quantity(text: &str) -> Option<(f64, &str)> {
+    let value = text.trim();
+    let ends = value.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
+    let parsed = |end: usize| value[..end].parse().ok().filter(|number: &f64| number.is_finite());
+    ends.filter_map(|end| Some((parsed(end)?, bare(&value[end..])))).next()
 }
 
 /// A unit without brackets around it.
@@ -70,6 +93,18 @@ enum Along {
     Y,
     Both,
     Z,
+}
+
+impl Along {
+    /// The places of x, y and the heights.
+    fn axes(self) -> std::ops::Range<usize> {
+        match self {
+            Self::X => 0..1,
+            Self::Y => 1..2,
+            Self::Both => 0..2,
+            Self::Z => 2..3,
+        }
+    }
 }
 
 /// What a name says, if all of its words are known; its value may say of what kind it is.
@@ -195,41 +230,59 @@ impl Heading {
                 }
                 continue;
             };
-            let quantity = pair.quantity();
-            let axes = match along {
-                Along::X => 0..1,
-                Along::Y => 1..2,
-                Along::Both => 0..2,
-                Along::Z => 2..3,
+            let (axes, text) = (along.axes(), format!("{}: {}", pair.name, pair.value));
+            match kind {
+                Some(Kind::Unit) => {
+                    // one for all is that of lengths where they have none of their own
+                    let is_of_all = !axes.contains(&0) && !pair.name.to_lowercase().contains(['z', 'd', 'v', 'h']);
+                    let unit = Some(bare(&pair.value).to_owned());
+                    if is_of_all {
+                        sizes.units[..2].iter_mut().for_each(|of| *of = of.take().or(unit.clone()));
+                    }
+                    sizes.units[axes].fill(unit);
+                    continue;
+                }
+                Some(Kind::Missing) => {
+                    sizes.missing = pair.quantity().map(|(code, _)| code);
+                    continue;
+                }
+                Some(Kind::Factor) if along == Along::Z => {
+                    let (factor, unit) = pair.quantity().unzip();
+                    let unit = if pair.name.eq_ignore_ascii_case("bit2nm") { Some("nm") } else { unit };
+                    sizes.factor = factor;
+                    let unit = unit.filter(|unit| !unit.is_empty()).map(str::to_owned);
+                    sizes.units[2] = unit.or(sizes.units[2].take());
+                    continue;
+                }
+                _ if along == Along::Z => continue,
+                _ => {}
+            }
+            let Some(found) = pair.quantities() else {
+                sizes.unread.push(text);
+                continue;
             };
-            let is_number = |count: usize| pair.value.parse() == Ok(count);
-            let is_count = kind == Some(Kind::Side) && pair.name.to_lowercase().contains("size");
-            match (kind, quantity) {
-                (Some(Kind::Unit), _) => sizes.units[axes].fill(Some(bare(&pair.value).to_owned())),
-                (Some(Kind::Missing), Some((code, _))) => sizes.missing = Some(code),
-                (Some(Kind::Factor), Some((factor, unit))) => {
-                    sizes.factor = Some(factor);
-                    let unit = if pair.name.eq_ignore_ascii_case("bit2nm") { "nm" } else { unit };
-                    sizes.units[2] = Some(unit.to_owned()).filter(|unit| !unit.is_empty()).or(sizes.units[2].take());
-                }
-                _ if along == Along::Z => {}
-                (_, Some((_, "px" | "pixel" | "pixels"))) | (Some(Kind::Pixels) | None, Some((_, ""))) => {
-                    let count = quantity.filter(|(n, _)| *n >= 1.0 && n.fract() == 0.0).map(|(n, _)| n as usize);
-                    sizes.pixels[axes].fill(count);
-                }
-                _ if is_count && nodes[axes.clone()].iter().all(|count| is_number(*count)) => {
-                    axes.for_each(|axis| sizes.pixels[axis] = Some(nodes[axis]));
-                }
-                (_, Some((length, unit))) if length > 0.0 && !unit.starts_with(',') => {
-                    let found = if kind == Some(Kind::Spacing) { &mut spacings } else { &mut sides };
-                    found[axes].fill(Some((length, unit.to_owned())));
-                }
-                _ => {
-                    let text = format!("{}: {}", pair.name, pair.value);
+            let is_size = pair.name.to_lowercase().contains("size");
+            let is_count = axes.clone().all(|axis| found[axis] == (nodes[axis] as f64, ""));
+            if is_size && axes == (0..2) && found == [(nodes[1] as f64, ""), (nodes[0] as f64, "")] && !is_count {
+                // the shape of the array
+                continue;
+            }
+            for axis in axes {
+                let (number, unit) = found[axis];
+                let is_pixels = ["px", "pixel", "pixels"].contains(&unit)
+                    || unit.is_empty() && (matches!(kind, Some(Kind::Pixels) | None) || is_size && is_count);
+                if unit.starts_with(',') {
                     return refuse(format!(
                         "has the comment {}, expected a number with a decimal point, and its unit",
                         quoted(&text)
                     ));
+                } else if is_pixels && number >= 1.0 && number.fract() == 0.0 {
+                    sizes.pixels[axis] = Some(number as usize);
+                } else if number > 0.0 && !is_pixels && (unit.is_empty() || per_metre(unit).is_some()) {
+                    let lengths = if kind == Some(Kind::Spacing) { &mut spacings } else { &mut sides };
+                    lengths[axis] = Some((number, unit.to_owned()));
+                } else if !sizes.unread.contains(&text) {
+                    sizes.unread.push(text.clone());
                 }
             }
         }

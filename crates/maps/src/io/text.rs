@@ -281,9 +281,18 @@ impl Text {
             heading.append(std::mem::take(&mut block.heading));
         }
         heading.check_words(heading.has_columns())?;
-        let Sizes { units, unread, .. } = heading.sizes((0, 0))?;
         let (points, _) = self.values.as_chunks();
-        let mut map = map_of_points(points, units)?;
+        let (heights, lengths) = map_of_points(points)?;
+        let (nx, ny) = heights.dim();
+        let Sizes { units: [x, y, z], sides, unread, .. } = heading.sizes((ny, nx))?;
+        let [x, y, z] = [x, y, z].map(Option::unwrap_or_default);
+        if x != y {
+            return refuse(format!("has x in {} and y in {}, expected one unit", quoted(&x), quoted(&y)));
+        }
+        // coordinates may be numbers of pixels
+        let pixels = sides.filter(|_| lengths == (nx as f64, ny as f64));
+        let (lengths, lateral) = pixels.unwrap_or((lengths, x));
+        let mut map = in_one_unit(heights, Some(lengths), &lateral, &z)?;
         map.unread = unread;
         Ok(map)
     }
@@ -442,6 +451,9 @@ mod tests {
             "# x-pixels = 3\n# y-pixels = 2\n# x-length = 3000\n# y-length = 20000\n# Bit2nm: 1",
             "NX = 3\nNY = 2\nScale X = 1\nScale Y = 10\nUnit X = um\nUnit Data = nm\nScale Data = 7\nDataScaleNeeded = no",
             "\"X Calibration\",\"1\",\"um\"\n\"Y Calibration\",\"10\",\"um\"\n\"Horizontal\",\"3\"\n\"Vertical\",\"2\"\n\"Unit\",\"nm\"",
+            "# Size: 3 um x 20 um\n# pixels: 3 x 2\n# z-unit: nm",
+            "# Width (um): 3\n# Height (um): 20\n# z-unit: nm",
+            "# dx = 1\n# dy = 10\n# unit = um\n# z unit = nm",
             "X Size\t3\nY Size\t2\nPixel size x: 1 um\nPixel size y: 10 um\nz unit [nm]\nz-unit: [nm]",
         ] {
             let found = headed(heading);
@@ -468,7 +480,14 @@ mod tests {
             assert_eq!((map.heights.dim(), map.lengths, &map.unread[..]), ((2, 3), None, &[unread.to_owned()][..]));
         }
         // neither lengths nor units
-        for comment in ["# rate: 3 Hz", "# Created by me: 2020", "# heights in micrometres", "# y = 3", "# Scale: 2"] {
+        for comment in [
+            "# rate: 3 Hz",
+            "# Created by me: 2020",
+            "# heights in micrometres",
+            "# y = 3",
+            "# Scale: 2",
+            "# size: 2 x 3",
+        ] {
             let map = headed(comment).unwrap();
             assert_eq!(
                 (map.heights.dim(), map.lengths, map.unread.len(), map.unit),
@@ -481,8 +500,9 @@ mod tests {
         };
         assert_eq!(gwyddion("3", "20", "").unwrap().lengths, Some((3.0, 20.0)));
         assert_refused(gwyddion("3,0 um", "20 um", "m"), &["3,0 um", "decimal point"]);
-        assert_refused(gwyddion("-3 um", "20 um", "m"), &["-3 um", "decimal point"]);
-        assert_refused(gwyddion("3 um", "20 V", "m"), &["\"um\" and \"V\"", "units of length"]);
+        assert_eq!(gwyddion("-3 um", "20 um", "m").unwrap().unread, ["Width: -3 um", "20 um"]);
+        let odd = gwyddion("3 um", "20 V", "m").unwrap();
+        assert_eq!((odd.lengths, &odd.unread[..]), (None, &["Height: 20 V".to_owned(), "3 um".to_owned()][..]));
         assert_refused(gwyddion("3 um", "20 um", "V"), &["\"V\"", "channel of heights"]);
         assert_refused(headed("# x-pixels: 4\n# y-pixels: 2"), &["4 x 2 points", "2 lines of 3 numbers"]);
     }

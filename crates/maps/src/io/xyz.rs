@@ -2,35 +2,35 @@
 
 use ndarray::Array2;
 
-use super::units::in_one_unit;
 use super::{Parsed, check_room, quoted, refuse};
-use crate::Topography;
 
 /// The largest distance of a point from its place on the grid, in spacings.
 const SLACK: f64 = 0.1;
 /// The most nodes of a grid for each of its points: a bound on the memory that a small file can ask for.
 const SPARSEST: f64 = 4.0;
 
-/// Whether points are those of a whole regular grid of several lines, each once.
+/// The most nodes of a grid for each of the points that are known for such by their numbers alone.
+const FULL: f64 = 1.1;
+
+/// Whether points are those of a regular grid of several lines, each once, and nearly all of them.
 pub(super) fn is_grid(points: &[[f64; 3]]) -> bool {
     let axis = |k: usize| {
         let is_finite = points.iter().all(|point| point[k].is_finite());
         if is_finite { Axis::new(points.iter().map(|point| point[k]).collect()) } else { None }
     };
     let (Some(x), Some(y)) = (axis(0), axis(1)) else { return false };
-    let mut taken = vec![false; points.len()];
-    x.nodes > 1
-        && y.nodes > 1
-        && x.nodes * y.nodes == points.len()
-        && points.iter().all(|point| {
-            let node = x.index(point[0]) * y.nodes + y.index(point[1]);
-            !std::mem::replace(&mut taken[node], true)
-        })
+    if x.nodes.min(y.nodes) == 1 || x.nodes as f64 * y.nodes as f64 > FULL * points.len() as f64 {
+        return false;
+    }
+    let mut taken = vec![false; x.nodes * y.nodes];
+    points.iter().all(|point| {
+        let node = x.index(point[0]) * y.nodes + y.index(point[1]);
+        !std::mem::replace(&mut taken[node], true)
+    })
 }
 
-/// The map of points x y z of a regular grid, in any order, with the units of x, y and z as far as they are told; points
-/// that are not there are missing.
-pub(super) fn map_of_points(points: &[[f64; 3]], units: [Option<String>; 3]) -> Parsed<Topography> {
+/// The heights of points x y z of a regular grid, in any order, and the side lengths; points that are not there are missing.
+pub(super) fn map_of_points(points: &[[f64; 3]]) -> Parsed<(Array2<f64>, (f64, f64))> {
     if let Some([x, y, _]) = points.iter().find(|[x, y, _]| !(x.is_finite() && y.is_finite())) {
         return refuse(format!("has a point with the coordinates {x} and {y}, expected finite numbers"));
     }
@@ -72,11 +72,7 @@ pub(super) fn map_of_points(points: &[[f64; 3]], units: [Option<String>; 3]) -> 
         }
         heights[[i, j]] = z;
     }
-    let [along, across, up] = units.map(Option::unwrap_or_default);
-    if along != across {
-        return refuse(format!("has x in {} and y in {}, expected one unit", quoted(&along), quoted(&across)));
-    }
-    in_one_unit(heights, Some((dx * x.nodes as f64, dy * y.nodes as f64)), &along, &up)
+    Ok((heights, (dx * x.nodes as f64, dy * y.nodes as f64)))
 }
 
 /// Equidistant coordinates.
@@ -161,8 +157,10 @@ mod tests {
         }
         let (lx, ly) = map.lengths.unwrap();
         assert!((lx - 7.0 / 3.0).abs() < 0.01 && (ly - 10.0).abs() < 1e-12, "{lx} {ly}");
-        // the same name without its ending is a matrix of three columns
-        assert_eq!(read_map(text, "points.txt").unwrap().heights.dim(), (34, 3));
+        // without this ending they are known by their numbers, if few are missing
+        assert_eq!(read_map(&text, "points.txt").unwrap().heights.dim(), (7, 5));
+        let half: String = text.split_inclusive('\n').step_by(2).collect();
+        assert_eq!(read_map(half, "points.txt").unwrap().heights.dim(), (17, 3));
     }
 
     #[test]
@@ -194,6 +192,11 @@ mod tests {
             assert_eq!((map.unit.as_deref(), map.lengths), (Some("m"), Some((4e-6, 3e-6))), "{heading}");
             assert_eq!(map.heights, &plain.heights / 1e9, "{heading}");
         }
+        let told = points.lines().map(|line| format!("{line}\n")).collect::<String>();
+        let map = read_map(format!("# pixel size: 250 nm\n# z-unit: um\n{told}"), "a.xyz").unwrap();
+        assert_eq!((map.lengths, map.heights[[1, 0]]), (Some((1e-6, 7.5e-7)), 7e-6));
+        let fewer = points.replacen("1 1 ", "# 1 1 ", 1);
+        assert_eq!(read_map(fewer, "a.txt").unwrap().missing(), 1);
         // a matrix of three columns is none of points
         let matrix: String = (0..12).map(|k| format!("{} {} {}\n", k % 4, k / 3, k * k % 11)).collect();
         assert_eq!(read_map(matrix, "a.txt").unwrap().heights.dim(), (12, 3));
