@@ -137,6 +137,43 @@ def test_a_data_array_of_xarray_gives_the_same_bits(rough):
     assert asperity.prepare(missing).missing == 1 and asperity.prepare(missing, fill=True).missing == 0
 
 
+def test_texts_are_read_by_what_is_said_of_them(tmp_path):
+    def read(text, **kwargs):
+        path = tmp_path / "map.txt"
+        path.write_text(text, encoding="utf-8")
+        return asperity.read(path, **kwargs)
+
+    header = "# Kanal: {}\n# Breite: 3 µm\n# Höhe: 2000 nm\n# Einheiten: nm\n"
+    text = header.format("Topo") + "1 2 4\n4 6 3\n" + header.format("zurück") + "9 2 1\n4 6 3\n"
+    with pytest.raises(ValueError, match=r'2 channels \(0 "Topo", 1 "zurück"\).*asperity.read\(path, channel=NUMBER\)'):
+        read(text)
+    second = read(text, channel="zurück")
+    assert second.heights[0, 1] == 9e-9 and second.lengths == (3e-6, 2e-6) and second.log == ('beside: 0 "Topo"',)
+
+    words = "Height\nof a tip\n1 2 lost\n4 7 6\n"
+    with pytest.raises(ValueError, match=r"asperity.read\(path, missing_words=...\), here \"lost\""):
+        read(words)
+    with pytest.raises(ValueError, match=r"asperity.read\(path, skip_lines=...\), here 2"):
+        read(words, missing_words="lost")
+    tip = read(words, missing_words="lost", skip_lines=2)
+    assert tip.heights.shape == (2, 3) and np.isnan(tip.heights[0, 2])
+    with pytest.raises(ValueError, match="has no masks"):
+        read(words, masked=True)
+    assert read("# Weite: 3 um\n1 2\n3 4\n").log == ("beside: Weite: 3 um",)
+
+
+def test_coordinates_and_bytes_that_are_no_heights_are_told(rough):
+    heights = rough.heights.copy()
+    table = np.vstack([np.arange(heights.shape[1]), heights])
+    with pytest.warns(asperity.InputWarning, match="axes: the first line"):
+        asperity.prepare(table)
+    with pytest.warns(asperity.InputWarning, match="byte-order"):
+        asperity.prepare(heights.byteswap())
+    heights[3, 4] = 1.70141e38
+    with pytest.warns(asperity.InputWarning, match="missing-code: 1.70141e38 stands at 1 node"):
+        asperity.prepare(heights)
+
+
 def test_files_are_read_with_what_belongs_to_them(tmp_path, rough):
     path = tmp_path / "heights.npz"
     np.savez(path, heights=rough.heights, lengths=(2.0, 2.0), unit="m")
