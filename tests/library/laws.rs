@@ -418,7 +418,8 @@ fn applications(n: usize, law: Box<dyn AdhesionLaw<f64>>, wall: bool) -> [usize;
     })
 }
 
-fn counts(n: usize) {
+/// Counts for each law, under a pressure at most so many.
+fn counts(n: usize, most: usize) {
     // of the rms height of the surface, 0.016
     let (w, range) = (2e-4, 4e-3);
     let laws: [(&str, Box<dyn AdhesionLaw<f64>>, bool); 7] = [
@@ -437,20 +438,21 @@ fn counts(n: usize) {
     for (name, law, wall) in laws {
         let found = applications(n, law, wall);
         println!("{n}² {name:<24} {found:?}");
-        // under a pressure the wall alone comes first
-        assert!(found[0] <= 80 && found[1] <= 70, "{name}: {found:?}");
+        // under a pressure the wall alone comes first, with 36; the way on from there to Morse without a wall, which is
+        // stiff, takes 43 on 256² nodes and 49 on 512²
+        assert!(found[0] <= most && found[1] <= 70, "{name}: {found:?}");
     }
 }
 
 #[test]
 fn each_law_takes_few_applications_on_256_by_256_nodes() {
-    counts(256);
+    counts(256, 80);
 }
 
 #[test]
 #[ignore = "half a minute: cargo test --release --test library laws::each -- --ignored --nocapture"]
 fn each_law_takes_few_applications_on_512_by_512_nodes() {
-    counts(512);
+    counts(512, 87);
 }
 
 #[test]
