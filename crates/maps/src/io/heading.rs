@@ -1,6 +1,5 @@
 //! What the comments and the heading of a text tell: sizes, units and titles, as pairs of a name and a value.
 
-use super::lines::unquoted;
 use super::units::per_metre;
 use super::{Parsed, quoted, refuse};
 
@@ -14,51 +13,41 @@ struct Pair {
 impl Pair {
     /// The pair of a line: `name: value`, `name = value`, or fields of which the first is the name.
     fn of(line: &str) -> Option<Self> {
-        let fields = || line.split_once("\",\"").filter(|_| line.starts_with('"'));
-        let (name, value) = fields()
+        let fields = line.split_once("\",\"").filter(|_| line.starts_with('"'));
+        let (name, value) = fields
             .or_else(|| line.split_once([':', '=', '\u{ff1a}', '\u{ff1d}']))
             .or_else(|| line.split_once('\t'))
             .or_else(|| line.split_once(' ').filter(|(_, number)| number.trim().parse::<f64>().is_ok()))?;
         let plain = |text: &str| text.replace("\",\"", " ").replace('"', "").trim().to_owned();
-        let (name, mut value) = (plain(name), plain(value));
+        let (name, value) = (plain(name), plain(value));
         // the unit may stand behind the name, as in `Width (µm): 3`
-        let within = name.split_once(['(', '[']).map(|(name, unit)| (name.trim().to_owned(), bare(unit).to_owned()));
-        match within.filter(|(_, unit)| per_metre(unit).is_some()) {
-            Some((name, unit)) => {
-                value = format!("{value} {unit}");
-                Some(Self { name, value })
-            }
+        match name.split_once(['(', '[']).filter(|(_, unit)| per_metre(bare(unit)).is_some()) {
+            Some((name, unit)) => Some(Self { name: name.trim().to_owned(), value: format!("{value} {}", bare(unit)) }),
             None => Some(Self { name, value }),
         }
     }
 
-    /// The number at the start of the value, and the unit behind it.
-    fn quantity(&self) -> Option<(f64, &str)> {
-        quantity(&self.value)
+    fn text(&self) -> String {
+        format!("{}: {}", self.name, self.value)
     }
 
     /// The quantities along x and y, of one number or of two, as `3 µm x 2 µm` and `512 x 512`.
     fn quantities(&self) -> Option<[(f64, &str); 2]> {
-        let Some((x, y)) = self.value.split_once(['x', '\u{d7}', '*']) else {
-            return self.quantity().map(|both| [both; 2]);
-        };
+        let (x, y) = self.value.split_once(['x', '\u{d7}', '*']).unwrap_or((&self.value, &self.value));
         let (x, y) = (quantity(x)?, quantity(y)?);
         Some([if x.1.is_empty() { (x.0, y.1) } else { x }, y])
     }
 
     /// A positive length with its unit.
-    fn length(&self) -> Option<(f64, &str)> {
-        self.quantity().filter(|(number, unit)| *number > 0.0 && per_metre(unit).is_some())
-    }
-
-    fn is_length(&self) -> bool {
-        self.length().is_some()
+    fn length(&self) -> Option<(f64, String)> {
+        let (number, unit) = quantity(&self.value)?;
+        (number > 0.0 && per_metre(unit).is_some()).then(|| (number, unit.to_owned()))
     }
 
     /// Whether it begins with a number and ends with a unit of length, whatever is between.
     fn is_like_length(&self) -> bool {
         let unit = self.value.split([' ', '\t']).next_back().unwrap_or_default();
-        self.is_length() || self.quantity().is_some() && per_metre(bare(unit)).is_some()
+        self.length().is_some() || quantity(&self.value).is_some() && per_metre(bare(unit)).is_some()
     }
 }
 
@@ -72,7 +61,7 @@ fn quantity(text: &str) -> Option<(f64, &str)> {
 
 /// A unit without brackets around it.
 fn bare(unit: &str) -> &str {
-    unit.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim()
+    unit.trim_matches(|c: char| "[]()".contains(c) || c.is_whitespace())
 }
 
 /// What a value is of.
@@ -86,73 +75,51 @@ enum Kind {
     Missing,
 }
 
-/// What a value is along: x, y, both, or the heights.
-#[derive(Clone, Copy, PartialEq)]
-enum Along {
-    X,
-    Y,
-    Both,
-    Z,
-}
+/// The words of names, with what a value is of and along: x, y or the heights.
+const WORDS: [(&str, Option<Kind>, &[usize]); 17] = [
+    ("x horizontal", None, &[0]),
+    ("y vertical", None, &[1]),
+    ("xy lateral", None, &[0, 1]),
+    ("z data value values", None, &[2]),
+    ("nx xres ncols cols columns", Some(Kind::Pixels), &[0]),
+    ("ny yres nrows rows lines", Some(Kind::Pixels), &[1]),
+    ("pixels points", Some(Kind::Pixels), &[]),
+    ("width xreal", Some(Kind::Side), &[0]),
+    ("height yreal", Some(Kind::Side), &[1]),
+    ("length size range", Some(Kind::Side), &[]),
+    ("dx", Some(Kind::Spacing), &[0]),
+    ("dy", Some(Kind::Spacing), &[1]),
+    ("cellsize", Some(Kind::Spacing), &[0, 1]),
+    ("pixel scale step spacing calibration", Some(Kind::Spacing), &[]),
+    ("unit units", Some(Kind::Unit), &[]),
+    ("nodata", Some(Kind::Missing), &[2]),
+    ("bit2nm", Some(Kind::Factor), &[2]),
+];
 
-impl Along {
-    /// The places of x, y and the heights.
-    fn axes(self) -> std::ops::Range<usize> {
-        match self {
-            Self::X => 0..1,
-            Self::Y => 1..2,
-            Self::Both => 0..2,
-            Self::Z => 2..3,
-        }
-    }
-}
+/// Words that say nothing beside others.
+const OTHERS: &str = "scan image map number of in";
 
-/// What a name says, if all of its words are known; its value may say of what kind it is.
-fn meaning(name: &str) -> Option<(Option<Kind>, Along)> {
-    use {Along::*, Kind::*};
-    let (mut kind, mut along, mut is_relative) = (None, None, false);
+/// What a name says, if all of its words are known; its value may say of what kind it is, and that of no axis is of all.
+fn meaning(name: &str) -> Option<(Option<Kind>, &'static [usize])> {
+    let (mut kind, mut axes): (Option<Kind>, &[usize]) = (None, &[]);
     let name = name.to_lowercase();
     for word in name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()) {
-        let (of_kind, of_axis) = match word {
-            "x" | "horizontal" => (None, Some(X)),
-            "y" | "vertical" => (None, Some(Y)),
-            "z" | "data" | "value" | "values" => (None, Some(Z)),
-            "xy" | "lateral" => (None, Some(Both)),
-            "width" => (Some(Side), Some(X)),
-            "height" => (Some(Side), Some(Y)),
-            "nx" | "xres" | "ncols" | "cols" | "columns" => (Some(Pixels), Some(X)),
-            "ny" | "yres" | "nrows" | "rows" | "lines" => (Some(Pixels), Some(Y)),
-            "xreal" => (Some(Side), Some(X)),
-            "yreal" => (Some(Side), Some(Y)),
-            "dx" => (Some(Spacing), Some(X)),
-            "dy" => (Some(Spacing), Some(Y)),
-            "cellsize" => (Some(Spacing), Some(Both)),
-            "pixels" | "points" => (Some(Pixels), None),
-            "length" | "size" | "range" => (Some(Side), None),
-            "pixel" => (Some(Spacing), None),
-            "scale" | "step" | "spacing" | "calibration" => {
-                is_relative = true;
-                (Some(Spacing), None)
-            }
-            "unit" | "units" => (Some(Unit), None),
-            "nodata" => (Some(Missing), Some(Z)),
-            "bit2nm" => (Some(Factor), Some(Z)),
-            "scan" | "image" | "map" | "number" | "of" | "in" => (None, None),
-            _ => return None,
-        };
+        let is_in = |words: &str| words.split(' ').any(|other| other == word);
+        if is_in(OTHERS) {
+            continue;
+        }
+        let (_, of_kind, of_axes) = *WORDS.iter().find(|(words, ..)| is_in(words))?;
         // a pixel has a size, and a size has a unit
-        if kind != Some(Spacing) || of_kind == Some(Unit) {
+        if kind != Some(Kind::Spacing) || of_kind == Some(Kind::Unit) {
             kind = of_kind.or(kind);
         }
-        along = of_axis.or(along);
+        axes = if of_axes.is_empty() { axes } else { of_axes };
     }
-    match (kind, along) {
-        (None, None) => None,
-        (Some(Spacing), None) if is_relative => None,
-        (Some(Unit), None) => Some((kind, Z)),
-        (Some(Unit), Some(Y)) if name.contains("height") => Some((kind, Z)),
-        (Some(Spacing), Some(Z)) => Some((Some(Factor), Z)),
-        (_, along) => Some((kind, along.unwrap_or(Both))),
+    match (kind, axes) {
+        (None, []) => None,
+        (Some(Kind::Unit), _) if name.contains("height") => Some((kind, &[2])),
+        (Some(Kind::Spacing), [2]) => Some((Some(Kind::Factor), axes)),
+        _ => Some((kind, axes)),
     }
 }
 
@@ -198,7 +165,8 @@ impl Heading {
 
     /// Whether it says something of a block of numbers, so that one begins with it.
     pub fn tells(&self) -> bool {
-        let is_told = |pair: &Pair| pair.is_length() || meaning(&pair.name).is_some_and(|(kind, _)| kind.is_some());
+        let is_told =
+            |pair: &Pair| pair.length().is_some() || meaning(&pair.name).is_some_and(|(kind, _)| kind.is_some());
         self.words.is_some() || self.pairs.iter().any(is_told)
     }
 
@@ -215,94 +183,70 @@ impl Heading {
 
     /// The first value that is none of numbers.
     pub fn title(&self) -> String {
-        let first = self.pairs.first().filter(|pair| pair.quantity().is_none());
+        let first = self.pairs.first().filter(|pair| quantity(&pair.value).is_none());
         first.map(|pair| pair.value.clone()).unwrap_or_default()
     }
 
     /// The sizes and units that it tells of a block of numbers.
     pub fn sizes(&self, (rows, columns): (usize, usize)) -> Parsed<Sizes> {
-        let nodes = [columns, rows];
-        let (mut sizes, mut sides, mut spacings) = (Sizes::default(), [None, None], [None, None]);
+        let (nodes, mut lengths) = ([columns, rows], [None, None]);
+        let mut sizes = Sizes::default();
         for pair in &self.pairs {
-            let Some((kind, along)) = meaning(&pair.name) else {
-                if pair.is_like_length() {
-                    sizes.unread.push(format!("{}: {}", pair.name, pair.value));
-                }
-                continue;
-            };
-            let (axes, text) = (along.axes(), format!("{}: {}", pair.name, pair.value));
-            match kind {
-                Some(Kind::Unit) => {
-                    // one for all is that of lengths where they have none of their own
-                    let is_of_all = !axes.contains(&0) && !pair.name.to_lowercase().contains(['z', 'd', 'v', 'h']);
-                    let unit = Some(bare(&pair.value).to_owned());
-                    if is_of_all {
-                        sizes.units[..2].iter_mut().for_each(|of| *of = of.take().or(unit.clone()));
+            let found = quantity(&pair.value);
+            match meaning(&pair.name) {
+                None if pair.is_like_length() => sizes.unread.push(pair.text()),
+                None => {}
+                Some((Some(Kind::Unit), axes)) => {
+                    let is_default = axes.is_empty();
+                    for &axis in if is_default { &[0, 1, 2] } else { axes } {
+                        let unit = sizes.units[axis].take().filter(|_| is_default);
+                        sizes.units[axis] = unit.or_else(|| Some(bare(&pair.value).to_owned()));
                     }
-                    sizes.units[axes].fill(unit);
-                    continue;
                 }
-                Some(Kind::Missing) => {
-                    sizes.missing = pair.quantity().map(|(code, _)| code);
-                    continue;
+                Some((Some(Kind::Missing), _)) => sizes.missing = found.map(|(code, _)| code),
+                Some((Some(Kind::Factor), _)) => {
+                    sizes.factor = found.map(|(factor, _)| factor);
+                    let unit = if pair.name.ends_with("nm") { "nm" } else { found.map_or("", |(_, unit)| unit) };
+                    sizes.units[2] = Some(unit.to_owned()).filter(|unit| !unit.is_empty()).or(sizes.units[2].take());
                 }
-                Some(Kind::Factor) if along == Along::Z => {
-                    let (factor, unit) = pair.quantity().unzip();
-                    let unit = if pair.name.eq_ignore_ascii_case("bit2nm") { Some("nm") } else { unit };
-                    sizes.factor = factor;
-                    let unit = unit.filter(|unit| !unit.is_empty()).map(str::to_owned);
-                    sizes.units[2] = unit.or(sizes.units[2].take());
-                    continue;
-                }
-                _ if along == Along::Z => continue,
-                _ => {}
-            }
-            let Some(found) = pair.quantities() else {
-                sizes.unread.push(text);
-                continue;
-            };
-            let is_size = pair.name.to_lowercase().contains("size");
-            let is_count = axes.clone().all(|axis| found[axis] == (nodes[axis] as f64, ""));
-            if is_size && axes == (0..2) && found == [(nodes[1] as f64, ""), (nodes[0] as f64, "")] && !is_count {
-                // the shape of the array
-                continue;
-            }
-            for axis in axes {
-                let (number, unit) = found[axis];
-                let is_pixels = ["px", "pixel", "pixels"].contains(&unit)
-                    || unit.is_empty() && (matches!(kind, Some(Kind::Pixels) | None) || is_size && is_count);
-                if unit.starts_with(',') {
-                    return refuse(format!(
-                        "has the comment {}, expected a number with a decimal point, and its unit",
-                        quoted(&text)
-                    ));
-                } else if is_pixels && number >= 1.0 && number.fract() == 0.0 {
-                    sizes.pixels[axis] = Some(number as usize);
-                } else if number > 0.0 && !is_pixels && (unit.is_empty() || per_metre(unit).is_some()) {
-                    let lengths = if kind == Some(Kind::Spacing) { &mut spacings } else { &mut sides };
-                    lengths[axis] = Some((number, unit.to_owned()));
-                } else if !sizes.unread.contains(&text) {
-                    sizes.unread.push(text.clone());
-                }
+                Some((_, [2])) => {}
+                Some((kind, axes)) => sizes.take(pair, kind, axes, nodes, &mut lengths)?,
             }
         }
         // the text export of Gwyddion in any language: title, width, height, unit
         if let [_, width, height, unit, ..] = &self.pairs[..]
-            && sides == [None, None]
-            && [width, height].iter().all(|pair| pair.is_length() && meaning(&pair.name).is_none())
-            && unit.quantity().is_none()
+            && lengths == [None, None]
+            && [width, height].iter().all(|pair| pair.length().is_some() && meaning(&pair.name).is_none())
+            && quantity(&unit.value).is_none()
         {
-            sides = [width, height].map(|pair| pair.length().map(|(length, unit)| (length, unit.to_owned())));
+            lengths = [width, height].map(Pair::length);
             sizes.units[2].get_or_insert_with(|| bare(&unit.value).to_owned());
             sizes.unread.clear();
         }
-        if self.pairs.iter().any(|pair| pair.name.to_lowercase() == "datascaleneeded" && pair.value == "no") {
-            sizes.factor = None;
-        }
+        // of Nova, and of SPIP, which writes lengths in nm
+        let is_said = |name: &str, value: &str| {
+            self.pairs.iter().any(|pair| pair.name.eq_ignore_ascii_case(name) && pair.value.contains(value))
+        };
+        sizes.factor = sizes.factor.filter(|_| !is_said("DataScaleNeeded", "no"));
         if let Some(units) = &self.columns {
             sizes.units = units.clone().map(Some);
         }
-        sizes.set_sides(sides, spacings, nodes, self.pairs.iter().any(|pair| pair.name == "x-length"))?;
+        let default = if is_said("x-length", "") { "nm" } else { "" };
+        let [x, y] = [0, 1].map(|axis| {
+            let (length, unit) = lengths[axis].clone()?;
+            let told = sizes.units[axis].as_ref().or(sizes.units[0].as_ref());
+            Some((length, if unit.is_empty() { told.map_or(default, |told| told).to_owned() } else { unit }))
+        });
+        match (x, y) {
+            (Some((lx, x)), Some((ly, y))) => {
+                let ratio = if x == y { Some(1.0) } else { per_metre(&x).zip(per_metre(&y)).map(|(x, y)| x / y) };
+                let Some(ratio) = ratio else {
+                    return refuse(format!("has sides in {} and {}, expected one unit", quoted(&x), quoted(&y)));
+                };
+                sizes.sides = Some(((lx, ratio * ly), x));
+            }
+            (x, y) => sizes.unread.extend(x.or(y).map(|(length, unit)| format!("{length} {unit}"))),
+        }
         Ok(sizes)
     }
 }
@@ -324,43 +268,42 @@ pub(super) struct Sizes {
     pub unread: Vec<String>,
 }
 
-/// A length with its unit, which may be empty.
-type Length = (f64, String);
-
 impl Sizes {
-    fn set_sides(
+    /// Takes numbers of nodes or lengths along axes, or along both of none.
+    fn take(
         &mut self,
-        sides: [Option<Length>; 2],
-        spacings: [Option<Length>; 2],
+        pair: &Pair,
+        kind: Option<Kind>,
+        axes: &[usize],
         nodes: [usize; 2],
-        is_of_spip: bool,
+        lengths: &mut [Option<(f64, String)>; 2],
     ) -> Parsed<()> {
-        let of = |axis: usize| {
-            let spacing = spacings[axis].clone();
-            let count = self.pixels[axis].unwrap_or(nodes[axis]) as f64;
-            let (length, unit) = sides[axis].clone().or(spacing.map(|(spacing, unit)| (count * spacing, unit)))?;
-            let told = [axis, 0].into_iter().find_map(|axis| self.units[axis].clone());
-            let unit = if unit.is_empty() { told.unwrap_or_default() } else { unit };
-            // SPIP writes lengths in nm
-            Some((length, if unit.is_empty() && is_of_spip { "nm".to_owned() } else { unit }))
-        };
-        let (Some((lx, lateral)), Some((ly, other))) = (of(0), of(1)) else {
-            let known = sides.iter().chain(&spacings).flatten();
-            self.unread.extend(known.map(|(length, unit)| format!("{length} {unit}")));
+        let Some(found) = pair.quantities() else {
+            self.unread.push(pair.text());
             return Ok(());
         };
-        let ly = match (per_metre(&lateral), per_metre(&other)) {
-            _ if lateral == other => ly,
-            (Some(x), Some(y)) => ly * (x / y),
-            _ => {
-                return refuse(format!(
-                    "has sides in {} and {}, expected units of length",
-                    quoted(&lateral),
-                    quoted(&other)
-                ));
+        // the shape of the array
+        if axes.is_empty() && nodes[0] != nodes[1] && found == [(nodes[1] as f64, ""), (nodes[0] as f64, "")] {
+            return Ok(());
+        }
+        let is_size = kind.is_none() || pair.name.to_lowercase().contains("size");
+        for &axis in if axes.is_empty() { &[0, 1] } else { axes } {
+            let (number, unit) = found[axis];
+            let is_count = kind == Some(Kind::Pixels) || is_size && number == nodes[axis] as f64;
+            let is_pixels = ["px", "pixel", "pixels"].contains(&unit) || unit.is_empty() && is_count;
+            let is_told = per_metre(unit).is_some() || unit.is_empty() && kind.is_some() && !axes.is_empty();
+            if unit.starts_with(',') {
+                let text = quoted(&pair.text());
+                return refuse(format!("has the comment {text}, expected a number with a decimal point, and its unit"));
+            } else if is_pixels {
+                self.pixels[axis] = Some(number as usize);
+            } else if number > 0.0 && is_told {
+                let times = if kind == Some(Kind::Spacing) { nodes[axis] as f64 } else { 1.0 };
+                lengths[axis] = Some((times * number, unit.to_owned()));
+            } else if !unit.is_empty() && !self.unread.contains(&pair.text()) {
+                self.unread.push(pair.text());
             }
-        };
-        self.sides = Some(((lx, ly), lateral));
+        }
         Ok(())
     }
 
@@ -372,23 +315,12 @@ impl Sizes {
 
 /// The units of three columns that are named x, y and z, as `X[um] Y[um] Z[nm]` or `x (µm), y (µm), z (nm)`.
 fn columns(line: &str) -> Option<[String; 3]> {
-    let (mut names, mut units, mut is_unit) = (String::new(), Vec::new(), false);
-    for piece in line.split_inclusive(['[', '(', ']', ')']) {
-        let text = piece.trim_end_matches(['[', '(', ']', ')']);
-        if is_unit {
-            units.push(text.trim().to_owned());
-        } else {
-            names.push_str(text);
-            names.push(' ');
-        }
-        is_unit = piece.ends_with(['[', '(']);
+    let words: Vec<_> =
+        line.split([' ', '\t', ',', ';', '[', ']', '(', ')', '/', '"']).filter(|word| !word.is_empty()).collect();
+    let is_points = |x: &str, y: &str, z: &str| [x, y, z].join(" ").eq_ignore_ascii_case("x y z");
+    match words[..] {
+        [x, y, z] if is_points(x, y, z) => Some(Default::default()),
+        [x, of_x, y, of_y, z, of_z] if is_points(x, y, z) => Some([of_x, of_y, of_z].map(str::to_owned)),
+        _ => None,
     }
-    let words: Vec<_> = names.split([' ', '\t', ',', ';']).map(unquoted).filter(|word| !word.is_empty()).collect();
-    let divided: Vec<_> = words.iter().filter_map(|word| word.split_once('/')).collect();
-    units.extend(divided.iter().map(|(_, unit)| (*unit).to_owned()));
-    let names: Vec<_> = words.iter().map(|word| word.split('/').next().unwrap_or(word).to_lowercase()).collect();
-    let is_points =
-        names.len() == 3 && names[0] == "x" && names[1] == "y" && ["z", "h", "height"].contains(&&*names[2]);
-    units.resize(if units.is_empty() { 3 } else { units.len() }, String::new());
-    units.try_into().ok().filter(|_| is_points)
 }

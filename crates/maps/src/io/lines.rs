@@ -6,23 +6,7 @@ use std::io::BufRead;
 use super::{Parsed, Reading, quoted, reserve, unreadable};
 
 /// Words for missing points, in small letters, beside nan and those of [`is_error_value`].
-const MISSING: [&str; 15] = [
-    "na",
-    "n/a",
-    "bad",
-    "null",
-    "none",
-    "nil",
-    "void",
-    "invalid",
-    "missing",
-    "no data",
-    "nodata",
-    "no_data",
-    "undefined",
-    "--",
-    "---",
-];
+const MISSING: &str = "|na|n/a|n.a.|bad|null|none|nil|void|invalid|missing|no data|nodata|no_data|undefined|-|--|---|";
 
 /// A line of a text.
 pub(super) enum Line<'a> {
@@ -157,7 +141,7 @@ fn number_of(field: &str, reading: &Reading) -> Option<f64> {
 }
 
 /// A field without the quotes around it.
-pub(super) fn unquoted(field: &str) -> &str {
+fn unquoted(field: &str) -> &str {
     let field = field.trim();
     let within = |quote| field.strip_prefix(quote)?.strip_suffix(quote);
     within('"').or_else(|| within('\'')).unwrap_or(field).trim()
@@ -168,7 +152,10 @@ pub(super) fn unquoted(field: &str) -> &str {
 fn is_missing(word: &str) -> bool {
     let small = word.to_lowercase();
     let of_c = small.trim_start_matches(['-', '+']);
-    MISSING.contains(&small.as_str()) || of_c.starts_with("nan(") || of_c.starts_with("1.#") || is_error_value(word)
+    MISSING.contains(&format!("|{small}|"))
+        || of_c.starts_with("nan(")
+        || of_c.starts_with("1.#")
+        || is_error_value(word)
 }
 
 /// Whether a word is what spreadsheets print for an error, as #N/A, #VALUE! or #NV, in any language.

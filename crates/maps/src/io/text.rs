@@ -227,23 +227,28 @@ impl Text {
 
     fn map_of(mut self, place: usize) -> Parsed<Topography> {
         let Block { heading, mut rows, mut columns, values, .. } = self.blocks.swap_remove(place);
-        let sizes = heading.sizes((rows, columns))?;
+        let mut sizes = heading.sizes((rows, columns))?;
+        // one number a line
+        if let [Some(nx), Some(ny)] = sizes.pixels
+            && columns == 1
+            && nx.checked_mul(ny) == Some(rows)
+        {
+            (rows, columns) = (ny, nx);
+            sizes = heading.sizes((rows, columns))?;
+        }
         let is_image = sizes.is_image();
-        let Sizes { pixels, sides, units, factor, missing, unread } = sizes;
+        heading.check_words(is_image)?;
+        let Sizes { pixels, sides, units: [.., vertical], factor, missing, unread } = sizes;
+        if let [Some(nx), Some(ny)] = pixels
+            && (nx, ny) != (columns, rows)
+        {
+            return refuse(format!(
+                "is said to have {nx} x {ny} points, but has {rows} lines of {columns} numbers: it is damaged, or save it \
+                 with one line of the image on each"
+            ));
+        }
         self.values.truncate(values.end);
         self.values.drain(..values.start);
-        heading.check_words(is_image)?;
-        if let [Some(nx), Some(ny)] = pixels {
-            if columns == 1 && nx.checked_mul(ny) == Some(rows) {
-                (rows, columns) = (ny, nx);
-            }
-            if (nx, ny) != (columns, rows) {
-                return refuse(format!(
-                    "is said to have {nx} x {ny} points, but has {rows} lines of {columns} numbers: it is damaged, or save \
-                     it with one line of the image on each"
-                ));
-            }
-        }
         let mut heights = Array2::from_shape_vec((rows, columns), self.values).map_err(|e| e.to_string())?;
         if factor.is_some() || missing.is_some() {
             let factor = factor.unwrap_or(1.0);
@@ -254,9 +259,8 @@ impl Text {
             let upright = heights.slice_axis(Axis(0), Slice::new(0, None, -1)).reversed_axes();
             heights = upright.as_standard_layout().into_owned();
         }
-        let vertical = units[2].clone().unwrap_or_default();
-        let (lengths, lateral) = sides.map_or((None, String::new()), |(sides, unit)| (Some(sides), unit));
-        let mut map = in_one_unit(heights, lengths, &lateral, &vertical)?;
+        let (lengths, lateral) = sides.unzip();
+        let mut map = in_one_unit(heights, lengths, &lateral.unwrap_or_default(), &vertical.unwrap_or_default())?;
         map.unread = unread;
         Ok(map)
     }
