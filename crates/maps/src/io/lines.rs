@@ -161,7 +161,7 @@ fn is_missing(word: &str) -> bool {
 /// Whether a word is what spreadsheets print for an error, as #N/A, #VALUE! or #NV, in any language.
 fn is_error_value(word: &str) -> bool {
     let Some(name) = word.strip_prefix('#') else { return false };
-    let is_name = |c: char| c.is_uppercase() || c.is_ascii_digit() || "/!?\u{a1}\u{bf}".contains(c);
+    let is_name = |c: char| c.is_uppercase() || c.is_ascii_digit() || "/!? \u{a1}\u{bf}".contains(c);
     let is_marked = name.contains('/') || name.ends_with(['!', '?']) || ["NV", "NA", "NAN"].contains(&name);
     is_marked && name.chars().all(is_name)
 }

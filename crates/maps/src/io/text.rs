@@ -29,6 +29,17 @@ struct Block {
     values: Range<usize>,
     /// The numbers of rows of which the first and the last field are empty.
     open: [usize; 2],
+    /// Whether nothing but a comment stands before it, which may be one within a map.
+    is_remarked: bool,
+}
+
+impl Block {
+    /// Takes the rows of the next block.
+    fn take(&mut self, next: &Self) {
+        self.rows += next.rows;
+        self.values.end = next.values.end;
+        self.open = [0, 1].map(|end| self.open[end] + next.open[end]);
+    }
 }
 
 /// The blocks of numbers of a text.
@@ -38,6 +49,8 @@ pub(super) struct Text {
     values: Vec<f64>,
     /// What is told behind the last row.
     heading: Heading,
+    /// Whether a comment is behind the last row.
+    is_remarked: bool,
     /// Whether a blank line is behind the last row.
     is_ended: bool,
     /// The fields of empty rows on top, and how many these are.
@@ -51,16 +64,21 @@ impl Text {
         let mut text = Self { is_like_decimals: true, ..Self::default() };
         for_each_line(reader, reading, |number, line| {
             match line {
-                Line::Comment(comment) => text.heading.read(comment),
+                Line::Comment(comment) => {
+                    text.is_remarked = true;
+                    text.heading.read(comment);
+                }
                 Line::Heading(words, reason) if text.blocks.is_empty() || words.contains([':', '=']) => {
                     text.heading.read_words(number, words, format!("{reason}: {NUMBERS}"))?;
                 }
                 Line::Heading(_, reason) => return refuse(format!("{reason}: {NUMBERS}")),
                 Line::Broken(word, reason) => {
+                    let skip = format!(", and if the line is a heading, leave it out by --skip-lines {number}");
                     return refuse(format!(
                         "{reason}: write numbers with decimal points; if it stands for a missing point, say so by asperity \
-                         prepare --missing-word {}",
-                        quoted(word)
+                         prepare --missing-word {}{}",
+                        quoted(word),
+                        if text.blocks.is_empty() { &skip } else { "" }
                     ));
                 }
                 Line::Empty(fields) => text.take_empty(fields)?,
@@ -83,6 +101,7 @@ impl Text {
                  or tabs between two columns",
             );
         }
+        text.join_remarked();
         text.join_single_rows();
         text.drop_open_ends();
         Ok(text)
@@ -110,7 +129,9 @@ impl Text {
 
     fn take(&mut self, number: usize, row: &Row<'_>) -> Parsed<()> {
         self.is_like_decimals &= row.is_like_decimal;
-        if self.blocks.is_empty() || self.is_ended || self.heading.tells() {
+        let is_hard = self.blocks.is_empty() || self.is_ended || self.heading.tells();
+        let is_remarked = std::mem::take(&mut self.is_remarked) && !is_hard;
+        if is_hard || is_remarked && self.blocks.last().is_some_and(|block| block.columns == row.values.len()) {
             let heading = std::mem::take(&mut self.heading);
             let start = self.values.len();
             // empty rows on top of the first one
@@ -119,7 +140,14 @@ impl Text {
             reserve(&mut self.values, rows * fields)?;
             self.values.extend(std::iter::repeat_n(f64::NAN, rows * fields));
             let columns = row.values.len();
-            self.blocks.push(Block { heading, rows, columns, values: start..self.values.len(), open: [rows; 2] });
+            self.blocks.push(Block {
+                heading,
+                rows,
+                columns,
+                values: start..self.values.len(),
+                open: [rows; 2],
+                is_remarked,
+            });
             self.is_ended = false;
         }
         let Some(block) = self.blocks.last_mut() else { return Ok(()) };
@@ -150,17 +178,28 @@ impl Text {
         Ok(())
     }
 
+    /// Takes blocks with comments between for one, unless they are of one shape, as channels are.
+    fn join_remarked(&mut self) {
+        let shape = |block: &Block| (block.rows, block.columns);
+        let [first, others @ ..] = &self.blocks[..] else { return };
+        if first.rows > 1 && others.iter().all(|block| shape(block) == shape(first)) {
+            return;
+        }
+        self.blocks.dedup_by(|block, before| {
+            if block.is_remarked {
+                before.take(block);
+            }
+            block.is_remarked
+        });
+    }
+
     /// Takes rows with blank lines between all of them for one block.
     fn join_single_rows(&mut self) {
         let [first, others @ ..] = &mut self.blocks[..] else { return };
         let is_one = first.rows == 1
             && others.iter().all(|block| block.rows == 1 && block.columns == first.columns && !block.heading.tells());
         if is_one {
-            for other in others.iter() {
-                first.rows += 1;
-                first.values.end = other.values.end;
-                first.open = [0, 1].map(|end| first.open[end] + other.open[end]);
-            }
+            others.iter().for_each(|other| first.take(other));
             self.blocks.truncate(1);
         }
     }
@@ -260,6 +299,12 @@ impl Text {
             heights = upright.as_standard_layout().into_owned();
         }
         let (lengths, lateral) = sides.unzip();
+        if let (Some(unit), None) = (lateral.as_ref().filter(|unit| is_length(unit)), &vertical) {
+            return refuse(format!(
+                "has side lengths in {}, but no unit of the heights: add a line as # z-unit: nm on top",
+                quoted(unit)
+            ));
+        }
         let mut map = in_one_unit(heights, lengths, &lateral.unwrap_or_default(), &vertical.unwrap_or_default())?;
         map.unread = unread;
         Ok(map)
@@ -429,6 +474,10 @@ mod tests {
         // the only one of heights needs no name
         let map = read_map(titled("V"), "a.txt").unwrap();
         assert_eq!((map.heights[[0, 1]], &map.unread[..]), (1e-9, &["1 \"B\"".to_owned()][..]));
+        // as are those of one shape with comments between
+        assert_refused(read("# Frame 1\n1 2\n3 4\n# Frame 2\n5 6\n7 8\n"), &["2 blocks", "2 x 2, 2 x 2"]);
+        assert_eq!(read("1 2\n3 4\n# two more\n5 6\n# last\n7 8\n9 0\n1 2\n").unwrap().dim(), (6, 2));
+        assert_eq!(read("# y = 1\n1 2\n# y = 2\n3 4\n# y = 3\n5 6\n").unwrap().dim(), (3, 2));
         // rows with blank lines between all are one map
         assert_eq!(read("1 2\n\n3 4\n\n5 6\n").unwrap(), array![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
     }
@@ -475,6 +524,7 @@ mod tests {
 
     #[test]
     fn what_a_heading_tells_and_is_not_understood_is_named() {
+        assert_refused(headed("# Width: 3 um\n# Height: 2 um"), &["no unit of the heights", "# z-unit"]);
         for (heading, unread) in [
             ("# Breite: 3,0 um\n# a: 1", "Breite: 3,0 um"),
             ("# Weite: 3 um", "Weite: 3 um"),

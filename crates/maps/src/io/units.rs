@@ -10,10 +10,10 @@ pub(super) fn per_metre(unit: &str) -> Option<f64> {
     Some(match unit {
         "pm" => 1e12,
         "Å" | "\u{212b}" | "Angstrom" | "angstrom" => 1e10,
-        "nm" => 1e9,
+        "nm" | "нм" => 1e9,
         // the micro sign, the Greek letter, and what stands for them
-        "µm" | "\u{3bc}m" | "um" | "micron" | "microns" => 1e6,
-        "mm" => 1e3,
+        "µm" | "\u{3bc}m" | "um" | "micron" | "microns" | "мкм" => 1e6,
+        "mm" | "мм" => 1e3,
         "cm" => 1e2,
         "m" => 1.0,
         _ => return None,
