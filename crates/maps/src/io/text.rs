@@ -206,26 +206,35 @@ impl Text {
 
     /// Drops the first and the last column where they are empty in all rows, as where separators stand around each.
     fn drop_open_ends(&mut self) {
+        let mut end = 0;
         for block in &mut self.blocks {
-            let [first, last] = block.open.map(|count| usize::from(count == block.rows && block.columns > 1));
-            if first + last == 0 || block.columns <= first + last {
-                continue;
+            let [mut first, mut last] = block.open.map(|count| usize::from(count == block.rows));
+            if block.columns <= first + last {
+                (first, last) = (0, 0);
             }
-            let (columns, start) = (block.columns, block.values.start);
-            let kept = columns - first - last;
+            let (start, kept) = (end, block.columns - first - last);
             for row in 0..block.rows {
-                let from = start + row * columns + first;
-                self.values.copy_within(from..from + kept, start + row * kept);
+                let from = block.values.start + row * block.columns + first;
+                self.values.copy_within(from..from + kept, end);
+                end += kept;
             }
             block.columns = kept;
-            block.values.end = start + block.rows * kept;
+            block.values = start..end;
         }
+        self.values.truncate(end);
+    }
+
+    /// What is told of a block, on top of it or of one before.
+    fn told_of(&self, place: usize) -> &Heading {
+        let mut headings = self.blocks[..=place].iter().rev().map(|block| &block.heading);
+        headings.find(|heading| heading.tells()).unwrap_or(&self.blocks[place].heading)
     }
 
     /// The channels, by their places and titles.
     pub fn channels(&self) -> Parsed<Vec<Channel>> {
         let channel = |(number, block): (usize, &Block)| {
-            let vertical = block.heading.sizes((block.rows, block.columns))?.units[2].clone().unwrap_or_default();
+            let mut sizes = self.told_of(number).sizes((block.rows, block.columns))?;
+            let vertical = sizes.units[2].take().unwrap_or_default();
             let is_of_heights = vertical.is_empty() || is_length(&vertical);
             Ok(Channel { number, title: block.heading.title(), is_of_heights })
         };
@@ -265,15 +274,16 @@ impl Text {
     }
 
     fn map_of(mut self, place: usize) -> Parsed<Topography> {
-        let Block { heading, mut rows, mut columns, values, .. } = self.blocks.swap_remove(place);
-        let mut sizes = heading.sizes((rows, columns))?;
+        let &Block { mut rows, mut columns, ref values, ref heading, .. } = &self.blocks[place];
+        let told = self.told_of(place);
+        let mut sizes = told.sizes((rows, columns))?;
         // one number a line
         if let [Some(nx), Some(ny)] = sizes.pixels
             && columns == 1
             && nx.checked_mul(ny) == Some(rows)
         {
             (rows, columns) = (ny, nx);
-            sizes = heading.sizes((rows, columns))?;
+            sizes = told.sizes((rows, columns))?;
         }
         let is_image = sizes.is_image();
         heading.check_words(is_image)?;
@@ -422,6 +432,7 @@ mod tests {
             ("1;2;3\n;;\n4;5;6\n", vec![(1, 0), (1, 1), (1, 2)]),
             ("1,2,3,\n4,5,,\n", vec![(1, 2)]),
             ("1,2,3\n4,5,6,\n", vec![]),
+            (",1,2,3,\n,4,,6,\n", vec![(1, 1)]),
         ] {
             assert_eq!(missing(text), places, "{text:?}");
             assert_eq!(read(text).unwrap().ncols(), 3, "{text:?}");
@@ -474,6 +485,9 @@ mod tests {
         // the only one of heights needs no name
         let map = read_map(titled("V"), "a.txt").unwrap();
         assert_eq!((map.heights[[0, 1]], &map.unread[..]), (1e-9, &["1 \"B\"".to_owned()][..]));
+        // what is told on top holds for all
+        let text = "# x-length: 1\n# y-length: 1\n# z-unit: nm\n1 2\n3 4\n\n5 6\n7 8\n";
+        assert_eq!(channel(text, "1").unwrap().heights, array![[7e-9, 5e-9], [8e-9, 6e-9]]);
         // as are those of one shape with comments between
         assert_refused(read("# Frame 1\n1 2\n3 4\n# Frame 2\n5 6\n7 8\n"), &["2 blocks", "2 x 2, 2 x 2"]);
         assert_eq!(read("1 2\n3 4\n# two more\n5 6\n# last\n7 8\n9 0\n1 2\n").unwrap().dim(), (6, 2));

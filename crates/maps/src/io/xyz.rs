@@ -182,7 +182,8 @@ mod tests {
         let plain = read_map(&points, "a.xyz").unwrap();
         assert_eq!((plain.heights.dim(), plain.lengths), ((4, 3), Some((4.0, 3.0))));
         let blocks = points.replace("3 0", "3 0 ").replace("\n0 1", "\n\n0 1").replace("\n0 2", "\n\n0 2");
-        for text in [points.clone(), blocks] {
+        let separated = points.replace(' ', ",").replace('\n', ",\n");
+        for text in [points.clone(), blocks, separated] {
             assert_eq!(read_map(text, "a.txt").unwrap(), plain);
         }
         for heading in
