@@ -1,10 +1,10 @@
 //! Reading height maps and gaps, and writing results.
 //!
 //! [`read_topography`] takes what measuring instruments, Gwyddion and numpy write: `.npy`, `.npz`, `.gwy`, `.gsf`,
-//! `.xyz` and text matrices, with side lengths and units where they are known; [`read_field`] takes the numbers alone,
-//! a [`Reading`] chooses among [`channels`] and reads what is in memory, and [`read_fourier`] takes Fourier coefficients. [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file,
-//! for numpy and for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are
-//! complete.
+//! `.xyz` and texts, with side lengths and units where they are known; [`read_field`] takes the numbers alone, a
+//! [`Reading`] one of several [`channels()`], or what is in memory, and [`read_fourier`] Fourier coefficients.
+//! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy and
+//! for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
 
 mod channels;
 mod foreign;
