@@ -182,9 +182,9 @@ impl Heading {
     }
 
     /// The first value that is none of numbers.
-    pub fn title(&self) -> String {
+    pub fn title(&self) -> Option<String> {
         let first = self.pairs.first().filter(|pair| quantity(&pair.value).is_none());
-        first.map(|pair| pair.value.clone()).unwrap_or_default()
+        first.map(|pair| pair.value.clone()).filter(|title| !title.is_empty())
     }
 
     /// The sizes and units that it tells of a block of numbers.

@@ -10,7 +10,7 @@ use super::heading::{Heading, Sizes};
 use super::lines::{Line, Row, for_each_line};
 use super::units::{in_one_unit, is_length};
 use super::xyz::{is_grid, map_of_points};
-use super::{Parsed, Reading, quoted, refuse, reserve};
+use super::{Parsed, Reading, Refusal, quoted, refuse, reserve};
 use crate::Topography;
 
 /// What is expected where a word is no number.
@@ -236,7 +236,8 @@ impl Text {
             let mut sizes = self.told_of(number).sizes((block.rows, block.columns))?;
             let vertical = sizes.units[2].take().unwrap_or_default();
             let is_of_heights = vertical.is_empty() || is_length(&vertical);
-            Ok(Channel { number, title: block.heading.title(), is_of_heights })
+            let shape = || format!("{} x {} numbers", block.rows, block.columns);
+            Ok(Channel { number, title: block.heading.title().unwrap_or_else(shape), is_of_heights })
         };
         self.blocks.iter().enumerate().map(channel).collect()
     }
@@ -252,21 +253,11 @@ impl Text {
             return self.points();
         }
         let channels = self.channels()?;
-        let asked = reading.channel.as_deref();
-        let place = chosen(&channels, asked).map_err(|refusal| match asked {
-            None if channels.iter().all(|channel| channel.title.is_empty()) => {
-                let block = |block: &Block| format!("{} x {}", block.rows, block.columns);
-                let shapes: Vec<_> = self.blocks.iter().take(4).map(block).collect();
-                let more = if shapes.len() < self.blocks.len() { ", ..." } else { "" };
-                format!(
-                    "holds {} blocks of numbers ({}{more}) with blank lines or comments between: choose one, by asperity \
-                     prepare --channel NUMBER from 0 on, or take the lines between out if they are one map",
-                    self.blocks.len(),
-                    shapes.join(", ")
-                )
-                .into()
+        let place = chosen(&channels, reading.channel.as_deref()).map_err(|refusal| match refusal {
+            Refusal::Reason(why) if reading.channel.is_none() => {
+                format!("{why}, or take out the lines between if they are one map").into()
             }
-            _ => refusal,
+            refusal => refusal,
         })?;
         let mut map = self.map_of(place)?;
         map.unread.extend(others(&channels, place));
@@ -466,13 +457,13 @@ mod tests {
     #[test]
     fn blocks_of_numbers_are_channels() {
         let blocks = "1 2\n3 4\n\n5 6\n7 8\n";
-        assert_refused(read(blocks), &["2 blocks", "2 x 2, 2 x 2", "--channel NUMBER"]);
-        assert_refused(read("1 2\n3 4\n\n5 6\n"), &["2 blocks", "2 x 2, 1 x 2"]);
+        assert_refused(read(blocks), &["2 channels (0 \"2 x 2 numbers\", 1 \"2 x 2 numbers\")", "--channel NUMBER"]);
+        assert_refused(read("1 2\n3 4\n\n5 6\n"), &["2 channels (0 \"2 x 2 numbers\", 1 \"1 x 2 numbers\")"]);
         let channel = |text: &str, channel: &str| {
             Reading { channel: Some(channel.into()), ..Reading::default() }.read_bytes("a.txt", text.as_bytes())
         };
         assert_eq!(channel(blocks, "1").unwrap().heights, array![[5.0, 6.0], [7.0, 8.0]]);
-        assert_refused(channel(blocks, "2"), &["2 channels (0, 1)", "none of which"]);
+        assert_refused(channel(blocks, "2"), &["2 channels (0 \"2 x 2 numbers\"", "none of which"]);
         let titled = |unit: &str| {
             format!(
                 "# Channel: A\n# Width: 1 um\n# Height: 1 um\n# Value units: nm\n1 2\n3 4\n\
@@ -489,7 +480,7 @@ mod tests {
         let text = "# x-length: 1\n# y-length: 1\n# z-unit: nm\n1 2\n3 4\n\n5 6\n7 8\n";
         assert_eq!(channel(text, "1").unwrap().heights, array![[7e-9, 5e-9], [8e-9, 6e-9]]);
         // as are those of one shape with comments between
-        assert_refused(read("# Frame 1\n1 2\n3 4\n# Frame 2\n5 6\n7 8\n"), &["2 blocks", "2 x 2, 2 x 2"]);
+        assert_refused(read("# Frame 1\n1 2\n3 4\n# Frame 2\n5 6\n7 8\n"), &["2 channels (0 \"2 x 2 numbers\""]);
         assert_eq!(read("1 2\n3 4\n# two more\n5 6\n# last\n7 8\n9 0\n1 2\n").unwrap().dim(), (6, 2));
         assert_eq!(read("# y = 1\n1 2\n# y = 2\n3 4\n# y = 3\n5 6\n").unwrap().dim(), (3, 2));
         // rows with blank lines between all are one map
