@@ -454,8 +454,8 @@ def viscoelastic(
 
     The relaxation modulus is E(t) = E₀ (1 − Σ gₖ (1 − exp(−t/τₖ))), with the same Poisson's ratio at all times. The first
     load comes at once, on a body at rest. Between two times the displacement is taken as linear in time, and the error of
-    that is of the second order in the step. With adhesion each solve begins from the gap of the one before. Parameters that
-    are not here are those of `solve`.
+    that is of the second order in the step. A long hold may be one step, but for its energies. With adhesion each solve
+    begins from the gap of the one before. Parameters that are not here are those of `solve`.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def test_a_sphere_creeps_as_lee_and_radok_say(tip, prony):
     # the grid has 5e-4 of the approach, and the steps of a quarter of the relaxation time 1e-3
     np.testing.assert_allclose(found.columns["approach"], hertz.approach, rtol=1.5e-3)
     area = found.columns["corrected_contact_fraction"]
-    np.testing.assert_allclose(area, np.pi * hertz.contact_radius**2, rtol=0.02)
+    np.testing.assert_allclose(area, np.pi * hertz.contact_radius**2, rtol=0.01)
 
 
 def retraction(times, turn, rate):
@@ -75,10 +75,10 @@ def retraction(times, turn, rate):
         # the contact of the way back is that of an earlier time
         same = time if time <= turn else time - np.interp(2 * passed(time - turn), passed(table), table)
         same = max(same, 0.0)
-        root = np.linspace(0.0, np.sqrt(same), 2001)
+        root = np.sqrt(same) * (np.arange(2000) + 0.5) / 2000
         relaxing = 1 - SHARE + SHARE * np.exp(-(time - root**2))
         # of s = root²: da³ = 3 (R rate)^(3/2) root² d root
-        forces.append(4 / (3 * RADIUS) * (RADIUS * rate) ** 1.5 * np.trapezoid(relaxing * 3 * root**2, root))
+        forces.append(4 / RADIUS * (RADIUS * rate) ** 1.5 * np.sqrt(same) * np.mean(relaxing * root**2))
         radii.append(np.sqrt(RADIUS * rate * same))
     return np.array(forces), np.array(radii)
 
@@ -89,14 +89,14 @@ def test_a_sphere_is_drawn_back_as_ting_says(tip):
     found = followed(tip, boundary="free", times=times, approaches=path).columns
     forces, radii = retraction(times, 2.0, rate)
     np.testing.assert_allclose(found["approach"], path, atol=1e-12)
-    # 1e-3 of the largest force is what a contact of few nodes and the steps are off
-    np.testing.assert_allclose(found["normal_force"], forces, atol=3e-3 * forces.max())
+    # grid and steps have 4e-4 of the largest force each, and 2e-3 of the area of a contact of six nodes or more
+    np.testing.assert_allclose(found["normal_force"], forces, atol=1e-3 * forces.max())
     large = radii > 0.1
-    np.testing.assert_allclose(found["corrected_contact_fraction"][large], np.pi * radii[large] ** 2, rtol=0.03)
-    # it comes apart before it is back, and all work is dissipated then
+    np.testing.assert_allclose(found["corrected_contact_fraction"][large], np.pi * radii[large] ** 2, rtol=5e-3)
+    # it comes apart before it is back, and what is stored in the free body then decays
     assert abs(found["normal_force"][-3:]).max() < 1e-9 * forces.max() and not found["contact_fraction"][-3:].any()
     assert found["stored"][-1] < 0.1 * found["work"].max()
-    assert abs(found["imbalance"]).max() < 5e-3 * found["work"].max()
+    assert abs(found["imbalance"]).max() < 2e-3 * found["work"].max()
 
 
 def wave(steps):
