@@ -18,7 +18,7 @@ from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
 from ._body import Coating, Layer, Symbol
-from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep
+from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
 from ._cycle import Cycle, Step
 from ._flow import Flow, Leakage
 from ._folder import load, report
@@ -39,6 +39,7 @@ from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Topography, from_topography, read
 from ._types import OwnLaw, Report
+from ._viscoelastic import Moment, Viscoelastic
 from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
@@ -64,6 +65,7 @@ __all__ = [
     "Law",
     "Layer",
     "Leakage",
+    "Moment",
     "OwnLaw",
     "Penalty",
     "Percolation",
@@ -80,6 +82,7 @@ __all__ = [
     "Topography",
     "Uzawa",
     "Varying",
+    "Viscoelastic",
     "__version__",
     "check_law",
     "contact",
@@ -99,5 +102,6 @@ __all__ = [
     "stability",
     "surface",
     "sweep",
+    "viscoelastic",
 ]
 __all__ += _laws.__all__

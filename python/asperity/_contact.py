@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import copy
+from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -30,6 +31,8 @@ from ._keywords import (
     StabilityKeywords,
     SweepAll,
     SweepKeywords,
+    ViscoelasticAll,
+    ViscoelasticKeywords,
     described,
     names,
 )
@@ -41,6 +44,7 @@ from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Heights, Topography, field_of, mirrored, refined, sides, taken
 from ._types import AxisOrder, Lengths
+from ._viscoelastic import ELASTIC, Viscoelastic
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 from ._words import check
 
@@ -438,6 +442,68 @@ def pull_off(
     return contact.pull_off(**call)
 
 
+@described(ViscoelasticAll, without=ELASTIC)
+def viscoelastic(
+    heights: Heights,
+    lengths: Lengths | None = None,
+    *,
+    axes: AxisOrder | None = None,
+    **keywords: Unpack[ViscoelasticAll],
+) -> Viscoelastic:
+    """Follows the contact of a linear viscoelastic body over time, under loads or approaches at given times.
+
+    The relaxation modulus is E(t) = E₀ (1 − Σ gₖ (1 − exp(−t/τₖ))), with the same Poisson's ratio at all times. The first
+    load comes at once, on a body at rest. Between two times the displacement is taken as linear in time, and the error of
+    that is of the second order in the step. A long hold may be one step, but for its energies. With adhesion each solve
+    begins from the gap of the one before. Parameters that are not here are those of `solve`.
+
+    Parameters
+    ----------
+    heights, lengths, axes
+        Heights of the rigid surface, with x along the first axis, or the second if ``axes`` is "yx", as those of `solve`.
+    modulus : float
+        Instantaneous contact modulus E₀, a pressure: that of a step at once. The relaxed one is E₀ (1 − Σ gₖ).
+    body : Layer, optional
+        Body that deforms, a half-space by default; work and energies are without the mean compression of a layer.
+    law : Law, an object of your own, or str, optional
+        Adhesion law, as that of `solve`, with a range. One whose traction jumps, as `MaugisDugdale`, holds edges on the
+        nodes.
+    prony : sequence of (float, float)
+        Shares gₖ of the instantaneous modulus that relax, and their relaxation times τₖ. Shares add up to 1 at most.
+    times : sequence of float
+        Times of the loads, in the unit of the relaxation times. The same time twice is a step at once.
+    mean_pressures : sequence of float
+        Mean external pressures at the times.
+    mean_gaps : sequence of float
+        Mean gaps at the times.
+    normal_forces : sequence of float
+        Normal forces at the times.
+    approaches : sequence of float
+        Approaches at the times, with a free boundary.
+
+    Returns
+    -------
+    Viscoelastic
+        An iterator over `Moment`; ``columns`` has the numbers of all. It ends where the bodies have come apart under a
+        force, with the ``status`` "detached".
+
+    Examples
+    --------
+    A sphere under a force that is held: its contact radius grows as the cube root of the creep compliance.
+
+    >>> import numpy as np, asperity
+    >>> tip = asperity.surface.paraboloid(64, 1.0, radius=2.0)
+    >>> held = {"times": np.linspace(0, 4, 9), "normal_forces": [0.003] * 9}
+    >>> found = asperity.viscoelastic(tip, modulus=1.0, prony=[(0.5, 1.0)], boundary="free", **held)
+    >>> creep = 2 - np.exp(-found.columns["time"] / 2)
+    >>> hertz = asperity.exact.Hertz(radius=2.0, modulus=1.0).at_load(0.003 * creep).approach
+    >>> bool(np.allclose(found.columns["approach"], hertz, rtol=2e-3))
+    True
+    """
+    contact, call = _posed(viscoelastic, heights, lengths, axes, keywords)
+    return contact.viscoelastic(**call)
+
+
 @described(StabilityKeywords)
 def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stability:
     """Finds out whether a solution is stable: under its own load, or under another one that would hold it.
@@ -489,7 +555,7 @@ class Contact:
     """A contact problem: heights, bodies, adhesion and solver, which is solved under loads.
 
     It holds the problem, so that a further solve does not read and copy the heights again. `solve`, `sweep`, `cycle`,
-    `interface` and `pull_off` are short for a contact and one call of it, with the same results.
+    `interface`, `pull_off` and `viscoelastic` are short for a contact and one call of it, with the same results.
 
     Parameters
     ----------
@@ -554,7 +620,7 @@ class Contact:
             raise TypeError("hardness is an array of truth values: it must be one of pressures")
         if lengths is not None:
             keys["lengths"] = lengths
-        self._given = _asperity.Keywords(keys, law, is_si)
+        self._keys, self._given = keys, _asperity.Keywords(keys, law, is_si)
         si = self._given.is_si
         #: the unit of pressures
         self.pressure_unit = "Pa" if si else None
@@ -644,6 +710,14 @@ class Contact:
         pressure, force = entries.pop("pull_off_pressure"), entries.pop("pull_off_force")
         return PullOff(pressure, force, **entries, solution=solution)
 
+    @described(ViscoelasticKeywords)
+    def viscoelastic(self, **keywords: Unpack[ViscoelasticKeywords]) -> Viscoelastic:
+        """Follows a viscoelastic body over time, as `asperity.viscoelastic`."""
+        check("viscoelastic", keywords, names(ViscoelasticKeywords))
+        start, observe, keys = self._split(keywords)
+        self._has_one_branch()
+        return Viscoelastic(self, keys, start, observe)
+
     @described(StabilityKeywords)
     def stability(self, solution: Solution, **load: Unpack[StabilityKeywords]) -> Stability:
         """Finds out whether a solution is stable, as `asperity.stability`."""
@@ -704,6 +778,19 @@ class Contact:
         gap = field_of(start.whole_gap if isinstance(start, Solution) else start, "start gaps")
         return mirrored(gap, self.topography.heights.shape) if gap.shape == self.topography.original else gap
 
+    def _relaxed(
+        self, heights: NDArray[np.float64], share: float, load: dict[str, Any], start: Start, observe: Any
+    ) -> Solution:
+        """The solution of other heights and a share of the modulus; a solution to start from chooses the branch."""
+        (modulus,) = self._given.numbers("modulus") or [0.0]
+        keys = {**self._keys, "modulus": f"{share * modulus!r}Pa" if self._given.is_si else share * modulus}
+        if isinstance(start, Solution):
+            keys.pop("branch", None)
+        contact, given = copy.copy(self), _asperity.Keywords(keys, self.own_law)
+        contact.topography = replace(self.topography, heights=heights)
+        problem = _asperity.Problem({**self._map, "heights": heights}, given, symbol(self.body), False)
+        return contact._solution(problem.solve(load, self._start(start), observe))
+
     def _solution(self, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""
         told, topography = found["told"], self.topography
@@ -727,6 +814,6 @@ class Contact:
 
 
 # by these names they are found in other processes
-for _function in (solve, sweep, cycle, interface, pull_off, stability):
+for _function in (solve, sweep, cycle, interface, pull_off, viscoelastic, stability):
     _function.__module__ = "asperity"
 Contact.__module__ = "asperity"

@@ -92,6 +92,17 @@ class OfPullOffKeywords(PullOffKeywords, StartKeywords, total=False):
     """Those of a pull-off."""
 
 
+class ViscoelasticKeywords(StartKeywords, total=False):
+    """Those of a viscoelastic body."""
+
+    prony: Iterable[tuple[float, float]]
+    times: Iterable[float]
+    mean_pressures: Iterable[Quantity] | None
+    mean_gaps: Iterable[Quantity] | None
+    normal_forces: Iterable[Quantity] | None
+    approaches: Iterable[Quantity] | None
+
+
 class StabilityKeywords(LoadKeywords, total=False):
     """Those of a stability."""
 
@@ -118,12 +129,16 @@ class PullOffAll(ContactKeywords, OfPullOffKeywords, total=False):
     """Those of a contact and its pull-off."""
 
 
+class ViscoelasticAll(ContactKeywords, ViscoelasticKeywords, total=False):
+    """Those of a contact and its viscoelastic body."""
+
+
 #: The defaults and meanings of the keys, of one that several lists have those of the first.
 _MEANINGS = {name: known for keys in reversed(_keys.KEYS.values()) for name, known in keys.items()}
 
 #: The defaults of the keywords that Python alone has, which docstrings explain.
 _OTHERS: dict[str, tuple[object, str]] = {
-    **dict.fromkeys(("body", "against", "spring", "springs", "start", "observe", "out", "fields"), (None, "")),
+    **dict.fromkeys(("body", "against", "spring", "springs", "start", "observe", "out", "fields", "prony", "times"), (None, "")),
     "smooth": (True, ""),
     "force": (False, ""),
 }

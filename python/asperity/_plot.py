@@ -198,6 +198,17 @@ def sweep(columns: dict[str, NDArray[Any]], ax: Axes | None, pressure_unit: str 
     return ax
 
 
+def over_time(columns: dict[str, NDArray[Any]], name: str, ax: Axes | None, unit: str | None) -> Axes:
+    """A column over the time."""
+    if ax is None:
+        _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
+    factor, unit = _scaled(columns[name], unit)
+    ax.plot(columns["time"], factor * columns[name], "o-", markersize=3.5)
+    ax.set_xlabel("time")
+    ax.set_ylabel(_label(name.replace("_", " "), unit))
+    return ax
+
+
 def cycle(
     columns: dict[str, NDArray[Any]],
     ax: Axes | None,

@@ -50,6 +50,23 @@ def a_rough_sphere(found):
     assert [f"{found:.2f}" for found in share] == ["0.21", "0.68", "0.93"]
 
 
+def rubber_that_creeps(found):
+    area, creep = found["area"], found["creep"]
+    assert [f"{100 * share:.1f}" for share in (*area, found["relaxed"])] == ["22.9", "41.1", "75.4", "76.0"]
+    assert (creep["status"] == "converged").all() and (np.diff(creep["contact_fraction"]) >= 0).all()
+    # steps that are half as long change the area by less than is given
+    times = np.sort(np.append(creep["time"], (creep["time"][1:] + creep["time"][:-1]) / 2))
+    pressures = np.full(times.size, 50e3)
+    fine = asperity.viscoelastic(found["rough"], **found["rubber"], times=times, mean_pressures=pressures).columns
+    assert np.interp([0.0, 1.0, 100.0], times, fine["contact_fraction"]) == pytest.approx(area, abs=2e-3)
+
+
+def a_soft_tip_that_is_drawn_off(found):
+    force, exact = found["force"], 1.5 * np.pi * found["work"] * found["radius"]
+    assert [f"{1e6 * one:.1f}" for one in (*force, exact)] == ["5.2", "9.0", "10.5", "4.7"]
+    assert (found["drawn"]["status"] == "converged").all() and found["drawn"]["contact_fraction"][-1] == 0
+
+
 def two_hundred_surfaces(found):
     area = found["area"]
     assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
