@@ -1,5 +1,8 @@
 """Exact solutions at many loads at once."""
 
+import pickle
+import re
+
 import numpy as np
 import pytest
 
@@ -47,3 +50,41 @@ def test_what_a_solution_does_not_have_is_refused():
         exact.Hertz(0.0, 1.0)
     with pytest.raises((TypeError, ValueError)):
         exact.Hertz(1.0, 1.0).at_load("much")
+
+
+def test_numbers_have_units_or_none():
+    tip, bare = exact.Jkr("20nm", "2GPa", "50mJ/m2"), exact.Jkr(20e-9, 2e9, 0.05)
+    assert tip == bare and (tip.radius, tip.modulus) == (20e-9, 2e9)
+    found, same = tip.at_load(["-1nN", "5nN"]), bare.at_load([-1e-9, 5e-9])
+    assert np.array_equal(found.contact_radius, same.contact_radius)
+    # numbers beside units are in the SI
+    assert np.array_equal(tip.at_load([-1e-9, 5e-9]).approach, same.approach)
+    assert np.array_equal(found.pressure(["0nm", "1nm"]), same.pressure([0.0, 1e-9]))
+    wave = exact.WavyLine(amplitude="10nm", wavelength="1um", modulus="1GPa")
+    assert wave.at_half_width("250nm").mean_pressure == pytest.approx(0.5 * wave.closing_pressure, rel=1e-12)
+    assert exact.closing_pressure_2d("10nm", "1um", "1GPa") == pytest.approx(np.sqrt(2) * wave.closing_pressure)
+    copied = pickle.loads(pickle.dumps(tip))
+    assert copied == tip and repr(copied) == repr(tip)
+
+
+@pytest.mark.parametrize(
+    ("message", "wrong"),
+    [
+        ("modulus is 2000000000.0, without a unit, but radius 20nm has", lambda: exact.Hertz("20nm", 2e9)),
+        ("radius is 20Pa: Pa is a unit of something else", lambda: exact.Hertz("20Pa", "2GPa")),
+        ("load is 1nm: nm is a unit of something else", lambda: exact.Hertz("20nm", "2GPa").at_load("1nm")),
+        ("load is 2.0: give a number, or a text", lambda: exact.Hertz("20nm", "2GPa").at_load(["1nN", 2.0])),
+        ("load is 1nN, with a unit, but Hertz(radius=2, modulus=1) has", lambda: exact.Hertz(2.0, 1.0).at_load("1nN")),
+    ],
+)
+def test_what_a_formula_refuses(message, wrong):
+    with pytest.raises(ValueError, match=re.escape(message)):
+        wrong()
+
+
+def test_solutions_and_states_say_what_they_are():
+    tip = exact.Hertz("20nm", modulus="70GPa")
+    assert repr(tip).startswith("Hertz(radius='20nm', modulus='70GPa')\n  sphere without adhesion: P = ")
+    assert repr(tip).endswith("Hertz (1881)")
+    assert "contact_radius=" in repr(tip.at_load("1nN"))
+    assert repr(tip.at_load(np.ones((3, 4)))) == "Contact(3, 4) of Hertz(radius='20nm', modulus='70GPa')"
