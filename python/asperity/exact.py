@@ -1,7 +1,8 @@
-"""Exact solutions, at many loads at once, to compare solves with.
+"""Exact solutions and theories, at many loads at once, to compare solves with.
 
 A solution gives states at given loads, contact radii, approaches or mean gaps, of any shape; a state gives its numbers
-in that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``.
+in that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``. A theory of
+rough surfaces gives numbers over the mean pressure; it is an approximation.
 
 Parameters are numbers in any consistent units, or texts with units. With units all results are in the SI, and loads and
 places are texts, or numbers in the SI.
@@ -30,15 +31,18 @@ from numpy.typing import ArrayLike
 
 from . import _asperity
 from ._formula import Formula
+from ._theory import GreenwoodWilliamson, Persson
 from ._types import Quantity
 from ._words import checked
 
 __all__ = [
     "AdhesiveWavyLine",
     "Contact",
+    "GreenwoodWilliamson",
     "Hertz",
     "Jkr",
     "MaugisDugdale",
+    "Persson",
     "WaveContact",
     "WavyLine",
     "closing_pressure_2d",
