@@ -1,7 +1,9 @@
 """Exact solutions at many loads at once."""
 
+import pathlib
 import pickle
 import re
+import runpy
 import statistics
 
 import numpy as np
@@ -153,3 +155,12 @@ def test_the_area_of_greenwood_and_williamson_is_that_of_spheres_by_hertz(isotro
         area = theory.asperity_density * np.pi * (contacts.contact_radius**2).sum() / heights.size
         assert theory.contact_fraction(pressure) == pytest.approx(area, rel=1e-3)
     assert theory.contact_fraction(0.0) == 0.0 and np.isnan(theory.contact_fraction(1e3))
+
+
+def test_rigid_bodies_of_eight_shapes():
+    shapes = runpy.run_path(str(pathlib.Path(__file__).resolve().parents[1] / "benches" / "shapes.py"))
+    assert len(shapes["BODIES"]) == 8
+    for body, _, found, exact_number, _ in shapes["BODIES"]:
+        coarse, fine = (found(*shapes["centres"](nodes)) for nodes in (128, 256))
+        # what is left is the outline of curved punches in nodes, of 1e-3
+        assert 2 * fine - coarse == pytest.approx(exact_number, rel=2e-3), body
