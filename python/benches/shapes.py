@@ -1,20 +1,25 @@
 #!/usr/bin/env python3
-"""Forces of rigid bodies of eight shapes on a half-space beside exact ones; prints a Markdown table in seconds.
+"""Forces of rigid bodies of simple shapes beside exact ones; prints a Markdown table in seconds.
 
     python python/benches/shapes.py [NODES]
 
 Each body is solved on NODES² nodes of a free half-space, 1024 by default, and on half as many a side. The error is mostly
 of first order in the spacing, so that twice the finer value less the coarser one is closer. Flat punches have the area of
-their nodes. K is the stiffness F/δ, and M the moment of the pressure.
+their nodes. K is the stiffness F/δ, and M the moment of the pressure. Layers are ten nodes thick, in a periodic cell; the
+exact number is that of the limit of no thickness, and they are half as thick on the finer grid.
 """
 
 import sys
+import warnings
 
 import numpy as np
 
 import asperity
 
 SIDE, DEPTH = 2.0, 0.02
+
+# the punch on a layer stands among its images, which do not matter at some thicknesses away
+warnings.filterwarnings("ignore", "ends", asperity.InputWarning)
 
 
 def elliptic(e2):
@@ -72,6 +77,27 @@ def ellipsoid(x, y):
     return pressed(-along * x**2 - across * y**2).normal_force / (a * DEPTH)
 
 
+def layer(base, poisson, exact):
+    """Kt/(E*A) of a circular punch on a thin layer."""
+
+    def found(x, y):
+        inside, thickness = np.hypot(x, y) < 0.8, 10 * SIDE / len(x)
+        solution = asperity.solve(
+            np.where(inside, 0.0, np.nan),
+            SIDE,
+            modulus=1.0,
+            mean_pressure=1e-3,
+            absent_missing=True,
+            body=asperity.Layer(thickness, poisson, base),
+            stiffness=True,
+        )
+        # the approach of the stiffness is without the compression of the layer as a whole, which is added
+        share = np.mean(inside)
+        return 1 / (share * SIDE**2 / (solution.normal_stiffness * thickness) + share / exact)
+
+    return f"flat punch, layer {base} at ν = {poisson}", "Kt/(E\\*A)", found, exact, "springs, Johnson (1985)"
+
+
 BODIES = [
     ("flat punch, circle", "K/(E\\*√A)", punch(lambda x, y: np.hypot(x, y) < 0.8), 2 / np.sqrt(np.pi), "Boussinesq (1885)"),
     ("flat punch, ellipse 2:1", "K/(E\\*√A)", *ellipse(2), "capacity of an ellipse"),
@@ -87,6 +113,8 @@ BODIES = [
     ("cone", "F tan β/(E\\*δ²)", cone, 2 / np.pi, "Love (1939)"),
     ("paraboloid", "F/(E\\*√(Rδ³))", sphere, 4 / 3, "Hertz (1881)"),
     ("paraboloid, ellipse 2:1", "F/(E\\*aδ)", ellipsoid, 2 * np.pi / (3 * elliptic(0.75)[0]), "Hertz (1881)"),
+    layer("sliding", 0.3, 1.0),
+    layer("bonded", 0.3, 0.7**2 / 0.4),
 ]
 
 
