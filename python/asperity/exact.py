@@ -33,7 +33,7 @@ from . import _asperity
 from ._formula import Formula
 from ._theory import GreenwoodWilliamson, Persson
 from ._types import Quantity
-from ._words import checked
+from ._units import Quantities
 
 __all__ = [
     "AdhesiveWavyLine",
@@ -47,9 +47,6 @@ __all__ = [
     "WavyLine",
     "closing_pressure_2d",
 ]
-
-closing_pressure_2d = checked(_asperity.closing_pressure_2d, __name__)
-
 
 class _States:
     """States of a solution, with their numbers as properties."""
@@ -372,3 +369,28 @@ class AdhesiveWavyLine(_Wave):
     def jump_to_full_contact(self) -> WaveContact:
         """Partial contact of largest mean pressure, from which it jumps to full contact."""
         return WaveContact(self, self._of.jump_to_full_contact())
+
+
+def closing_pressure_2d(amplitude: ArrayLike, wavelength: Quantity, modulus: Quantity) -> Any:
+    """The mean pressure √2πE*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion.
+
+    Parameters
+    ----------
+    amplitude : float or array_like
+        Amplitudes h₀, lengths.
+    wavelength : float
+        Wavelength λ, a length.
+    modulus : float
+        Contact modulus E*, a pressure.
+
+    Examples
+    --------
+    >>> from asperity import exact
+    >>> f"{exact.closing_pressure_2d('10nm', '1um', '1GPa'):.4g} Pa"
+    '4.443e+07 Pa'
+    """
+    quantities = Quantities()
+    given = {"amplitude": amplitude, "wavelength": wavelength, "modulus": modulus}
+    numbers = [quantities.read(name, value) for name, value in given.items()]
+    quantities.are_si()
+    return _asperity.closing_pressure_2d(*numbers)
