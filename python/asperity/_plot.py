@@ -183,18 +183,39 @@ def profiles(
     return figure  # type: ignore[no-any-return]
 
 
-def sweep(columns: dict[str, NDArray[Any]], ax: Axes | None, pressure_unit: str | None) -> Axes:
-    """Contact fraction over mean pressure."""
+def sweep(
+    columns: dict[str, NDArray[Any]],
+    name: str,
+    theories: tuple[Any, ...],
+    ax: Axes | None,
+    length_unit: str | None,
+    pressure_unit: str | None,
+) -> Axes:
+    """Contact fraction or mean gap over mean pressure, beside theories that have it."""
     if ax is None:
         _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
-    factor, unit = _scaled(columns["mean_pressure"], pressure_unit)
-    ax.plot(factor * columns["mean_pressure"], columns["contact_fraction"], "o-", markersize=3.5)
-    if _is_wide(columns["mean_pressure"]) and _is_geometric(columns["mean_pressure"]):
+    pressure, found = columns["mean_pressure"], columns[name]
+    across, unit = _scaled(pressure, pressure_unit)
+    up, up_unit = (1.0, "") if name == "contact_fraction" else _scaled(found, length_unit)
+    shown = [("solves", "o" if theories else "o-", "C0", found)]
+    if theories and name == "contact_fraction":
+        corrected = columns["corrected_contact_fraction"]
+        shown = [("corrected area", "o", "C0", corrected), ("nodes in contact", "x", "0.6", found)]
+    for label, marks, color, values in shown:
+        ax.plot(across * pressure, up * values, marks, color=color, markersize=3.5, label=label)
+    is_log = _is_wide(pressure) and _is_geometric(pressure)
+    between = (np.geomspace if is_log else np.linspace)(max(pressure.min(), 1e-3 * pressure.max()), pressure.max(), 200)
+    for theory, line in zip(theories, ("k-", "k--")):
+        if hasattr(theory, name):
+            ax.plot(across * between, up * getattr(theory, name)(between), line, linewidth=1, label=theory.title)
+    if is_log:
         ax.set_xscale("log")
-        if _is_wide(columns["contact_fraction"]):
+        if _is_wide(found):
             ax.set_yscale("log")
+    if theories:
+        ax.legend(frameon=False, fontsize="small")
     ax.set_xlabel(_label("mean pressure", unit))
-    ax.set_ylabel("contact fraction")
+    ax.set_ylabel(_label(name.replace("_", " "), up_unit))
     return ax
 
 

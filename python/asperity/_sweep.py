@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from . import _plot
+from . import _plot, _theory
 from ._columns import Rows
 from ._solution import Solution
 
@@ -29,18 +29,38 @@ class Sweep(Rows[Solution]):
     def __repr__(self) -> str:
         return f"Sweep({len(self.rows)} of {len(self)} loads solved)"
 
-    def plot(self, ax: Axes | None = None, *, pressure_unit: str | None = None) -> Axes:
-        """Draws the contact fraction over the mean pressure; needs matplotlib, and solves what is left.
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        of: Literal["area", "gap"] = "area",
+        theory: bool = False,
+        length_unit: str | None = None,
+        pressure_unit: str | None = None,
+    ) -> Axes:
+        """Draws the contact fraction or the mean gap over the mean pressure; needs matplotlib, and solves what is left.
 
         Parameters
         ----------
         ax : matplotlib Axes, optional
             Axes to draw on; new ones by default.
-        pressure_unit : str, optional
-            Unit for the axis.
+        of : {"area", "gap"}
+            Whether to draw the contact fraction, or the mean gap.
+        theory : bool
+            Draws theories of the surface beside the numbers: `asperity.exact.Persson`, and
+            `asperity.exact.GreenwoodWilliamson` for the area. The area has then also the points of the
+            ``corrected_contact_fraction``, which compares with theories better than that of the nodes. Without adhesion,
+            on a half-space, with a periodic boundary.
+        length_unit, pressure_unit : str, optional
+            Units for the axes.
 
         Returns
         -------
         matplotlib Axes
         """
-        return _plot.sweep(self.columns, ax, pressure_unit or self._contact.pressure_unit)
+        name = {"area": "contact_fraction", "gap": "mean_gap"}.get(of)
+        if name is None:
+            raise ValueError(f"of is {of!r}: it must be 'area' or 'gap'")
+        theories = _theory.beside(self._contact) if theory else ()
+        units = (length_unit or self._contact.topography.unit, pressure_unit or self._contact.pressure_unit)
+        return _plot.sweep(self.columns, name, theories, ax, *units)

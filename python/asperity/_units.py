@@ -13,6 +13,9 @@ from . import _asperity
 #: Whether the numbers of the call that runs have units, and are in the SI.
 given: ContextVar[bool] = ContextVar("given", default=False)
 
+#: Numbers of formulas alone, by names of the same dimension that the compiled core knows.
+_LIKE = {"load": "normal_force", "half_width": "distance", "wavelength": "distance", "rms_curvature": "gap_density"}
+
 
 class Quantities:
     """The quantities of a call: numbers of its keywords, which all have units, or none has."""
@@ -23,11 +26,11 @@ class Quantities:
 
     def read(self, key: str, value: Any) -> Any:
         """The value of a keyword with numbers in the SI in the place of its texts with units."""
-        if value is None or isinstance(value, bytes) or not _asperity.has_dimension(key):
+        if value is None or isinstance(value, bytes) or not _asperity.has_dimension(_LIKE.get(key, key)):
             return value
         if isinstance(value, str):
             self._texts.setdefault(key, []).append(str(value))
-            return _asperity.quantity(key, value)
+            return in_si(key, value)
         items = _items(value)
         if items is not None:
             return [self.read(key, item) for item in items]
@@ -44,6 +47,15 @@ class Quantities:
                 f"{key} is {value!r}, without a unit, but {other} {' '.join(texts)} has one: give both units, or neither"
             )
         return bool(self._texts)
+
+
+def in_si(key: str, text: str) -> float:
+    """The number in the SI of a text with a unit."""
+    like = _LIKE.get(key, key)
+    try:
+        return _asperity.quantity(like, text)
+    except ValueError as refused:
+        raise ValueError(str(refused).replace(like, key, 1)) from None
 
 
 def _items(value: Any) -> Sequence[Any] | None:

@@ -1,35 +1,396 @@
-"""Exact solutions, at many loads at once, to compare solves with.
+"""Exact solutions and theories, at many loads at once, to compare solves with.
 
 A solution gives states at given loads, contact radii, approaches or mean gaps, of any shape; a state gives its numbers
-in that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``.
+in that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``. A theory of
+rough surfaces gives numbers over the mean pressure; it is an approximation.
+
+Parameters are numbers in any consistent units, or texts with units. With units all results are in the SI, and loads and
+places are texts, or numbers in the SI.
 
 >>> import numpy as np
 >>> from asperity import exact
 >>> spheres = exact.Jkr(radius=2.0, modulus=1.0, work_of_adhesion=1e-5).at_load([0.0, 1e-4])
 >>> spheres.contact_radius.shape, spheres.pressure(np.linspace(0, 0.01, 5)).shape
 ((2,), (2, 5))
+>>> tip = exact.Hertz(radius="20nm", modulus="70GPa")
+>>> tip
+Hertz(radius='20nm', modulus='70GPa')
+  sphere without adhesion: P = 4E*a³/(3R), δ = a²/R; Hertz (1881)
+>>> tip.at_load("10nN")
+Contact(contact_radius=1.28923e-09, load=1e-08, approach=8.3106e-11) of Hertz(radius='20nm', modulus='70GPa')
 """
 
 from __future__ import annotations
 
-from ._asperity import (
-    AdhesiveWavyLine,
-    Contact,
-    Hertz,
-    Jkr,
-    MaugisDugdale,
-    WaveContact,
-    WavyLine,
-    closing_pressure_2d,
-)
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _asperity
+from ._formula import Formula
+from ._theory import GreenwoodWilliamson, Persson
+from ._types import Quantity
+from ._units import Quantities
 
 __all__ = [
     "AdhesiveWavyLine",
     "Contact",
+    "GreenwoodWilliamson",
     "Hertz",
     "Jkr",
     "MaugisDugdale",
+    "Persson",
     "WaveContact",
     "WavyLine",
     "closing_pressure_2d",
 ]
+
+class _States:
+    """States of a solution, with their numbers as properties."""
+
+    #: The numbers by which a state is told.
+    _told: ClassVar[tuple[str, ...]]
+
+    def __init_subclass__(cls) -> None:
+        for name in cls.__annotations__:
+            setattr(cls, name, property(attrgetter(f"_found.{name}")))
+
+    def __init__(self, solution: Formula, found: Any) -> None:
+        self._solution, self._found = solution, found
+
+    def __repr__(self) -> str:
+        values = {name: getattr(self, name) for name in self._told}
+        shape = np.shape(values[self._told[0]])
+        told = f"{shape}" if shape else f"({', '.join(f'{name}={value:.6g}' for name, value in values.items())})"
+        return f"{type(self).__name__}{told} of {self._solution._called()}"
+
+    def _field(self, name: str, places: ArrayLike) -> Any:
+        return getattr(self._found, name)(self._solution._read("distance", places))
+
+
+class Contact(_States):
+    """Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found at.
+
+    Attributes
+    ----------
+    contact_radius, adhesion_radius : float or ndarray
+        Radii up to which the surfaces touch, and attract each other.
+    load : float or ndarray
+        Load P, compression positive.
+    approach : float or ndarray
+        Approach δ of the half-space at infinity.
+    radius_of_curvature, second_moment : float or ndarray
+        Radius R, and the integral of r²p.
+
+    Notes
+    -----
+    Fields are at the distances r ≥ 0 from the axis: the shape of the contacts, then that of r.
+    """
+
+    contact_radius: Any
+    adhesion_radius: Any
+    load: Any
+    approach: Any
+    radius_of_curvature: Any
+    second_moment: Any
+
+    _told = ("contact_radius", "load", "approach")
+
+    def pressure(self, r: ArrayLike) -> Any:
+        """Pressure p, compression positive."""
+        return self._field("pressure", r)
+
+    def gap(self, r: ArrayLike) -> Any:
+        """Gap g."""
+        return self._field("gap", r)
+
+    def displacement(self, r: ArrayLike) -> Any:
+        """Displacement u = h + g."""
+        return self._field("displacement", r)
+
+    def deflection(self, r: ArrayLike) -> Any:
+        """Deflection u + δ."""
+        return self._field("deflection", r)
+
+
+class WaveContact(_States):
+    """Contacts of a wave h₀ cos(2πx/λ) with a half-space; numbers have the shape of what they were found at.
+
+    Attributes
+    ----------
+    half_width : float or ndarray
+        Half-width a of the contact about each crest.
+    mean_pressure, mean_gap : float or ndarray
+        Mean pressure p̄ and mean gap.
+
+    Notes
+    -----
+    Fields are at the distances x from a crest: the shape of the contacts, then that of x.
+    """
+
+    half_width: Any
+    mean_pressure: Any
+    mean_gap: Any
+
+    _told = ("half_width", "mean_pressure", "mean_gap")
+
+    def pressure(self, x: ArrayLike) -> Any:
+        """Pressure p, compression positive."""
+        return self._field("pressure", x)
+
+    def gap(self, x: ArrayLike) -> Any:
+        """Gap g."""
+        return self._field("gap", x)
+
+    def displacement(self, x: ArrayLike) -> Any:
+        """Displacement u = h + g."""
+        return self._field("displacement", x)
+
+
+class _Solution(Formula):
+    """A solution that the compiled core has, by its class there."""
+
+    _core: ClassVar[Any]
+    _of: Any
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        object.__setattr__(self, "_of", self._core(*(getattr(self, name) for name in self._names())))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), tuple(self._texts.get(name, getattr(self, name)) for name in self._names())
+
+
+class _Sphere(_Solution):
+    def at_load(self, load: ArrayLike) -> Contact:
+        """Stable contacts at loads P, compression positive."""
+        return Contact(self, self._of.at_load(self._read("load", load)))
+
+    def at_approach(self, approach: ArrayLike) -> Contact:
+        """Stable contacts at approaches δ."""
+        return Contact(self, self._of.at_approach(self._read("approach", approach)))
+
+    def at_contact_radius(self, radius: ArrayLike) -> Contact:
+        """Contacts of radii a ≥ 0."""
+        return Contact(self, self._of.at_contact_radius(self._read("radius", radius)))
+
+    def pull_off(self) -> Contact:
+        """Contact of least load: the pull-off force is minus its load."""
+        return Contact(self, self._of.pull_off())
+
+
+@dataclass(frozen=True, repr=False)
+class Hertz(_Sphere):
+    """Hertz' contact of a sphere, without adhesion: P = 4E*a³/(3R), δ = a²/R.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature R, a length.
+    modulus : float
+        Contact modulus E*, a pressure.
+
+    Examples
+    --------
+    >>> from asperity import exact
+    >>> f"{exact.Hertz('20nm', '70GPa').at_contact_radius(['1nm', '2nm']).load[1]:.3g} N"
+    '3.73e-08 N'
+    """
+
+    radius: Quantity
+    modulus: Quantity
+
+    about = "sphere without adhesion: P = 4E*a³/(3R), δ = a²/R; Hertz (1881)"
+    _core = _asperity.Hertz
+
+
+@dataclass(frozen=True, repr=False)
+class Jkr(_Sphere):
+    """The contact of Johnson, Kendall and Roberts, with adhesion of no range.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature R, a length.
+    modulus : float
+        Contact modulus E*, a pressure.
+    work_of_adhesion : float
+        Work of adhesion w, an energy per area.
+
+    Examples
+    --------
+    >>> from asperity import exact
+    >>> f"{-exact.Jkr('20nm', '2GPa', '50mJ/m2').pull_off().load:.3g} N"
+    '4.71e-09 N'
+    """
+
+    radius: Quantity
+    modulus: Quantity
+    work_of_adhesion: Quantity
+
+    about = (
+        "sphere with adhesion of no range: P = 4E*a³/(3R) − √(8πwE*a³), δ = a²/R − √(2πwa/E*); "
+        "Johnson, Kendall and Roberts (1971)"
+    )
+    _core = _asperity.Jkr
+
+
+@dataclass(frozen=True, repr=False)
+class MaugisDugdale(_Sphere):
+    """Maugis' contact of a sphere, with a constant traction w/ρ up to a gap ρ.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature R, a length.
+    modulus : float
+        Contact modulus E*, a pressure.
+    work_of_adhesion : float
+        Work of adhesion w, an energy per area.
+    range : float
+        Range ρ, a length.
+
+    Examples
+    --------
+    >>> from asperity import exact
+    >>> f"{exact.MaugisDugdale('20nm', '2GPa', '50mJ/m2', '0.3nm').tabor_parameter:.2f}"
+    '0.77'
+    """
+
+    radius: Quantity
+    modulus: Quantity
+    work_of_adhesion: Quantity
+    range: Quantity
+
+    about = (
+        "sphere with the traction w/ρ up to the gap ρ, at the radius c: with cos θ = a/c "
+        "P = 4E*a³/(3R) − 2wc²/ρ (θ + ½ sin 2θ), δ = a²/R − 2w/(ρE*) √(c² − a²); Maugis (1992)"
+    )
+    _core = _asperity.MaugisDugdale
+
+    @property
+    def tabor_parameter(self) -> float:
+        """Tabor parameter: large for JKR, small for DMT."""
+        return float(self._of.tabor_parameter)
+
+
+class _Wave(_Solution):
+    @property
+    def closing_pressure(self) -> float:
+        """Mean pressure at which the contact closes without adhesion."""
+        return float(self._of.closing_pressure)
+
+    def at_half_width(self, half_width: ArrayLike) -> WaveContact:
+        """Contacts of half-widths a."""
+        return WaveContact(self, self._of.at_half_width(self._read("half_width", half_width)))
+
+    def at_mean_pressure(self, mean_pressure: ArrayLike) -> WaveContact:
+        """Contacts at mean pressures p̄: the stable ones."""
+        return WaveContact(self, self._of.at_mean_pressure(self._read("mean_pressure", mean_pressure)))
+
+    def at_mean_gap(self, mean_gap: ArrayLike) -> WaveContact:
+        """Contacts at mean gaps: the stable ones."""
+        return WaveContact(self, self._of.at_mean_gap(self._read("mean_gap", mean_gap)))
+
+
+@dataclass(frozen=True, repr=False)
+class WavyLine(_Wave):
+    """Westergaard's contact of a wave on a line, without adhesion.
+
+    Parameters
+    ----------
+    amplitude, wavelength : float
+        Amplitude h₀ and wavelength λ, lengths.
+    modulus : float
+        Contact modulus E*, a pressure.
+
+    Examples
+    --------
+    >>> from asperity import exact
+    >>> wave = exact.WavyLine("10nm", "1um", "1GPa")
+    >>> f"{wave.at_mean_pressure(wave.closing_pressure / 2).half_width:.3g} m"
+    '2.5e-07 m'
+    """
+
+    amplitude: Quantity
+    wavelength: Quantity
+    modulus: Quantity
+
+    about = (
+        "wave on a line without adhesion: with s = sin²(πa/λ) p̄ = πE*h₀/λ s, ḡ = h₀ (1 − s + s ln s); "
+        "Westergaard (1939)"
+    )
+    _core = _asperity.WavyLine
+
+
+@dataclass(frozen=True, repr=False)
+class AdhesiveWavyLine(_Wave):
+    """Johnson's contact of a wave on a line, with adhesion of no range.
+
+    Parameters
+    ----------
+    amplitude, wavelength : float
+        Amplitude h₀ and wavelength λ, lengths.
+    modulus : float
+        Contact modulus E*, a pressure.
+    work_of_adhesion : float
+        Work of adhesion w, an energy per area.
+
+    Examples
+    --------
+    >>> from asperity import exact
+    >>> f"{exact.AdhesiveWavyLine('10nm', '1um', '1GPa', '10mJ/m2').alpha:.2f}"
+    '0.14'
+    """
+
+    amplitude: Quantity
+    wavelength: Quantity
+    modulus: Quantity
+    work_of_adhesion: Quantity
+
+    about = (
+        "wave on a line with adhesion of no range: with s = sin²(πa/λ) "
+        "p̄ = πE*h₀/λ s − p₁, ḡ = h₀ (1 − s + s ln s) − λp₁/(πE*) ln s, p₁ = √(2E*w/λ tan(πa/λ)); Johnson (1995)"
+    )
+    _core = _asperity.AdhesiveWavyLine
+
+    @property
+    def alpha(self) -> float:
+        """Johnson's parameter √(2wλ/(π²E*h₀²))."""
+        return float(self._of.alpha)
+
+    def pull_off(self) -> WaveContact:
+        """Partial contact of least mean pressure, from which it opens."""
+        return WaveContact(self, self._of.pull_off())
+
+    def jump_to_full_contact(self) -> WaveContact:
+        """Partial contact of largest mean pressure, from which it jumps to full contact."""
+        return WaveContact(self, self._of.jump_to_full_contact())
+
+
+def closing_pressure_2d(amplitude: ArrayLike, wavelength: Quantity, modulus: Quantity) -> Any:
+    """The mean pressure √2πE*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion.
+
+    Parameters
+    ----------
+    amplitude : float or array_like
+        Amplitudes h₀, lengths.
+    wavelength : float
+        Wavelength λ, a length.
+    modulus : float
+        Contact modulus E*, a pressure.
+
+    Examples
+    --------
+    >>> from asperity import exact
+    >>> f"{exact.closing_pressure_2d('10nm', '1um', '1GPa'):.4g} Pa"
+    '4.443e+07 Pa'
+    """
+    quantities = Quantities()
+    given = {"amplitude": amplitude, "wavelength": wavelength, "modulus": modulus}
+    numbers = [quantities.read(name, value) for name, value in given.items()]
+    quantities.are_si()
+    return _asperity.closing_pressure_2d(*numbers)

@@ -4,8 +4,6 @@
 # Persson (2001): the contact fraction of a random surface under the mean pressure p̄ is erf(√2 p̄/(E* h'rms)).
 
 # %%
-import math
-
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -24,7 +22,7 @@ sweep = asperity.sweep(rough, modulus=modulus, mean_pressures=reduced * modulus 
 # %%
 columns = sweep.columns
 area = columns["corrected_contact_fraction"]
-persson = np.array([math.erf(math.sqrt(2) * p) for p in reduced])
+persson = asperity.exact.Persson(rms_slope, modulus).contact_fraction(columns["mean_pressure"])
 assert (columns["status"] == "converged").all()
 # the theory is an approximation: at light loads its slope is √(8/π) = 1.6, and that of solved surfaces about 2
 assert np.all((area / persson)[area < 0.1] < 1.4) and np.all(np.abs(area / persson - 1)[area > 0.9] < 0.05)

@@ -74,3 +74,30 @@ def test_a_line_a_sweep_a_cycle_and_a_map_are_drawn(rough):
     cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=5)
     assert cycle.plot(length_unit="m").get_xlabel() == "mean gap (mm)"
     assert rough.plot().get_xlabel() == "x"
+
+
+def test_theories_are_drawn_beside_a_sweep(rough, law):
+    metres = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6), "m")
+    sweep = asperity.sweep(metres, modulus="1GPa", mean_pressures=["5MPa", "10MPa", "40MPa"])
+    axes = sweep.plot(theory=True)
+    named = {line.get_label(): line for line in axes.lines}
+    assert list(named) == ["corrected area", "nodes in contact", "Persson", "Greenwood and Williamson"]
+    assert axes.get_xlabel() == "mean pressure (MPa)" and axes.get_legend() is not None
+    persson = asperity.exact.Persson.of(metres, modulus="1GPa")
+    x, y = named["Persson"].get_data()
+    assert x[-1] == pytest.approx(40.0) and y[-1] == pytest.approx(persson.contact_fraction("40MPa"))
+    axes = sweep.plot(of="gap", theory=True)
+    assert [line.get_label() for line in axes.lines] == ["solves", "Persson"] and axes.get_ylabel() == "mean gap (nm)"
+    assert axes.lines[1].get_data()[1][-1] == pytest.approx(1e9 * persson.mean_gap("40MPa"))
+    # with both bodies elastic it is the modulus of both
+    both = asperity.sweep(rough, modulus=2.0, against=0 * rough.heights, against_modulus=2.0, mean_pressures=[0.05])
+    one = asperity.exact.Persson.of(rough, modulus=1.0).contact_fraction(0.05)
+    assert both.plot(theory=True).lines[2].get_data()[1][-1] == pytest.approx(one)
+    with pytest.raises(ValueError, match="of is 'pressure': it must be 'area' or 'gap'"):
+        sweep.plot(of="pressure")
+    for more in ({"law": law}, {"body": asperity.Layer(0.1, 0.3)}, {"boundary": "free"}, {"hardness": 0.1}):
+        (name,) = more
+        with pytest.raises(ValueError, match=f"and this is of {name}: leave theory out"):
+            asperity.sweep(rough, modulus=1.0, mean_pressures=[0.01], **more).plot(theory=True)
+    with pytest.raises(ValueError, match="of a line: leave theory out"):
+        asperity.sweep(rough.heights[0], 1.0, modulus=1.0, mean_pressures=[0.01]).plot(theory=True)

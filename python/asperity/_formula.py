@@ -1,0 +1,54 @@
+"""Solutions and theories by formulas: what they are, and their numbers, which may be texts with a unit."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._units import Quantities, in_si, number
+
+
+class Formula:
+    """A frozen dataclass of numbers, all with units or none: with units they, and all that follows, are in the SI."""
+
+    #: What it is of, its formula, and its source.
+    about: ClassVar[str]
+
+    _texts: dict[str, str]
+
+    def __post_init__(self) -> None:
+        given = {name: getattr(self, name) for name in self._names()}
+        quantities = Quantities()
+        for name, value in given.items():
+            found = quantities.read(name, value)
+            # a text that is left is one of a number without a dimension, and is refused
+            object.__setattr__(self, name, number(name, in_si(name, found) if isinstance(found, str) else found))
+        quantities.are_si()
+        object.__setattr__(self, "_texts", {name: text for name, text in given.items() if isinstance(text, str)})
+
+    def __repr__(self) -> str:
+        return f"{self._called()}\n  {self.about}"
+
+    @classmethod
+    def _names(cls) -> list[str]:
+        return [field.name for field in fields(cls) if field.compare]  # type: ignore[arg-type]
+
+    def _called(self) -> str:
+        """The call that makes it, with the numbers as they were typed."""
+        shown = {name: f"{getattr(self, name):.8g}" for name in self._names()}
+        shown.update({name: repr(text) for name, text in self._texts.items()})
+        return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in shown.items())})"
+
+    def _read(self, name: str, values: ArrayLike) -> ArrayLike:
+        """Numbers, or texts with a unit, in the units of its own."""
+        typed = np.asarray(values)
+        if typed.dtype.kind != "U":
+            return values
+        found = np.array([in_si(name, str(text)) for text in typed.flat]).reshape(typed.shape)
+        if not self._texts:
+            first = typed.flat[0]
+            raise ValueError(f"{name} is {first}, with a unit, but {self._called()} has none: give both units, or neither")
+        return found
