@@ -262,8 +262,11 @@ impl Unit {
     fn parse(text: &str) -> Option<Self> {
         let (above, below) = text.split_once('/').map_or((text, None), |(above, below)| (above, Some(below)));
         let below = below.map(|below| below.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(below));
+        // as 2/µm
+        let is_one = below.is_some() && ["", "1"].contains(&above);
+        let above = Some(above).filter(|_| !is_one);
         let mut unit = Self { powers: [0; 5], ten: 0, factor: 1.0 };
-        for (part, sign) in [(Some(above), 1), (below, -1)] {
+        for (part, sign) in [(above, 1), (below, -1)] {
             for factor in part.into_iter().flat_map(|part| part.split([' ', '·', '*'])) {
                 let (symbol, power) = powers(factor);
                 let found = Self::symbol(symbol)?;
