@@ -117,6 +117,12 @@ fn meaning(name: &str) -> Option<(Option<Kind>, &'static [usize])> {
     }
     match (kind, axes) {
         (None, []) => None,
+        // heights have a range, a scale and steps too
+        (Some(Kind::Side | Kind::Spacing), [])
+            if !["scan", "size", "pixel", "spacing"].iter().any(|of| name.contains(of)) =>
+        {
+            None
+        }
         (Some(Kind::Unit), _) if name.contains("height") => Some((kind, &[2])),
         (Some(Kind::Spacing), [2]) => Some((Some(Kind::Factor), axes)),
         _ => Some((kind, axes)),
@@ -291,7 +297,7 @@ impl Sizes {
             let (number, unit) = found[axis];
             let is_count = kind == Some(Kind::Pixels) || is_size && number == nodes[axis] as f64;
             let is_pixels = ["px", "pixel", "pixels"].contains(&unit) || unit.is_empty() && is_count;
-            let is_told = per_metre(unit).is_some() || unit.is_empty() && kind.is_some() && !axes.is_empty();
+            let is_told = kind.is_some() && (per_metre(unit).is_some() || unit.is_empty() && !axes.is_empty());
             if unit.starts_with(',') {
                 let text = quoted(&pair.text());
                 return refuse(format!("has the comment {text}, expected a number with a decimal point, and its unit"));

@@ -533,6 +533,9 @@ mod tests {
         for (heading, unread) in [
             ("# Breite: 3,0 um\n# a: 1", "Breite: 3,0 um"),
             ("# Weite: 3 um", "Weite: 3 um"),
+            ("# range: 78 nm\n# z-unit: nm", "range: 78 nm"),
+            ("# Scale: 5 nm", "Scale: 5 nm"),
+            ("# X: 12.5 mm", "X: 12.5 mm"),
             ("# Width: 3 um\n# Value units: nm", "3 um"),
         ] {
             let map = headed(heading).unwrap();
