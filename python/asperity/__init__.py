@@ -13,16 +13,18 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _flow, _laws, _pair, _prepare, contact, exact, surface
+from . import _fit, _flow, _laws, _pair, _prepare, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
 from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep
 from ._cycle import Cycle, Step
+from ._fit import CurveFit
 from ._flow import Flow, Leakage
 from ._folder import load, report
 from ._interface import Interface
+from ._likelihood import Estimate, ModelFit
 from ._laws import *
 from ._laws import CutOff, Tabulated, Varying
 from ._progress import progress
@@ -44,6 +46,7 @@ from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
 contact_modulus = _checked(_pair.contact_modulus)
+fit_curve = _checked(_fit.fit_curve)
 leakage = _checked(_flow.leakage)
 prepare = _checked(_prepare.prepare)
 
@@ -55,8 +58,10 @@ __all__ = [
     "Contact",
     "ContactStatistics",
     "ConvergenceWarning",
+    "CurveFit",
     "CutOff",
     "Cycle",
+    "Estimate",
     "Flow",
     "InputWarning",
     "Interface",
@@ -64,6 +69,7 @@ __all__ = [
     "Law",
     "Layer",
     "Leakage",
+    "ModelFit",
     "OwnLaw",
     "Penalty",
     "Percolation",
@@ -86,6 +92,7 @@ __all__ = [
     "contact_modulus",
     "cycle",
     "exact",
+    "fit_curve",
     "from_topography",
     "interface",
     "leakage",
