@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _asperity, _plot
-from ._equilibria import Array, Curve, Direction, all_fits, scipy
+from ._curve import Curve, Direction, all_fits
+from ._equilibria import Array, scipy
 from ._likelihood import Estimate, Likelihood, ModelFit
 from ._types import Quantity
 from ._units import given, number
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
 class CurveFit:
     """What a force curve tells of the contact, with 95 % intervals.
 
-    Intervals are those of the likelihood over all Tabor parameters, so that those of modulus and work of adhesion include
-    that the curve may not tell DMT from JKR. They hold for noise of the force that is independent from point to point.
+    Intervals are those of the likelihood over all Tabor parameters: those of modulus and work of adhesion are wider where
+    the curve does not tell DMT from JKR. They hold for noise of the force that is independent from point to point.
 
     Attributes
     ----------

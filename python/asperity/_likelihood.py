@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _asperity
-from ._equilibria import Array, Curve, Fitted, scipy
+from ._curve import Curve, Fitted
+from ._equilibria import Array, scipy
 from ._units import number
 from ._warnings import InputWarning, warn
 
@@ -90,7 +91,10 @@ class Likelihood:
     def work(self) -> Estimate:
         """The work of adhesion; one that may be none has its likelihood followed up to its end."""
         found = self.estimate(1, self.curve.work_at)
-        return Estimate(found.value, 0.0, max(self.curve.greatest_work(fit, self.most) for fit in self.likely if self.name(fit) != "Hertz")) if self.bare else found
+        if not self.bare:
+            return found
+        adhesive = [fit for fit in self.likely if self.name(fit) != "Hertz"]
+        return Estimate(found.value, 0.0, max(self.curve.greatest_work(fit, self.most) for fit in adhesive))
 
     def tabor(self) -> Estimate:
         """The Tabor parameter, between the places at which the squares pass what is likely."""
