@@ -51,8 +51,9 @@ class Curve:
             self.turn = 0 if self.turn == 1 else self.turn
         self.approaching = np.arange(z.size) < self.turn
         columns = [np.ones(z.size), z] + [np.linspace(0.0, 1.0, z.size)] * (0 < self.turn < z.size)
-        # the median of second differences, which a curve hardly has from point to point
-        self.noise = float(np.median(np.abs(np.diff(force, 2)))) / 0.6745 / np.sqrt(6.0)
+        # by second differences, which a curve hardly has from point to point; of few digits more than half may be zero
+        rough = np.abs(np.diff(force, 2))
+        self.noise = float(np.median(rough) / 0.6745 or rough.std()) / np.sqrt(6.0)
         self._least = 1e-9 * float(np.ptp(force))
         # of each jump its direction, its place, and the force that a shift by a length weighs as much as
         self.jumps: list[tuple[bool, float, float]] = []
@@ -134,13 +135,14 @@ class Curve:
         if self._slope() <= 0.0:
             self._refuse_falling()
         self.length = float(np.ptp(z)) / 100.0
-        reach = np.ptp(z) + self.compliance * np.ptp(force)
+        # more than the greatest approach, of which these points have more than a half
+        reach = 3.0 * float(np.ptp(approach))
 
         def squares(slope: float) -> float:
             self.point = float(approach.mean() - slope * power.mean())
             self.modulus = float(0.75 / np.sqrt(self.radius) * slope**-1.5)
             # below it the tables end: adhesion that is none
-            self.floor = float((reach / 4e3) ** 1.5 * self.modulus / np.sqrt(self.radius) / self.work)
+            self.floor = float((reach / 1.5e5) ** 1.5 * self.modulus / np.sqrt(self.radius) / self.work)
             off = self.cleared(self.data - self.forces(np.array([0.0, 1.0, 0.0, 0.0]), limits()["DMT"]))
             return float(off @ off)
 

@@ -17,8 +17,8 @@ Array: TypeAlias = NDArray[np.float64]
 TABOR = np.geomspace(0.01, 50.0, 13)
 #: Knots of the tables over the Tabor parameter.
 _KNOTS = np.geomspace(0.008, 60.0, 61)
-#: Contact radii of the tables for R = E* = w = 1: approaches up to ten thousand Tabor lengths.
-_RADII = 0.5 * np.sinh(np.linspace(0.0, 6.0, 1000))
+#: Contact radii of the tables for R = E* = w = 1: approaches up to two hundred thousand Tabor lengths.
+_RADII = 0.5 * np.sinh(np.linspace(0.0, 7.5, 1250))
 
 
 def scipy(module: str) -> Any:

@@ -99,7 +99,7 @@ class CurveFit:
             found: Estimate | None = getattr(self, name)
             if found is not None:
                 factor, unit = _plot._scaled([end for end in found if np.isfinite(end)], unit if self._is_si else None)
-                value, lower, upper = (f"{factor * end:.4g}" for end in found)
+                value, lower, upper = _digits(factor, found)
                 lines.append(f"{name.replace('_', ' '):<18}{value:>12}   {lower} to {upper} {unit}".rstrip())
         lines.append(f"{'':<18}{'rms residual':>12}   AIC   probability")
         for name, model in self.models.items():
@@ -123,6 +123,14 @@ class CurveFit:
         own = ("m", "N") if self._is_si else (None, None)
         units = (length_unit or own[0], force_unit or own[1])
         return _plot.force_curve(self.z, self.force, self.fitted, self._turn, *units)
+
+
+def _digits(factor: float, found: Estimate) -> list[str]:
+    """The numbers of an estimate with two digits of its interval, at least four of their own."""
+    value, lower, upper = (factor * end for end in found)
+    half, largest = 0.5 * (upper - lower), max(abs(end) for end in (value, 1e-300) if np.isfinite(end))
+    digits = 2 + int(np.log10(largest / half)) if 0.0 < half < largest else 4
+    return [f"{end:.{min(max(digits, 4), 12)}g}" for end in (value, lower, upper)]
 
 
 def fit_curve(

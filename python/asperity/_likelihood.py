@@ -133,7 +133,7 @@ class Likelihood:
             tangent = np.array([-2.0, 4.0 / max(fit.at[1], 1e-9)]) / 3.0
             half = np.sqrt((self.most - fit.squares) * (tangent @ fit.spread[:2, :2] @ tangent))
             length = self.curve.tabor_length(fit) / fit.tabor
-            return length, length * float(np.exp(-half)), length * float(np.exp(half))
+            return length, length * float(np.exp(-half)), length * float(np.exp(min(half, 99.0)))
 
         spans = [of(fit) for fit in self.likely]
         return Estimate(of(self.best)[0], min(lower for _, lower, _ in spans), max(upper for _, _, upper in spans))
