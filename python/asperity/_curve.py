@@ -13,7 +13,7 @@ from ._equilibria import TABOR, Array, fold, limits, scipy, tables
 Direction: TypeAlias = Literal["approach", "withdrawal"]
 
 #: The bounds of the parameters of a fit, in their scales.
-_BOUNDS = np.array([[-7.0, 0.0, -200.0, np.log(TABOR[0])], [7.0, 30.0, 200.0, np.log(TABOR[-1])]])
+_BOUNDS = np.array([[-12.0, 0.0, -200.0, np.log(TABOR[0])], [12.0, 30.0, 200.0, np.log(TABOR[-1])]])
 #: The step of differences by parameters, in their scales.
 _STEP = 1e-3
 
@@ -125,7 +125,7 @@ class Curve:
         return self.contact.tobytes(), self.apart.tobytes(), [weight > 0.0 for _, _, weight in self.jumps]
 
     def _start(self) -> None:
-        """Scales of the parameters: a contact of DMT, by the slope of its approach over force^(2/3)."""
+        """Scales of the parameters, and contacts of DMT to begin with, by slopes of approach over force^(2/3)."""
         z, force = self.z, self.force - self.force.min()
         base = float(np.median(force[z <= np.quantile(z, 0.25)]))
         self.work = max(base, self.noise, 1e-6 * float(force.max())) / (1.75 * np.pi * self.radius)
@@ -138,18 +138,20 @@ class Curve:
         # more than the greatest approach, of which these points have more than a half
         reach = 3.0 * float(np.ptp(approach))
 
-        def squares(slope: float) -> float:
-            self.point = float(approach.mean() - slope * power.mean())
-            self.modulus = float(0.75 / np.sqrt(self.radius) * slope**-1.5)
-            # below it the tables end: adhesion that is none
-            self.floor = float((reach / 1.5e5) ** 1.5 * self.modulus / np.sqrt(self.radius) / self.work)
-            off = self.cleared(self.data - self.forces(np.array([0.0, 1.0, 0.0, 0.0]), limits()["DMT"]))
-            return float(off @ off)
-
         slopes = np.ptp(z) / power.max() * np.geomspace(1.0, 1e-3, 25)
-        found = np.array([squares(slope) for slope in slopes])
+        moduli, points = 0.75 / np.sqrt(self.radius) * slopes**-1.5, approach.mean() - slopes * power.mean()
+        middle = slopes.size // 2
+        self.modulus, self.point = float(moduli[middle]), float(points[middle])
+        # below it the tables end: adhesion that is none
+        self.floor = float((reach / 1.5e5) ** 1.5 * self.modulus / np.sqrt(self.radius) / self.work)
+        ones = np.ones(slopes.size)
+        self.begins = np.stack([np.log(moduli / self.modulus), ones, (points - self.point) / self.length, 0.0 * ones], 1)
+
+    def begin(self, table: Array) -> Array:
+        """The parameters to begin with for these equilibria."""
+        squares = np.array([np.sum(self.cleared(self.data - self.forces(p, table)) ** 2) for p in self.begins])
         # the softest of those that fit about as well: a soft spring hardly tells a hard contact from a rigid one
-        squares(slopes[np.argmax(found < 2.0 * found.min())])
+        return np.asarray(self.begins[np.argmax(squares < 2.0 * squares.min())])
 
     def _slope(self) -> float:
         """How the force grows with z where it is greatest."""
@@ -323,25 +325,24 @@ def all_fits(curve: Curve) -> dict[str, Fitted]:
 
 def _fits(curve: Curve, before: dict[str, Fitted]) -> dict[str, Fitted]:
     """These with the jumps of the curve, from DMT, from JKR, and from fits before."""
-    start = np.array([0.0, 1.0, 0.0, 0.0])
     fits: dict[str, Fitted] = {}
     for name, table in limits().items():
-        begin = before[name].at[:4] if before else start
+        begin = before[name].at[:4] if before else curve.begin(table)
         fits[name] = curve.fit(table, begin, [0, 2] if name == "Hertz" else [0, 1, 2])
 
-    def at(log_tabor: float, near: Fitted) -> Fitted:
-        begin = np.append(near.at[:3], log_tabor)
-        return curve.fit(np.asarray(tables()(log_tabor)), begin, [0, 1, 2])
+    def at(log_tabor: float, near: Array | None) -> Fitted:
+        table = np.asarray(tables()(log_tabor))
+        begin = curve.begin(table) if near is None else near
+        return curve.fit(table, np.append(begin[:3], log_tabor), [0, 1, 2])
 
-    for name, order in (("JKR", TABOR[::-1]), ("DMT", TABOR)):
-        near = fits[name]
+    for near, order in ((fits["JKR"].at, TABOR[::-1]), (fits["DMT"].at, TABOR), (None, TABOR)):
         for tabor in order:
-            near = at(np.log(tabor), near)
-            key = f"{tabor:.6g}"
-            if key not in fits or near.squares < fits[key].squares:
-                fits[key] = near
+            found, key = at(np.log(tabor), near), f"{tabor:.6g}"
+            near = None if near is None else found.at
+            if key not in fits or found.squares < fits[key].squares:
+                fits[key] = found
     inner = [fits[f"{tabor:.6g}"] for tabor in TABOR]
-    starts = [*inner, *(fit for fit in before.values() if fit.table is None)]
+    starts = [*sorted(inner, key=lambda fit: fit.squares)[:4], *(fit for fit in before.values() if fit.table is None)]
     free = min((curve.fit(None, near.at[:4], [0, 1, 2, 3]) for near in starts), key=lambda fit: fit.squares)
     if free.squares < min(near.squares for near in inner):
         fits[f"{free.tabor:.6g}"] = free
@@ -349,5 +350,5 @@ def _fits(curve: Curve, before: dict[str, Fitted]) -> dict[str, Fitted]:
         for shift in width * np.array([0.5, 1.0, 1.5, 2.0, 2.5, 3.0]):
             for log_tabor in (np.log(free.tabor) - shift, np.log(free.tabor) + shift):
                 if np.log(TABOR[0]) < log_tabor < np.log(TABOR[-1]):
-                    fits[f"{np.exp(log_tabor):.6g}"] = at(log_tabor, free)
+                    fits[f"{np.exp(log_tabor):.6g}"] = at(log_tabor, free.at)
     return fits
