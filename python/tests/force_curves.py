@@ -29,15 +29,15 @@ def equilibria(tabor):
     return np.append(approach, contact.approach), np.append(-np.pi * stress * c**2, contact.load)
 
 
-def curve(tabor, spring=None, *, noise=0.02, points=400, seed=1, point=3e-9, offset=2e-10, slope=2e-3, drift=3e-10):
+def curve(tabor, spring=None, *, noise=0.02, points=400, seed=1, far=6, offset=2e-10, slope=2e-3, drift=3e-10):
     """Positions and forces of an approach and a withdrawal, with jumps, a baseline, a drift, and noise."""
     approach, load = equilibria(tabor)
     compliance = 0.0 if spring is None else 1 / spring
     where = approach + compliance * load
     most = np.interp(12 * LENGTH, approach[approach.size // 2 :], load[approach.size // 2 :])
-    z = np.linspace(1.2 * where.min() - 6 * LENGTH, 12 * LENGTH + compliance * most, points // 2)
+    z = np.linspace(1.2 * where.min() - far * LENGTH, 12 * LENGTH + compliance * most, points // 2)
     there = np.interp(z, np.maximum.accumulate(where), load)
     back = np.interp(z, np.minimum.accumulate(where[::-1])[::-1], load)
-    z = np.append(z, z[::-1]) + point
+    z = np.append(z, z[::-1]) + 3e-9
     force = np.append(there, back[::-1]) + offset + slope * z + drift * np.linspace(0, 1, z.size)
     return z, force + np.random.default_rng(seed).normal(scale=noise * PULL, size=z.size)

@@ -27,7 +27,7 @@ def covers(found, true):
 
 
 def test_intervals_cover():
-    count = int(os.environ.get("ASPERITY_CURVES", "10"))
+    count = int(os.environ.get("ASPERITY_CURVES", "8"))
     true = {"modulus": MODULUS, "work_of_adhesion": WORK, "contact_point": 3e-9, "offset": 2e-10, "slope": 2e-3}
     true["drift"] = 3e-10
     hits = dict.fromkeys(["tabor_parameter", *true], 0)
@@ -80,6 +80,16 @@ def test_without_adhesion_the_interval_has_zero(spring):
     assert len(bare) >= 2 and all(0.0 <= fit.work_of_adhesion.upper < 0.2 * WORK for fit in found)
     assert all("No adhesion is seen" in fit.verdict and np.isnan(fit.tabor_parameter.value) for fit in bare)
     assert sum(covers(fit.modulus, MODULUS) for fit in found) >= 2
+
+
+def test_a_long_baseline_and_few_digits_do_no_harm():
+    spring, step = 20.0, 0.02 * PULL
+    z, force = curve(1.0, spring, far=800, points=2000, noise=0.02, slope=0.0)
+    for values in (force, step * np.round(force / step)):
+        fit = asperity.fit_curve(z, values, radius=RADIUS, spring_stiffness=spring)
+        # the limits of the interval and the noise of rounding, a twelfth of the square of a step
+        assert covers(fit.modulus, MODULUS) and covers(fit.work_of_adhesion, WORK)
+        assert fit.noise == pytest.approx(0.02 * PULL * (1.0 if values is force else np.sqrt(13 / 12)), rel=0.1)
 
 
 def test_one_direction_is_enough():
