@@ -182,8 +182,14 @@ class Curve:
         if self.compliance == 0.0:
             raise ValueError(f"{told}: record more points in contact, or press harder")
         share = 1.0 - self.compliance * self._slope()
+        # by more than noise makes of a soft spring
+        if share < -0.2:
+            raise ValueError(
+                f"force grows with z by {self._slope():.4g} where it is greatest, and spring_stiffness is only "
+                f"{1.0 / self.compliance:.4g}: one of these is wrong, or z is not the position of the piezo"
+            )
         raise ValueError(
-            f"{told}: where it is greatest, {100.0 * share:.2g} % of the motion are of the contact, and the rest of the "
+            f"{told}: where it is greatest, {100.0 * max(share, 0.0):.2g} % of the motion are of the contact, and the rest of the "
             f"spring of stiffness {1.0 / self.compliance:.4g}; take a stiffer cantilever, or record more points"
         )
 
@@ -342,7 +348,7 @@ def _fits(curve: Curve, before: dict[str, Fitted]) -> dict[str, Fitted]:
             if key not in fits or found.squares < fits[key].squares:
                 fits[key] = found
     inner = [fits[f"{tabor:.6g}"] for tabor in TABOR]
-    starts = [*sorted(inner, key=lambda fit: fit.squares)[:4], *(fit for fit in before.values() if fit.table is None)]
+    starts = [*inner, *(fit for fit in before.values() if fit.table is None)]
     free = min((curve.fit(None, near.at[:4], [0, 1, 2, 3]) for near in starts), key=lambda fit: fit.squares)
     if free.squares < min(near.squares for near in inner):
         fits[f"{free.tabor:.6g}"] = free

