@@ -189,13 +189,13 @@ class Curve:
                 f"{1.0 / self.compliance:.4g}: one of these is wrong, or z is not the position of the piezo"
             )
         raise ValueError(
-            f"{told}: where it is greatest, {100.0 * max(share, 0.0):.2g} % of the motion are of the contact, and the rest of the "
-            f"spring of stiffness {1.0 / self.compliance:.4g}; take a stiffer cantilever, or record more points"
+            f"{told}: where it is greatest, {100.0 * max(share, 0.0):.2g} % of the motion are of the contact, and the rest "
+            f"of the spring of stiffness {1.0 / self.compliance:.4g}; take a stiffer cantilever, or record more points"
         )
 
     def modulus_at(self, p: float) -> float:
         """Contact modulus of its parameter."""
-        return float(self.modulus * np.exp(p))
+        return float(self.modulus * np.exp(np.clip(p, -99.0, 99.0)))
 
     def work_at(self, p: float) -> float:
         """Work of adhesion of its parameter."""

@@ -158,7 +158,7 @@ def test_what_is_no_curve_is_refused():
     with pytest.raises(ValueError, match="at .* points in a row: the detector is saturated"):
         fit(z, np.minimum(force, 0.7 * force.max()))
     with pytest.raises(ValueError, match="spring of stiffness 0.02"):
-        soft, weak = curve(1.0, 0.02, noise=0.05)
+        soft, weak = curve(1.0, 0.02, noise=0.05, points=100)
         fit(soft, weak, spring_stiffness=0.02)
     with pytest.raises(ValueError, match="z has 12 points: a fit of up to 7 parameters needs at least 20"):
         fit(z[:12], force[:12])
