@@ -13,16 +13,18 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _flow, _laws, _pair, _prepare, contact, exact, surface
+from . import _fit, _flow, _laws, _pair, _prepare, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
 from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
 from ._cycle import Cycle, Step
+from ._fit import CurveFit
 from ._flow import Flow, Leakage
 from ._folder import load, report
 from ._interface import Interface
+from ._likelihood import Estimate, ModelFit
 from ._laws import *
 from ._laws import CutOff, Tabulated, Varying
 from ._progress import progress
@@ -45,6 +47,7 @@ from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from ._words import checked as _checked
 
 contact_modulus = _checked(_pair.contact_modulus)
+fit_curve = _checked(_fit.fit_curve)
 leakage = _checked(_flow.leakage)
 prepare = _checked(_prepare.prepare)
 
@@ -56,8 +59,10 @@ __all__ = [
     "Contact",
     "ContactStatistics",
     "ConvergenceWarning",
+    "CurveFit",
     "CutOff",
     "Cycle",
+    "Estimate",
     "Flow",
     "InputWarning",
     "Interface",
@@ -66,6 +71,7 @@ __all__ = [
     "Layer",
     "Leakage",
     "Moment",
+    "ModelFit",
     "OwnLaw",
     "Penalty",
     "Percolation",
@@ -89,6 +95,7 @@ __all__ = [
     "contact_modulus",
     "cycle",
     "exact",
+    "fit_curve",
     "from_topography",
     "interface",
     "leakage",

@@ -28,8 +28,8 @@ def _pyplot() -> Any:
 
 
 def _scaled(values: Any, unit: str | None) -> tuple[float, str]:
-    """The factor for an axis with these values, and its unit: metres, pascals and newtons get prefixes."""
-    if unit not in ("m", "Pa", "N"):
+    """The factor for an axis with these values, and its unit: those of the SI get prefixes."""
+    if unit not in ("m", "Pa", "N", "J/m²", "N/m"):
         return 1.0, unit or ""
     finite = np.abs(np.asarray(values, dtype=float))
     largest = float(finite[np.isfinite(finite)].max(initial=0.0))
@@ -268,3 +268,32 @@ def cycle(
     ax.set_ylabel(_label(y.replace("_", " "), up_unit))
     ax.legend(frameon=False)
     return ax
+
+
+def force_curve(
+    z: NDArray[Any],
+    force: NDArray[Any],
+    fitted: NDArray[Any],
+    turn: int,
+    length_unit: str | None,
+    force_unit: str | None,
+) -> Figure:
+    """A force curve with its fit over the position, and the residuals below; the withdrawal begins at the point `turn`."""
+    plt = _pyplot()
+    figure, (upper, lower) = plt.subplots(
+        2, 1, sharex=True, figsize=(5.2, 4.6), height_ratios=[3, 1], layout="constrained"
+    )
+    across, length = _scaled(z, length_unit)
+    up, unit = _scaled(force, force_unit)
+    rest, small = _scaled(force - fitted, force_unit)
+    for color, name, part in (("C0", "approach", slice(turn)), ("C3", "withdrawal", slice(turn, None))):
+        if z[part].size:
+            upper.plot(across * z[part], up * force[part], ".", color=color, alpha=0.4, markersize=3, label=name)
+            upper.plot(across * z[part], up * fitted[part], color=color, linewidth=1, label=f"{name}, fit")
+            lower.plot(across * z[part], rest * (force - fitted)[part], ".", color=color, alpha=0.4, markersize=3)
+    lower.axhline(0.0, color="0.7", linewidth=0.8, zorder=0)
+    upper.set_ylabel(_label("force", unit))
+    lower.set_ylabel(_label("residual", small))
+    lower.set_xlabel(_label("z", length))
+    upper.legend(frameon=False)
+    return figure  # type: ignore[no-any-return]

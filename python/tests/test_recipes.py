@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
+from force_curves import curve
 
 import asperity
 
@@ -67,6 +68,14 @@ def a_soft_tip_that_is_drawn_off(found):
     assert (found["drawn"]["status"] == "converged").all() and found["drawn"]["contact_fraction"][-1] == 0
 
 
+def a_force_curve(found):
+    fit = found["fit"]
+    assert [f"{end / 1e9:.2f}" for end in fit.modulus] == ["2.00", "1.98", "2.03"]
+    assert f"{1e3 * fit.work_of_adhesion.value:.0f}" == "50" and fit.verdict.startswith("Maugis")
+    assert f"{fit.tabor_parameter.value:.1f}" == "1.0"
+    assert pathlib.Path("curve.png").stat().st_size > 1000
+
+
 def two_hundred_surfaces(found):
     area = found["area"]
     assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
@@ -124,8 +133,10 @@ def an_electrical_contact_with_adhesion(found):
 @pytest.mark.parametrize("title", RECIPES)
 def test_the_recipe_runs(title, tmp_path, monkeypatch):
     pytest.importorskip("matplotlib")
+    pytest.importorskip("scipy")
     monkeypatch.chdir(tmp_path)
     rough = asperity.surface.self_affine(96, 2e-6, rms_height=6e-9, k_l=2, k_s=12, seed=2)
+    np.savetxt("curve.txt", 1e9 * np.column_stack(curve(1.0, 20.0, points=400)))
     np.savez("measured.npz", heights=rough.heights, lengths=rough.lengths, unit="m")
     found = {}
     exec(RECIPES[title], found)

@@ -1,0 +1,275 @@
+"""Force curves of a smooth tip: contact modulus and work of adhesion by a fit of Hertz, DMT, Maugis and JKR."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _asperity, _plot
+from ._curve import Curve, Direction, all_fits
+from ._equilibria import Array, scipy
+from ._likelihood import Estimate, Likelihood, ModelFit
+from ._types import Quantity
+from ._units import given, number
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class CurveFit:
+    """What a force curve tells of the contact, with 95 % intervals.
+
+    Intervals are those of the likelihood over all Tabor parameters: those of modulus and work of adhesion are wider where
+    the curve does not tell DMT from JKR. They hold for noise of the force that is independent from point to point.
+
+    Attributes
+    ----------
+    modulus : Estimate
+        Contact modulus E*, a pressure.
+    young : Estimate or None
+        Young's modulus E = E* (1 − ν²) under a rigid tip, if Poisson's ratio was given.
+    work_of_adhesion : Estimate
+        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out.
+    tabor_parameter : Estimate
+        Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out.
+    range : Estimate
+        Range ρ of the adhesion after Maugis and Dugdale, a length.
+    contact_point : Estimate
+        Position z at which the approach is zero.
+    offset, slope : Estimate
+        Baseline: force far from the contact at z = 0, and its change with z.
+    drift : Estimate or None
+        Change of the baseline from the first point to the last; None on one direction alone, where it is that of a slope.
+    covariance : ndarray
+        Covariance of the numbers in `names`, over all Tabor parameters by their likelihood. Where Hertz is not ruled out
+        it tells nothing of the work of adhesion.
+    names : tuple of str
+        Rows of the covariance: modulus, work_of_adhesion, contact_point, offset, slope, and drift.
+    models : dict
+        `ModelFit` of Hertz, DMT, Maugis and JKR by these names.
+    verdict : str
+        Which of these the curve tells apart, in a sentence.
+    z, force, fitted, residuals : ndarray
+        Positions and forces, forces of the best fit, and the difference.
+    noise : float
+        Standard deviation of the residuals.
+    """
+
+    modulus: Estimate
+    young: Estimate | None
+    work_of_adhesion: Estimate
+    tabor_parameter: Estimate
+    range: Estimate
+    contact_point: Estimate
+    offset: Estimate
+    slope: Estimate
+    drift: Estimate | None
+    covariance: Array
+    names: tuple[str, ...]
+    models: dict[str, ModelFit]
+    verdict: str
+    z: Array
+    force: Array
+    fitted: Array
+    residuals: Array
+    noise: float
+    #: the first point of the withdrawal, and whether numbers are in the SI
+    _turn: int
+    _is_si: bool
+
+    def __init__(self, **found: Any) -> None:
+        self.__dict__.update(found)
+
+    def __repr__(self) -> str:
+        units = {
+            "modulus": "Pa",
+            "young": "Pa",
+            "work_of_adhesion": "J/m²",
+            "tabor_parameter": None,
+            "range": "m",
+            "contact_point": "m",
+            "offset": "N",
+            "slope": "N/m",
+            "drift": "N",
+        }
+        lines = [f"{'':<18}{'value':>12}   95 % interval"]
+        for name, unit in units.items():
+            found: Estimate | None = getattr(self, name)
+            if found is not None:
+                factor, unit = _plot._scaled([end for end in found if np.isfinite(end)], unit if self._is_si else None)
+                value, lower, upper = _digits(factor, found)
+                lines.append(f"{name.replace('_', ' '):<18}{value:>12}   {lower} to {upper} {unit}".rstrip())
+        lines.append(f"{'':<18}{'rms residual':>12}   AIC   probability")
+        for name, model in self.models.items():
+            factor, unit = _plot._scaled([model.rms], "N" if self._is_si else None)
+            rms = f"{factor * model.rms:.4g} {unit}".rstrip()
+            lines.append(f"{name:<18}{rms:>12}   {model.aic:.1f}   {model.p_value:.2g}")
+        return "\n".join([*lines, self.verdict])
+
+    def plot(self, *, length_unit: str | None = None, force_unit: str | None = None) -> Figure:
+        """Draws data, fit and residuals; needs matplotlib.
+
+        Parameters
+        ----------
+        length_unit, force_unit : str, optional
+            Units for the axes. ``"m"`` and ``"N"``, those of a fit with units, get prefixes.
+
+        Returns
+        -------
+        matplotlib Figure
+        """
+        own = ("m", "N") if self._is_si else (None, None)
+        units = (length_unit or own[0], force_unit or own[1])
+        return _plot.force_curve(self.z, self.force, self.fitted, self._turn, *units)
+
+
+def _digits(factor: float, found: Estimate) -> list[str]:
+    """The numbers of an estimate with two digits of its interval, at least four of their own."""
+    value, lower, upper = (factor * end for end in found)
+    half, largest = 0.5 * (upper - lower), max(abs(end) for end in (value, 1e-300) if np.isfinite(end))
+    digits = 2 + int(np.log10(largest / half)) if 0.0 < half < largest else 4
+    return [f"{end:.{min(max(digits, 4), 12)}g}" for end in (value, lower, upper)]
+
+
+def fit_curve(
+    z: ArrayLike,
+    force: ArrayLike,
+    *,
+    radius: Quantity,
+    spring_stiffness: Quantity | None = None,
+    poisson: float | None = None,
+    direction: Direction | None = None,
+    jumps: bool = True,
+    length_unit: str | None = None,
+    force_unit: str | None = None,
+) -> CurveFit:
+    """Fits the force curve of a smooth tip: contact modulus, work of adhesion, contact point and baseline.
+
+    The tip is a paraboloid on a half-space with the adhesion of Maugis and Dugdale, whose limits are DMT and JKR. Approach
+    and withdrawal are fitted together, with the jumps of the spring where an equilibrium ends. Needs SciPy.
+
+    Parameters
+    ----------
+    z : array_like, shape (N,)
+        Positions in the order in which they were recorded, greater as the bodies come closer. With a spring those of the
+        piezo, which moves by the approach and the deflection of the spring. Without one the approach itself, but for its
+        zero.
+    force : array_like, shape (N,)
+        Forces at these positions, compression positive.
+    radius : float or str
+        Radius of curvature of the tip.
+    spring_stiffness : float or str, optional
+        Stiffness of the cantilever, a force per length.
+    poisson : float, optional
+        Poisson's ratio of the sample, for its Young's modulus under a rigid tip.
+    direction : {"approach", "withdrawal"}, optional
+        The only direction that was recorded. By default points up to the greatest z are the approach, and those behind it
+        are the withdrawal. With a direction the order may be either.
+    jumps : bool
+        Whether to fit the places of jumps, which are where an equilibrium ends. Vibrations may bring a jump early: then
+        False takes from a jump only on which side of it a point is.
+    length_unit, force_unit : str, optional
+        Units of z and force, as "nm" and "nN", beside a radius as "20nm". Results are in the SI.
+
+    Returns
+    -------
+    CurveFit
+
+    Raises
+    ------
+    ValueError, TypeError
+        For arrays that are not alike, not finite or too short, a force that is saturated, one without a contact, and a
+        spring that is too soft to see the stiffness of the contact.
+    ImportError
+        Without SciPy.
+
+    Warns
+    -----
+    InputWarning
+        If neighbouring residuals are alike: the curve is not that of such a tip, and intervals are too narrow.
+
+    Examples
+    --------
+    >>> import asperity, numpy as np
+    >>> z = np.linspace(-20e-9, 5e-9, 200)
+    >>> force = asperity.exact.Hertz(20e-9, 2e9).at_approach(z.clip(0)).load
+    >>> force += np.random.default_rng(1).normal(scale=0.1e-9, size=200)
+    >>> fit = asperity.fit_curve(z, force, radius=20e-9)
+    >>> fit.modulus.lower < 2e9 < fit.modulus.upper, fit.work_of_adhesion.lower
+    (True, 0.0)
+    """
+    z, force, is_si = _given(z, force, length_unit, force_unit)
+    if direction not in (None, "approach", "withdrawal"):
+        raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
+    tip = _positive("radius", radius)
+    compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
+    if direction is not None and (z[-1] > z[0]) != (direction == "approach"):
+        z, force = z[::-1], force[::-1]
+    scipy("optimize")
+    _refuse_saturated(force)
+    curve = Curve(z, force, direction, tip, compliance, jumps)
+    return CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, is_si))
+
+
+def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, Array, bool]:
+    """Both columns, in the SI if their units are given."""
+    columns = []
+    for name, values in (("z", z), ("force", force)):
+        try:
+            column = np.asarray(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise TypeError(f"{name} is no array of numbers: give those of a file as numpy.loadtxt reads them") from None
+        if column.ndim != 1:
+            raise ValueError(f"{name} has shape {column.shape}: it must be (N,), a value for each point")
+        bad = np.flatnonzero(~np.isfinite(column))
+        if bad.size:
+            raise ValueError(
+                f"{name} is {column[bad[0]]} at point {bad[0]}, one of {bad.size} that are not finite: leave them out of z "
+                "and force"
+            )
+        columns.append(column)
+    if columns[0].size != columns[1].size:
+        raise ValueError(f"z has {columns[0].size} points and force {columns[1].size}: they must be as many")
+    if columns[0].size < 20:
+        raise ValueError(f"z has {columns[0].size} points: a fit of up to 7 parameters needs at least 20")
+    for name, column in zip(("z", "force"), columns):
+        if np.ptp(column) == 0.0:
+            raise ValueError(f"{name} is {float(column[0])!r} at all points: a curve has it change from point to point")
+    si = given.get()
+    if (units[0] is None) != (units[1] is None) or si != (units[0] is not None):
+        raise ValueError(
+            f"length_unit is {units[0]!r}, force_unit is {units[1]!r}, and radius has {'a' if si else 'no'} unit: give all "
+            "units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
+        )
+    if si:
+        keys = (("length_unit", "approach"), ("force_unit", "normal_force"))
+        columns = [column * _unit(*key, unit) for column, key, unit in zip(columns, keys, units)]
+    return columns[0], columns[1], si
+
+
+def _unit(name: str, key: str, unit: str | None) -> float:
+    try:
+        return _asperity.quantity(key, f"1{unit}")
+    except ValueError:
+        raise ValueError(f"{name} is {unit!r}: it must be a unit of a {name.split('_')[0]}, as 'nm' or 'nN'") from None
+
+
+def _positive(name: str, value: Any) -> float:
+    found = number(name, value)
+    if not 0.0 < found < np.inf:
+        raise ValueError(f"{name} is {value!r}: it must be positive and finite")
+    return found
+
+
+def _refuse_saturated(force: Array) -> None:
+    """Refuses forces that stay at an extreme, away from where most of them are."""
+    for end, word in ((float(force.max()), "largest"), (float(force.min()), "least")):
+        at = np.flatnonzero(force == end)
+        run = max((piece.size for piece in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)), default=0)
+        if run >= 4 and abs(end - np.median(force)) > 0.05 * np.ptp(force):
+            raise ValueError(
+                f"force is {end:.6g}, its {word} value, at {run} points in a row: the detector is saturated; leave these "
+                "points out of z and force"
+            )
