@@ -178,6 +178,7 @@ def percolation(
 ) -> tuple[_Narrowest | None, _Narrowest | None]: ...
 def leakage(
     gap: _Field,
+    solved: bool,
     lengths: tuple[float, float],
     boundary: str,
     absent_gap: float | None,

@@ -120,8 +120,7 @@ def leakage(
     if isinstance(gap, Solution):
         if lengths is not None:
             raise ValueError("the solution has its side lengths: leave lengths out")
-        # a wall of springs lets the surfaces overlap
-        values: ArrayLike = np.maximum(gap.gap, 0)
+        values: ArrayLike = gap.gap
         sides, own = gap.lengths, gap.flow_boundary
     else:
         values, own = gap, "periodic"
@@ -130,7 +129,8 @@ def leakage(
     field = field_of(values, "gaps")
     absent = None if absent_gap is None else number("absent_gap", absent_gap)
     viscous = None if viscosity is None else number("viscosity", viscosity)
-    found = _asperity.leakage(field, sides, boundary or own, absent, viscous, tolerance, max_iterations)
+    solved = isinstance(gap, Solution)
+    found = _asperity.leakage(field, solved, sides, boundary or own, absent, viscous, tolerance, max_iterations)
     if found["shortfall"] is not None:
         warn(found["shortfall"], ConvergenceWarning)
     report = found["report"]

@@ -262,9 +262,7 @@ class Solution:
         >>> light.x is not None, heavy.x is None
         (True, True)
         """
-        # a wall of springs lets the surfaces overlap
-        gap = np.maximum(self.gap, 0)
-        found = _asperity.percolation(field_of(gap, "gaps"), self.lengths, self.flow_boundary)
+        found = _asperity.percolation(field_of(self.gap, "gaps"), self.lengths, self.flow_boundary)
         x, y = (None if along is None else Constriction(*along) for along in found)
         return Percolation(x, y)
 

@@ -70,6 +70,18 @@ class _States:
     def _field(self, name: str, places: ArrayLike) -> Any:
         return getattr(self._found, name)(self._solution._read("distance", places))
 
+    def pressure(self, places: ArrayLike, /) -> Any:
+        """Pressure p, compression positive."""
+        return self._field("pressure", places)
+
+    def gap(self, places: ArrayLike, /) -> Any:
+        """Gap g."""
+        return self._field("gap", places)
+
+    def displacement(self, places: ArrayLike, /) -> Any:
+        """Displacement u = h + g."""
+        return self._field("displacement", places)
+
 
 class Contact(_States):
     """Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found at.
@@ -99,21 +111,9 @@ class Contact(_States):
 
     _told = ("contact_radius", "load", "approach")
 
-    def pressure(self, r: ArrayLike) -> Any:
-        """Pressure p, compression positive."""
-        return self._field("pressure", r)
-
-    def gap(self, r: ArrayLike) -> Any:
-        """Gap g."""
-        return self._field("gap", r)
-
-    def displacement(self, r: ArrayLike) -> Any:
-        """Displacement u = h + g."""
-        return self._field("displacement", r)
-
-    def deflection(self, r: ArrayLike) -> Any:
+    def deflection(self, places: ArrayLike, /) -> Any:
         """Deflection u + δ."""
-        return self._field("deflection", r)
+        return self._field("deflection", places)
 
 
 class WaveContact(_States):
@@ -137,17 +137,6 @@ class WaveContact(_States):
 
     _told = ("half_width", "mean_pressure", "mean_gap")
 
-    def pressure(self, x: ArrayLike) -> Any:
-        """Pressure p, compression positive."""
-        return self._field("pressure", x)
-
-    def gap(self, x: ArrayLike) -> Any:
-        """Gap g."""
-        return self._field("gap", x)
-
-    def displacement(self, x: ArrayLike) -> Any:
-        """Displacement u = h + g."""
-        return self._field("displacement", x)
 
 
 class _Solution(Formula):

@@ -25,12 +25,13 @@ fn narrowest<'py>(py: Python<'py>, found: &Percolation, axis: Axis) -> Option<Na
     Some((found.gap, found.node, Array2::from(path).into_pyarray(py)))
 }
 
-/// A gap on its grid.
-fn gap_on(values: ArrayView2<'_, f64>, lengths: (f64, f64)) -> asperity::Result<Gap<'_>> {
-    Gap::new(values, Grid::new(values.dim(), lengths)?)
+/// A gap on its grid, of a solution or of an array.
+fn gap_on(values: ArrayView2<'_, f64>, lengths: (f64, f64), solved: bool) -> asperity::Result<Gap<'_>> {
+    let grid = Grid::new(values.dim(), lengths)?;
+    if solved { Gap::of_solution(values, grid) } else { Gap::new(values, grid) }
 }
 
-/// The constrictions of a gap along x and along y.
+/// The constrictions of the gap of a solution along x and along y.
 #[pyfunction]
 pub fn percolation<'py>(
     py: Python<'py>,
@@ -39,7 +40,7 @@ pub fn percolation<'py>(
     boundary: &str,
 ) -> PyResult<(Option<Narrowest<'py>>, Option<Narrowest<'py>>)> {
     let (values, periodic) = (gap.as_array(), boundary != "free");
-    let find = || gap_on(values, lengths).map(|gap| if periodic { gap } else { gap.free() }.percolation());
+    let find = || gap_on(values, lengths, true).map(|gap| if periodic { gap } else { gap.free() }.percolation());
     let found = py.detach(find).map_err(refusal)?;
     Ok((narrowest(py, &found, Axis::X), narrowest(py, &found, Axis::Y)))
 }
@@ -50,6 +51,7 @@ pub fn percolation<'py>(
 pub fn leakage<'py>(
     py: Python<'py>,
     gap: Field<'_>,
+    solved: bool,
     lengths: (f64, f64),
     boundary: &str,
     absent_gap: Option<f64>,
@@ -68,7 +70,7 @@ pub fn leakage<'py>(
     let settings = Leakage::default().tolerance(tolerance).max_iterations(max_iterations);
     let asked = LeakAsked { boundary, absent_gap, settings, viscosity, grid_error: true };
     let values = gap.as_array();
-    let find = |goes_on: &(dyn Fn() -> bool + Sync)| asked.find_while(gap_on(values, lengths)?, goes_on);
+    let find = |goes_on: &(dyn Fn() -> bool + Sync)| asked.find_while(gap_on(values, lengths, solved)?, goes_on);
     let (leak, leaked) = until_interrupted(py, find)?.map_err(refusal)?;
     let found = PyDict::new(py);
     found.set_item("report", reported(py, &leaked)?)?;

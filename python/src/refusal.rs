@@ -80,7 +80,6 @@ fn refused(error: Error, also: &str) -> PyErr {
         .replace("read it in Python by asperity.read, after pip install 'asperity[instruments]'; or open", "open")
         .replace("by asperity prepare --skip-lines ", "by asperity.read(path, skip_lines=...), here ")
         .replace("by asperity prepare --missing-word ", "by asperity.read(path, missing_words=...), here ")
-        .replace("which --masked takes", "which masked=True takes")
         .replace("set Topography::lengths", "give lengths=(Lx, Ly)")
         .replace("the traction of the law is", "law.traction is")
         .replace("the energy of the law", "law.energy")

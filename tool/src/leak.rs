@@ -89,7 +89,9 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let grid = Grid::new(map.heights.dim(), map.lengths.unwrap_or((1.0, 1.0)))?;
     let asked = options.leak.0.leak(boundary);
     let start = Instant::now();
-    let (leak, leaked) = asked.find(Gap::new(map.heights.view(), grid)?)?;
+    let values = map.heights.view();
+    let found = if gap.is_dir() { Gap::of_solution(values, grid) } else { Gap::new(values, grid) };
+    let (leak, leaked) = asked.find(found?)?;
     let seconds = start.elapsed().as_secs_f64();
     let units = if scene.is_si() { Units::si() } else { Units::of_map(map.unit.as_deref()) };
     let report = || {
@@ -122,9 +124,7 @@ impl Options {
         let path = &self.gap;
         if path.is_dir() {
             let solved = Solved::read(path)?;
-            let (mut map, boundary) = (solved.map(GAP)?, solved.boundary());
-            // a wall of springs lets the surfaces overlap
-            map.heights.mapv_inplace(|gap| if gap < 0.0 { 0.0 } else { gap });
+            let (map, boundary) = (solved.map(GAP)?, solved.boundary());
             if self.lengths.0.first().is_some() {
                 return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
             }

@@ -68,9 +68,26 @@ impl<'a> Gap<'a> {
     /// A periodic gap. Nodes without a surface, where `values` are not finite, are closed.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the values are not on the grid; [`Error::Value`] if there are more than 2³⁰ nodes, or if one is
-    /// below -1e-6 of the greatest, as heights are; [`Error::Shared`] if several processes share the grid.
+    /// Those of [`of_solution`](Self::of_solution); [`Error::Value`] if a value is below -1e-6 of the greatest, as heights
+    /// are.
     pub fn new(values: impl Into<ArrayView2<'a, f64>>, grid: Grid) -> Result<Self> {
+        let values = values.into();
+        let finite = || values.iter().copied().filter(|gap| gap.is_finite());
+        let (least, greatest) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
+        if least < -OVERLAP * greatest {
+            let requirement = "zero or positive. Is it a gap? A gap is the distance between the surfaces, as gap.npy of \
+                               a solve: of heights solve first, and where surfaces overlap set it to zero";
+            return Err(Error::Value { name: "least gap", value: least, requirement });
+        }
+        Self::of_solution(values, grid)
+    }
+
+    /// The periodic gap of a solve, in which surfaces overlap where a wall of springs lets them: such nodes are closed.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the values are not on the grid; [`Error::Value`] if there are more than 2³⁰ nodes;
+    /// [`Error::Shared`] if several processes share the grid.
+    pub fn of_solution(values: impl Into<ArrayView2<'a, f64>>, grid: Grid) -> Result<Self> {
         let values = values.into();
         if grid.is_shared() {
             let reason = "one process computes it: give it the whole gap, on a grid of its own";
@@ -80,13 +97,6 @@ impl<'a> Gap<'a> {
         if grid.nodes() > 1 << 30 {
             let (name, requirement) = ("number of nodes of a gap", "at most 2^30");
             return Err(Error::Value { name, value: grid.nodes() as f64, requirement });
-        }
-        let finite = || values.iter().copied().filter(|gap| gap.is_finite());
-        let (least, greatest) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
-        if least < -OVERLAP * greatest {
-            let requirement = "zero or positive. Is it a gap? A gap is the distance between the surfaces, as gap.npy of \
-                               a solve: of heights solve first, and where surfaces overlap set it to zero";
-            return Err(Error::Value { name: "least gap", value: least, requirement });
         }
         Ok(Self { values: rows(values), grid, periodic: true, absent: 0.0 })
     }

@@ -6,6 +6,7 @@
 //! [`write_topography`] writes maps, [`write_npz`] and [`write_vti`] all fields of a solution into one file, for numpy and
 //! for ParaView. [`OutputFolder`] collects the files of one run and shows them only once all of them are complete.
 
+mod blocks;
 mod channels;
 mod foreign;
 mod fourier;

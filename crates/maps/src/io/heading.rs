@@ -135,8 +135,8 @@ pub(super) struct Heading {
     pairs: Vec<Pair>,
     /// The units of three columns x, y and z.
     columns: Option<[String; 3]>,
-    /// Of the lines of words that are no comments the number of the last one, and why the first one is no row.
-    words: Option<(usize, String)>,
+    /// Of the lines of words that are no comments the first and the last number, and why the first one is no row.
+    words: Option<(usize, usize, String)>,
 }
 
 /// The most lines of a heading.
@@ -154,15 +154,15 @@ impl Heading {
     /// Takes a line of words, which are no row for a reason.
     pub fn read_words(&mut self, number: usize, line: &str, reason: String) -> Parsed<()> {
         self.read(line);
-        let (last, _) = self.words.get_or_insert((number, reason));
+        let (first, last, _) = self.words.get_or_insert((number, number, reason));
         *last = number;
-        if number > MOST_LINES { self.check_words(false) } else { Ok(()) }
+        if *last - *first > MOST_LINES { self.check_words(false) } else { Ok(()) }
     }
 
     /// Refuses lines of words, unless they are known for a heading.
     pub fn check_words(&self, is_known: bool) -> Parsed<()> {
         match &self.words {
-            Some((last, reason)) if !is_known => refuse(format!(
+            Some((_, last, reason)) if !is_known => refuse(format!(
                 "{reason}; if it is a heading, leave it out by asperity prepare --skip-lines {last}, or put # before it"
             )),
             _ => Ok(()),

@@ -83,9 +83,8 @@ impl<T: Real> Found<T> {
         }
         let part = self.part()?;
         let free = elastic.boundary == Boundary::Free || self.sight.original.is_some();
-        // a wall of springs lets the surfaces overlap
-        let widened = part.gap.mapv(|gap| gap.widen().max(0.0));
-        let gap = Gap::new(widened.view(), part.grid)?;
+        let widened = part.gap.mapv(T::widen);
+        let gap = Gap::of_solution(widened.view(), part.grid)?;
         if let Some(tolerance) = after.leakage {
             let asked = LeakAsked {
                 boundary: if free { Boundary::Free } else { Boundary::Periodic },
