@@ -1,6 +1,6 @@
 """Force curves of known contacts are fitted, with intervals that cover what they were made of.
 
-ASPERITY_CURVES=1000 makes the test of coverage a study of some ten minutes: pytest -s tests/test_fit.py -k cover
+ASPERITY_CURVES=1000 makes the test of coverage a study of a quarter of an hour: pytest -s tests/test_fit.py -k cover
 """
 
 import os
