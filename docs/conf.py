@@ -1,5 +1,6 @@
 """The guide as a site: `.ci/site` gathers the sources and builds it."""
 
+import os
 import sys
 from importlib.metadata import version as installed
 from pathlib import Path
@@ -29,6 +30,8 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 nb_execution_in_temp = True
 nb_ipywidgets_js = {}
+# pages show no progress
+os.environ["TQDM_DISABLE"] = "1"
 exclude_patterns = ["conf.py", "elsewhere.py"]
 
 napoleon_use_ivar = True

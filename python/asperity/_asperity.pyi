@@ -26,7 +26,6 @@ __all__ = [
     "between",
     "check_law",
     "closing_pressure_2d",
-    "cluster_colours",
     "clusters",
     "command",
     "conductance",
@@ -45,6 +44,7 @@ __all__ = [
     "made",
     "meant",
     "page",
+    "palette",
     "percolation",
     "prepare",
     "pressure_distribution",
@@ -170,7 +170,7 @@ def between(
 ) -> _Field: ...
 def contact_modulus(bodies: list[tuple[float, float]]) -> float: ...
 def clusters(map: NDArray[np.bool_], periodic: bool) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
-def cluster_colours(labels: NDArray[np.int64]) -> NDArray[np.uint8]: ...
+def palette(name: str) -> NDArray[np.uint8]: ...
 def load_scale(pressure: _Field, end: float | None) -> tuple[float, float, float]: ...
 def pressure_distribution(gap: _Field, contact_pressure: _Field, bins: int) -> tuple[_Field, _Field]: ...
 def percolation(

@@ -53,7 +53,7 @@ class Rows(Iterator[T]):
         """The next solution, whose row is kept."""
         found = None if self._ended else self._contact.problem.next(self._observe)
         if found is None:
-            self._ended, self._seconds_left = True, None
+            self._ended, self._seconds_left, self._observe = True, None, None
             raise StopIteration
         if found["raised"] is None:
             self.rows.append(self._row(found["row"]))

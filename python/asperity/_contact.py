@@ -38,6 +38,7 @@ from ._keywords import (
 )
 from ._measured import Measured
 from ._pair import along_both, between
+from ._progress import by_default
 from ._pull_off import PullOff
 from ._solution import Solution, Start
 from ._stability import Stability
@@ -755,7 +756,7 @@ class Contact:
     def _split(self, keywords: Any) -> tuple[Start, Any, dict[str, Any]]:
         """The start, the observer, and the keys of a call."""
         keys = {key: value for key, value in keywords.items() if value is not None}
-        start, observe = keys.pop("start", None), keys.pop("observe", None)
+        start, observe = keys.pop("start", None), keys.pop("observe", None) or by_default()
         if self.branch is not None and start is not None:
             raise ValueError("start chooses the branch: leave out branch, or start")
         return start, observe, keys

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _asperity
 from ._units import number
 from ._solution import Conductance, Constriction, Percolation, Solution
+from ._summary import summary
 from ._topography import _lengths, field_of
 from ._types import Boundary, Lengths, Quantity
 from ._warnings import ConvergenceWarning, warn
@@ -48,6 +49,8 @@ class Flow(NamedTuple):
     pressure: NDArray[np.float64]
     flow: NDArray[np.float64]
 
+    __repr__ = summary
+
 
 class Leakage(NamedTuple):
     """Leakage through a gap.
@@ -63,6 +66,8 @@ class Leakage(NamedTuple):
     x: Flow
     y: Flow
     report: dict[str, Any]
+
+    __repr__ = summary
 
 
 def leakage(

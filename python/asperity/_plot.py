@@ -13,9 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The colour of nodes that have yielded, as in the pictures of the tool.
-_YIELDED = "#d55e00"
-
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
@@ -52,18 +49,11 @@ def _label(name: str, unit: str) -> str:
     return f"{name} ({unit})" if unit else name
 
 
-def _edges(nodes: int, length: float) -> tuple[float, float]:
-    """The outer edges of the cells along an axis, about the node at the origin."""
-    spacing = length / nodes
-    return (-(nodes // 2 + 0.5) * spacing, (nodes - nodes // 2 - 0.5) * spacing)
-
-
 def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, **options: Any) -> Any:
-    """A field, of numbers or of colours, with x to the right and y up."""
+    """A field with x to the right and y up, both from zero to the side length."""
     factor, unit = _scaled(lengths, length_unit)
-    options.setdefault("interpolation", "nearest")
-    (left, right), (bottom, top) = (_edges(nodes, factor * length) for nodes, length in zip(field.shape, lengths))
-    image = ax.imshow(np.swapaxes(field, 0, 1), origin="lower", extent=(left, right, bottom, top), **options)
+    extent = (0.0, factor * lengths[0], 0.0, factor * lengths[1])
+    image = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
     ax.set_xlabel(_label("x", unit))
     ax.set_ylabel(_label("y", unit))
     return image
@@ -79,85 +69,93 @@ def heights(field: NDArray[Any], lengths: tuple[float, float], length_unit: str 
         _profile(ax, factor * field, lengths[0], length_unit, color="0.2")
         ax.set_ylabel(_label("height", unit))
         return ax
-    image = _map(ax, factor * field, lengths, length_unit, cmap="cividis")
-    ax.figure.colorbar(image, ax=ax, label=_label("height", unit))
+    image = _map(ax, factor * field, lengths, length_unit, cmap=_colours(_palette("sequential")))
+    _bar(ax, image, _label("height", unit))
     return ax
 
 
 def _profile(ax: Axes, values: NDArray[Any], length: float, length_unit: str | None, **options: Any) -> None:
     factor, unit = _scaled(length, length_unit)
-    x = factor * (np.arange(values.size) - values.size // 2) * length / values.size
+    x = factor * (np.arange(values.size) + 0.5) * length / values.size
     ax.plot(x, values, **options)
     ax.set_xlabel(_label("x", unit))
 
 
-def _from_white(name: str) -> Any:
-    """The colours of a scale, from white on: pressures of nothing but rounding, of either sign, look alike."""
-    from matplotlib.colors import LinearSegmentedColormap
-
-    colours = _pyplot().get_cmap(name)(np.linspace(0.0, 1.0, 33))
-    colours[0] = 1.0
-    return LinearSegmentedColormap.from_list(f"{name} from white", colours)
+def _palette(name: str) -> NDArray[Any]:
+    """The colours of the tool's pictures."""
+    return _asperity.palette(name) / 255.0
 
 
-def _yielded(ax: Axes, yielded: NDArray[np.bool_], lengths: tuple[float, float], length_unit: str | None) -> None:
-    """The nodes that have yielded, over those in contact, with a legend."""
+def _colours(steps: NDArray[Any]) -> Any:
     from matplotlib.colors import ListedColormap
+
+    return ListedColormap(steps)
+
+
+def _bar(ax: Axes, image: Any, label: str, place: tuple[float, float] = (0.0, 1.0), extend: str = "neither") -> None:
+    """A colour bar on the right of a map, from one share of its height to another."""
+    low, high = place
+    ax.figure.colorbar(image, cax=ax.inset_axes((1.04, low, 0.05, high - low)), label=label, extend=extend)
+
+
+def contact(
+    ax: Axes, classes: NDArray[np.int64], names: tuple[str, ...], lengths: tuple[float, float], length_unit: str | None
+) -> None:
+    """Classes of nodes with a legend of those that there are, or clusters of contact by their labels."""
     from matplotlib.patches import Patch
 
-    nodes = np.ma.masked_equal(yielded.astype(float), 0.0)
-    _map(ax, nodes, lengths, length_unit, cmap=ListedColormap([_YIELDED]), vmin=0, vmax=1)
-    legend = [Patch(color=_YIELDED, label="yielded")]
-    ax.figure.legend(handles=legend, loc="outside lower left", fontsize="small", frameon=False)
+    steps = _palette("contact" if names else "clusters")
+    # nine colours of clusters in turn
+    shown = classes if names else np.where(classes > 0, 1 + (classes - 1) % (len(steps) - 1), 0)
+    _map(ax, shown, lengths, length_unit, cmap=_colours(steps), vmin=-0.5, vmax=len(steps) - 0.5)
+    found = [k for k, _ in enumerate(names) if (classes == k).any()]
+    legend = [Patch(facecolor=steps[k], edgecolor="k", linewidth=0.5, label=names[k]) for k in found]
+    if legend:
+        place = {"loc": "upper left", "bbox_to_anchor": (0.0, -0.16), "borderaxespad": 0.0, "columnspacing": 1.0}
+        ax.legend(handles=legend, ncols=4, frameon=False, fontsize="small", handlelength=1.0, **place)
 
 
-def contact_and_pressure(
-    contact: NDArray[np.bool_],
-    pressure: NDArray[Any],
+def pressure(
+    ax: Axes,
+    field: NDArray[Any],
     lengths: tuple[float, float],
     adhesive: bool,
-    title: str,
-    clusters: NDArray[np.int64] | None,
-    yielded: NDArray[np.bool_] | None,
     limits: tuple[float, float] | None,
     length_unit: str | None,
     pressure_unit: str | None,
-) -> Figure:
-    """Contact, or its clusters, and pressure of a solution, side by side."""
-    plt = _pyplot()
-    figure, (left, right) = plt.subplots(
-        1, 2, figsize=(8.6 if adhesive else 7.8, 3.4), sharey=True, layout="compressed"
-    )
-    if clusters is None:
-        _map(left, contact.astype(float), lengths, length_unit, cmap="Greys", vmin=0, vmax=1.15)
-        if yielded is not None:
-            _yielded(left, yielded, lengths, length_unit)
-    else:
-        _map(left, _asperity.cluster_colours(clusters), lengths, length_unit)
-    left.set_title(title)
-    # compression and tension differ by orders of magnitude: each has a scale of its own
+) -> None:
+    """A pressure with a scale for each sign, as compression and tension differ by orders of magnitude."""
+    steps = _palette("diverging")
+    middle = len(steps) // 2
     low, high = limits or (None, None)
-    sides = [(pressure, "compression" if adhesive else "pressure", high, _from_white("YlOrRd"))]
+    # of each sign its name, the end that is given, the colours, and the place of its bar
+    signs = [(1.0, "compression" if adhesive else "pressure", high, steps[middle:], (0.0, 1.0))]
     if adhesive and low != 0.0:
-        sides.append((-pressure, "tension", None if low is None else -low, _from_white("Blues")))
-    bars = []
-    for side, name, end, colours in sides:
-        end, greatest, beyond = _asperity.load_scale(side, end)
+        signs[0] = (*signs[0][:-1], (0.53, 1.0))
+        signs.append((-1.0, "tension", None if low is None else -low, steps[:middle], (0.0, 0.47)))
+    ax.set_facecolor(steps[middle])
+    for sign, name, given, colours, place in signs:
+        end, greatest, beyond = _asperity.load_scale(sign * field, given)
         factor, unit = _scaled(end, pressure_unit)
-        positive = np.ma.masked_less_equal(factor * side, 0.0)
-        image = _map(right, positive, lengths, length_unit, cmap=colours, vmin=0.0, vmax=factor * end or 1.0)
+        ends = sorted([0.0, sign * (factor * end or 1.0)])
+        there = np.ma.masked_less_equal(sign * field, 0.0)
+        image = _map(ax, sign * factor * there, lengths, length_unit, cmap=_colours(colours), vmin=ends[0], vmax=ends[1])
         label = _label(name, unit)
         if beyond > 0.0:
-            load = "the load" if len(sides) == 1 else name
+            load = "the load" if len(signs) == 1 else name
             above = f"{100 * beyond:.2g} % of {load}" if beyond > 1e-3 else f"less than 0.1 % of {load}"
-            label += f"\n{above} above, up to {factor * greatest:.3g}"
-        bars.append((image, label, "max" if beyond > 0.0 else "neither"))
-    # the last bar is drawn next to the map
-    for image, label, extend in reversed(bars):
-        figure.colorbar(image, ax=right, label=label, pad=0.03, extend=extend)
-    right.set_title("elastic pressure" if adhesive else "contact pressure")
-    right.set_ylabel("")
-    return figure  # type: ignore[no-any-return]
+            label += f"\n{above} beyond, to {sign * factor * greatest:.3g}"
+        _bar(ax, image, label, place, "neither" if beyond == 0.0 else "max" if sign > 0.0 else "min")
+    ax.set_title("elastic pressure" if adhesive else "contact pressure")
+
+
+def two(ax: Any, **options: Any) -> Any:
+    """Two axes: those that are given, or new ones."""
+    if ax is None:
+        return _pyplot().subplots(**options)[1]
+    if np.size(ax) != 2:
+        raise ValueError(f"ax has {np.size(ax)} axes: it must be two of matplotlib, as from subplots(1, 2)")
+    return np.asarray(ax).ravel()
 
 
 def profiles(
@@ -166,10 +164,10 @@ def profiles(
     length: float,
     length_unit: str | None,
     pressure_unit: str | None,
-) -> Figure:
+    ax: Any,
+) -> Any:
     """Surface and half-space of a solution on a line, and the pressure between them."""
-    plt = _pyplot()
-    figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(5.2, 4.2), layout="constrained")
+    ax = upper, lower = two(ax, nrows=2, sharex=True, figsize=(5.2, 4.2), layout="constrained")
     factor, unit = _scaled(sides[0], length_unit)
     for side, color, name in zip(sides, ("0.2", "C0"), ("surface", "half-space")):
         _profile(upper, factor * side, length, length_unit, color=color, label=name)
@@ -180,7 +178,7 @@ def profiles(
     lower.axhline(0.0, color="0.7", linewidth=0.8)
     lower.set_ylabel(_label("pressure", unit))
     upper.set_xlabel("")
-    return figure  # type: ignore[no-any-return]
+    return ax
 
 
 def sweep(

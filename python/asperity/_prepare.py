@@ -15,6 +15,7 @@ from ._warnings import warn_of_input
 
 #: The threshold of scars, that of Gwyddion.
 _SCARS = 0.667
+_SPIKES = 10.0
 
 
 def prepare(
@@ -30,7 +31,7 @@ def prepare(
     align_rows: RowAlignment | int | None = None,
     scan_axis: ScanAxis = "x",
     remove_scars: bool | float = False,
-    despike: float | None = None,
+    despike: bool | float = False,
     remove_form: RemovedForm | None = None,
     detrend: Trend | int | None = None,
     fill: bool = False,
@@ -74,9 +75,9 @@ def prepare(
         Replaces scars by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all
         higher, or all lower, than both lines beside them, by more than this many rms differences of neighbouring lines.
         True is 0.667, at which rough surfaces have none.
-    despike : float, optional
+    despike : bool or float
         Threshold, in robust standard deviations of all nodes: a node that is farther than this from the median of the
-        5 x 5 nodes around it is a spike, and gets that median. 10 leaves the features of most surfaces.
+        5 x 5 nodes around it is a spike, and gets that median. True is 10, which leaves the features of most surfaces.
     remove_form : {"sphere", "cylinder"}, optional
         Form that is fitted and removed.
     detrend : {"mean", "plane", "quadric"} or int, optional
@@ -121,7 +122,7 @@ def prepare(
         "align_rows": align_rows if align_rows is None or isinstance(align_rows, str) else f"polynomial:{align_rows}",
         "scan_axis": scan_axis,
         "remove_scars": _SCARS if remove_scars is True else remove_scars or None,
-        "despike": despike,
+        "despike": _SPIKES if despike is True else despike or None,
         "remove_form": remove_form,
         "detrend": detrend if detrend is None else str(detrend),
         "fill": fill,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 import time
 import weakref
@@ -13,13 +14,28 @@ from ._asperity import Iteration
 #: The seconds between two texts.
 _PAUSE = 0.1
 
+#: The seconds after which a call shows its progress by default.
+_PATIENCE = 2.0
+
+
+def by_default() -> progress | None:
+    """The progress of a call that takes long, on a terminal or in a notebook; None elsewhere."""
+    is_seen = "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())
+    return progress(_PATIENCE) if is_seen and "TQDM_DISABLE" not in os.environ else None
+
 
 class progress:
     """An observer that shows the iteration and the error of a solve while it runs.
 
-    Pass it as ``observe`` of `solve`, `sweep` or `cycle`. It draws with tqdm if that is installed, in a notebook as its
-    widget, and writes a line of text to the standard error otherwise. Of a cycle it has the states, the events, and the
-    time that is left.
+    On a terminal and in a notebook, calls that take longer than two seconds have one by default, unless the environment
+    has ``TQDM_DISABLE``. Elsewhere, pass it as ``observe`` of `solve`, `sweep` or `cycle`. It draws with tqdm if that is
+    installed, in a notebook as its widget, and writes a line of text to the standard error otherwise. Of a cycle it has
+    the states, the events, and the time that is left.
+
+    Parameters
+    ----------
+    after : float
+        Seconds before it is shown.
 
     Examples
     --------
@@ -29,16 +45,28 @@ class progress:
     'converged'
     """
 
-    def __init__(self) -> None:
-        try:
-            self._bar: Any = importlib.import_module("tqdm.auto").tqdm(unit=" iterations", mininterval=_PAUSE)
-        except ImportError:
-            self._bar = _Line()
+    def __init__(self, after: float = 0.0) -> None:
+        self._begin = time.monotonic() + after
+        self._bar: Any = None
         self._last, self._pace = 0, ""
+
+    @property
+    def _after(self) -> float:
+        """The seconds for which the core need not call this observer."""
+        return self._begin - time.monotonic()
+
+    def _opened(self) -> Any:
+        try:
+            bar = importlib.import_module("tqdm.auto").tqdm(unit=" iterations", mininterval=_PAUSE)
+        except ImportError:
+            bar = _Line()
         # with the observer the solve has ended
-        weakref.finalize(self, self._bar.close)
+        weakref.finalize(self, bar.close)
+        return bar
 
     def __call__(self, state: Iteration) -> None:
+        if self._bar is None:
+            self._bar = self._opened()
         self._bar.set_postfix_str(f"{self._pace}error {state.relative_error:.1e}", refresh=False)
         # the count begins again on the next grid, and under the next load
         self._bar.update(state.iteration - (self._last if state.iteration >= self._last else 0))

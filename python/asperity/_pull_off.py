@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ._solution import Solution
+from ._summary import summary
 from ._types import Branch
 
 
@@ -55,3 +56,5 @@ class PullOff(NamedTuple):
     solves: int
     operator_applications: int
     solution: Solution
+
+    __repr__ = summary

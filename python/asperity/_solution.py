@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity, _picture, _plot
 from ._accuracy import Plan
+from ._summary import summary
 from ._topography import Topography, field_of
 from ._types import Boundary, Report, Status
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
 
 
@@ -50,6 +50,8 @@ class ContactStatistics(NamedTuple):
     attractive_fraction: float
     apart_fraction: float
 
+    __repr__ = summary
+
 
 class PressureDistribution(NamedTuple):
     """The distribution of the contact pressure over the nodes: a histogram, as a probability density.
@@ -64,6 +66,8 @@ class PressureDistribution(NamedTuple):
 
     density: NDArray[np.float64]
     edges: NDArray[np.float64]
+
+    __repr__ = summary
 
 
 class Constriction(NamedTuple):
@@ -83,6 +87,8 @@ class Constriction(NamedTuple):
     node: tuple[int, int]
     path: NDArray[np.int64]
 
+    __repr__ = summary
+
 
 class Percolation(NamedTuple):
     """Whether a gap is open from side to side, or around a periodic cell.
@@ -95,6 +101,8 @@ class Percolation(NamedTuple):
 
     x: Constriction | None
     y: Constriction | None
+
+    __repr__ = summary
 
 
 class Conductance(NamedTuple):
@@ -503,32 +511,35 @@ class Solution:
 
     def plot(
         self,
+        ax: Any = None,
         *,
         length_unit: str | None = None,
         pressure_unit: str | None = None,
         colour_limits: tuple[float, float] | None = None,
         colour_clusters: bool = False,
-    ) -> Figure:
-        """Draws contact and pressure side by side; needs matplotlib.
+    ) -> Any:
+        """Draws contact and pressure side by side, as the tool draws them; needs matplotlib.
 
-        Nodes that have yielded are orange. With adhesion, compression and tension have a scale each. A scale ends where
-        most of the load is carried: where a few nodes press far harder its bar has an arrow, and says how much of the
-        load stands on them.
+        With adhesion, compression and tension have a scale each. A scale ends where most of the load is carried: where a
+        few nodes press far harder, its bar has an arrow, and says how much of the load stands on them. A line has its
+        profile and its pressure, one above the other.
 
         Parameters
         ----------
+        ax : sequence of two matplotlib Axes, optional
+            Axes to draw on; new ones by default.
         length_unit, pressure_unit : str, optional
             Units for the axes and the scales. ``"m"`` and ``"Pa"`` get prefixes.
         colour_limits : (float, float), optional
-            Pressures at the ends of the scales, as for figures that are to be compared: that of the largest tension,
-            zero or negative, and that of the largest compression.
+            Pressures at the ends of the scales, for figures that are to be compared: that of the largest tension, zero
+            or negative, and that of the largest compression.
         colour_clusters : bool
             Each cluster of contact gets a colour of its own, nine in turn, the largest clusters first.
 
         Returns
         -------
-        matplotlib Figure
-            ``savefig`` writes it as PDF or SVG.
+        ndarray of two matplotlib Axes
+            ``ax[0].figure.savefig`` writes the figure as PDF or SVG.
         """
         # without adhesion the elastic pressure is the contact pressure but for the tolerance of the solve, of either sign
         adhesive = self.report["law"] != "none"
@@ -540,26 +551,34 @@ class Solution:
                 f"colour_limits are {colour_limits!r}: they must be (low, high), low zero or negative, and high positive"
             )
         if self.gap.ndim == 1:
-            return _plot.profiles(
-                (self._flattened, self.displacement), pressure, self.lengths[0], length_unit, pressure_unit
-            )
-        title, clusters = f"contact {100 * self.contact_fraction:.3g} %", None
+            sides = (self._flattened, self.displacement)
+            return _plot.profiles(sides, pressure, self.lengths[0], length_unit, pressure_unit, ax)
+        title, classes, names = f"contact {100 * self.contact_fraction:.3g} %", self._classes(), CLASSES
         if colour_clusters:
-            sizes, clusters = _asperity.clusters(self.contact, self.flow_boundary == "periodic")
-            title += f", {len(sizes)} cluster{'' if len(sizes) == 1 else 's'}"
-        return _plot.contact_and_pressure(
-            self.contact,
-            pressure,
-            self.lengths,
-            adhesive,
-            title,
-            clusters,
-            None if self.plastic_depth is None else self.plastic_depth > 0,
-            colour_limits,
-            length_unit,
-            pressure_unit,
-        )
+            sizes, classes = _asperity.clusters(self.contact, self.flow_boundary == "periodic")
+            title, names = f"{title}, {len(sizes)} cluster{'' if len(sizes) == 1 else 's'}", ()
+        ax = left, right = _plot.two(ax, ncols=2, figsize=(8.2, 3.8), sharey=True, layout="compressed")
+        _plot.contact(left, classes, names, self.lengths, length_unit)
+        _plot.pressure(right, pressure, self.lengths, adhesive, colour_limits, length_unit, pressure_unit)
+        left.set_title(title)
+        right.set_ylabel("")
+        return ax
 
+    def _classes(self) -> NDArray[np.int64]:
+        """The class of each node, by its place in `CLASSES`."""
+        classes = self.contact.astype(np.int64)
+        # the nodes of the greatest tensions, as many as attract
+        count = round(self.statistics.attractive_fraction * np.count_nonzero(np.isfinite(self.gap)))
+        tension = np.where(self.contact, -np.inf, -self.pressure)
+        if count > 0:
+            classes[tension >= np.partition(tension.ravel(), -count)[-count]] = 2
+        if self.plastic_depth is not None:
+            classes[self.plastic_depth > 0] = 3
+        return classes
+
+
+#: The classes of nodes, in the order of the colours of the palette.
+CLASSES = ("apart", "contact", "attractive", "yielded")
 
 #: A start as functions take it.
 Start: TypeAlias = ArrayLike | Solution | Literal["apart"] | None

@@ -1,6 +1,7 @@
 """Whether an equilibrium lasts."""
 
 from __future__ import annotations
+from ._summary import summary
 
 from typing import Any, NamedTuple
 
@@ -39,3 +40,5 @@ class Stability(NamedTuple):
     smoothed: bool
     operator_applications: int
     mode: NDArray[np.floating[Any]]
+
+    __repr__ = summary

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity
+from ._summary import summary
 from ._topography import Heights, Topography, _lengths, plain, sides, taken
 from ._types import AxisOrder, Lengths, Quantity, Shape, Tilt
 from ._units import given
@@ -45,6 +46,8 @@ class SurfaceStatistics(NamedTuple):
     rms_curvature_differences: float
     nayak: float
 
+    __repr__ = summary
+
 
 class PowerSpectralDensity(NamedTuple):
     """A power spectral density over wave numbers of both signs.
@@ -65,6 +68,8 @@ class PowerSpectralDensity(NamedTuple):
     densities: NDArray[np.float64]
     waves: NDArray[np.int64]
     cell: float
+
+    __repr__ = summary
 
 
 def self_affine(

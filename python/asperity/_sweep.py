@@ -27,7 +27,7 @@ class Sweep(Rows[Solution]):
         return self._solve()
 
     def __repr__(self) -> str:
-        return f"Sweep({len(self.rows)} of {len(self)} loads solved)"
+        return f"{type(self).__name__}({len(self.rows)} of {len(self)} loads solved)"
 
     def plot(
         self,

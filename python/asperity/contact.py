@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import _asperity
 from ._solution import ContactStatistics, Solution
+from ._summary import summary
 from ._topography import field_of
 
 __all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
@@ -27,6 +28,8 @@ class Clusters(NamedTuple):
 
     sizes: NDArray[np.int64]
     labels: NDArray[np.int64]
+
+    __repr__ = summary
 
 
 def clusters(contact: Any) -> Clusters:
@@ -73,6 +76,8 @@ class Density(NamedTuple):
     edges: NDArray[np.float64]
     exponent: dict[str, Any] | None
 
+    __repr__ = summary
+
 
 class ContactTables(NamedTuple):
     """The contact of a solution in tables.
@@ -95,6 +100,8 @@ class ContactTables(NamedTuple):
     autocorrelation: NDArray[np.float64]
     clusters: NDArray[np.float64]
     figures: dict[str, Any]
+
+    __repr__ = summary
 
 
 def tables(solution: Solution) -> ContactTables:

@@ -52,5 +52,5 @@ clusters = asperity.contact.clusters(sticky.contact)
 print(clusters.sizes[:10], f"{sticky.contact_pressure.max() / 1e6:.0f} MPa")
 
 # %%
-figure = sticky.plot(pressure_unit="Pa")
-figure.savefig("five_minutes.png", dpi=150)
+axes = sticky.plot(pressure_unit="Pa")
+axes[0].figure.savefig("five_minutes.png", dpi=150)

@@ -2,11 +2,12 @@
 
 use asperity::Grid;
 use asperity::contact::{Clusters, PressureDistribution};
-use asperity_plot::{LoadScale, cluster_colour};
+use asperity_plot::{Colouring, LoadScale};
 use asperity_scene::Boundary;
 use asperity_scene::contact::ContactTables;
-use numpy::ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -25,13 +26,17 @@ pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic:
     (whole(py, found.sizes), found.labels.mapv(|label| label as i64).into_pyarray(py))
 }
 
-/// The colours of the clusters of labels: red, green and blue along the last axis.
+/// The colours of maps, as [`Colouring::steps`] has them: red, green and blue in a row each.
 #[pyfunction]
-pub fn cluster_colours<'py>(py: Python<'py>, labels: PyReadonlyArray2<'_, i64>) -> Bound<'py, PyArray3<u8>> {
-    let labels = labels.as_array();
-    let (nx, ny) = labels.dim();
-    let colour = |(i, j, part)| cluster_colour(usize::try_from(labels[[i, j]]).unwrap_or(0))[part];
-    Array3::from_shape_fn((nx, ny, 3), colour).into_pyarray(py)
+pub fn palette<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray2<u8>>> {
+    let colouring = match name {
+        "sequential" => Colouring::Sequential,
+        "diverging" => Colouring::Diverging,
+        "contact" => Colouring::Contact,
+        "clusters" => Colouring::Clusters,
+        _ => return Err(PyValueError::new_err(format!("there is no palette {name:?}"))),
+    };
+    Ok(Array2::from(colouring.steps()).into_pyarray(py))
 }
 
 /// The end of the scale of the positive pressures, the greatest of them, and the share of their load beyond the end.

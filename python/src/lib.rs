@@ -30,7 +30,7 @@ mod _asperity {
     #[pymodule_export]
     use crate::{
         command::{command, figures_of, page},
-        contact::{cluster_colours, clusters, contact_tables, load_scale, pressure_distribution},
+        contact::{clusters, contact_tables, load_scale, palette, pressure_distribution},
         exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, MaugisDugdale, WaveContact, WavyLine, closing_pressure_2d},
         flow::{conductance, leakage, percolation},
         inputs::{has_dimension, quantity},

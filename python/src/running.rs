@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use asperity::solver::Iteration as State;
 use pyo3::exceptions::{PyRuntimeError, PyStopIteration};
@@ -95,6 +95,9 @@ impl At<'_> {
         let &Self { py, ref pool, ref observer } = self;
         let (stop, result) = (AtomicBool::new(false), Mutex::new(None));
         let (stop_flag, slot, observed) = (&stop, &result, observer.is_some());
+        // of a progress that is shown to the patient alone
+        let quiet = observer.as_ref().and_then(|observer| observer.getattr(py, "_after").ok()?.extract(py).ok());
+        let (begin, quiet) = (Instant::now(), Duration::from_secs_f64(f64::max(quiet.unwrap_or(0.0), 0.0)));
         let raised = py.detach(|| {
             let (tell, told) = mpsc::channel::<Iteration>();
             let (answer, answered) = mpsc::channel::<()>();
@@ -103,7 +106,7 @@ impl At<'_> {
                     // the channels end with this closure, and the wait of the other thread with them
                     let goes_on = || !stop_flag.load(Ordering::Relaxed);
                     let mut observe = move |state: &State| {
-                        if observed && tell.send(Iteration(*state)).is_ok() {
+                        if observed && begin.elapsed() >= quiet && tell.send(Iteration(*state)).is_ok() {
                             // the observer may solve, too, and on this pool: its thread must not stand idle
                             while let Err(RecvTimeoutError::Timeout) = answered.recv_timeout(NAP) {
                                 rayon::yield_now();

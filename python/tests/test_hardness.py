@@ -162,11 +162,3 @@ def test_a_cycle_dissipates_in_the_first_loading_alone(surface):
     assert columns["hardness"].tolist() == [0.1] * len(columns["leg"])
     without = asperity.sweep(surface, modulus=1.0, mean_pressures=[0.01]).columns
     assert not any("plastic" in name or "hardness" in name for name in without)
-
-
-def test_yielded_nodes_are_drawn_with_a_legend(surface):
-    plt = pytest.importorskip("matplotlib.pyplot")
-    figure = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=0.1).plot()
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["yielded"]
-    assert len(figure.axes[0].images) == 2
-    plt.close("all")

@@ -17,20 +17,49 @@ def closed():
 @pytest.mark.parametrize("form", ["svg", "pdf", "png"])
 def test_a_solution_is_drawn(tmp_path, rough, law, form):
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
-    figure = solution.plot(length_unit="m", pressure_unit="Pa")
-    figure.savefig(tmp_path / f"solution.{form}")
+    axes = solution.plot(length_unit="m", pressure_unit="Pa")
+    axes[0].figure.savefig(tmp_path / f"solution.{form}")
     assert (tmp_path / f"solution.{form}").stat().st_size > 1000
-    labels = [axes.get_ylabel() for axes in figure.axes]
-    # adhesion is on a scale of its own
-    assert "compression (mPa)" in labels and any(label.startswith("tension (") for label in labels)
-    # zero looks the same on both
-    images = figure.axes[1].images
-    assert len(images) == 2 and all(image.cmap(0.0) == (1.0, 1.0, 1.0, 1.0) for image in images)
+    # adhesion is on a scale of its own, below that of the compression
+    compression, tension = (bar for bar in axes[1].child_axes)
+    assert compression.get_ylabel() == "compression (mPa)" and tension.get_ylabel().startswith("tension (")
+    assert tension.get_position().y1 < compression.get_position().y0
+    # zero looks the same on both, and where nothing presses
+    upper, lower = axes[1].images
+    assert upper.cmap(0) == pytest.approx(lower.cmap(127), abs=0.02) and upper.cmap(0) == axes[1].get_facecolor()
+
+
+def drawn(solution):
+    """The colours of the contact, by the classes that the legend has."""
+    left = solution.plot()[0]
+    (image,) = left.images
+    named = {text.get_text(): patch.get_facecolor() for text, patch in zip(left.get_legend().get_texts(), left.get_legend().get_patches())}
+    return image.cmap(image.norm(image.get_array())).transpose(1, 0, 2), named
+
+
+def test_classes_are_those_of_the_tool(rough, law):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+    colours, named = drawn(solution)
+    shares = {name: np.mean((colours == colour).all(axis=-1)) for name, colour in named.items()}
+    assert shares["contact"] == solution.contact_fraction
+    assert shares["attractive"] == pytest.approx(solution.statistics.attractive_fraction, abs=1e-12)
+    assert set(drawn(asperity.solve(rough, modulus=1.0, mean_pressure=0.01))[1]) == {"apart", "contact"}
+    yielded = asperity.solve(rough, modulus=1.0, mean_pressure=0.02, hardness=0.1)
+    colours, named = drawn(yielded)
+    assert np.array_equal((colours == named["yielded"]).all(axis=-1), yielded.plastic_depth > 0)
+
+
+def test_axes_may_be_given(rough):
+    figure, axes = plt.subplots(1, 2)
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    assert all(given is drawn for given, drawn in zip(axes, solution.plot(axes))) and axes[0].get_xlim() == (0.0, 1.0)
+    with pytest.raises(ValueError, match="ax has 1 axes: it must be two of matplotlib"):
+        solution.plot(axes[0])
 
 
 def test_without_adhesion_there_is_no_scale_of_tension(rough):
-    figure = asperity.solve(rough, modulus=1.0, mean_pressure=0.01).plot()
-    assert [axes.get_ylabel() for axes in figure.axes] == ["y", "", "pressure"]
+    axes = asperity.solve(rough, modulus=1.0, mean_pressure=0.01).plot()
+    assert [bar.get_ylabel() for bar in axes[1].child_axes] == ["pressure"]
 
 
 def test_a_scale_ends_where_most_of_the_load_is_carried(rough):
@@ -40,35 +69,36 @@ def test_a_scale_ends_where_most_of_the_load_is_carried(rough):
     scarred[:12, (highest[1] + heights.shape[1] // 2) % heights.shape[1]] = 1.5 * heights.max()
     solution = asperity.solve(scarred, 1.0, modulus=1.0, mean_pressure=0.01)
     pressure = solution.contact_pressure
-    figure = solution.plot(pressure_unit="Pa")
-    image, bar = figure.axes[1].images[0], figure.axes[2]
+    right = solution.plot(pressure_unit="Pa")[1]
+    image, (bar,) = right.images[0], right.child_axes
     end = image.get_clim()[1]
     factor = image.get_array().max() / pressure.max()
     share = pressure[pressure * factor > end].sum() / pressure.sum()
     assert end < 0.75 * factor * pressure.max() and 0.01 < share < 0.75
-    assert f"{100 * share:.2g} % of the load above, up to" in bar.get_ylabel()
+    assert f"{100 * share:.2g} % of the load beyond, to" in bar.get_ylabel()
     # all of it on demand
-    figure = solution.plot(colour_limits=(0.0, 2 * pressure.max()))
-    assert figure.axes[1].images[0].get_clim() == (0.0, 2 * pressure.max())
-    assert figure.axes[2].get_ylabel() == "pressure"
+    right = solution.plot(colour_limits=(0.0, 2 * pressure.max()))[1]
+    assert right.images[0].get_clim() == (0.0, 2 * pressure.max())
+    assert right.child_axes[0].get_ylabel() == "pressure"
     with pytest.raises(ValueError, match=r"colour_limits are \(1.0, 2.0\)"):
         solution.plot(colour_limits=(1.0, 2.0))
 
 
 def test_clusters_have_colours(rough):
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
-    figure = solution.plot(colour_clusters=True)
-    colours = figure.axes[0].images[0].get_array()
+    left = solution.plot(colour_clusters=True)[0]
+    image = left.images[0]
+    colours = image.cmap(image.norm(image.get_array()))
     labels = asperity.contact.clusters(solution.contact).labels.T
-    assert (colours[labels == 0] == 255).all() and len(np.unique(colours[labels == 1], axis=0)) == 1
+    assert (colours[labels == 0] == 1).all() and len(np.unique(colours[labels == 1], axis=0)) == 1
     assert (colours[labels == 1][0] != colours[labels == 2][0]).any()
-    assert f"{labels.max()} clusters" in figure.axes[0].get_title()
+    assert f"{labels.max()} clusters" in left.get_title()
 
 
 def test_a_line_a_sweep_a_cycle_and_a_map_are_drawn(rough):
     wave = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64)
     law = asperity.Exponential(1e-3, 8e-3)
-    assert len(asperity.solve(wave, 1.0, modulus=1.0, mean_gap=0.01).plot().axes) == 2
+    assert len(asperity.solve(wave, 1.0, modulus=1.0, mean_gap=0.01).plot()) == 2
     sweep = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.005, 0.01])
     assert sweep.plot(pressure_unit="Pa").get_xlabel() == "mean pressure (mPa)"
     cycle = asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=5)

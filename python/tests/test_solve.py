@@ -385,3 +385,21 @@ def test_progress_shows_iterations_and_error(rough, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "tqdm.auto", SimpleNamespace(tqdm=Bar))
     asperity.solve(rough, modulus=1.0, mean_pressure=0.01, observe=asperity.progress())
     assert sum(drawn[1::2]) == solution.iterations and drawn[-1] == "closed"
+
+
+def test_long_calls_show_progress_to_people_by_default(rough, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    monkeypatch.delenv("TQDM_DISABLE", raising=False)
+
+    def shown():
+        asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+        return capsys.readouterr().err
+
+    assert shown() == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    # a short one has none
+    assert shown() == ""
+    monkeypatch.setattr("asperity._progress._PATIENCE", 0.0)
+    assert " iterations, error " in shown()
+    monkeypatch.setenv("TQDM_DISABLE", "1")
+    assert shown() == ""

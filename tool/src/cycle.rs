@@ -10,7 +10,7 @@ use crate::columns::Columns;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
-use crate::printing::{self, say};
+use crate::printing::{self, say, warn};
 use crate::processes::Processes;
 use crate::quantity::{FORCE, PRESSURE};
 use crate::scene::SceneFile;
@@ -70,6 +70,9 @@ const EXAMPLES: &str = "\
 /// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
 
+/// The imbalance of energy, in per cent of the greatest work, from which a cycle is warned of.
+const MOST_IMBALANCE: f64 = 5.0;
+
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     let Options { out, fields, plot, manner, .. } = options;
@@ -111,6 +114,9 @@ impl Options {
         let mut events: Vec<usize> = (0..rows.len()).filter(|&k| !rows[k]["event"].is_null()).collect();
         let drop = |k: usize| rows[k]["energy_drop"].as_f64().unwrap_or(f64::NEG_INFINITY);
         events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
+        // of the greatest work, as it is that of the jumps alone at the end
+        let most = rows.iter().map(|row| number(row, "work").abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let share = rows.last().map_or(0.0, |last| 100.0 * (number(last, "imbalance") / most).abs());
         let free = table.is_free();
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         self.manner.printing.report(|| {
@@ -164,8 +170,14 @@ impl Options {
                     say(&format!("dissipated by yielding  {}", told(last, "plastic_energy")));
                 }
                 say(&format!("work done by the load   {}", told(last, "work")));
-                say(&format!("imbalance of energy     {:.1e}", number(last, "imbalance")));
+                say(&format!("imbalance of energy     {}, {share:.1} % of the work", told(last, "imbalance")));
             }
+        }
+        if share > MOST_IMBALANCE {
+            warn(format!(
+                "{}: the balance of energy misses {share:.1} % of the work: take more --steps, or a smaller --imbalance",
+                printing::name(&self.out)
+            ));
         }
         let Some(plot) = &self.plot else { return Ok(()) };
         table.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.resolution.dpi)?))

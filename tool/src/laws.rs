@@ -7,6 +7,7 @@ use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
 use asperity_scene::{AdhesionKeys, Chosen, LAWS, Law, Skin, UnitKeys};
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 
 use crate::adhesion::uniform;
 use crate::outcome::Outcome;
@@ -18,11 +19,14 @@ use crate::scene::SceneFile;
 /// List the adhesion laws, with formula, parameters and source.
 ///
 /// Tractions are over the gap g, attraction positive. Gaps count from the wall; without one, for lennard-jones from
-/// where the law is singular, and for morse from where it is at rest. With --law only that one is listed, and --plot
+/// where the law is singular, and for morse from where it is at rest. With a law only that one is listed, and --plot
 /// draws it.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
+    /// The only law to list, in the place of --law
+    #[arg(value_name = "LAW", value_parser = PossibleValuesParser::new(LAWS.iter().map(|law| law.name)), conflicts_with = "law")]
+    name: Option<String>,
     #[command(flatten)]
     adhesion: Chosen<AdhesionKeys>,
     /// File for a picture of the traction over the gap, .png, .svg or .pdf
@@ -40,6 +44,7 @@ pub struct Options {
 const EXAMPLES: &str = "\
 \u{1b}[1;4mExamples:\u{1b}[0m
   asperity laws
+  asperity laws exponential
   asperity laws --law lennard-jones --work-of-adhesion 50mJ/m2 --range 0.3nm --wall none \\
     --plot law.png";
 
@@ -49,7 +54,10 @@ const REACH: f64 = 5.0;
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
-    let adhesion = options.adhesion.0.scene()?.adhesion;
+    let mut adhesion = options.adhesion.0.scene()?.adhesion;
+    if let Some(name) = &options.name {
+        adhesion.law = name.clone();
+    }
     in_options(adhesion.check_elastic("a law has none"))?;
     let units = in_options(options.units.0.units(None, scene.is_si()))?;
     let chosen = Law::named(&adhesion.law).filter(|_| adhesion.adheres());

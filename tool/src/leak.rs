@@ -185,8 +185,9 @@ fn drawn(
         false => f64::NAN,
     });
     let narrowest = leak.percolation.along(axis);
-    let caption = narrowest
-        .map(|found| format!("the widest passage is {} wide at its constriction", units.number(found.gap, LENGTH)));
+    let caption = narrowest.map(|found| {
+        format!("the gap is {} at the constriction of the widest passage", units.number(found.gap, LENGTH))
+    });
     let map = Map {
         title: &format!("Flow along {}", axis.name()),
         caption: caption.as_deref().unwrap_or_default(),

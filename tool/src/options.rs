@@ -124,7 +124,8 @@ impl ProblemOptions {
 
     /// Refuses loads that the boundary does not have.
     pub fn check_loads(&self, loads: &[Load]) -> Outcome<()> {
-        in_options(loads.iter().try_for_each(|load| load.check(self.scene.elastic.boundary, false)))
+        let Scene { elastic, adhesion, .. } = &self.scene;
+        in_options(loads.iter().try_for_each(|load| load.check(elastic.boundary, false, adhesion.adheres())))
     }
 
     /// Refuses findings that the problem does not have, and those that have no form for several processes.

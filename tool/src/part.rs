@@ -76,7 +76,7 @@ impl Part {
     /// Refuses a force, which would be on the images as well.
     pub fn check(&self, control: Control) -> Outcome<()> {
         // a part of a mirrored map is one of a periodic surface
-        let check = |_| in_options(Load::Held(control).check(Boundary::Periodic, true));
+        let check = |_| in_options(Load::Held(control).check(Boundary::Periodic, true, true));
         self.wanted().map_or(Ok(()), check)
     }
 

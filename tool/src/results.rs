@@ -1,10 +1,11 @@
 //! A folder of results: all files of a run, or none.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity_maps::io::OutputFolder;
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::outcome::Outcome;
 use crate::output::{at_destination, check_apart, commit, output_folder, write_text};
@@ -22,7 +23,7 @@ pub struct Results<'a> {
     pub scene: &'a SceneFile,
     /// All files that the command may leave, the first of which stands for the run
     pub files: Vec<String>,
-    /// Whether files that are there are replaced
+    /// Whether files that are there are replaced; those of a run that has not converged are
     pub force: bool,
 }
 
@@ -47,7 +48,14 @@ impl Results<'_> {
     /// The folder in which the files are written until all of them are there.
     pub fn folder(&self) -> Outcome<OutputFolder> {
         let names: Vec<_> = self.files.iter().map(String::as_str).collect();
-        output_folder(self.out, &names, self.force)
+        output_folder(self.out, &names, self.force || self.has_failed())
+    }
+
+    /// Whether the folder has the results of a run that has not converged, which the corrected one replaces.
+    fn has_failed(&self) -> bool {
+        let report = fs::read_to_string(self.out.join(REPORT)).ok();
+        let report: Option<Value> = report.and_then(|text| serde_json::from_str(&text).ok());
+        report.is_some_and(|report| report["status"].as_str().is_some_and(|status| status != "converged"))
     }
 
     /// Puts the scene, and the files that `write` leaves in the folder, in their places.

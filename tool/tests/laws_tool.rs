@@ -196,6 +196,7 @@ fn the_laws_are_listed_and_drawn() {
         assert!(said.lines().any(|line| line == law), "{law}");
     }
     assert_eq!(bench.said("laws --law morse").lines().count(), 4);
+    assert_eq!(bench.said("laws morse"), bench.said("laws --law morse"));
     for (number, law) in ["lennard-jones --wall none", "lennard-jones", "morse"].iter().enumerate() {
         bench.said(&format!("laws --law {law} --work-of-adhesion 0.05 --range 3e-10 --plot {number}.png"));
     }

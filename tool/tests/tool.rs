@@ -410,6 +410,22 @@ fn results_are_replaced_only_with_force() {
     assert!(bench.bytes("results", "gap.npy") != before);
     assert_eq!(bench.bytes("results", "notes.txt"), b"mine");
     assert_eq!(bench.names("results").len(), RESULTS.len() + 1);
+    // those of a run that failed are in nobody's way
+    bench.solve("--mean-gap 0.03 --max-iterations 1", "failed", 2);
+    bench.solve("--mean-gap 0.03", "failed", 0);
+    assert_eq!(bench.report("failed")["status"], "converged");
+}
+
+#[test]
+fn a_tension_without_adhesion_is_refused() {
+    let bench = Bench::new();
+    for load in ["--mean-pressure=-0.01", "--normal-force=-1", "--pressure=-0.1"] {
+        let refused = bench.run(&format!("solve --heights heights.npy {load} --out results"));
+        let said = text(&refused.stderr);
+        assert!(refused.status.code() == Some(1) && said.contains("nothing holds surfaces without adhesion"), "{said}");
+    }
+    let adhesive = "--law exponential --work-of-adhesion 1e-5 --range 4e-3";
+    bench.solve(&format!("{adhesive} --mean-pressure=-1e-5"), "results", 0);
 }
 
 #[test]

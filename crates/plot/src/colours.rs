@@ -79,13 +79,7 @@ impl Colouring {
 }
 
 /// The colour of the cluster of a label, counted from 1; white for 0, which is none. The same nine colours in turn.
-///
-/// ```
-/// use asperity_plot::cluster_colour;
-/// assert_eq!(cluster_colour(0), [255; 3]);
-/// assert!(cluster_colour(1) != cluster_colour(2) && cluster_colour(1) == cluster_colour(10));
-/// ```
-pub fn cluster_colour(label: usize) -> [u8; 3] {
+pub(super) fn cluster_colour(label: usize) -> [u8; 3] {
     // the last of the ten is grey
     let colours = &TABLEAU10[..9];
     label.checked_sub(1).map_or(WHITE, |cluster| {

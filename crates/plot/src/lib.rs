@@ -21,7 +21,7 @@ use std::fs;
 use std::path::Path;
 
 pub use chart::{Chart, distribution};
-pub use colours::{Colouring, cluster_colour};
+pub use colours::Colouring;
 pub use load::LoadScale;
 pub use map::Map;
 

@@ -55,6 +55,9 @@ const METRES: f64 = 1e-7;
 /// in metres beside lengths in nanometres 1e-9 at most.
 const SMOOTH: f64 = 1e-8;
 
+/// The share of the points of a map that may be spikes, above which they are features of its surface.
+const MANY_SPIKES: f64 = 0.01;
+
 /// The aspect ratio of cells from which they are far from square: the longer side then resolves half as much, and
 /// side lengths may have been forgotten.
 const CELLS: f64 = 2.0;
@@ -231,4 +234,23 @@ pub(super) fn spikes(relief: &Relief) -> Option<Warning> {
          heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
         [Word(nodes), Length(farthest * relief.unit), Figure(times), Word(node), Figure(kurtosis)],
     ))
+}
+
+impl Warning {
+    /// The probable mistake behind many spikes among the points of a map, which are its roughness then.
+    ///
+    /// ```
+    /// use asperity_maps::warning::Warning;
+    /// assert!(Warning::of_despiked(10, 1000).is_none());
+    /// let warning = Warning::of_despiked(11, 1000).unwrap().to_string();
+    /// assert!(warning.contains("1.1 % of the points"));
+    /// ```
+    pub fn of_despiked(spikes: usize, points: usize) -> Option<Self> {
+        let share = spikes as f64 / points as f64;
+        (share > MANY_SPIKES).then(|| {
+            let text = "{} % of the points have the median around them now, more than {} %, so that features of the surface \
+                        may be among them: raise the threshold of despike";
+            Self::told(WarningCode::Spikes, share, text, [Figure(100.0 * share), Figure(100.0 * MANY_SPIKES)])
+        })
+    }
 }

@@ -196,12 +196,17 @@ impl Load {
         if let Self::Fraction(fraction) = self { Some(fraction) } else { None }
     }
 
-    /// Refuses a load that a boundary does not have, and one that would act on the images of a `mirrored` map as well.
+    /// Refuses a load that a boundary does not have, one that would act on the images of a `mirrored` map as well, and a
+    /// tension between surfaces that do not adhere.
     ///
     /// # Errors
     /// The reason and the remedy, for [`worded`](crate::worded).
-    pub fn check(self, boundary: Boundary, mirrored: bool) -> Result<(), String> {
-        let Self::Held(control) = self else { return Ok(()) };
+    pub fn check(self, boundary: Boundary, mirrored: bool, adheres: bool) -> Result<(), String> {
+        let control = match self {
+            Self::Held(control) => control,
+            Self::Reduced(pressure) => Control::MeanPressure(pressure),
+            Self::Fraction(_) => return Ok(()),
+        };
         let reason = match (boundary, control) {
             (Boundary::Periodic, Control::Approach(_)) => {
                 "an approach needs {boundary=free}: in a periodic cell bodies have none, give a mean gap, a pressure or \
@@ -217,6 +222,9 @@ impl Load {
                     "a {name} would act on the mirror images of the map as well: give a pressure or a mean gap, or \
                      {{whole=}} for the force on all of them"
                 ));
+            }
+            (_, Control::MeanPressure(load) | Control::Force(load)) if load < 0.0 && !adheres => {
+                "a negative load pulls, and nothing holds surfaces without adhesion together: press them, or give a {law}"
             }
             _ => return Ok(()),
         };

@@ -233,6 +233,7 @@ impl Preparation {
                 None => format!("none of {nodes} points is beyond {limit} from the median around it"),
             };
             log.tell_change("despike", what, &map, &before);
+            log.warn(Warning::of_despiked(spikes.nodes.len(), nodes), &map);
         }
         if let Some(form) = self.remove_form {
             let (fit, before) = (map.fit_form(form)?, rms(&map));

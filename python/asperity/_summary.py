@@ -1,0 +1,29 @@
+"""Named tuples on one screen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+
+def summary(found: Any) -> str:
+    """A named tuple in a line for each field: numbers to seven digits, and of arrays their shape and range."""
+    width = max(map(len, found._fields))
+    return "\n".join(f"{name.replace('_', ' '):<{width}}  {_text(value)}" for name, value in zip(found._fields, found))
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.7g}"
+    if isinstance(value, np.ndarray):
+        finite = value[np.isfinite(value)]
+        span = f", {finite.min():.4g} to {finite.max():.4g}" if finite.size and value.dtype != bool else ""
+        return f"array of {' x '.join(map(str, value.shape))}{span}"
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        return ", ".join(f"{name.replace('_', ' ')} {_text(one)}" for name, one in zip(value._fields, value))
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_text, value))})"
+    # a solution has a screen of its own
+    gap = getattr(value, "gap", None)
+    return str(value) if gap is None else f"solution of {' x '.join(map(str, gap.shape))} nodes, {value.status}"
