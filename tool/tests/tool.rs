@@ -419,7 +419,7 @@ fn results_are_replaced_only_with_force() {
 #[test]
 fn a_tension_without_adhesion_is_refused() {
     let bench = Bench::new();
-    for load in ["--mean-pressure=-0.01", "--normal-force=-1", "--pressure=-0.1"] {
+    for load in ["--mean-pressure=-0.01", "--normal-force=-1", "--reduced-pressure=-0.1"] {
         let refused = bench.run(&format!("solve --heights heights.npy {load} --out results"));
         let said = text(&refused.stderr);
         assert!(refused.status.code() == Some(1) && said.contains("nothing holds surfaces without adhesion"), "{said}");
@@ -447,7 +447,7 @@ fn what_did_not_converge_is_written_and_said() {
     for (arguments, status, remedy) in [
         ("--mean-gap 0.0398 --max-iterations 2", "iteration-limit", "--max-iterations"),
         ("--mean-gap 0.0398 --precision f32 --tolerance 1e-12", "stalled", "--precision f64"),
-        ("--mean-pressure -1e-3", "detached", "less tension"),
+        ("--mean-pressure -1 --law exponential --work-of-adhesion 1e-5 --range 4e-3", "detached", "less tension"),
     ] {
         let output = bench.run(&format!("solve --heights heights.npy {arguments} --out {status}"));
         assert_eq!(output.status.code(), Some(2), "{arguments}");
