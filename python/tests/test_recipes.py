@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import runpy
 import warnings
 
 import numpy as np
@@ -44,6 +45,19 @@ def a_coated_tip(found):
     assert wide.statistics.corrected_contact_fraction * (2 * side) ** 2 == pytest.approx(area, rel=0.02)
     with pytest.raises(ValueError, match="coating has no free boundary"):
         asperity.solve(tip, modulus=10e9, normal_force=1e-9, body=found["coating"], boundary="free")
+
+
+def a_tip_on_a_thin_layer(found):
+    page = re.findall(r"^\| ν = 0\.\d.*?\|((?: [\d.]+ \|)+)$", PAGE.read_text(), re.MULTILINE)
+    written = [[float(value) for value in row.strip(" |").split("|")] for row in page]
+    table, chi = found["table"], found["wanted"]
+    assert np.array([*table.values(), found["series"]]) == pytest.approx(np.array(written), abs=6e-3)
+    assert (found["series"] / table[0.5] - 1)[[0, -1]] == pytest.approx([-0.01, -0.16], abs=6e-3)
+    # the integral equation of an elastic layer
+    exact = runpy.run_path(str(PAGE.parents[2] / "python" / "benches" / "shapes.py"))["on_layer"]
+    for poisson, row in table.items():
+        roots, ratios = np.transpose([exact(radius, poisson)[1:] for radius in (0.25, 0.7, 1.2)])
+        assert np.polyval(np.polyfit(chi, row, 4), roots) == pytest.approx(ratios, rel=3e-3)
 
 
 def a_rough_sphere(found):
