@@ -60,6 +60,13 @@ def a_tip_on_a_thin_layer(found):
         assert np.polyval(np.polyfit(chi, row, 4), roots) == pytest.approx(ratios, rel=3e-3)
 
 
+def a_pyramid(found):
+    assert [f"{found['found'][faces]:.3f}" for faces in (3, 4)] == ["0.882", "0.738"]
+    # many faces are a cone
+    assert found["found"][64] == pytest.approx(2 / np.pi, rel=1e-3)
+    assert found["found"][4] * np.pi / 2 == pytest.approx(1.159, abs=1e-3)
+
+
 def a_rough_sphere(found):
     share = found["share"]
     assert [f"{found:.2f}" for found in share] == ["0.21", "0.68", "0.93"]
