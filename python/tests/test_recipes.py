@@ -97,6 +97,22 @@ def a_force_curve(found):
     assert pathlib.Path("curve.png").stat().st_size > 1000
 
 
+def electroadhesion(found):
+    rows = [found["found"][voltage] for voltage in (0, 100, 200)]
+    assert [f"{100 * one.contact_fraction:.1f}" for one in rows] == ["7.6", "24.0", "68.8"]
+    # Maxwell's stress at the gaps, and between flat surfaces
+    film, flat = found["film"], 8.854e-12 * np.array([100, 200]) ** 2 / 2 / found["film"] ** 2
+    mean = [np.mean(stress / (1 + one.gap / film) ** 2) for stress, one in zip(flat, rows[1:])]
+    assert [f"{stress / 1e3:.1f}" for stress in (*mean, *flat)] == ["12.5", "61.2", "15.9", "63.7"]
+    assert [one.contact_pressure.mean() - 5e3 for one in rows[1:]] == pytest.approx(mean, rel=1e-4)
+    # behind a film that is thick beside the roughness the attraction adds to the pressure
+    law = asperity.PowerLaw(work_of_adhesion=flat[0] * 1e-3, range=1e-3, exponent=1)
+    with pytest.warns(asperity.InputWarning, match="range"):
+        far = asperity.solve(found["pad"], modulus=2e6, mean_pressure=5e3, law=law)
+    near = asperity.solve(found["pad"], modulus=2e6, mean_pressure=5e3 + flat[0])
+    assert far.contact_fraction == pytest.approx(near.contact_fraction, abs=2e-3)
+
+
 def two_hundred_surfaces(found):
     area = found["area"]
     assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
