@@ -113,6 +113,18 @@ def electroadhesion(found):
     assert far.contact_fraction == pytest.approx(near.contact_fraction, abs=2e-3)
 
 
+def capillaries(found):
+    pulled, radius, tension = found["pulled"], found["radius"], found["tension"]
+    wet = 4 * np.pi * tension * radius
+    assert [f"{1e9 * force:.0f}" for force in (wet, *(pulled["rough", humidity] for humidity in (0.1, 0.5, 0.9)))] == [
+        *("90", "14", "43", "77")
+    ]
+    for humidity in (0.1, 0.5, 0.9):
+        width = 1.05e-9 / -np.log(humidity)
+        exact = -asperity.exact.MaugisDugdale(radius, 70e9, 2 * tension, width).pull_off().load
+        assert pulled["smooth", humidity] == pytest.approx(exact, rel=0.03) and 0.93 * wet < exact < wet
+
+
 def two_hundred_surfaces(found):
     area = found["area"]
     assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
