@@ -125,6 +125,18 @@ def capillaries(found):
         assert pulled["smooth", humidity] == pytest.approx(exact, rel=0.03) and 0.93 * wet < exact < wet
 
 
+def a_rough_particle_for_particle_codes(found):
+    columns, loss = found["columns"], found["loss"]
+    assert [f"{1e15 * loss:.2f}", f"{found['stuck']:.2f}", f"{found['weakest']:.2f}"] == ["1.84", "0.86", "0.84"]
+    assert (columns["status"] == "converged").all()
+    # what is lost is the area between the branches, by the trapezoidal rule, and by the balance of energies
+    (there, up), (back, down) = (np.loadtxt(f"{branch}.txt").T for branch in ("approach", "withdrawal"))
+    x, y = np.append(there, back), np.append(up, down)
+    assert np.sum((y[1:] + y[:-1]) / 2 * np.diff(x)) == pytest.approx(loss, rel=0.02)
+    assert abs(columns["imbalance"][-1]) < 0.02 * columns["dissipated"][-1]
+    assert pathlib.Path("particle.png").stat().st_size > 1000
+
+
 def two_hundred_surfaces(found):
     area = found["area"]
     assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
