@@ -137,6 +137,21 @@ def a_rough_particle_for_particle_codes(found):
     assert pathlib.Path("particle.png").stat().st_size > 1000
 
 
+def bonding_of_a_wafer(found):
+    assert [f"{100 * share:.0f}" for share in found["bonded"]] == ["100", "60", "5"]
+    assert [f"{energy:.2g}" for energy in found["flat"]] == ["0.035", "0.15", "0.38"]
+    plate, thickness = found["wafer"](1e-3).function, 1e-3
+    # a thin plate, and a half-space
+    assert plate(np.array([20.0])) == pytest.approx(140e9 * thickness**3 / 12 * 20.0**4, rel=1e-3)
+    assert plate(np.array([2e4])) == pytest.approx(140e9 * 2e4 / 2, rel=1e-9)
+    # a wave closes under its amplitude times its stiffness
+    q, wave = 2 * np.pi / 0.01, asperity.surface.wave(64, 0.01, amplitude=1e-6)
+    for share, area in ((1.001, 1.0), (0.9, 0.9)):
+        load = share * 1e-6 * plate(np.array([q]))[0]
+        closed = asperity.solve(wave, modulus=140e9, mean_pressure=load, body=found["wafer"](1e-3))
+        assert closed.contact_fraction == 1.0 if share > 1 else closed.contact_fraction < area
+
+
 def two_hundred_surfaces(found):
     area = found["area"]
     assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
