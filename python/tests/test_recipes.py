@@ -191,12 +191,22 @@ def a_seal(found):
     assert [f"{share:.2f}" for share in seal["contact_fraction"][2:]] == ["0.33", "0.58"]
 
 
-def a_thermal_joint(found):
-    law = found["law"]
+def a_joint_for_finite_elements(found):
+    law, current, pressures = found["law"], found["current"].columns, found["pressures"]
     assert [f"{value / 1e3:.1f}" for value in law["thermal_conductance"][[0, -1]]] == ["4.8", "205.6"]
-    assert f"{found['power']:.2f}" == "0.82" and law["conductance_error"].max() < 0.05
-    assert [file.name for file in found["files"]] == ["joint.inp"]
-    assert "*GAP CONDUCTANCE, PRESSURE" in found["files"][0].read_text()
+    assert f"{found['power']:.2f}" == "0.82"
+    errors = np.abs(law["thermal_conductance"] / found["finer"] - 1).max(), law["conductance_error"].max()
+    assert [f"{100 * error:.0f}" for error in errors] == ["3", "5"]
+    factor = (1 / 237 + 1 / 15) / (27e-9 + 720e-9)
+    assert current["electrical_conductance"] == pytest.approx(factor * law["thermal_conductance"], rel=1e-9)
+    # what MOOSE reads begins at no load, and has these values
+    moose = {file.name: file.read_text() for file in found["files"]}
+    assert sorted(moose) == ["current.conductance.csv", "current.inp", "current.pressure.csv"] + [
+        *("heat.conductance.csv", "heat.inp", "heat.pressure.csv")
+    ]
+    assert "*GAP CONDUCTANCE, PRESSURE" in moose["heat.inp"] and "*GAP ELECTRICAL" in moose["current.inp"]
+    x, y = np.genfromtxt("heat.conductance.csv", delimiter=",", skip_header=1).T
+    assert (x[0], y[0]) == (0, 0) and np.allclose(x[1:], pressures) and np.allclose(y[1:], law["thermal_conductance"])
 
 
 def an_electrical_contact_with_adhesion(found):
