@@ -191,6 +191,19 @@ def a_seal(found):
     assert [f"{share:.2f}" for share in seal["contact_fraction"][2:]] == ["0.33", "0.58"]
 
 
+def a_rock_joint(found):
+    law, aperture, pressures = found["law"], found["aperture"], found["pressures"]
+    assert [f"{1e6 * value:.0f}" for value in (*law["closure"][[0, -1]], *aperture[[0, -1]])] == ["43", "128", "127", "38"]
+    assert [f"{value / 1e9:.3g}" for value in law["contact_stiffness"][[0, -1]]] == ["18.9", "1.33e+03"]
+    assert [f"{value:.1e}" for value in found["permeability"][[0, -1]]] == ["1.4e-09", "1.2e-10"]
+    # the work of the load is at most that of a stiffness that grows in proportion to it
+    assert 0.9 < np.polyfit(np.log(pressures), np.log(law["contact_stiffness"]), 1)[0] < 1
+    # the flow is at most that of parallel channels, and the mean gap is more than the hydraulic aperture
+    pressed = asperity.solve(found["joint"], modulus=found["granite"], mean_pressure=pressures[-1])
+    assert aperture[-1] < np.cbrt(np.mean(pressed.gap**3))
+    assert aperture[-1] == pytest.approx(0.7 * law["mean_gap"][-1], rel=0.01) and (aperture < law["mean_gap"]).all()
+
+
 def a_joint_for_finite_elements(found):
     law, current, pressures = found["law"], found["current"].columns, found["pressures"]
     assert [f"{value / 1e3:.1f}" for value in law["thermal_conductance"][[0, -1]]] == ["4.8", "205.6"]
