@@ -222,6 +222,18 @@ def a_joint_for_finite_elements(found):
     assert (x[0], y[0]) == (0, 0) and np.allclose(x[1:], pressures) and np.allclose(y[1:], law["thermal_conductance"])
 
 
+def a_battery_electrode(found):
+    resistance, columns = found["resistance"], found["columns"]
+    assert [f"{value:.2g}" for value in resistance[[0, -1]]] == ["1.5", "0.062"] and f"{found['power']:.2f}" == "-0.92"
+    assert f"{100 * columns['conductance_error'].max():.0f}" == "5"
+    # Barber's identity, and heights and load that are twice as large
+    stiffness = columns["contact_stiffness"]
+    assert resistance == pytest.approx(1e4 * 1e9 * (0.05 + 27e-9) / (2 * stiffness), rel=1e-9)
+    twice = asperity.Topography(2 * found["electrode"].heights, found["electrode"].lengths)
+    columns = asperity.sweep(twice, mean_pressures=2 * found["pressures"], **found["stack"]).columns
+    assert columns["electrical_conductance"] == pytest.approx(1e4 / resistance, rel=1e-3)
+
+
 def an_electrical_contact_with_adhesion(found):
     light, heavy = (found["gain"][pressure] for pressure in (1e6, 100e6))
     assert [f"{100 * (gain - 1):.0f}" for gain in (*light, *heavy)] == ["34", "9", "11", "4"]
