@@ -118,8 +118,8 @@ def on_layer(radius, poisson):
     2/π d/ds ∫ ru/√(s² − r²) dr. N(y) is ∫ (1 − W) cos(qy) dq with the compliance W of the layer over that of a
     half-space. Under the paraboloid φ(a) is zero.
     """
-    (s, weights), (q, of_q) = (np.polynomial.legendre.leggauss(count) for count in (40, 200))
-    s, weights, q, of_q = radius * (s + 1) / 2, radius * weights / 2, 15 * (q + 1), 15 * of_q
+    (s, weights), (q, of_q) = (np.polynomial.legendre.leggauss(count) for count in (30, 100))
+    s, weights, q, of_q = radius * (s + 1) / 2, radius * weights / 2, 10 * (q + 1), 10 * of_q
     a, b = 3 - 4 * poisson, 5 - 12 * poisson + 8 * poisson**2
     missing = of_q * (1 - (a * np.sinh(2 * q) - 2 * q) / (a * np.cosh(2 * q) + 2 * q**2 + b))
     places = np.append(s, radius)[:, None]
