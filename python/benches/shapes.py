@@ -5,8 +5,9 @@
 
 Each body is solved on NODES² nodes of a free half-space, 1024 by default, and on half as many a side. The error is mostly
 of first order in the spacing, so that twice the finer value less the coarser one is closer. Flat punches have the area of
-their nodes. K is the stiffness F/δ, and M the moment of the pressure. Layers are ten nodes thick, in a periodic cell; the
-exact number is that of the limit of no thickness, and they are half as thick on the finer grid.
+their nodes. K is the stiffness F/δ, and M the moment of the pressure. Layers are in a periodic cell. Those beside springs
+are ten nodes thick; the exact number is that of the limit of no thickness, and they are half as thick on the finer grid.
+The others are as thick as the contact is wide from its middle to its edge.
 """
 
 import sys
@@ -49,13 +50,20 @@ def ellipse(ratio):
     return punch(lambda x, y: x**2 + (ratio * y) ** 2 < 0.8**2), exact
 
 
-def oblique(x, y):
-    """3M/(E*a³ tan θ) of a circular punch that is oblique by θ."""
-    inside, slope = np.hypot(x, y) < 0.8, 0.2 * DEPTH
-    solution = pressed(np.where(inside, slope * x, np.nan))
-    assert not np.any(solution.gap[inside])
-    radius = np.sqrt(np.mean(inside) * SIDE**2 / np.pi)
-    return 3 * np.sum(solution.pressure[inside] * x[inside]) * (SIDE / len(x)) ** 2 / (radius**3 * slope)
+def oblique(first, second):
+    """An elliptic punch that is oblique by θ along its first semi-axis, and its 3M/(E*a³ tan θ) with the longer one a."""
+    longer, angles = max(first, second), 2 * np.pi * np.arange(200) / 200
+    root = np.hypot(second * np.cos(angles), first * np.sin(angles))
+
+    def found(x, y):
+        inside, slope = np.hypot(x / first, y / second) < 1, 0.2 * DEPTH
+        solution = pressed(np.where(inside, slope * x, np.nan))
+        assert not np.any(solution.gap[inside])
+        grown = np.sqrt(np.mean(inside) * SIDE**2 / (np.pi * first * second))
+        moment = np.sum(solution.pressure[inside] * x[inside]) * (SIDE / len(x)) ** 2
+        return 3 * moment / ((grown * longer) ** 3 * slope)
+
+    return "3M/(E\\*a³ tan θ)", found, 2 * first**2 / (longer**3 * np.mean(np.cos(angles) ** 2 / root))
 
 
 def cone(x, y):
@@ -77,25 +85,73 @@ def ellipsoid(x, y):
     return pressed(-along * x**2 - across * y**2).normal_force / (a * DEPTH)
 
 
-def layer(base, poisson, exact):
+def punch_on_layer(inside, thickness, poisson, base, yielding):
+    """K of a flat punch on a layer, of which `yielding` is the strain as a whole times E*/p."""
+    solution = asperity.solve(
+        np.where(inside, 0.0, np.nan),
+        SIDE,
+        modulus=1.0,
+        mean_pressure=1e-3,
+        absent_missing=True,
+        body=asperity.Layer(thickness, poisson, base),
+        stiffness=True,
+    )
+    # the approach of the stiffness is without the compression of the layer as a whole, which is added
+    return 1 / (1 / solution.normal_stiffness + yielding * thickness / SIDE**2)
+
+
+def thin(base, poisson, yielding):
     """Kt/(E*A) of a circular punch on a thin layer."""
 
     def found(x, y):
         inside, thickness = np.hypot(x, y) < 0.8, 10 * SIDE / len(x)
-        solution = asperity.solve(
-            np.where(inside, 0.0, np.nan),
-            SIDE,
-            modulus=1.0,
-            mean_pressure=1e-3,
-            absent_missing=True,
-            body=asperity.Layer(thickness, poisson, base),
-            stiffness=True,
-        )
-        # the approach of the stiffness is without the compression of the layer as a whole, which is added
-        share = np.mean(inside)
-        return 1 / (share * SIDE**2 / (solution.normal_stiffness * thickness) + share / exact)
+        return punch_on_layer(inside, thickness, poisson, base, yielding) * thickness / (np.mean(inside) * SIDE**2)
 
-    return f"flat punch, layer {base} at ν = {poisson}", "Kt/(E\\*A)", found, exact, "springs, Johnson (1985)"
+    return f"flat punch, layer {base} at ν = {poisson}", "Kt/(E\\*A)", found, 1 / yielding, "springs, Johnson (1985)"
+
+
+def on_layer(radius, poisson):
+    """K/(2E*a) of a flat punch, and √(Rδ)/t and F/(4/3 E*√(Rδ³)) of a paraboloid, on a bonded layer.
+
+    The radius a of the contact is in units of the thickness t. The pressure ½E* ∫ q J₀(qr) ∫ φ(s) cos(qs) ds dq, with φ up
+    to a, is zero outside, and makes the displacement u inside where φ(s) − 1/π ∫ φ(x) (N(s + x) + N(s − x)) dx =
+    2/π d/ds ∫ ru/√(s² − r²) dr. N(y) is ∫ (1 − W) cos(qy) dq with the compliance W of the layer over that of a
+    half-space. Under the paraboloid φ(a) is zero.
+    """
+    (s, weights), (q, of_q) = (np.polynomial.legendre.leggauss(count) for count in (30, 100))
+    s, weights, q, of_q = radius * (s + 1) / 2, radius * weights / 2, 10 * (q + 1), 10 * of_q
+    a, b = 3 - 4 * poisson, 5 - 12 * poisson + 8 * poisson**2
+    missing = of_q * (1 - (a * np.sinh(2 * q) - 2 * q) / (a * np.cosh(2 * q) + 2 * q**2 + b))
+    places = np.append(s, radius)[:, None]
+    kernel = sum(np.cos(q * distance[..., None]) @ missing for distance in (places + s, places - s)) * weights / np.pi
+    right = 2 / np.pi * np.hstack([np.ones_like(places), places**2])
+    inner = np.linalg.solve(np.eye(len(s)) - kernel[:-1], right[:-1])
+    flat, bowl = right[-1] + kernel[-1] @ inner
+    depth, (force, less) = bowl / flat, np.pi * weights @ inner
+    return force / (2 * radius), np.sqrt(depth), (depth * force - less) / (4 / 3 * depth**1.5)
+
+
+def thick_punch(x, y):
+    """K/(E*√A) of a circular punch on a bonded layer of ν = ½ as thick as its radius."""
+    inside = np.hypot(x, y) < 0.2
+    area = np.mean(inside) * SIDE**2
+    return punch_on_layer(inside, np.sqrt(area / np.pi), 0.5, "bonded", 0.0) / np.sqrt(area)
+
+
+def thick_sphere(poisson):
+    """F/(E*√(Rδ³)) of a paraboloid, on a bonded layer as thick as its radius of contact."""
+    radius, thickness, (_, root, ratio) = 20.0, 0.2, on_layer(1.0, poisson)
+    force = 4 / 3 * ratio * (root * thickness) ** 3 / radius
+
+    def found(x, y):
+        heights, body = -(x**2 + y**2) / (2 * radius), asperity.Layer(thickness, poisson)
+        solution = asperity.solve(heights, SIDE, modulus=1.0, normal_force=force, body=body)
+        strain = solution.mean_pressure * (1 - 2 * poisson) / (1 - poisson) ** 2
+        depth = strain * thickness - solution.mean_gap - np.mean(heights)
+        return force / np.sqrt(radius * depth**3)
+
+    source = "integral equation, Lebedev and Ufliand (1958)"
+    return f"paraboloid, layer bonded at ν = {poisson}", "F/(E\\*√(Rδ³))", found, 4 / 3 * ratio, source
 
 
 BODIES = [
@@ -109,12 +165,23 @@ BODIES = [
         np.pi * 0.36679,
         "capacity of a square, Read (1997)",
     ),
-    ("oblique flat punch, circle", "3M/(E\\*a³ tan θ)", oblique, 4.0, "Borowicka (1943)"),
+    ("oblique flat punch, circle", *oblique(0.8, 0.8), "Borowicka (1943)"),
+    ("oblique flat punch, ellipse 2:1, along", *oblique(0.8, 0.4), "potential of an ellipse, Galin (1961)"),
+    ("oblique flat punch, ellipse 2:1, across", *oblique(0.4, 0.8), "potential of an ellipse, Galin (1961)"),
     ("cone", "F tan β/(E\\*δ²)", cone, 2 / np.pi, "Love (1939)"),
     ("paraboloid", "F/(E\\*√(Rδ³))", sphere, 4 / 3, "Hertz (1881)"),
     ("paraboloid, ellipse 2:1", "F/(E\\*aδ)", ellipsoid, 2 * np.pi / (3 * elliptic(0.75)[0]), "Hertz (1881)"),
-    layer("sliding", 0.3, 1.0),
-    layer("bonded", 0.3, 0.7**2 / 0.4),
+    thin("sliding", 0.3, 1.0),
+    thin("bonded", 0.3, 0.4 / 0.7**2),
+    (
+        "flat punch, layer bonded at ν = 0.5, t = a",
+        "K/(E\\*√A)",
+        thick_punch,
+        2 / np.sqrt(np.pi) * on_layer(1.0, 0.5)[0],
+        "integral equation, Lebedev and Ufliand (1958)",
+    ),
+    thick_sphere(0.3),
+    thick_sphere(0.5),
 ]
 
 

@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import runpy
 import warnings
 
 import numpy as np
@@ -46,6 +47,27 @@ def a_coated_tip(found):
         asperity.solve(tip, modulus=10e9, normal_force=1e-9, body=found["coating"], boundary="free")
 
 
+def a_tip_on_a_thin_layer(found):
+    page = re.findall(r"^\| ν = 0\.\d.*?\|((?: [\d.]+ \|)+)$", PAGE.read_text(), re.MULTILINE)
+    written = [[float(value) for value in row.strip(" |").split("|")] for row in page]
+    table, chi = found["table"], found["wanted"]
+    assert np.array([*table.values(), found["series"]]) == pytest.approx(np.array(written), abs=6e-3)
+    assert (found["series"] / table[0.5] - 1)[[0, -1]] == pytest.approx([-0.01, -0.16], abs=6e-3)
+    # the integral equation of an elastic layer
+    exact = runpy.run_path(str(PAGE.parents[2] / "python" / "benches" / "shapes.py"))["on_layer"]
+    for poisson, row in table.items():
+        roots, ratios = np.transpose([exact(radius, poisson)[1:] for radius in (0.25, 0.7, 1.2)])
+        assert np.polyval(np.polyfit(chi, row, 4), roots) == pytest.approx(ratios, rel=3e-3)
+    assert pathlib.Path("layer.png").stat().st_size > 1000
+
+
+def a_pyramid(found):
+    coefficient, (three, four) = found["coefficient"], found["found"].values()
+    assert [f"{value:.3f}" for value in (three, four, four * np.pi / 2)] == ["0.882", "0.738", "1.159"]
+    # many faces are a cone
+    assert 2 * coefficient(64, 256) - coefficient(64, 128) == pytest.approx(2 / np.pi, rel=1e-3)
+
+
 def a_rough_sphere(found):
     share = found["share"]
     assert [f"{found:.2f}" for found in share] == ["0.21", "0.68", "0.93"]
@@ -74,6 +96,61 @@ def a_force_curve(found):
     assert f"{1e3 * fit.work_of_adhesion.value:.0f}" == "50" and fit.verdict.startswith("Maugis")
     assert f"{fit.tabor_parameter.value:.1f}" == "1.0"
     assert pathlib.Path("curve.png").stat().st_size > 1000
+
+
+def electroadhesion(found):
+    rows = [found["found"][voltage] for voltage in (0, 100, 200)]
+    assert [f"{100 * one.contact_fraction:.1f}" for one in rows] == ["7.6", "24.0", "68.8"]
+    # Maxwell's stress at the gaps, and between flat surfaces
+    film, flat = found["film"], 8.854e-12 * np.array([100, 200]) ** 2 / 2 / found["film"] ** 2
+    mean = [np.mean(stress / (1 + one.gap / film) ** 2) for stress, one in zip(flat, rows[1:])]
+    assert [f"{stress / 1e3:.1f}" for stress in (*mean, *flat)] == ["12.5", "61.2", "15.9", "63.7"]
+    assert [one.contact_pressure.mean() - 5e3 for one in rows[1:]] == pytest.approx(mean, rel=1e-4)
+    # behind a film that is thick beside the roughness the attraction adds to the pressure
+    law = asperity.PowerLaw(work_of_adhesion=flat[0] * 1e-3, range=1e-3, exponent=1)
+    with pytest.warns(asperity.InputWarning, match="range"):
+        far = asperity.solve(found["pad"], modulus=2e6, mean_pressure=5e3, law=law)
+    near = asperity.solve(found["pad"], modulus=2e6, mean_pressure=5e3 + flat[0])
+    assert far.contact_fraction == pytest.approx(near.contact_fraction, abs=2e-3)
+
+
+def capillaries(found):
+    pulled, radius, tension = found["pulled"], found["radius"], found["tension"]
+    wet = 4 * np.pi * tension * radius
+    assert [f"{1e9 * force:.0f}" for force in (wet, *(pulled["rough", humidity] for humidity in (0.1, 0.5, 0.9)))] == [
+        *("90", "14", "43", "77")
+    ]
+    for humidity in (0.1, 0.5, 0.9):
+        width = 1.05e-9 / -np.log(humidity)
+        exact = -asperity.exact.MaugisDugdale(radius, 70e9, 2 * tension, width).pull_off().load
+        assert pulled["smooth", humidity] == pytest.approx(exact, rel=0.03) and 0.93 * wet < exact < wet
+
+
+def a_rough_particle_for_particle_codes(found):
+    columns, loss = found["columns"], found["loss"]
+    assert [f"{1e15 * loss:.2f}", f"{found['stuck']:.2f}", f"{found['weakest']:.2f}"] == ["1.84", "0.86", "0.84"]
+    assert (columns["status"] == "converged").all()
+    # what is lost is the area between the branches, by the trapezoidal rule, and by the balance of energies
+    (there, up), (back, down) = (np.loadtxt(f"{branch}.txt").T for branch in ("approach", "withdrawal"))
+    x, y = np.append(there, back), np.append(up, down)
+    assert np.sum((y[1:] + y[:-1]) / 2 * np.diff(x)) == pytest.approx(loss, rel=0.02)
+    assert abs(columns["imbalance"][-1]) < 0.02 * columns["dissipated"][-1]
+    assert pathlib.Path("particle.png").stat().st_size > 1000
+
+
+def bonding_of_a_wafer(found):
+    assert [f"{100 * share:.0f}" for share in found["bonded"]] == ["100", "60", "5"]
+    assert [f"{energy:.2g}" for energy in found["flat"]] == ["0.035", "0.15", "0.38"]
+    plate, thickness = found["wafer"](1e-3).function, 1e-3
+    # a thin plate, and a half-space
+    assert plate(np.array([20.0])) == pytest.approx(140e9 * thickness**3 / 12 * 20.0**4, rel=1e-3)
+    assert plate(np.array([2e4])) == pytest.approx(140e9 * 2e4 / 2, rel=1e-9)
+    # a wave closes under its amplitude times its stiffness
+    q, wave = 2 * np.pi / 0.01, asperity.surface.wave(64, 0.01, amplitude=1e-6)
+    for share, area in ((1.001, 1.0), (0.9, 0.9)):
+        load = share * 1e-6 * plate(np.array([q]))[0]
+        closed = asperity.solve(wave, modulus=140e9, mean_pressure=load, body=found["wafer"](1e-3))
+        assert closed.contact_fraction == 1.0 if share > 1 else closed.contact_fraction < area
 
 
 def two_hundred_surfaces(found):
@@ -115,12 +192,47 @@ def a_seal(found):
     assert [f"{share:.2f}" for share in seal["contact_fraction"][2:]] == ["0.33", "0.58"]
 
 
-def a_thermal_joint(found):
-    law = found["law"]
+def a_rock_joint(found):
+    law, aperture, pressures = found["law"], found["aperture"], found["pressures"]
+    assert [f"{1e6 * value:.0f}" for value in (*law["closure"][[0, -1]], *aperture[[0, -1]])] == ["43", "128", "127", "38"]
+    assert [f"{value / 1e9:.3g}" for value in law["contact_stiffness"][[0, -1]]] == ["18.9", "1.33e+03"]
+    assert [f"{value:.1e}" for value in found["permeability"][[0, -1]]] == ["1.4e-09", "1.2e-10"]
+    # theory has a stiffness in proportion to the load, and a little less under light loads on one map
+    assert 0.85 < np.polyfit(np.log(pressures), np.log(law["contact_stiffness"]), 1)[0] < 1
+    # the flow is at most that of parallel channels, and the mean gap is more than the hydraulic aperture
+    pressed = asperity.solve(found["joint"], modulus=found["granite"], mean_pressure=pressures[-1])
+    assert aperture[-1] < np.cbrt(np.mean(pressed.gap**3))
+    assert aperture[-1] == pytest.approx(0.7 * law["mean_gap"][-1], rel=0.01) and (aperture < law["mean_gap"]).all()
+
+
+def a_joint_for_finite_elements(found):
+    law, current, pressures = found["law"], found["current"].columns, found["pressures"]
     assert [f"{value / 1e3:.1f}" for value in law["thermal_conductance"][[0, -1]]] == ["4.8", "205.6"]
-    assert f"{found['power']:.2f}" == "0.82" and law["conductance_error"].max() < 0.05
-    assert [file.name for file in found["files"]] == ["joint.inp"]
-    assert "*GAP CONDUCTANCE, PRESSURE" in found["files"][0].read_text()
+    assert f"{found['power']:.2f}" == "0.82"
+    errors = np.abs(law["thermal_conductance"] / found["finer"] - 1).max(), law["conductance_error"].max()
+    assert [f"{100 * error:.0f}" for error in errors] == ["3", "5"]
+    factor = (1 / 237 + 1 / 15) / (27e-9 + 720e-9)
+    assert current["electrical_conductance"] == pytest.approx(factor * law["thermal_conductance"], rel=1e-9)
+    # what MOOSE reads begins at no load, and has these values
+    moose = {file.name: file.read_text() for file in found["files"]}
+    assert sorted(moose) == ["current.conductance.csv", "current.inp", "current.pressure.csv"] + [
+        *("heat.conductance.csv", "heat.inp", "heat.pressure.csv")
+    ]
+    assert "*GAP CONDUCTANCE, PRESSURE" in moose["heat.inp"] and "*GAP ELECTRICAL" in moose["current.inp"]
+    x, y = np.genfromtxt("heat.conductance.csv", delimiter=",", skip_header=1).T
+    assert (x[0], y[0]) == (0, 0) and np.allclose(x[1:], pressures) and np.allclose(y[1:], law["thermal_conductance"])
+
+
+def a_battery_electrode(found):
+    resistance, columns = found["resistance"], found["columns"]
+    assert [f"{value:.2g}" for value in resistance[[0, -1]]] == ["1.5", "0.062"] and f"{found['power']:.2f}" == "-0.92"
+    assert f"{100 * columns['conductance_error'].max():.0f}" == "5"
+    # Barber's identity, and heights and load that are twice as large
+    stiffness = columns["contact_stiffness"]
+    assert resistance == pytest.approx(1e4 * 1e9 * (0.05 + 27e-9) / (2 * stiffness), rel=1e-9)
+    twice = asperity.Topography(2 * found["electrode"].heights, found["electrode"].lengths)
+    columns = asperity.sweep(twice, mean_pressures=2 * found["pressures"], **found["stack"]).columns
+    assert columns["electrical_conductance"] == pytest.approx(1e4 / resistance, rel=1e-3)
 
 
 def an_electrical_contact_with_adhesion(found):
