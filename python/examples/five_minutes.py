@@ -14,7 +14,7 @@ import asperity
 # the 45 formats of SurfaceTopography, by `asperity.from_topography`.
 
 # %%
-rough = asperity.surface.self_affine(512, 4e-6, rms_height=6e-9, hurst=0.8, k_l=2, k_s=40, seed=11)
+rough = asperity.surface.self_affine(512, "4um", rms_height="6nm", hurst=0.8, k_l=2, k_s=40, seed=11)
 measured = rough.heights[:256, :256] + 3e-9 * np.linspace(-1, 1, 256)[:, None]
 measured[40:44, 100:120] = np.nan
 np.savez("measured.npz", heights=measured, lengths=(2e-6, 2e-6), unit="m")
@@ -34,9 +34,9 @@ asperity.surface.statistics(surface)
 # Press it against a half-space of E* = 1 GPa by 2 MPa, without adhesion and with a work of adhesion of 20 mJ/m².
 
 # %%
-dry = asperity.solve(surface, modulus=1e9, mean_pressure=2e6)
-law = asperity.JKR(work_of_adhesion=0.02)
-sticky = asperity.solve(surface, modulus=1e9, mean_pressure=2e6, law=law, stability=True)
+dry = asperity.solve(surface, modulus="1GPa", mean_pressure="2MPa")
+law = asperity.JKR(work_of_adhesion="20mJ/m2")
+sticky = asperity.solve(surface, modulus="1GPa", mean_pressure="2MPa", law=law, stability=True)
 sticky
 
 # %%
@@ -52,5 +52,5 @@ clusters = asperity.contact.clusters(sticky.contact)
 print(clusters.sizes[:10], f"{sticky.contact_pressure.max() / 1e6:.0f} MPa")
 
 # %%
-axes = sticky.plot(pressure_unit="Pa")
+axes = sticky.plot()
 axes[0].figure.savefig("five_minutes.png", dpi=150)
