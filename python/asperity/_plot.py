@@ -103,6 +103,7 @@ def contact(
 ) -> None:
     """Classes of nodes with a legend of those that there are, or clusters of contact by their labels."""
     from matplotlib.patches import Patch
+    from matplotlib.transforms import offset_copy
 
     steps = _palette("contact" if names else "clusters")
     # nine colours of clusters in turn
@@ -111,8 +112,10 @@ def contact(
     found = [k for k, _ in enumerate(names) if (classes == k).any()]
     legend = [Patch(facecolor=steps[k], edgecolor="k", linewidth=0.5, label=names[k]) for k in found]
     if legend:
-        place = {"loc": "upper left", "bbox_to_anchor": (0.0, -0.16), "borderaxespad": 0.0, "columnspacing": 1.0}
-        ax.legend(handles=legend, ncols=4, frameon=False, fontsize="small", handlelength=1.0, **place)
+        # below the label of the axis
+        below = offset_copy(ax.transAxes, ax.figure, y=-38.0, units="points")
+        place = {"loc": "upper left", "bbox_to_anchor": (0.0, 0.0), "bbox_transform": below, "borderaxespad": 0.0}
+        ax.legend(handles=legend, ncols=4, frameon=False, fontsize="small", handlelength=1.0, columnspacing=1.0, **place)
 
 
 def pressure(
@@ -134,19 +137,22 @@ def pressure(
         signs[0] = (*signs[0][:-1], (0.53, 1.0))
         signs.append((-1.0, "tension", None if low is None else -low, steps[:middle], (0.0, 0.47)))
     ax.set_facecolor(steps[middle])
+    captions = []
     for sign, name, given, colours, place in signs:
         end, greatest, beyond = _asperity.load_scale(sign * field, given)
         factor, unit = _scaled(end, pressure_unit)
         ends = sorted([0.0, sign * (factor * end or 1.0)])
         there = np.ma.masked_less_equal(sign * field, 0.0)
         image = _map(ax, sign * factor * there, lengths, length_unit, cmap=_colours(colours), vmin=ends[0], vmax=ends[1])
-        label = _label(name, unit)
         if beyond > 0.0:
-            load = "the load" if len(signs) == 1 else name
-            above = f"{100 * beyond:.2g} % of {load}" if beyond > 1e-3 else f"less than 0.1 % of {load}"
-            label += f"\n{above} beyond, to {sign * factor * greatest:.3g}"
-        _bar(ax, image, label, place, "neither" if beyond == 0.0 else "max" if sign > 0.0 else "min")
-    ax.set_title("elastic pressure" if adhesive else "contact pressure")
+            load = "load" if len(signs) == 1 else name
+            share = f"{100 * beyond:.2g} %" if beyond > 1e-3 else "less than 0.1 %"
+            captions.append(f"{share} of the {load} beyond, to {sign * factor * greatest:.3g} {unit}".rstrip())
+        _bar(ax, image, _label(name, unit), place, "neither" if beyond == 0.0 else "max" if sign > 0.0 else "min")
+    ax.set_title("elastic pressure" if adhesive else "contact pressure", pad=6.0 + 11.0 * len(captions))
+    for line, caption in enumerate(reversed(captions)):
+        offset = {"xytext": (0.0, 4.0 + 11.0 * line), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
+        ax.annotate(caption, (0.5, 1.0), xycoords="axes fraction", **offset)
 
 
 def two(ax: Any, **options: Any) -> Any:

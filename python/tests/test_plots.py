@@ -75,11 +75,12 @@ def test_a_scale_ends_where_most_of_the_load_is_carried(rough):
     factor = image.get_array().max() / pressure.max()
     share = pressure[pressure * factor > end].sum() / pressure.sum()
     assert end < 0.75 * factor * pressure.max() and 0.01 < share < 0.75
-    assert f"{100 * share:.2g} % of the load beyond, to" in bar.get_ylabel()
+    assert f"{100 * share:.2g} % of the load beyond, to" in right.texts[0].get_text()
+    assert bar.get_ylabel().startswith("pressure (")
     # all of it on demand
     right = solution.plot(colour_limits=(0.0, 2 * pressure.max()))[1]
     assert right.images[0].get_clim() == (0.0, 2 * pressure.max())
-    assert right.child_axes[0].get_ylabel() == "pressure"
+    assert not right.texts
     with pytest.raises(ValueError, match=r"colour_limits are \(1.0, 2.0\)"):
         solution.plot(colour_limits=(1.0, 2.0))
 
