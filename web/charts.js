@@ -2,7 +2,21 @@
 
 const AREA = { y_label: "contact fraction", y_unit: "%" };
 
-/* The contact area over the loads that have been dragged: a curve of the settings as they are, and one of those before. */
+/* The error function, to 2e-7 (M. Abramowitz and I. A. Stegun, 7.1.26). */
+function erf(x) {
+  const t = 1 / (1 + 0.3275911 * x);
+  const series = [1.061405429, -1.453152027, 1.421413741, -0.284496736, 0.254829592];
+  return 1 - series.reduce((sum, factor) => (sum + factor) * t, 0) * Math.exp(-x * x);
+}
+
+/* Persson's contact fraction under a pressure, in rms slopes times the contact modulus. */
+export const persson = pressure => erf(Math.SQRT2 * pressure);
+
+/* So many loads from the lightest to the heaviest, evenly on a logarithmic axis. */
+export const loads = ([low, high], count) =>
+  Array.from({ length: count }, (_, k) => low * (high / low) ** (k / (count - 1)));
+
+/* The contact area over the loads that have been solved: a curve of the settings as they are, and one of those before. */
 export class Curves {
   constructor() {
     this.forget();
@@ -12,8 +26,10 @@ export class Curves {
     [this.now, this.before] = [new Map(), new Map()];
   }
 
-  /* Begins another curve, of settings of this name. */
-  begin(name) {
+  /* Begins another curve, of settings of this name; `theory` is the rms slope times the contact modulus where Persson's
+     theory holds, and `range` the loads to draw it for. */
+  begin(name, theory, range) {
+    this.dashes = theory ? loads(range, 60).map(load => [load, 100 * persson(load / theory)]) : [];
     if (name === this.name) return;
     this.name = name;
     if (this.now.size) [this.now, this.before] = [new Map(), this.now];
@@ -33,7 +49,8 @@ export class Curves {
     ].filter(([, points]) => points.length);
     if (curves.length === 1) curves[0][0] = "";
     const x_log = curves.every(([, points]) => points[0][0] > 0);
-    return { ...AREA, x_label: "mean pressure", x_unit: this.unit, x_log, curves };
+    const jumps = this.dashes.slice(1).map((point, k) => [this.dashes[k], point]);
+    return { ...AREA, x_label: "mean pressure", x_unit: this.unit, x_log, curves, jumps };
   }
 }
 
@@ -42,16 +59,17 @@ export function distribution(points, x_label, x_unit, y_label) {
   return { x_label, x_unit, y_label, y_unit: "%", curves: [["", points]] };
 }
 
-/* The power spectral density of a surface, averaged over directions. */
+/* The power spectral density of a surface, averaged over directions; its wave numbers in 1/µm rather than 1/m. */
 export function spectrum({ wave_numbers, densities }, unit) {
+  const scale = unit === "m" ? 1e-6 : 1;
   // what is below is rounding
   const least = 1e-12 * Math.max(...densities);
   const points = wave_numbers
-    .map((wave, k) => [wave, densities[k]])
+    .map((wave, k) => [scale * wave, densities[k]])
     .filter(([wave, density]) => wave > 0 && density > least);
   return {
     x_label: "wave number",
-    x_unit: unit && `1/${unit}`,
+    x_unit: unit && `1/${unit === "m" ? "µm" : unit}`,
     x_log: true,
     y_label: "spectral density",
     y_unit: unit && `${unit}⁴`,
@@ -60,8 +78,9 @@ export function spectrum({ wave_numbers, densities }, unit) {
   };
 }
 
-/* A loop of approach and withdrawal: pressure over mean gap, or force over approach, broken where the state jumps. */
-export function loop(rows, isFree, units) {
+/* A loop of approach and withdrawal: pressure over mean gap, or force over approach, broken where the state jumps; and a
+   measured curve. */
+export function loop(rows, isFree, units, measured) {
   const [x, y] = isFree ? ["approach", "normal_force"] : ["mean_gap", "mean_pressure"];
   const curves = new Map(),
     jumps = [];
@@ -82,7 +101,7 @@ export function loop(rows, isFree, units) {
     x_unit: units.length,
     y_label: y.replace("_", " "),
     y_unit: isFree ? units.force : units.pressure,
-    curves: [...curves],
+    curves: [...curves, ["measured", measured]].filter(([, points]) => points.length),
     jumps,
   };
 }

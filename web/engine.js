@@ -54,6 +54,11 @@ export class Engine {
     this.count = 0;
   }
 
+  /* Another engine, with a thread of its own, on the surface of this one. */
+  twin() {
+    return Object.assign(new Engine(this.module, this.script), { made: this.made });
+  }
+
   /* Starts a thread, which makes the surface again if there was one. */
   begin() {
     this.worker = new Worker(this.script, { type: "module" });

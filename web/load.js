@@ -11,8 +11,7 @@ export class Load {
     [this.control, this.value, this.slider] = [form.control, form.value, form.querySelector("#drag")];
     form.addEventListener("submit", event => event.preventDefault());
     this.slider.addEventListener("input", () => {
-      this.value.value = this.text(Number(this.slider.value));
-      this.tell();
+      this.to(Number(this.slider.value));
       onload();
     });
     this.value.addEventListener("change", () => {
@@ -66,6 +65,13 @@ export class Load {
     const [from, to] = log ? log.map(Math.log) : linear,
       at = from + share * (to - from);
     return written(log ? Math.exp(at) : at, this.unit());
+  }
+
+  /* Takes the load at a share of the way. */
+  to(share) {
+    this.slider.value = share;
+    this.value.value = this.text(share);
+    this.tell();
   }
 
   /* Puts the slider where the load is. */

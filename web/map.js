@@ -1,6 +1,5 @@
 /* The map: a field on its rectangle, x to the right and y upwards, in the colours of the pictures. */
 
-import { read } from "./quantity.js";
 import { Zoom } from "./zoom.js";
 
 const element = (name, className, parent) => {
@@ -32,38 +31,36 @@ export const colouring = {
     key: found =>
       all.filter(({ name }, k) => name && found.has(k)).map(({ name, colour }) => ({ name, colour: css(colour) })),
   }),
-  /* From the least value to the greatest. */
-  sequential: (colours, [low, high], unit) =>
-    scaled(colours.sequential, colours.missing, value => (value - low) / (high - low || 1), [[low, high, 0, 1]], unit),
+  /* From the low end to the high one; both have a text. */
+  sequential: (colours, [low, high], texts) =>
+    scaled(colours.sequential, colours.missing, value => (value - low) / (high - low || 1), [[...texts, 0, 1]]),
   /* Zero in the middle, and a scale for each sign. */
-  diverging: (colours, [low, high], unit) =>
+  diverging: (colours, [low, high], texts) =>
     scaled(
       colours.diverging,
       colours.missing,
       value => 0.5 + 0.5 * (value < 0 ? value / (-low || Infinity) : value / (high || Infinity)),
-      [
-        [low, 0, 0, 0.5],
-        [0, high, 0.5, 1],
-      ].filter(([a, b]) => a < b),
-      unit,
+      [low < 0 && [texts[0], "0", 0, 0.5], high > 0 && ["0", texts[1], 0.5, 1]].filter(Boolean),
     ),
 };
 
-const scaled = (scale, missing, share, ranges, unit) => {
+const scaled = (scale, missing, share, ranges) => {
   // the last place is that of what is not finite
   const table = Uint32Array.from({ length: 256 }, (_, k) => packed(k < 255 ? shade(scale, k / 254) : missing));
   const index = value => (Number.isFinite(value) ? Math.round(254 * Math.min(1, Math.max(0, share(value)))) : 255);
-  const key = () =>
-    ranges.map(([low, high, from, to]) => ({
-      low: read(low, unit),
-      high: read(high, unit),
-      colours: along(scale, from, to),
-    }));
+  const key = () => ranges.map(([low, high, from, to]) => ({ low, high, colours: along(scale, from, to) }));
   return { table, index, key };
 };
 
+/* The keys that reach a node, by their steps along x and y. */
+const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], Enter: [0, 0] };
+
+/* A line over the map, on white. */
+const LINE = `<svg class="line" viewBox="0 0 1 1" preserveAspectRatio="none" aria-hidden="true"><path/><path/></svg>`;
+
 export class FieldMap {
-  /* `onprobe(node, by)` is called with the node under the pointer, or that the arrow keys reach; null where there is none. */
+  /* `onprobe(node, by, press)` is called with the node under the pointer, or that the arrow keys reach; null where there
+     is none. Where the map has a line, a `press` begins it, or moves its end. */
   constructor(parent, title, onprobe) {
     this.figure = element("figure", "map", parent);
     this.title = title;
@@ -72,9 +69,24 @@ export class FieldMap {
     this.field.setAttribute("role", "img");
     this.field.setAttribute("aria-label", `Map: ${title}. Arrow keys read it node by node.`);
     this.canvas = element("canvas", "", this.field);
+    this.canvas.insertAdjacentHTML("afterend", LINE);
+    this.line = this.canvas.nextSibling;
     this.cross = element("div", "cross", this.field);
+    const under = event => {
+      const { x, y, width, height } = this.canvas.getBoundingClientRect(),
+        [nx, ny] = this.shape ?? [0, 0];
+      const i = Math.floor(((event.clientX - x) / width) * nx),
+        j = Math.floor((1 - (event.clientY - y) / height) * ny);
+      const press = this.hasLine && event.buttons ? event.type : "";
+      // a line is drawn, and what is shown does not move
+      if (press === "pointermove") event.stopImmediatePropagation();
+      onprobe(i >= 0 && j >= 0 && i < nx && j < ny ? [i, j] : null, "pointer", press);
+    };
+    this.field.addEventListener("pointermove", under);
+    this.field.addEventListener("pointerdown", under);
     this.zoom = new Zoom(this.field, ([x, y], share) => {
-      this.canvas.style.transform = `scale(${1 / share}) translate(${-100 * x}%, ${-100 * y}%)`;
+      for (const shown of [this.canvas, this.line])
+        shown.style.transform = `scale(${1 / share}) translate(${-100 * x}%, ${-100 * y}%)`;
       this.smooth();
       this.mark(this.node);
     });
@@ -82,19 +94,11 @@ export class FieldMap {
     caption.append(title, this.zoom.buttons);
     this.field.append(this.zoom.bar);
     this.key = element("div", "key", this.figure);
+    this.beyond = element("p", "hint", this.figure);
     this.node = null;
-    const under = event => {
-      const { x, y, width, height } = this.canvas.getBoundingClientRect(),
-        [nx, ny] = this.shape ?? [0, 0];
-      const i = Math.floor(((event.clientX - x) / width) * nx),
-        j = Math.floor((1 - (event.clientY - y) / height) * ny);
-      onprobe(i >= 0 && j >= 0 && i < nx && j < ny ? [i, j] : null, "pointer");
-    };
-    this.field.addEventListener("pointermove", under);
-    this.field.addEventListener("pointerdown", under);
     this.field.addEventListener("pointerleave", event => event.pointerType === "mouse" && onprobe(null, "pointer"));
     this.field.addEventListener("keydown", event => {
-      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      const way = WAYS[event.key];
       if (!way || !this.shape) return;
       event.preventDefault();
       const step = event.shiftKey ? 10 : 1,
@@ -102,13 +106,15 @@ export class FieldMap {
       onprobe(
         from.map((at, k) => Math.min(this.shape[k] - 1, Math.max(0, at + step * way[k]))),
         "keys",
+        this.hasLine && (event.key === "Enter" ? "pointerdown" : "pointermove"),
       );
     });
   }
 
-  /* Paints values of a shape, (nx, ny) with y the fastest. */
-  show({ values, shape: [nx, ny], lengths: [lx, ly], unit, colours }) {
+  /* Paints values of a shape, (nx, ny) with y the fastest; `beyond` is what the colours do not show, in words. */
+  show({ values, shape: [nx, ny], lengths: [lx, ly], unit, colours, beyond = "" }) {
     this.shape = [nx, ny];
+    this.beyond.textContent = beyond;
     const { canvas } = this;
     if (canvas.width !== nx || canvas.height !== ny) [canvas.width, canvas.height] = [nx, ny];
     const context = canvas.getContext("2d"),
@@ -148,6 +154,14 @@ export class FieldMap {
   smooth() {
     const shown = this.zoom.share * this.canvas.width;
     this.canvas.style.imageRendering = shown > this.field.clientWidth * devicePixelRatio ? "auto" : "pixelated";
+  }
+
+  /* Draws a line between two places in shares of the sides, or none. */
+  drawLine(line) {
+    this.hasLine = Boolean(line);
+    this.field.style.touchAction = line ? "none" : "";
+    const [x, y, to_x, to_y] = line || [];
+    for (const path of this.line.children) path.setAttribute("d", line ? `M${x} ${1 - y}L${to_x} ${1 - to_y}` : "");
   }
 
   /* Marks a node, or none. */

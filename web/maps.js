@@ -1,7 +1,9 @@
 /* The maps of the page: heights, contact, pressure and gap, which are read together. */
 
 import { FieldMap, colouring } from "./map.js";
+import { Profile } from "./profile.js";
 import { read } from "./quantity.js";
+import { ends, loadBeyond, told } from "./scale.js";
 
 /* The classes of contact, by their numbers. */
 const CLASSES = ["apart", "contact", "nothing there", "attractive", "yielded"];
@@ -9,14 +11,19 @@ const WHITE = [255, 255, 255];
 const BLACK = [0, 0, 0];
 
 export class Maps {
-  constructor(colours) {
+  /* `online()` is called when the line of the profile is another one. */
+  constructor(colours, online) {
     this.colours = colours;
     this.told = document.getElementById("probe");
-    const map = (id, title) => new FieldMap(document.getElementById(id), title, (node, by) => this.probe(node, by));
+    this.held = document.getElementsByName("held")[0];
+    this.held.addEventListener("change", () => this.hold());
+    const map = (id, title) =>
+      new FieldMap(document.getElementById(id), title, (node, by, press) => this.probe(node, by, press));
     this.heights = map("picture", "Heights");
     this.contact = map("maps", "Contact");
     this.pressure = map("maps", "Pressure");
     this.gap = map("maps", "Gap");
+    this.profile = new Profile(document.getElementById("profile"), this.ofSolution, online);
   }
 
   /* The maps of a solution. */
@@ -27,27 +34,56 @@ export class Maps {
   /* Shows the heights of a surface. */
   showSurface({ heights, shape, lengths, unit, lowest, highest, mean }) {
     const length = unit ?? "";
-    const colours = colouring.sequential(this.colours, [lowest - mean, highest - mean], length);
+    const extremes = [lowest - mean, highest - mean],
+      range = ends(heights, extremes);
+    const colours = colouring.sequential(this.colours, range, told(range, extremes, length));
     this.heights.show({ values: heights, shape, lengths: lengths ?? shape, unit: length, colours });
     this.surface = { heights, shape, lengths: lengths ?? shape, length };
   }
 
   /* Shows a solution, with lengths and pressures in these units. */
   showSolution({ shape, lengths, fields, limits, extremes }, length, pressure) {
-    const { missing, attractive, yielded } = this.colours;
-    const classes = [WHITE, BLACK, missing, attractive, yielded].map((colour, k) => ({ name: CLASSES[k], colour }));
-    const show = (map, values, colours) => map.show({ values, shape, lengths, unit: length, colours });
-    show(this.contact, fields.contact, colouring.classes(classes));
-    show(this.pressure, fields.pressure, colouring.diverging(this.colours, limits.pressure, pressure));
-    show(this.gap, fields.gap, colouring.sequential(this.colours, extremes.gap, length));
-    this.solution = { shape, lengths, length, pressure, fields };
+    // the least gap is that of the contact
+    this.limits = [...limits.pressure, extremes.gap[0], ends(fields.gap, extremes.gap)[1]];
+    this.solution = { shape, lengths, length, pressure, fields, extremes };
+    this.paint();
+    this.profile.show();
     this.probe(this.node);
   }
 
-  /* Reads all maps at a node; those of another shape have another one there. */
-  probe(node, by = "pointer") {
+  /* The charts along the line of the profile; nothing without one. */
+  along() {
+    return this.solution && this.profile.line ? this.profile.charts(this.solution, this.surface) : null;
+  }
+
+  /* Holds the ends of the colours as they are, in the value of the box, or lets them follow the solution. */
+  hold() {
+    if (!this.solution) return;
+    this.held.value = this.limits.map(end => end.toPrecision(6)).join(" ");
+    this.paint();
+  }
+
+  /* Paints the solution. */
+  paint() {
+    const { shape, lengths, length, pressure, fields, extremes } = this.solution;
+    const { missing, attractive, yielded } = this.colours;
+    const classes = [WHITE, BLACK, missing, attractive, yielded].map((colour, k) => ({ name: CLASSES[k], colour }));
+    const show = (map, values, colours, beyond) => map.show({ values, shape, lengths, unit: length, colours, beyond });
+    const limits = this.held.checked ? this.held.value.split(" ").map(Number) : this.limits;
+    const [pressures, gaps] = [limits.slice(0, 2), limits.slice(2)];
+    const ofPressure = told(pressures, extremes.pressure, pressure),
+      ofGap = told(gaps, extremes.gap, length);
+    show(this.contact, fields.contact, colouring.classes(classes));
+    const beyond = loadBeyond(fields.pressure, pressures, pressure);
+    show(this.pressure, fields.pressure, colouring.diverging(this.colours, pressures, ofPressure), beyond);
+    show(this.gap, fields.gap, colouring.sequential(this.colours, gaps, ofGap));
+  }
+
+  /* Reads all maps at a node, those of another shape at another one; a `press` draws the line of the profile to it. */
+  probe(node, by = "pointer", press = "") {
     this.node = node;
-    const { surface, solution } = this;
+    const { surface, solution, profile } = this;
+    if (press && node && solution && profile.line) profile.draw(node, solution.shape, press === "pointerdown");
     const { shape, lengths, length } = solution ?? surface;
     const isSame = other => String(other) === String(shape);
     for (const map of [this.heights, ...this.ofSolution]) map.mark(node && isSame(map.shape) ? node : null);

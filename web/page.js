@@ -1,14 +1,20 @@
 /* The page: what is asked for goes to the engine, the newest of it alone, and what is found goes to the screen. */
 
-import { Curves, distribution, spectrum } from "./charts.js";
+import { Curves, distribution, loads, spectrum } from "./charts.js";
+import { own } from "./controls.js";
 import { Cycle } from "./cycle.js";
 import { Engine } from "./engine.js";
 import { files, takeAway } from "./files.js";
+import { Fill } from "./fill.js";
+import { explain } from "./glossary.js";
+import { linked } from "./link.js";
 import { Load } from "./load.js";
 import { Maps } from "./maps.js";
 import { picture } from "./picture.js";
+import { Player } from "./play.js";
 import { typed } from "./quantity.js";
 import { Settings } from "./settings.js";
+import { Undo } from "./undo.js";
 import { figure, folded, list, table } from "./words.js";
 
 const at = id => document.getElementById(id);
@@ -23,44 +29,95 @@ const GRID_ERROR = "error of the grid";
 const OF_SURFACE = ["surface", "steps"];
 const AFTER_IT = ["scene", "solve", "cycle", "rest"];
 
+/* The rest in milliseconds before what is on the page is kept. */
+const RESTING = 300;
+
+/* The size of the smallest text of a chart, in its points. */
+const SMALLEST = 8;
+
+/* The loads of the area that are filled in, on surfaces of at most so many nodes. */
+const FILLED = 14,
+  MOST_FILLED = 512 ** 2;
+
 class Page {
   constructor(engine) {
     this.engine = engine;
     this.wanted = new Set();
+    this.charts = new Map();
     this.curves = new Curves();
-    this.maps = new Maps(engine.about.colours);
+    this.maps = new Maps(engine.about.colours, () => {
+      this.along();
+      this.keep();
+    });
+    explain(at("line"));
     this.settings = new Settings(at("settings"), engine.about.laws, what => this.want(what));
-    this.load = new Load(at("load"), () => this.want("solve"));
+    this.load = new Load(at("load"), () => {
+      this.player.stop();
+      this.want("solve");
+    });
+    this.player = new Player(at("play"), at("drag"), share => {
+      this.load.to(share);
+      return this.want("solve");
+    });
+    this.fill = new Fill(engine);
+    this.undo = new Undo(at("undo"), this);
     this.legs = new Cycle(at("legs"), () => this.want("cycle"), this.chart.bind(this));
     at("version").textContent = `asperity ${engine.about.version}`;
+    at("load").addEventListener("change", () => this.keep());
     const cancel = () => {
       this.wanted.clear();
-      if (this.isBusy) engine.cancel();
+      this.player.stop();
+      if (this.work) engine.cancel();
     };
     at("cancel").addEventListener("click", cancel);
     document.addEventListener("keydown", event => event.key === "Escape" && cancel());
     at("forget").addEventListener("click", () => {
       this.curves.forget();
-      at("area").replaceChildren();
+      this.chart("area");
     });
+    at("large").addEventListener("click", () => this.large());
+    document.addEventListener("fullscreenchange", () => document.fullscreenElement || this.large(false));
     const failed = error => this.failed(error);
     files(file => this.open(file).catch(failed));
     const kept = { "contact.png": () => this.picture(), "table.csv": () => this.table };
     takeAway(async file => kept[file]?.() ?? engine.download(file), failed);
+    // what is behind # is a place on the page, or a link
+    const there = () => (location.hash.includes("=") ? location.hash.slice(1) : "");
+    addEventListener("resize", () => this.draw());
+    addEventListener("hashchange", () => there() && this.take(there()));
+    this.take(there());
+  }
+
+  /* The link to what is on the page, with the name of an opened map. */
+  link() {
+    return linked() + (this.settings.isFile ? `&map=${encodeURIComponent(this.file.name)}` : "");
+  }
+
+  /* Puts what a link has on the page, or if that is of a map that is not open, asks for this one. */
+  take(link) {
+    const given = new URLSearchParams(link);
+    this.awaited = given.get("form") === "file" && given.get("map") !== this.file?.name ? link : null;
+    this.settings.takeLink(this.awaited ? "" : link);
+    // the load is that of the link
+    this.form = this.settings.value("form");
+    this.isOther = this.isFresh = false;
     this.want("surface");
   }
 
-  /* Asks for something: at once, or when what runs has ended, and then as it is by then. */
-  async want(what) {
+  /* Asks for something: at once, or when what runs has ended, and then as it is by then; returns when all is done. */
+  want(what) {
     this.wanted.add(what);
     // a surface that was refused may not be passed over
     if (this.due) this.wanted.add(this.due);
-    if (this.isBusy) return;
-    this.isBusy = true;
+    return (this.work ??= this.doAll());
+  }
+
+  async doAll() {
+    this.fill.stop();
     document.body.classList.add("busy");
     at("cancel").disabled = false;
     while (this.wanted.size) await this.doNext();
-    this.isBusy = false;
+    this.work = null;
     document.body.classList.remove("busy");
     at("cancel").disabled = true;
     at("progress").value = 0;
@@ -87,12 +144,14 @@ class Page {
 
   /* What was asked for is refused or cancelled: what is shown is not the answer to it. */
   failed(error, what) {
+    this.player.stop();
     at("stage").classList.add("stale");
     if (error.name === "AbortError") return status("Cancelled. What is shown is what was found before.");
     status(this.load.found ? "What is shown is the contact before." : "There is no contact yet.");
     const place = { surface: this.settings.isFile ? "heights" : "make", steps: "prepare", solve: "load" }[what] ?? what;
-    if (!error.isOfThread && Settings.fault(error.message, place, error.isOfFile)) return;
-    at("failure").textContent = error.message;
+    const told = own(error.message);
+    if (!error.isOfThread && Settings.fault(told, place, error.isOfFile)) return;
+    at("failure").textContent = told;
     at("failure").hidden = false;
   }
 
@@ -124,9 +183,10 @@ class Page {
     this.form = "file";
     this.measured = map;
     if (file.isNew) {
+      file.isNew = false;
       settings.takeMap(map);
       this.isOther = this.isFresh = true;
-      file.isNew = false;
+      if (this.awaited && new URLSearchParams(this.awaited).get("map") === file.name) return this.take(this.awaited);
     }
     return this.steps();
   }
@@ -144,6 +204,8 @@ class Page {
     this.map = map;
     this.maps.showSurface(map);
     this.doubts = map.warnings.map(({ message }) => message);
+    const away = this.awaited && new URLSearchParams(this.awaited).get("map");
+    if (away) this.doubts.unshift(`This link needs the map ${away}, which is not part of it: open that map.`);
     list("doubts", this.doubts);
     if (!map.lengths) throw new Error("the file has no side lengths: type them, as 20um, or 20um 10um");
     this.statistics = await this.engine.statistics();
@@ -167,14 +229,17 @@ class Page {
     const scale = length ? (typed(`1${map.unit ?? "m"}`)?.value ?? 1) : 1;
     const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
     const area = map.lengths[0] * (map.lengths[1] || 1) * scale ** 2;
-    const surface = { lowest, highest, slope: this.slope, area, length };
+    const surface = { lowest, highest, slope: this.slope, area, length, pressure: modulus.unit };
     const boundary = settings.value("boundary");
     this.load.fit(surface, modulus, boundary, this.isOther);
     this.legs.fit(surface, settings.scene().range, boundary, this.isOther);
     this.offer("table.csv", false);
     if (this.isOther) this.curves.forget();
     this.isOther = false;
-    this.curves.begin(JSON.stringify([settings.made(), this.file?.name, settings.steps([1, 1]), settings.scene()]));
+    const isOfTheory = ["self-affine", "file"].includes(settings.value("form")) && settings.isPlain;
+    const name = JSON.stringify([settings.made(), this.file?.name, settings.steps([1, 1]), settings.scene()]);
+    this.curves.begin(name, isOfTheory && this.slope * modulus.value, this.load.ranges.mean_pressure.log);
+    at("persson").hidden = !this.curves.dashes.length;
   }
 
   async solve() {
@@ -208,6 +273,7 @@ class Page {
     [this.length, this.pressure] = [found.unit ?? "", account.pressure_unit ?? ""];
     this.histograms = found.histograms;
     this.maps.showSolution(found, this.length, this.pressure);
+    this.along();
     this.load.found = account;
     table("rows", rows);
     this.figures(rows, started);
@@ -219,7 +285,7 @@ class Page {
     status(`${ended[0].toUpperCase()}${ended.slice(1)} at ${asked}: ${iterations} iterations${from}`);
     at("stage").classList.remove("stale");
     this.curves.add(account);
-    await this.chart("area", this.curves.chart());
+    this.chart("area", this.curves.chart());
     performance.mark("contact");
     this.wanted.add("rest");
   }
@@ -227,7 +293,7 @@ class Page {
   /* The figures beside the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
   figures(rows, started) {
     const known = [...FIGURES, GRID_ERROR].flatMap(name => rows.filter(row => row[0] === name));
-    const entries = known.map(([name, text]) => figure(name, text));
+    const entries = known.map(([name, text]) => figure(name, own(text)));
     if (started === "last" && !known.some(([name]) => name === GRID_ERROR)) {
       const find = Object.assign(document.createElement("button"), { type: "button", textContent: "find" });
       find.title = "Solves once more, by way of coarser grids";
@@ -240,28 +306,84 @@ class Page {
     at("figures").replaceChildren(...entries);
   }
 
+  /* The charts along the line of the profile. */
+  along() {
+    const found = this.maps.along();
+    at("profiles").hidden = !found;
+    for (const id of ["sides", "loads"]) this.chart(id, found?.[id]);
+  }
+
   /* What may wait while the load is dragged. */
   async rest() {
     const { length, pressure, map } = this;
     const { gap, contact_pressure } = this.histograms;
     const { histogram, spectrum: found } = this.statistics;
-    await this.chart("pressures", distribution(contact_pressure, "contact pressure", pressure, "nodes in contact"));
-    await this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
-    if (histogram) await this.chart("heights", distribution(histogram, "height", map.unit, "nodes"));
-    if (found) await this.chart("spectrum", spectrum(found, map.unit));
+    this.chart("pressures", distribution(contact_pressure, "contact pressure", pressure, "nodes in contact"));
+    this.chart("gaps", distribution(gap, "gap", length, "nodes apart"));
+    if (histogram) this.chart("heights", distribution(histogram, "height", map.unit, "nodes"));
+    if (found) this.chart("spectrum", spectrum(found, map.unit));
     const { shell, python } = await this.engine.lines();
     [at("command").textContent, at("python").textContent] = [shell.map(folded).join("\n"), python];
     this.offer("start.npz", shell.join().includes("start.npz"));
+    this.keep();
+    if (!this.player.isOn) this.fillArea();
   }
 
-  async chart(id, chart) {
-    at(id).innerHTML = await this.engine.chart({ title: "", ...chart });
+  /* Keeps what is on the page once it rests: in the address, and for the way back. */
+  keep() {
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => {
+      if (this.work) return;
+      history.replaceState(null, "", `#${this.link()}`);
+      at("link").textContent = location.href;
+      this.undo.keep();
+    }, RESTING);
+  }
+
+  /* Fills in the curve of the area while the page rests; with adhesion the area depends on the way to a load. */
+  fillArea() {
+    const { settings, map, load } = this;
+    const [nx, ny] = map.shape;
+    if (settings.value("law") !== "none" || nx * ny > MOST_FILLED) return;
+    const known = [...this.curves.now.keys()];
+    const pressures = loads(load.ranges.mean_pressure.log, FILLED).filter(
+      value => !known.some(pressure => Math.abs(pressure / value - 1) < 0.1),
+    );
+    const scene = settings.scene(),
+      scenes = pressures.map(value => ({ ...scene, mean_pressure: `${value}${load.units.mean_pressure}` }));
+    this.fill.start(scenes, account => {
+      this.curves.add(account);
+      this.chart("area", this.curves.chart());
+    });
+  }
+
+  /* Turns to large type on the full screen, where there is one, or back. */
+  large(is = !document.body.classList.contains("large")) {
+    document.body.classList.toggle("large", is);
+    at("large").setAttribute("aria-pressed", is);
+    if (is) document.documentElement.requestFullscreen?.().catch(() => {});
+    else if (document.fullscreenElement) document.exitFullscreen();
+    this.draw();
+  }
+
+  /* Draws all charts again. */
+  draw() {
+    for (const [id, chart] of [...this.charts]) this.chart(id, chart);
+  }
+
+  /* Draws a chart as wide as its place, with text of three quarters of the page's; or none. */
+  chart(id, chart) {
+    this.charts.delete(id);
+    if (!chart) return at(id).replaceChildren();
+    this.charts.set(id, chart);
+    const size = parseFloat(getComputedStyle(document.body).fontSize),
+      width = Math.min(at(id).parentElement.clientWidth, 40 * size);
+    at(id).innerHTML = this.engine.chart({ ...chart, width: (width * SMALLEST) / (0.75 * size) });
   }
 
   async cycle() {
-    const { length, pressure } = this;
-    if (length === undefined) return;
-    await this.legs.follow(this.engine, this.settings.scene(), { length, pressure, force: length && "N" }, row => {
+    if (this.length === undefined) return;
+    await this.legs.follow(this.engine, this.settings.scene(), row => {
       at("progress").value = row.share;
       status(`Following the cycle: ${row.count} states, ${row.direction}`);
     });
@@ -282,7 +404,9 @@ class Page {
     const told = [...at("figures").children].map(
       ({ children: [name, value] }) => `${name.textContent} ${value.textContent}`,
     );
-    return picture(this.maps.ofSolution, told.filter(text => !text.endsWith(" find")).join(", "));
+    const { ofSolution, pressure } = this.maps;
+    const all = [...told, pressure.beyond.textContent].filter(text => text && !text.endsWith(" find"));
+    return picture(ofSolution, all.join(", "));
   }
 }
 

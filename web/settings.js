@@ -1,5 +1,7 @@
 /* The settings: what the form asks for, in the words of the engine, and the places of its faults. */
 
+import { word } from "./glossary.js";
+import { take } from "./link.js";
 import { read, typed, written } from "./quantity.js";
 
 /* The parameters of laws: their names, and the quantities to begin with. */
@@ -61,9 +63,23 @@ export class Settings {
     return this.value("form") === "file";
   }
 
+  /* Whether a half-space that neither yields nor sticks is pressed, the same again beyond the map. */
+  get isPlain() {
+    const plain = { boundary: "periodic", body: "half-space", hardness: "", law: "none" };
+    return Object.keys(plain).every(name => this.value(name) === plain[name]) && !this.scene().absent_missing;
+  }
+
   /* The number of the channel that is read. */
   get channel() {
     return this.value("channel") || undefined;
+  }
+
+  /* Takes the settings of a link. */
+  takeLink(link) {
+    take(link, ["law"]);
+    this.chooseLaw();
+    take(link);
+    this.show();
   }
 
   /* Turns to a file that is opened. */
@@ -141,8 +157,9 @@ export class Settings {
     const input = (name, text, value, hint = "") => {
       const label = document.createElement("label"),
         made = document.createElement("input");
-      label.append(text, " ", made);
+      label.append(word(text), " ", made);
       Object.assign(made, { name, className: "quantity", placeholder: hint, spellcheck: false });
+      made.defaultValue = value;
       made.value = this.kept.get(name) ?? value;
       return label;
     };

@@ -1,5 +1,8 @@
 /* What the page says in words: lists of sentences, tables, figures, and commands. */
 
+import { own } from "./controls.js";
+import { word } from "./glossary.js";
+
 const made = (name, ...content) => {
   const element = document.createElement(name);
   element.append(...content);
@@ -9,7 +12,7 @@ const made = (name, ...content) => {
 /* Puts sentences into a list, which is hidden if there are none, and counts them. */
 export function list(id, sentences) {
   const element = document.getElementById(id);
-  element.replaceChildren(...sentences.map(text => made("li", text)));
+  element.replaceChildren(...sentences.map(text => made("li", own(text))));
   element.hidden = !sentences.length;
   return sentences.length;
 }
@@ -17,15 +20,15 @@ export function list(id, sentences) {
 /* Puts rows, of a name and a text, into a table. */
 export function table(id, rows) {
   const row = ([name, text]) => {
-    const head = made("th", name);
+    const head = made("th", word(name));
     head.scope = "row";
-    return made("tr", head, made("td", text));
+    return made("tr", head, made("td", own(text)));
   };
   document.getElementById(id).replaceChildren(...rows.map(row));
 }
 
 /* A figure under its name. */
-export const figure = (name, content) => made("div", made("dt", name), made("dd", content));
+export const figure = (name, content) => made("div", made("dt", word(name)), made("dd", content));
 
 /* A command on lines of some eighty characters; one with quoted words stays as it is. */
 export function folded(command) {

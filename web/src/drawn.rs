@@ -34,7 +34,7 @@ pub fn about() -> Value {
 /// The name of a curve and its points, of which a `null` breaks it.
 type Curve = (String, Vec<(Option<f64>, Option<f64>)>);
 
-/// A chart by the keys of `Chart`.
+/// A chart by the keys of `Chart`, and the width of its picture in points.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct Given {
@@ -48,6 +48,7 @@ struct Given {
     y_log: bool,
     curves: Vec<Curve>,
     jumps: Vec<[(f64, f64); 2]>,
+    width: f64,
 }
 
 /// The chart as SVG.
@@ -70,5 +71,5 @@ pub fn chart(given: &str) -> Outcome<String> {
         curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
         jumps: given.jumps,
     };
-    Ok(chart.draw(DPI)?.svg()?)
+    Ok(chart.draw_across(DPI, given.width)?.svg()?)
 }

@@ -8,15 +8,18 @@ if something is not as it should be. Pictures are in target/web-pictures.
 """
 
 import json
+import math
 import os
 import pathlib
+import re
+import struct
 import subprocess
 import sys
 import tempfile
 
 from browser import Browser
-from host import Host
-from page import SET, WINDOWS, Page
+from host import ALL, Host
+from page import IDLE, SET, WINDOWS, Page
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "target" / "web-pictures"
@@ -257,6 +260,218 @@ def check_cycle(page, folder):
     page.told(saved == int(shown.split()[0]), f"shows {shown} in contact after the cycle, and saves {saved}")
 
 
+# the text below a map of the solution: its key, and the load that it does not show
+KEYS = """[...document.querySelectorAll("#maps figure")].slice(1).map(map =>
+  [...map.querySelectorAll(".key span:not(.ramp), .hint")].map(text => text.textContent))"""
+
+
+def check_colours(page, folder):
+    """A spike and a scar leave colours for all else, which say what is beyond, and are held under other loads."""
+    page.drop(folder / "scarred.npy")
+    state = page.set(lengths="500nm", modulus="1GPa", law="none", control="mean_pressure", value="1MPa")
+    pressure, _ = page.browser.value(KEYS)
+    page.told("→" in pressure[1] and "% of the load above" in pressure[-1], f"says {pressure} of a scarred map")
+    report = float(state["rows"]["greatest pressure"].split()[0])
+    page.told(pressure[1].split()[-2] == f"{report:.3g}", f"{pressure[1]} leads to {report}")
+    shades = page.browser.value("""(() => {
+      const { width, height } = document.querySelector("#picture canvas");
+      const { data } = document.querySelector("#picture canvas").getContext("2d").getImageData(0, 0, width, height);
+      const counts = new Map();
+      for (const pixel of new Uint32Array(data.buffer)) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
+      return Math.max(...counts.values()) / (width * height);
+    })()""")
+    page.told(shades < 0.1, f"a scarred map has one colour on {shades:.0%} of its nodes")
+    page.set(held=True)
+    held = [[text.split(" → ")[0] for text in key[:2]] for key in page.browser.value(KEYS)]
+    page.set(value="3MPa")
+    kept = [[text.split(" → ")[0] for text in key[:2]] for key in page.browser.value(KEYS)]
+    page.told(kept == held, f"colours that are held go from {held} to {kept}")
+    page.set(held=False)
+    free = [[text.split(" → ")[0] for text in key[:2]] for key in page.browser.value(KEYS)]
+    page.told(free[0] != held[0], f"colours that are free stay at {held}")
+
+
+def check_link(page):
+    """The link of a state brings it back, on a page that is opened anew and on one that is open."""
+    given = {"form": "wave", "size": "64", "amplitude": "7nm", "law": "exponential", "range": "3nm", "precision": "f32"}
+    page.set(**{**PLAIN, **given})
+    state = page.set(value="3MPa", held=True)
+    page.told(page.comes_true("document.getElementById('link').textContent.includes('held=')"), "has no link")
+    link = page.browser.value("location.hash")
+
+    def compare_with(way):
+        is_taken = "document.getElementById('value').value === '3MPa' && " + IDLE
+        page.told(page.comes_true(is_taken), f"takes no link {way}")
+        found = page.state()
+        # without the contact before, where a solve does not start from it
+        wanted = state["command"].replace(" --initial-gap start.npz", "").split()
+        page.told(found["command"].split() == wanted, f"a link {way} has {found['command']}, not {wanted}")
+        page.told(found["rows"]["contact"] == state["rows"]["contact"], f"a link {way} has another contact")
+        page.told(page.browser.value("document.getElementsByName('held')[0].checked"), f"holds no colours {way}")
+
+    page.set(**PLAIN, held=False)
+    page.set(value="9MPa")
+    page.told(page.comes_true("location.hash.includes('value=9MPa')"), "does not keep a state in its address")
+    page.browser.value(f"location.hash = {json.dumps(link)}; 0")
+    compare_with("on an open page")
+    page.host.missing = ()
+    page.browser.open("about:blank")
+    page.browser.open(page.host.url + link)
+    compare_with("on a page that is opened")
+    page.host.missing = ALL
+    away = "#form=file&map=away.npy"
+    page.browser.value(f"location.hash = {json.dumps(away)}; 0")
+    asks = "document.getElementById('doubts').textContent.includes('away.npy')"
+    page.told(page.comes_true(asks), "does not ask for the map of a link")
+    page.idle("a link to a map that is away")
+
+
+def check_play(page):
+    """The loads are played to the heaviest, unless that is stopped."""
+    page.set(**{**PLAIN, "size": "64", "k_s": "16"})
+    page.drag(0.8)
+    before = page.idle("a drag")
+    press = "document.getElementById('play').click()"
+    is_over = "document.getElementById('play').textContent === 'Play' && " + IDLE
+    page.browser.value(press)
+    page.told(page.comes_true(is_over), "does not come to the end of the loads")
+    after = page.state()
+    page.told(share(after) > share(before), f"plays from {share(before)} % to {share(after)} %")
+    page.told(page.browser.value("document.getElementById('drag').value") == "1", "does not play to the heaviest load")
+    page.told(len(after["solves"]) - len(before["solves"]) >= 8, f"has solved {after['solves']}")
+    page.browser.value(f"{press}; {press}; 0")
+    page.told(page.comes_true(is_over), "does not stop")
+    page.told(share(page.state()) < share(before), "does not begin anew from the lightest load")
+
+
+def check_area(page):
+    """The curve of the area fills in by itself, beside the theory, which is that of the error function."""
+    page.set(**{**PLAIN, "size": "64", "k_s": "12"})
+    page.browser.value("document.getElementById('forget').click()")
+    page.set(value="1MPa")
+    dots = "document.querySelector('#area svg path[stroke=\"#214a87\"]').getAttribute('d').split('M').length - 1"
+    page.told(page.comes_true(f"{dots} >= 14"), f"fills in {page.browser.value(dots)} loads")
+    page.told(page.browser.value("!document.getElementById('persson').hidden"), "has no theory")
+    for pressure in [0.01, 0.3, 1.5]:
+        found = page.browser.value(
+            f"import(new URL('charts.js', location)).then(({{ persson }}) => persson({pressure}))"
+        )
+        page.told(abs(found - math.erf(2**0.5 * pressure)) < 2e-7, f"has {found} at {pressure}")
+    page.set(hardness="80MPa")
+    page.told(page.browser.value("document.getElementById('persson').hidden"), "has a theory of what yields")
+
+
+def check_words(page):
+    """Words tell their lines, and lead to headings that the guide has."""
+    words = page.browser.value("""[...document.querySelectorAll("#words dt")].map(word => {
+      const line = word.nextElementSibling;
+      return [word.textContent, line.textContent, line.querySelector("a").getAttribute("href")];
+    })""")
+    shown = []
+    for given in [{}, {"law": "exponential"}]:
+        page.set(**{**PLAIN, **given})
+        shown += page.browser.value("[...document.querySelectorAll('.word')].map(word => word.textContent.trim())")
+    for word in ["Hurst exponent", "mu_rho", "corrected for its edge", "Persson’s theory"]:
+        page.told(word in shown, f"{word} tells no line")
+    for word, _, place in words:
+        path, _, heading = place.removeprefix("../").partition("#")
+        path = path.removesuffix(".html")
+        files = [ROOT / "docs" / f"{path}.md", ROOT / "src" / f"{path}.md"]
+        text = next((file.read_text() for file in files if file.is_file()), None)
+        headings = re.findall(r"^#+ (.*)$", text or "", re.MULTILINE)
+        slugs = [re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings]
+        page.told(text is not None and (not heading or heading in slugs), f"{word} leads to {place}: {slugs}")
+    line = """document.querySelector("#figures .word").click(), document.getElementById("line").textContent"""
+    known = next(told for word, told, _ in words if word == "contact")
+    page.told(known in page.browser.value(line), "tells no line of a word that is clicked")
+    page.browser.value("document.body.click()")
+    page.told(page.browser.value("document.getElementById('line').hidden"), "goes on telling a line")
+
+
+def check_profile(page):
+    """A line over the maps has a profile, and another line another one."""
+    page.set(**PLAIN)
+    charts = "['sides', 'loads'].map(id => document.getElementById(id).innerHTML)"
+    press = "document.getElementById('profile').click()"
+    page.browser.value(press)
+    middle = page.browser.value(charts)
+    page.told(all("<svg" in chart for chart in middle), "draws no profile")
+    page.browser.drag(page.place("#maps .field", 0.2, 0.3), (80, 60))
+    drawn = page.browser.value(charts)
+    page.told(all(one != other for one, other in zip(middle, drawn, strict=True)), "draws the same profile")
+    line = page.browser.value("document.getElementsByName('line')[0].value").split()
+    page.told(abs(float(line[0]) - 0.2) < 0.02 and abs(float(line[1]) - 0.7) < 0.02, f"draws a line from {line}")
+    page.browser.value(press)
+    page.told(not any(page.browser.value(charts)), "draws a profile without a line")
+
+
+def check_measured(page):
+    """A measured curve lies under the cycle, in the units of its heading."""
+    points = "import(new URL('measured.js', location)).then(({ points }) => points(%s))"
+    for text, wanted in {
+        "gap (nm), pressure (MPa)\n1.5, 2\n\n2 3e1\n": [[1.5e-9, 2e6], [2e-9, 3e7]],
+        "Abstand [µm];Kraft [nN]\n1,5;-2\n": [[1.5e-6, -2e-9]],
+        "1e-9 5\n": [[1e-9, 5.0]],
+    }.items():
+        found = page.browser.value(points % json.dumps(text))
+        flat = [
+            abs(a - b) <= 1e-12 * abs(b)
+            for one, other in zip(found, wanted, strict=True)
+            for a, b in zip(one, other, strict=True)
+        ]
+        page.told(all(flat), f"reads {found} of {text!r}")
+    type_in = """(text => {
+      const input = document.getElementById("measured");
+      input.value = text;
+      input.dispatchEvent(new Event("change", { bubbles: true }));
+      return document.getElementById("loop").textContent + document.querySelector("[data-of=measured]").textContent;
+    })(%s)"""
+    told = page.browser.value(type_in % json.dumps("1 2\nno number\n"))
+    page.told("no number" in told, f"says {told} of a wrong curve")
+    told = page.browser.value(type_in % json.dumps("gap (nm), pressure (MPa)\n1 2\n2 3\n"))
+    page.told("measured" in told and "mean gap" in told, f"does not draw a measured curve: {told}")
+    page.browser.value(type_in % json.dumps(""))
+
+
+def check_undo(page):
+    """What was set before comes back, and the contact with it."""
+    before = page.set(**PLAIN, value="2MPa")
+    kept = "document.getElementById('link').textContent.includes(%s)"
+    page.told(page.comes_true(kept % "'value=2MPa'"), "does not keep a state")
+    after = page.set(modulus="2GPa")
+    page.told(page.comes_true(kept % "'modulus=2GPa'"), "does not keep a change")
+    page.browser.value("document.getElementById('undo').click()")
+    state = page.idle("an undo")
+    page.told(state["command"] == before["command"], f"undoes to {state['command']}, and not {before['command']}")
+    page.told(state["rows"]["contact"] == before["rows"]["contact"], "has another contact after an undo")
+    page.browser("Input.dispatchKeyEvent", type="keyDown", key="Z", modifiers=10)
+    state = page.idle("a change that is done again")
+    page.told(state["command"] == after["command"], f"does again {state['command']}, and not {after['command']}")
+
+
+def check_large(page):
+    """Large type is large, and goes away again."""
+    size = "parseFloat(getComputedStyle(document.body).fontSize)"
+    press = "document.getElementById('large').click()"
+    usual = page.browser.value(size)
+    page.browser.value(press)
+    page.told(page.browser.value(size) > 1.3 * usual, "has no large type")
+    page.browser.picture(PICTURES / "large.png")
+    page.browser.value(press)
+    page.told(page.browser.value(size) == usual, "keeps the large type")
+
+
+def check_texts(page, folder):
+    """Sentences about a map name the inputs of the page, and no option of the program."""
+    for name in ["map.npy", "scarred.npy"]:
+        state = page.drop(folder / name)
+        state = page.set(lengths="500nm")
+        told = [*state["warnings"], *state["errors"], *state["rows"].values(), *state["statistics"].values()]
+        page.told(told, "says nothing")
+        for text in told:
+            page.told(not re.search(r"--[a-z]|\w_\w|=\.\.\.", text), f"{name}: {text}")
+
+
 # what differs from a self-affine surface of 1 µm under a half-space of 1 GPa without adhesion
 SCENES = {
     "plain": {},
@@ -320,6 +535,13 @@ def compare(page, state, tool, folder):
     print(f"{page.browser.where}: {found} nodes in contact, by the program {report['contact_nodes']}")
 
 
+# the pixels of the smallest text of a chart
+TEXT = """Math.min(...[...document.querySelectorAll(".chart text")].map(text => {
+  const { a, b } = text.getScreenCTM();
+  return text.getAttribute("font-size") * Math.hypot(a, b);
+}))"""
+
+
 def check_pictures(page):
     """The page in all windows, light and dark."""
     for window in WINDOWS:
@@ -331,6 +553,8 @@ def check_pictures(page):
             small = page.browser.value("""[...document.querySelectorAll("input, select, button, label")]
               .filter(input => input.offsetParent && input.getBoundingClientRect().right > innerWidth + 1).length""")
             page.told(small == 0, f"{small} inputs reach out of the window")
+            text = page.browser.value(TEXT)
+            page.told(text >= 11, f"has text of {text:.1f} pixels in a chart")
             page.browser.picture(PICTURES / f"{window}-{'dark' if dark else 'light'}.png")
             page.quiet()
 
@@ -354,6 +578,14 @@ def make_map(tool, folder):
     raw = bytearray((folder / "map.npy").read_bytes())
     raw[-8 * 500 : -8 * 497] = b"\x00\x00\x00\x00\x00\x00\xf8\x7f" * 3
     (folder / "map.npy").write_bytes(raw)
+    # of half the rms slope, with a spike, and with a scar along x, in float64 at the end of the file
+    subprocess.run(
+        [tool, "surface", *options.replace("0.02", "0").replace("map", "scarred").split()], cwd=folder, check=True
+    )
+    raw = bytearray((folder / "scarred.npy").read_bytes())
+    for node, height in [(40 * 96 + 30, 200e-9), *((node * 96 + 60, 20e-9) for node in range(20, 60))]:
+        struct.pack_into("<d", raw, len(raw) - 8 * 96 * 96 + 8 * node, height)
+    (folder / "scarred.npy").write_bytes(raw)
 
 
 def main():
@@ -376,6 +608,16 @@ def main():
             ("threads", check_threads, []),
             ("wrong", check_wrong, [folder]),
             ("cycle", check_cycle, [folder]),
+            ("colours", check_colours, [folder]),
+            ("link", check_link, []),
+            ("play", check_play, []),
+            ("area", check_area, []),
+            ("words", check_words, []),
+            ("profile", check_profile, []),
+            ("measured", check_measured, []),
+            ("undo", check_undo, []),
+            ("large", check_large, []),
+            ("texts", check_texts, [folder]),
         ]
         for page.browser.where, check, more in checks:
             check(page, *more)

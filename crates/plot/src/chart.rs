@@ -45,6 +45,8 @@ pub struct Chart<'a> {
 }
 
 const SIZE: (f64, f64) = (360.0, 240.0);
+/// The least width and height of the area of the curves.
+const LEAST: f64 = 90.0;
 /// Blue, red, green, violet: distinct also to eyes that confuse two of them, by their lightness. Then sky blue, ochre,
 /// brown and grey.
 pub(super) const COLOURS: [Colour; 8] = [
@@ -92,19 +94,33 @@ impl Chart<'_> {
     /// # Errors
     /// [`Error::Value`](asperity::Error::Value) if `dpi` is below 36 or above 1200.
     pub fn draw(&self, dpi: f64) -> Result<Picture> {
+        self.draw_plot(dpi, SIZE.1, |_| SIZE.0)
+    }
+
+    /// As [`draw`](Self::draw), with the whole picture so wide, in points. The text has the same size at any width.
+    ///
+    /// # Errors
+    /// As of [`draw`](Self::draw).
+    pub fn draw_across(&self, dpi: f64, width: f64) -> Result<Picture> {
+        self.draw_plot(dpi, (0.5 * width).max(LEAST), |left| (width - left - 3.0 * MARGIN).max(LEAST))
+    }
+
+    /// Draws on an area of a height, and of the width that `across` has beside what is at its left.
+    fn draw_plot(&self, dpi: f64, height: f64, across: impl Fn(f64) -> f64) -> Result<Picture> {
         let x = self.range(|point| point.0, self.x_log, self.x_unit);
         let y = self.range(|point| point.1, self.y_log, self.y_unit);
-        let below = Axis::new(&x.part(), self.x_label, (SIZE.0 / STEP_BELOW) as i32);
-        let beside = Axis::new(&y.part(), self.y_label, (SIZE.1 / STEP_BESIDE) as i32);
+        let beside = Axis::new(&y.part(), self.y_label, (height / STEP_BESIDE) as i32);
+        let left = room(&beside);
+        let width = across(2.0 * MARGIN + left);
+        let below = Axis::new(&x.part(), self.x_label, (width / STEP_BELOW) as i32);
         let entries = self.curves.iter().zip(COLOURS.into_iter().cycle());
         let entry = |((name, _), colour): (&(&str, _), Colour)| Entry { colour, line: true, text: (*name).to_owned() };
         let legend = entries.map(entry).filter(|entry| !entry.text.is_empty()).collect();
         let texts = Texts { title: self.title, caption: self.caption, legend };
 
-        let left = room(&beside);
-        let plot = Area::new(2.0 * MARGIN + left, texts.above(), SIZE.0, SIZE.1);
+        let plot = Area::new(2.0 * MARGIN + left, texts.above(), width, height);
         let bottom = plot.bottom() + NUMBERS + LINE + MARGIN;
-        let across = (SIZE.0 + 3.0 * MARGIN).max(texts.widest() + MARGIN);
+        let across = (width + 3.0 * MARGIN).max(texts.widest() + MARGIN);
         let mut picture = Picture::new(self.title, ((plot.left + across).ceil(), bottom + texts.below(across)), dpi)?;
         let (along, above) = (x.part(), y.part());
         if !y.logarithmic && y.low < 0.0 && y.high > 0.0 {

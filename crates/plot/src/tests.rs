@@ -217,6 +217,19 @@ fn svg_has_text_as_text_and_the_map_as_an_image() {
 }
 
 #[test]
+fn a_narrow_chart_has_the_text_of_a_wide_one() {
+    let curves = vec![("", (0..40).map(|k| (f64::from(k), 1e6 * f64::from(k * k))).collect())];
+    let chart = Chart { x_label: "load", y_label: "area", curves, ..Chart::default() };
+    let sizes = |svg: &str| svg.split("font-size=\"").skip(1).map(|text| text[..1].to_owned()).collect::<Vec<_>>();
+    for width in [260.0, 420.0] {
+        let picture = chart.draw_across(DPI, width).unwrap();
+        assert_eq!(picture.width, width);
+        let svg = picture.svg().unwrap();
+        assert!(sizes(&svg).len() > 6 && sizes(&svg).iter().all(|size| size == "8" || size == "9"), "{svg}");
+    }
+}
+
+#[test]
 fn pdf_has_its_objects_where_the_table_says() {
     for (picture, images) in pictures().iter().zip([2, 0]) {
         let file = pdf::encode(picture).unwrap();
