@@ -59,8 +59,13 @@ impl<'a> Columns<'a> {
 
     /// The name of a column for people.
     pub fn label(name: &str) -> String {
-        if name == "dissipated" { "dissipated energy".to_owned() } else { name.replace('_', " ") }
+        if name == "dissipated" { "dissipated energy".to_owned() } else { spaced(name) }
     }
+}
+
+/// A name with spaces.
+pub fn spaced(name: &str) -> String {
+    name.replace("pull_off", "pull-off").replace('_', " ")
 }
 
 /// The nominal area of a row, of which the load is not zero.

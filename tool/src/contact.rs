@@ -1,12 +1,13 @@
 //! `asperity contact`: the contact of a solve in tables and charts.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use asperity::{Error, Grid};
 use asperity_plot::{Chart, Picture};
-use asperity_scene::contact::{ContactTables, Density, Spot};
+use asperity_scene::contact::{ContactFigures, ContactTables, Density, Spot};
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::csv;
 use crate::outcome::Outcome;
@@ -15,9 +16,9 @@ use crate::pictures::{PictureFormat, Resolution};
 use crate::printing::{Printing, aligned};
 use crate::quantity::{Dimension, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE};
 use crate::report;
-use crate::results::{self, REPORT, Results, write_report};
+use crate::results::{self, Contents, REPORT, Results, write_report};
 use crate::scene::{self, SceneFile};
-use crate::solved::{CONTACT_PRESSURE, GAP, Solved};
+use crate::solved::{CONTACT_PRESSURE, GAP, Solved, units_of};
 use crate::units::Units;
 
 /// Tabulate and chart the contact of a solve.
@@ -108,6 +109,34 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     Ok(true)
 }
 
+/// The contents of a folder of this command, with its report.
+pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
+    let (figures, units): (ContactFigures, _) = (serde_json::from_value(report.clone())?, units_of(report));
+    let (shape, lengths) = serde_json::from_value(json!([report["shape"], report["lengths"]]))?;
+    // a table that there is none of has no rows
+    let rows = |name: &str| {
+        let text = fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap_or_default();
+        let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
+        text.lines().skip(1).map(row).collect::<Vec<Vec<f64>>>()
+    };
+    let density = |name: &str, exponent| {
+        let rows = rows(name);
+        let edges = rows.iter().map(|row| row[0]).chain(rows.last().map(|row| row[1])).collect();
+        Density { edges, density: rows.iter().map(|row| row[2]).collect(), exponent }
+    };
+    let spot = |row: &Vec<f64>| Spot { nodes: row[0] as usize, area: row[1], perimeter: row[2], force: row[3] };
+    let tables = ContactTables {
+        gap: density("gap", figures.gap_exponent),
+        pressure: density("pressure", figures.pressure_exponent),
+        autocorrelation: rows("autocorrelation").iter().map(|row| (row[0], row[1])).collect(),
+        spots: rows("clusters").iter().map(spot).collect(),
+        mean_contact_pressure: figures.mean_contact_pressure,
+    };
+    let found = Found { tables: &tables, grid: Grid::new(shape, lengths)?, units: &units, dpi };
+    let pictures = found.parts()?.into_iter().flatten().map(|(_, chart)| chart).collect();
+    Ok(Contents { figures: figures.rows(&units), shortfall: None, pictures })
+}
+
 /// A table, and its chart, where there is one.
 type Part = Option<(String, Picture)>;
 
@@ -144,9 +173,7 @@ impl Found<'_> {
         }
         let columns = [format!("from_{of}"), format!("to_{of}"), format!("{of}_density")];
         let names = self.units.columns(&columns.each_ref().map(String::as_str), "", false);
-        // below a bin without a node there are single nodes, which the table has
-        let mut points: Vec<_> = found.points().into_iter().rev().take_while(|(_, density)| *density > 0.0).collect();
-        points.reverse();
+        let points = found.points(self.grid.nodes());
         let caption = found.exponent.map(|found| format!("exponent {:.3} in the window of the line", found.exponent));
         let guide = found.exponent.and_then(|window| {
             let middle = (window.from * window.to).sqrt();

@@ -1,14 +1,14 @@
 //! `asperity leak`: percolation of a gap, and what leaks through it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use asperity::Grid;
 use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
-use asperity_maps::io::write_npy;
+use asperity_maps::io::{read_field, write_npy};
 use asperity_plot::{Colouring, Map, Picture};
-use asperity_scene::{Boundary, Chosen, LeakKeys, LengthsKeys, Skin};
+use asperity_scene::{Boundary, Chosen, LeakKeys, Leaked, LengthsKeys, Narrowest, Skin};
 use clap::Args;
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -19,9 +19,9 @@ use crate::pictures::{PictureFormat, Resolution};
 use crate::printing::{Printing, aligned, complain, name, warn};
 use crate::quantity::LENGTH;
 use crate::report;
-use crate::results::{self, REPORT, Results, write_report};
+use crate::results::{self, Contents, REPORT, Results, write_report};
 use crate::scene::{self, SceneFile};
-use crate::solved::{GAP, Solved};
+use crate::solved::{GAP, Solved, units_of};
 use crate::units::Units;
 
 /// Find out whether a gap is open from side to side, and how much leaks through it.
@@ -153,7 +153,9 @@ impl Options {
                 write_npy(folder.path(pressure_name), &flow.pressure)?;
                 write_npy(folder.path(flow_name), &speed)?;
                 let picture_name = self.picture_format.file(PICTURES[axis as usize]);
-                let picture = drawn(leak, axis, (gap, &speed), grid, units, self.resolution.dpi)?;
+                let found = leak.percolation.along(axis);
+                let passage = (found.map(Narrowest::of), found.map_or(&[][..], |found| &found.path));
+                let picture = drawn(axis, (gap, &speed), passage, grid, units, self.resolution.dpi)?;
                 picture.write(folder.path(&picture_name))?;
                 names.extend([pressure_name.to_owned(), flow_name.to_owned(), picture_name]);
             }
@@ -169,11 +171,27 @@ fn speed(flow: &Flow) -> Array2<f64> {
     ndarray::Zip::from(x).and(y).map_collect(|x, y| x.hypot(*y))
 }
 
-/// The picture of the flow along an axis: by powers of ten, with the widest passage.
+/// The contents of a folder of this command, with its report.
+pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
+    let (leaked, units): (Leaked, _) = (serde_json::from_value(report.clone())?, units_of(report));
+    let (shape, lengths) = serde_json::from_value(json!([report["shape"], report["lengths"]]))?;
+    let grid = Grid::new(shape, lengths)?;
+    let mut pictures = Vec::new();
+    for axis in Axis::BOTH.into_iter().filter(|axis| *leaked.percolates.along(*axis)) {
+        let [pressure, speed] = FIELDS[axis as usize].map(|name| read_field(folder.join(name)));
+        // the pressure is known where the fluid is
+        let open = pressure?.mapv(|pressure| if pressure.is_nan() { 0.0 } else { 1.0 });
+        let passage = (*leaked.constriction.along(axis), &[][..]);
+        pictures.push(drawn(axis, (&open, &speed?), passage, grid, &units, dpi)?);
+    }
+    Ok(Contents { figures: leaked.rows(&units), shortfall: leaked.shortfall(Skin::Options), pictures })
+}
+
+/// The picture of the flow along an axis: by powers of ten, with the widest passage as far as it is known.
 fn drawn(
-    leak: &Leak,
     axis: Axis,
     (gap, speed): (&Array2<f64>, &Array2<f64>),
+    (narrowest, path): (Option<Narrowest>, &[(usize, usize)]),
     grid: Grid,
     units: &Units,
     dpi: f64,
@@ -184,7 +202,6 @@ fn drawn(
         true => (speed / mean).log10().clamp(DECADES.0, DECADES.1),
         false => f64::NAN,
     });
-    let narrowest = leak.percolation.along(axis);
     let caption = narrowest.map(|found| {
         format!("the gap is {} at the constriction of the widest passage", units.number(found.gap, LENGTH))
     });
@@ -195,7 +212,7 @@ fn drawn(
         label: "power of ten of flow over mean flow",
         limits: Some(DECADES),
         without: Some("closed"),
-        path: narrowest.map_or(&[], |found| &found.path),
+        path,
         mark: narrowest.map(|found| found.node),
         ..Map::new(decades.view(), grid, Colouring::Sequential)
     };

@@ -4,11 +4,14 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
+use asperity_plot::Picture;
 use asperity_plot::page::{LOOK, QUANTITY, ZOOM, escaped};
 use clap::Args;
-use serde_json::Value;
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::citation::{PAPER, PROGRAM};
+use crate::columns::spaced;
 use crate::journal::state_path;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, with_suffix, write_text};
@@ -24,19 +27,18 @@ mod maps;
 mod of_solve;
 mod of_table;
 
-use figures::spaced;
 pub use of_table::draw_loads;
 
 /// Put the results of a run on one page for a browser.
 ///
-/// RESULTS is the folder of a solve, or the table of a sweep, a cycle or a study. The page has the figures, the
-/// warnings, maps that can be zoomed, curves, the scene that repeats the run, and how to cite. It is one file, which
-/// loads nothing from elsewhere: for a colleague, or beside the data. Maps are drawn from gap.npy, pressure.npy and
-/// contact_pressure.npy.
+/// RESULTS is the folder of a solve, a pull-off, a leakage or a contact, or the table of a sweep, a cycle, an interface
+/// or a study. The page has the figures, the warnings, maps that can be zoomed, curves, the scene that repeats the run,
+/// and how to cite. It is one file, which loads nothing from elsewhere: for a colleague, or next to the data. Maps and
+/// curves are drawn from the files in the folder, those of a solve from gap.npy, pressure.npy and contact_pressure.npy.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
-    /// Folder of a solve, or table of a sweep, a cycle or a study
+    /// Folder of results, or table of a sweep, a cycle, an interface or a study
     #[arg(value_name = "RESULTS")]
     results: PathBuf,
     /// File for the page [default: report.html in the folder, or beside the table]
@@ -113,6 +115,13 @@ impl Page {
         Self { text }
     }
 
+    /// The page of a folder, with its report, which ended so.
+    fn of_folder(folder: &Path, report: &Value, end: &str) -> Self {
+        let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+        let [command, version] = ["command", "version"].map(|key| report[key].as_str().unwrap_or_default());
+        Self::new(name.as_deref().unwrap_or("results"), &format!("asperity {command}, version {version}: {end}"))
+    }
+
     fn heading(&mut self, text: &str) {
         let _ = writeln!(self.text, "<h2>{}</h2>", escaped(text));
     }
@@ -134,9 +143,12 @@ impl Page {
         let _ = writeln!(self.text, "<figure class=\"chart\">\n{svg}</figure>");
     }
 
-    /// A map that can be zoomed, and read under the pointer by what is said of its colours.
-    fn map(&mut self, svg: &str, told: &str) {
-        let _ = writeln!(self.text, "<figure class=\"map\" data-map=\"{}\">\n{svg}</figure>", escaped(told));
+    /// A map that can be zoomed, and read under the pointer by the key of its colours.
+    fn map(&mut self, map: &Picture, lengths: impl Serialize, unit: Option<&str>) -> Outcome<()> {
+        let (svg, told) = (map.svg()?, json!({ "lengths": lengths, "unit": unit, "key": map.key() }));
+        let _ =
+            writeln!(self.text, "<figure class=\"map\" data-map=\"{}\">\n{svg}</figure>", escaped(&told.to_string()));
+        Ok(())
     }
 
     /// Figures by their names, as a table; folded away under a heading if that is given.

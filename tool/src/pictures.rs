@@ -5,8 +5,9 @@ use std::path::Path;
 
 use asperity::contact::Clusters;
 use asperity::{Grid, Real, Result, Solution};
-use asperity_plot::{Chart, Colouring, DPI, Format, Map, Picture};
-use asperity_scene::legs::{legs, logarithmic, value};
+use asperity_plot::{Chart, Colouring, DPI, Format, Map, Picture, Style};
+use asperity_scene::legs::{abscissa, legs, logarithmic, value};
+use asperity_scene::theories::{Curve, Theories};
 use clap::{Args, ValueEnum};
 use ndarray::{Array2, ArrayView2};
 use serde_json::Value;
@@ -117,10 +118,10 @@ impl PlotOptions {
         check_plot(self.plot.as_deref(), table, force)
     }
 
-    /// Draws the chart of all `rows`, if it is wanted.
-    pub fn draw(&self, rows: &[Value], units: &Units) -> Outcome<()> {
+    /// Draws the chart of all `rows`, if it is wanted, with theories, if there are some.
+    pub fn draw(&self, rows: &[Value], units: &Units, theories: Option<&Theories>) -> Outcome<()> {
         let Some(plot) = &self.plot else { return Ok(()) };
-        write_picture(plot, &chart_of_loads(rows, units, self.resolution.dpi)?)
+        write_picture(plot, &chart_of_loads(rows, units, theories, self.resolution.dpi)?)
     }
 }
 
@@ -136,43 +137,59 @@ pub fn write_picture(path: &Path, picture: &Picture) -> Outcome<()> {
     Ok(OutputFile::create(path, true)?.complete(|path| picture.write(path))?)
 }
 
-/// The chart that says most of the loads in the rows of a table.
-pub fn chart_of_loads(rows: &[Value], units: &Units, dpi: f64) -> Result<Picture> {
-    let first = rows.first();
-    let searched = first.is_some_and(|row| !row["wanted_contact_fraction"].is_null());
-    let (x, y) = match first.and_then(|row| row["control"].as_str()) {
-        _ if searched => ("mean_pressure", "contact_fraction"),
+/// The chart that says most of the loads in the rows of a table, or of what varies between cases of a row each; with
+/// theories, if there are some, and then with both areas.
+pub fn chart_of_loads(rows: &[Value], units: &Units, theories: Option<&Theories>, dpi: f64) -> Result<Picture> {
+    let has = |column: &str| rows.iter().any(|row| !row[column].is_null());
+    let area = "contact_fraction";
+    let (x, y) = match rows.first().and_then(|row| row["control"].as_str()) {
+        _ if has("wanted_contact_fraction") => ("mean_pressure", area),
         Some("mean-gap") => ("mean_gap", "mean_pressure"),
-        Some("normal-force") => ("normal_force", "contact_fraction"),
+        Some("normal-force") => ("normal_force", area),
         Some("approach") => ("approach", "normal_force"),
-        Some("spring") if rows.iter().any(|row| !row["approach"].is_null()) => ("approach", "normal_force"),
+        Some("spring") if has("approach") => ("approach", "normal_force"),
         Some("spring") => ("mean_gap", "mean_pressure"),
-        _ => ("mean_pressure", "contact_fraction"),
+        _ => ("mean_pressure", area),
     };
-    chart_of_columns(rows, x, y, units, dpi)
+    let (x, y) = match abscissa(rows) {
+        Some(x) if has("pull_off_force") && has("approach") => (x, "pull_off_force"),
+        Some(x) if has("pull_off_pressure") => (x, "pull_off_pressure"),
+        Some(x) => (x, if y == area && has("wanted_contact_fraction") { "mean_pressure" } else { area }),
+        None => (x, y),
+    };
+    let Some(theories) = theories else { return chart_of_columns(rows, x, y, units, dpi) };
+    let pressures = || rows.iter().map(|row| value(row, "mean_pressure"));
+    let high = pressures().fold(0.0, f64::max);
+    let low = pressures().filter(|pressure| *pressure > 1e-3 * high).fold(high, f64::min);
+    let areas = [("counted", area), ("corrected for the edge", "corrected_contact_fraction")];
+    let ys = if y == area { &areas[..] } else { &[("solves", y)] };
+    chart(rows, (x, &Columns::label(x)), ys, theories.curves((x, y), low, high), units, dpi)
 }
 
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, broken where the state jumps,
 /// for each part of a sweep in which the loads rise or fall, and for what varies in a study. For its axes see
 /// [`logarithmic`].
 pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
-    chart(rows, (x, &Columns::label(x)), &[("", y)], units, dpi)
+    chart(rows, (x, &Columns::label(x)), &[("", y)], Vec::new(), units, dpi)
 }
 
-/// The chart of columns `ys` of one dimension, under their names if they have any, over column `x`, which has a name.
+/// The chart of columns `ys` of one dimension, under their names if they have any, over column `x`, which has a name;
+/// with curves of theories.
 pub fn chart(
     rows: &[Value],
     (x, x_label): (&str, &str),
     ys: &[(&str, &str)],
+    theories: Vec<Curve>,
     units: &Units,
     dpi: f64,
 ) -> Result<Picture> {
     let (mut jumps, mut curves) = (Vec::new(), Vec::new());
     let columns = Columns::new(rows, units);
-    let legs = legs(rows, |column, value| columns.number(column, value));
-    for ((leg, parts), (name, y)) in legs.into_iter().flat_map(|leg| ys.iter().map(move |y| (leg.clone(), y))) {
+    let (mut colours, mut dashes) = (Vec::new(), Vec::new());
+    let legs = legs(rows, x, |column, value| columns.number(column, value));
+    for (leg, (name, y)) in legs.iter().flat_map(|leg| ys.iter().map(move |y| (leg, y))) {
         let mut points: Vec<(f64, f64)> = Vec::new();
-        for part in parts {
+        for part in &leg.parts {
             if !points.is_empty() {
                 points.push((f64::NAN, f64::NAN));
             }
@@ -185,27 +202,48 @@ pub fn chart(
                 points.push(point);
             }
         }
-        let words: Vec<_> = [*name, leg.as_str()].into_iter().filter(|word| !word.is_empty()).collect();
-        curves.push((words.join(", "), points));
+        let words: Vec<_> = [*name, &leg.colour].into_iter().filter(|word| !word.is_empty()).collect();
+        let (colour, dashes) = (place(&mut colours, words.join(", ")), place(&mut dashes, leg.dash.clone()));
+        curves.push(("", points, Style { colour: Some(colour), dashes }));
     }
+    // the legend has both keys of what varies
+    let colour = |(k, name)| (name, Vec::new(), Style { colour: Some(k), dashes: 0 });
+    let dash = |(k, name)| (name, Vec::new(), Style { colour: None, dashes: k });
+    let theory = |(k, (name, points))| (name, points, Style { colour: None, dashes: k });
+    curves.extend(colours.iter().map(String::as_str).enumerate().map(colour));
+    curves.extend(dashes.iter().map(String::as_str).enumerate().map(dash));
+    curves.extend(theories.into_iter().enumerate().map(theory));
+    let (curves, styles) = curves.into_iter().map(|(name, points, style)| ((name, points), style)).unzip();
     let y = ys[0].1;
     let [x_log, y_log] = logarithmic(rows, x, y);
     let [x_unit, y_unit] = [x, y].map(|column| columns.unit(column));
-    let y_label = Columns::label(y);
+    // where there are several, their names say what tells them apart
+    let label = Columns::label(y);
+    let y_label = if ys.len() > 1 { label.split(" x ").next().unwrap_or_default() } else { &label };
     let title = format!("{}{} over {x_label}", y_label[..1].to_uppercase(), &y_label[1..]);
     let chart = Chart {
         title: &title,
         x_label,
         x_unit: x_unit.as_deref(),
         x_log,
-        y_label: &y_label,
+        y_label,
         y_unit: y_unit.as_deref(),
         y_log,
-        curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
+        curves,
+        styles,
         jumps,
         ..Chart::default()
     };
     chart.draw(dpi)
+}
+
+/// The place of a name in a list, to which it is added if it is new.
+fn place(names: &mut Vec<String>, name: String) -> usize {
+    let known = names.iter().position(|known| *known == name);
+    known.unwrap_or_else(|| {
+        names.push(name);
+        names.len() - 1
+    })
 }
 
 /// Marks the nodes that have yielded by a plastic depth, by the number 2.

@@ -1,7 +1,12 @@
 //! `asperity pull-off`: the greatest tension under which the surfaces stay together.
 
+use std::path::PathBuf;
+
 use asperity::Status;
-use asperity_scene::{AdhesionKeys, Chosen, Precision, PullOffKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys};
+use asperity_maps::io::write_npy;
+use asperity_scene::{
+    AdhesionKeys, Chosen, Precision, PullOffKeys, Skin, Solved, SolverKeys, SurfaceKeys, UnitKeys, gap_to_write,
+};
 use clap::Args;
 use serde_json::json;
 
@@ -11,8 +16,10 @@ use crate::printing::{Printing, aligned, complain, in_options};
 use crate::processes::Processes;
 use crate::progress::Progress;
 use crate::report;
-use crate::scene::SceneFile;
+use crate::results::{self, REPORT, Results, write_report};
+use crate::scene::{self, SceneFile};
 use crate::session::{Strictness, say_new, session};
+use crate::solve::FIELDS;
 use crate::summary::warn;
 
 /// Find the pull-off, the greatest tension that surfaces bear.
@@ -28,6 +35,13 @@ use crate::summary::warn;
 pub struct Options {
     #[command(flatten)]
     problem: Chosen<(SurfaceKeys, PullOffKeys, AdhesionKeys, SolverKeys, UnitKeys)>,
+    /// Folder for report.json, scene.toml, and the fields of the last state that holds: gap.npy, pressure.npy and
+    /// contact_pressure.npy
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    out: Option<PathBuf>,
+    /// Replace results that are there
+    #[arg(long, help_heading = "Output")]
+    force: bool,
     #[command(flatten)]
     pub strictness: Strictness,
     #[command(flatten)]
@@ -48,6 +62,7 @@ const EXAMPLES: &str = "\
 /// Runs the command; whether the pull-off was found.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     let problem = &options.problem()?;
+    options.results(scene).map_or(Ok(()), |results| results.check(problem.files()))?;
     let given = problem.read(scene.is_si(), processes)?;
     match problem.scene.precision {
         Precision::F32 => options.find::<f32>(problem, given, scene, processes),
@@ -64,6 +79,12 @@ impl Options {
             "a pull-off is sought by loads that a surface that yields would not forget, which asperity cycle follows",
         )?;
         Ok(problem)
+    }
+
+    /// The folder of the results, if they are to be written.
+    fn results<'a>(&'a self, scene: &'a SceneFile) -> Option<Results<'a>> {
+        let files = || results::files(&FIELDS, &[]);
+        self.out.as_deref().map(|out| Results { out, scene, files: files(), force: self.force })
     }
 
     fn find<T: Scalar>(
@@ -84,14 +105,23 @@ impl Options {
         let (mut solved, pulled_off) = found?;
         say_new(&mut session.warnings);
         solved.look()?;
-        let last = solved.account;
+        let Solved { found, account: last } = solved;
+        let mut outcome = json!(pulled_off);
+        outcome["last"] = json!(last);
+        let report = report::report("pull-off", outcome, &session.inputs);
 
         printing.say(&aligned(&pulled_off.rows(&last, session.units())));
-        printing.report(|| {
-            let mut outcome = json!(pulled_off);
-            outcome["last"] = json!(last);
-            report::report("pull-off", outcome, &session.inputs)
-        });
+        if let Some(results) = self.results(scene) {
+            let held = &*found.part()?;
+            let fields = [&*gap_to_write(held), &held.pressure, &held.contact_pressure];
+            results.write(results.folder()?, |folder| {
+                write_report(folder, &report)?;
+                FIELDS.into_iter().zip(fields).try_for_each(|(name, field)| write_npy(folder.path(name), field))
+            })?;
+            let names = [REPORT, scene::NAME].into_iter().chain(FIELDS).map(str::to_owned);
+            printing.say(&results.told(&names.collect::<Vec<_>>()));
+        }
+        printing.report(|| report);
         warn("", &last);
         if let Some(text) = pulled_off.shortfall(&last, Skin::Options) {
             complain("warning", &text);

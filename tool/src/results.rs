@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity_maps::io::OutputFolder;
+use asperity_plot::Picture;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -15,6 +16,13 @@ use crate::scene::{self, SceneFile};
 
 /// The name of the report in a folder of results.
 pub const REPORT: &str = "report.json";
+
+/// The contents of a folder for a page: figures by their names, what falls short, and pictures.
+pub struct Contents {
+    pub figures: Vec<(String, String)>,
+    pub shortfall: Option<String>,
+    pub pictures: Vec<Picture>,
+}
 
 /// A folder of results, with what it may replace.
 pub struct Results<'a> {

@@ -15,8 +15,8 @@ use crate::study;
 
 /// Do what a scene file says.
 ///
-/// A scene is a TOML file with the name of a command (solve, sweep, cycle, interface, contact, leak, prepare, surface,
-/// stats or demo) and its options by their long names, without the hyphens in front. Numbers, words and lists are
+/// A scene is a TOML file with the name of a command (solve, sweep, cycle, pull-off, interface, contact, leak,
+/// prepare, surface, stats or demo) and its options by their long names, without the hyphens in front. Numbers, words and lists are
 /// written as TOML has them, an option without a value is set by true. Options may stand in sections, named as in the
 /// help of the command. File names are relative to the scene. Options after the name of the scene replace those in it,
 /// and the side lengths of a file of heights after it those in the scene.

@@ -43,9 +43,9 @@ pub struct Options {
     #[command(flatten)]
     problem: Chosen<(SurfaceKeys, LoadKeys, AdhesionKeys, SolverKeys, NestedKeys, AccuracyKeys)>,
 
-    /// Folder for the results, made if needed
+    /// Folder for the results, without which they are only printed; made if needed
     #[arg(long, value_name = "DIR", help_heading = "Output")]
-    out: PathBuf,
+    out: Option<PathBuf>,
     /// Replace results that are there
     #[arg(long, help_heading = "Output")]
     force: bool,
@@ -54,12 +54,12 @@ pub struct Options {
     /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
     /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
     /// that of the other
-    #[arg(long, value_enum, value_name = "FIELD", help_heading = "Output")]
+    #[arg(long, value_enum, value_name = "FIELD", requires = "out", help_heading = "Output")]
     fields: Option<Beside>,
     /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0
     /// to the largest; its integral is the contact fraction [default: 50 if --distribution stands alone]
     #[arg(long, value_name = "BINS", num_args = 0..=1, default_missing_value = "50", help_heading = "Output")]
-    #[arg(value_parser = bins, allow_negative_numbers = true)]
+    #[arg(value_parser = bins, allow_negative_numbers = true, requires = "out")]
     distribution: Option<usize>,
     /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
     /// repeated
@@ -108,7 +108,8 @@ enum Format {
     Vti,
 }
 
-const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
+/// The fields of a solution.
+pub const FIELDS: [&str; 3] = ["gap.npy", "pressure.npy", "contact_pressure.npy"];
 const NPZ: &str = "fields.npz";
 const VTI: &str = "fields.vti";
 const DISTRIBUTION: &str = "distribution.csv";
@@ -126,14 +127,14 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     options.check_asked(problem, load, processes)?;
     problem.check_loads(&[load])?;
     options.colours.check()?;
-    let results = Results { out: &options.out, scene, files: files(), force: options.force };
-    processes.first(|| results.check(problem.files()))?;
+    let results = options.out.as_deref().map(|out| Results { out, scene, files: files(), force: options.force });
+    processes.first(|| results.as_ref().map_or(Ok(()), |results| results.check(problem.files())))?;
     let given = problem.read(scene.is_si(), processes)?;
     let full = problem.full_pressure(&given.surface, &[load])?;
     let asked = in_options(problem.given.asked(load, full))?;
     given.part.check(asked.control)?;
-    let (part, pictures) = (given.part, !options.no_pictures);
-    let job = Job { options, problem, results, processes, asked, part, pictures };
+    let (part, pictures) = (given.part, !options.no_pictures && results.is_some());
+    let job = Job { options, problem, scene, results, processes, asked, part, pictures };
     match problem.scene.precision {
         Precision::F32 => job.run::<f32>(given),
         Precision::F64 => job.run::<f64>(given),
@@ -169,7 +170,9 @@ impl Options {
 struct Job<'a> {
     options: &'a Options,
     problem: &'a ProblemOptions,
-    results: Results<'a>,
+    scene: &'a SceneFile,
+    /// The folder of the results, if they are to be written
+    results: Option<Results<'a>>,
     processes: &'a Processes,
     asked: Asked,
     part: Part,
@@ -198,7 +201,7 @@ impl Job<'_> {
         }
         let start = given.start.take().map(T::field);
         let kept = options.fields.map(|Beside::Displacement| given.surface.clone());
-        let session = session::<T>(self.problem, given, self.results.scene, options.strictness, processes)?;
+        let session = session::<T>(self.problem, given, self.scene, options.strictness, processes)?;
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
         let tolerance = session.tolerance(self.asked.goal)?;
@@ -223,33 +226,37 @@ impl Job<'_> {
         let mut beside = options.fields_beside(&found, &self.problem.scene.elastic, surface.as_deref())?;
         let solution = &found.solution;
 
-        let folder = processes.agree(processes.is_first().then(|| self.results.folder()).transpose())?;
-        if options.writes(Format::Npy) {
-            let (shown, part) = (&*self.part.of_solution(solution)?, self.part.grid());
-            let gap = gap_to_write(shown);
-            let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
-            let (folder, out) = (folder.as_ref(), &options.out);
-            let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
-            write_fields(processes, folder, out, part, &named)?;
-            for (name, field) in &beside {
-                let field = self.part.of_field(field.clone())?;
-                write_fields(processes, folder, out, part, &[((*name).to_owned(), &field)])?;
+        let mut told = Vec::new();
+        if let Some(results) = &self.results {
+            let folder = processes.agree(processes.is_first().then(|| results.folder()).transpose())?;
+            if options.writes(Format::Npy) {
+                let (shown, part) = (&*self.part.of_solution(solution)?, self.part.grid());
+                let gap = gap_to_write(shown);
+                let fields = [&*gap, &shown.pressure, &shown.contact_pressure];
+                let (folder, out) = (folder.as_ref(), results.out);
+                let named: Vec<_> = FIELDS.into_iter().map(str::to_owned).zip(fields).collect();
+                write_fields(processes, folder, out, part, &named)?;
+                for (name, field) in &beside {
+                    let field = self.part.of_field(field.clone())?;
+                    write_fields(processes, folder, out, part, &[((*name).to_owned(), &field)])?;
+                }
             }
+            for (_, field) in beside.iter_mut().filter(|_| fits) {
+                *field = grid.whole(std::mem::take(field)).into_owned();
+            }
+            let mut beyond = None;
+            processes.first(|| {
+                let Some(folder) = folder else { return Ok(()) };
+                let write = |folder: &_| self.write(folder, session.units(), whole.as_deref(), &beside, &account);
+                beyond = results.write(folder, write)?;
+                Ok(())
+            })?;
+            told.push(results.told(&self.names()));
+            told.extend(beyond.map(|load| format!("beyond the colours of the pressure: {load}")));
         }
-        for (_, field) in beside.iter_mut().filter(|_| fits) {
-            *field = grid.whole(std::mem::take(field)).into_owned();
-        }
-        let mut beyond = None;
-        processes.first(|| {
-            let Some(folder) = folder else { return Ok(()) };
-            let write = |folder: &_| self.write(folder, session.units(), whole.as_deref(), &beside, &account);
-            beyond = self.results.write(folder, write)?;
-            Ok(())
-        })?;
 
         printing.say(&table(&[], &[&account], session.units()));
-        printing.say(&self.results.told(&self.names()));
-        beyond.iter().for_each(|load| printing.say(&format!("beyond the colours of the pressure: {load}")));
+        told.iter().for_each(|line| printing.say(line));
         printing.report(|| json!(account));
         warn("", &account);
         let reached = account.accuracy.as_ref().is_none_or(|reached| reached.reached)

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use asperity::Surface;
+use asperity_scene::theories::Theories;
 use asperity_scene::{
-    AdhesionKeys, Chosen, ConductorKeys, Format, FractionsKeys, Keys, LeakageKeys, Load, LoadsKeys, SolverKeys,
+    AdhesionKeys, Chosen, ConductorKeys, Format, FractionsKeys, Keys, LeakageKeys, Load, LoadsKeys, Scene, SolverKeys,
     StiffnessKeys, SurfaceKeys, UnitKeys,
 };
 use clap::{ArgGroup, Args};
@@ -12,6 +14,7 @@ use serde_json::json;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::pictures::PlotOptions;
+use crate::printing::in_options;
 use crate::processes::Processes;
 use crate::scene::SceneFile;
 use crate::table::{Fill, Manner, Table, TableOptions, format_of};
@@ -44,6 +47,11 @@ pub struct Options {
     fields: Option<PathBuf>,
     #[command(flatten)]
     plot: PlotOptions,
+    /// Draw theories of the surface in the chart of --plot: Persson's for the contact fraction and the mean gap, and that
+    /// of Greenwood and Williamson for the contact fraction under light loads. Without adhesion, on a half-space with a
+    /// periodic boundary
+    #[arg(long, requires = "plot", help_heading = "Output")]
+    theory: bool,
     #[command(flatten)]
     asked: Chosen<(UnitKeys, StiffnessKeys, ConductorKeys, LeakageKeys)>,
     #[command(flatten)]
@@ -79,9 +87,13 @@ impl Options {
 }
 
 impl Fill for Options {
+    fn theories(&self, surface: &Surface, scene: &Scene) -> Outcome<Option<Theories>> {
+        self.theory.then(|| in_options(Theories::of(surface, scene))).transpose()
+    }
+
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve()?;
-        table.first(|| self.plot.draw(&rows, table.session.units()))?;
+        table.first(|| self.plot.draw(&rows, table.session.units(), table.theories.as_ref()))?;
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {
             true => "or leave out the contact fractions past which the contact jumps",

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use asperity::{Control, Error, Status};
-use asperity_scene::{Account, After, Boundary, Format, Load, Precision, Row, Session, TableFile, Way};
+use asperity::{Control, Error, Status, Surface};
+use asperity_scene::theories::Theories;
+use asperity_scene::{Account, After, Boundary, Format, Load, Precision, Row, Scene, Session, TableFile, Way};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
@@ -67,6 +68,11 @@ pub trait Fill {
         Ok(Way::sweep(loads, full))
     }
 
+    /// The theories to draw next to the rows, if there are to be some.
+    fn theories(&self, _: &Surface, _: &Scene) -> Outcome<Option<Theories>> {
+        Ok(None)
+    }
+
     /// Fills the table.
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool>;
 }
@@ -75,6 +81,7 @@ pub trait Fill {
 pub struct Table<'a, T: Scalar> {
     options: TableOptions<'a>,
     pub session: Session<T>,
+    pub theories: Option<Theories>,
     /// The kind of the loads
     control: Control,
     nodes: usize,
@@ -111,6 +118,7 @@ impl<'a> TableOptions<'a> {
         let way = by.way(loads, problem.full_pressure(&given.surface, loads)?)?;
         let control = way.control(&problem.scene);
         given.part.check(control)?;
+        let theories = by.theories(&given.surface, &problem.scene)?;
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;
         }
@@ -140,7 +148,7 @@ impl<'a> TableOptions<'a> {
         if count > 0 {
             printing.say(&format!("{} has {count}{} rows already", name(out), of_rows(&session, " of ")));
         }
-        let table = Table { options: self, session, control, nodes: grid.nodes() };
+        let table = Table { options: self, session, theories, control, nodes: grid.nodes() };
         table.stands();
         Ok(table)
     }

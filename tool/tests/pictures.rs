@@ -209,6 +209,125 @@ fn a_report_is_one_page_that_loads_nothing() {
         let rows = bench.read(table).lines().count();
         assert!(page.matches("<tr").count() >= rows, "{table}");
     }
-    bench.refused_with("report nothing", &["nothing", "solve"]);
+    bench.refused_with("report nothing", &["nothing", "folder of results"]);
     bench.refused_with("report heights.npy", &["heights.npy"]);
+}
+
+/// The page of results, whole and loading nothing.
+fn page(bench: &Bench, results: &str, page: &str) -> String {
+    bench.said(&format!("report {results} --force"));
+    let page = bench.read(page);
+    assert_eq!((unbalanced(&page), loaded(&page)), (vec![], vec![]), "{results}");
+    page
+}
+
+#[test]
+fn what_follows_a_solve_has_its_own_page() {
+    let bench = Bench::new();
+    bench.said("surface --size 64 --lengths 20um --k-l 2 --k-s 8 --rms-height 0.1um --quiet --out heights.npz");
+    let pressed = "--heights heights.npz --modulus 1GPa --mean-pressure 4MPa";
+    bench.said(&format!("solve {pressed} --no-pictures --quiet --out pressed"));
+    let said = bench.said("leak pressed --viscosity 1mPas --out leaked");
+    let leaked = page(&bench, "leaked", "leaked/report.html");
+    let figures = said.lines().filter_map(|line| line.split_once("  ")).filter(|(name, _)| !name.is_empty());
+    for (name, value) in figures.map(|(name, value)| (name.trim(), value.trim())) {
+        assert!(leaked.contains(&format!("<td>{value}</td>")), "{name} {value}");
+    }
+    assert!(leaked.contains("asperity leak, version") && leaked.contains(">Flow along x<"));
+    assert_eq!((leaked.matches("<figure class=\"map\"").count(), leaked.contains("has not converged")), (2, false));
+    // bounds that are not as close as they should be
+    bench.run("leak pressed --max-iterations 1 --tolerance 1e-9 --quiet --out wide");
+    assert!(page(&bench, "wide", "wide/report.html").contains("the bounds of the transmissivity hold, but"));
+
+    bench.said("contact pressed --picture-format svg --quiet --out tables");
+    let tables = page(&bench, "tables", "tables/report.html");
+    assert!(tables.contains("correlation length") && !tables.contains("has not converged"));
+    // the charts are those of the folder
+    for name in ["gap", "pressure", "autocorrelation", "clusters"] {
+        assert!(tables.contains(&bench.read(&format!("tables/{name}.svg"))), "{name}");
+    }
+
+    let law = "--law exponential --work-of-adhesion 20mJ/m2 --range 20nm";
+    let found = bench.reported(&format!("pull-off --heights heights.npz --modulus 1GPa {law} --out off"));
+    assert_eq!(bench.names("off").join(" "), "contact_pressure.npy gap.npy pressure.npy report.json scene.toml");
+    assert_eq!(bench.report("off"), found);
+    let off = page(&bench, "off", "off/report.html");
+    assert_eq!(off.matches("<figure class=\"map\"").count(), 3);
+    assert!(off.find("<h3>Pull-off</h3>").unwrap() < off.find("<h3>Contact</h3>").unwrap());
+    bench.refused_with(
+        &format!("pull-off --heights heights.npz --modulus 1GPa {law} --out off"),
+        &["exists: use --force"],
+    );
+    assert_eq!(bench.reported("run off/scene.toml --force")["pull_off_force"], found["pull_off_force"]);
+
+    // a law of an interface, with what is asked for, and all of it in curves
+    let loads = "--mean-pressures 1MPa:8MPa:3 --conductivities 1W/mK 1W/mK --leakage";
+    bench.said(&format!("interface --heights heights.npz --modulus 1GPa {loads} --quiet --out joint.csv"));
+    let joint = page(&bench, "joint.csv", "joint.csv.html");
+    for title in
+        ["Mean pressure over closure", "Thermal conductance over mean pressure", "Transmissivity over mean pressure"]
+    {
+        assert!(joint.contains(&format!("<title>{title}</title>")), "{title}");
+    }
+    assert!(joint.contains("asperity interface: 3 rows") && joint.contains(">along y<"));
+    std::fs::create_dir(bench.path("other")).unwrap();
+    bench.write("other/report.json", "{\"command\": \"stats\"}");
+    bench.refused_with("report other", &["asperity stats", "no page"]);
+}
+
+#[test]
+fn an_interrupted_table_says_how_far_it_is() {
+    let bench = bench();
+    let loads = |table: &str, loads: &str| {
+        let command = if table == "c.csv" { "cycle --steps 3" } else { "sweep" };
+        bench.said(&format!("{command} --heights heights.npy {LAW} --mean-gaps {loads} --force --quiet --out {table}"));
+        page(&bench, table, &format!("{table}.html"))
+    };
+    for (table, all, told) in
+        [("s.csv", "0.04:0.03:4", "it has 2 of 4 rows"), ("c.csv", "0.04,0.03,0.04", "it ends on leg 1 of 2")]
+    {
+        assert!(!loads(table, all).contains("not complete"), "{table}");
+        // as a kill leaves it
+        let rows = bench.read(table);
+        bench.write(table, &rows.split_inclusive('\n').take(3).collect::<String>());
+        let page = page(&bench, table, &format!("{table}.html"));
+        assert!(
+            page.contains(&format!("The table is not complete, {told}: asperity run {table}.scene.toml continues it.")),
+            "{page:.3000}"
+        );
+    }
+}
+
+#[test]
+fn a_solve_without_a_folder_prints_its_result() {
+    let bench = bench();
+    let solve = "solve --heights heights.npy --mean-pressure 0.01";
+    let names = bench.names(".");
+    let said = bench.said(solve);
+    assert!(said.contains("mean pressure") && !said.contains("results in"), "{said}");
+    assert_eq!(bench.names("."), names);
+    let found = bench.reported(solve);
+    bench.said(&format!("{solve} --quiet --out results"));
+    assert_eq!(found["contact_nodes"], bench.report("results")["contact_nodes"]);
+    for files in ["--fields displacement", "--distribution"] {
+        bench.refused_with(&format!("{solve} {files}"), &["--out"]);
+    }
+}
+
+#[test]
+fn theories_stand_next_to_a_sweep() {
+    let bench = bench();
+    let sweep = "sweep --heights heights.npy --quiet --force --out area.csv --plot area.svg --theory";
+    bench.said(&format!("{sweep} --mean-pressures 1e-3:1e-1:4:log"));
+    let chart = bench.read("area.svg");
+    let names = [">counted<", ">corrected for the edge<", ">Persson<", ">Greenwood and Williamson, for light loads<"];
+    assert!(names.iter().all(|name| chart.contains(name)), "{chart}");
+    bench.said(&format!("{sweep} --mean-gaps 0.03,0.02"));
+    let chart = bench.read("area.svg");
+    assert!(chart.contains(">Persson<") && chart.contains(">solves<") && !chart.contains("Greenwood"));
+    for (more, told) in [(LAW, "--law"), ("--hardness 0.1", "a hardness"), ("--boundary free", "--boundary free")] {
+        let load = "--mean-pressures 0.01";
+        bench.refused_with(&format!("{sweep} {load} {more}"), &["--theory", told, "leave --theory out"]);
+    }
+    bench.refused_with("sweep --heights heights.npy --mean-gaps 0.02 --out b.csv --theory", &["--plot"]);
 }

@@ -31,25 +31,26 @@ pub fn rounded(value: f64, digits: usize, most: f64) -> String {
 }
 
 /// A number to four digits with its unit, and the prefix that makes it readable; one that is too large for any prefix
-/// has a power of ten.
+/// has a power of ten, and one that is too small is zero.
 pub fn si(value: f64, unit: &str) -> String {
     const PREFIXES: [&str; 12] = ["z", "a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
     // Rounded first, so that 999.96 n is 1 µ.
     let text = format!("{value:.3e}");
     let rounded: f64 = text.parse().unwrap_or(value);
     let power = if rounded == 0.0 { 0 } else { (rounded.abs().log10() + 1e-9).floor() as i32 }.div_euclid(3);
+    // a stiffness is said over micrometres
+    if power >= 4 && unit == "Pa/m" {
+        return si(1e-6 * value, "Pa/µm");
+    }
     if power > 4 {
         return format!("{} {unit}", scientific(text));
     }
-    let power = power.max(-7);
+    if power < -7 {
+        return format!("0 {unit}");
+    }
     let value = rounded / 10f64.powi(3 * power);
     let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 3.0) };
-    let digits = trimmed(format!("{value:.*}", decimals as usize));
-    match digits.trim_start_matches('-') {
-        // too small for any prefix
-        "0" => format!("0 {unit}"),
-        _ => format!("{digits} {}{unit}", PREFIXES[(power + 7) as usize]),
-    }
+    format!("{} {}{unit}", trimmed(format!("{value:.*}", decimals as usize)), PREFIXES[(power + 7) as usize])
 }
 
 /// A number in scientific notation, without zeros at the end of its decimals.

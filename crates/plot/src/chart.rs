@@ -2,7 +2,7 @@
 
 use crate::Picture;
 use crate::frame::{
-    Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, draw_axis_below, draw_axis_beside, room,
+    Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, dashed, draw_axis_below, draw_axis_beside, room,
 };
 use crate::scale::{Axis, Part};
 use crate::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Shape};
@@ -11,7 +11,8 @@ use asperity::Result;
 /// Curves over two axes, such as the loads on a path over its mean gaps.
 ///
 /// The axes reach over all points that are finite, and on a logarithmic one positive; other points break a curve. Where
-/// no curve has more than thirty points, each point has a dot. Units are written as those of a [`Map`](super::Map).
+/// no coloured curve has more than thirty points, each point of them has a dot. A curve without points is an entry of
+/// the legend alone. Units are written as those of a [`Map`](super::Map).
 ///
 /// ```
 /// use asperity_plot::{Chart, DPI};
@@ -40,8 +41,19 @@ pub struct Chart<'a> {
     pub y_log: bool,
     /// The curves: their names, for the legend, and their points (x, y).
     pub curves: Vec<(&'a str, Vec<(f64, f64)>)>,
+    /// The styles of the curves in their order; those beyond the last one are solid, each in a colour of its own.
+    pub styles: Vec<Style>,
     /// Jumps between two points of curves, which are drawn as dashed lines.
     pub jumps: Vec<[(f64, f64); 2]>,
+}
+
+/// The style of a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Style {
+    /// The number of its colour, of which there are eight in turn; black if there is none.
+    pub colour: Option<usize>,
+    /// The number of its dashes, of which there are four in turn; 0 is a solid line.
+    pub dashes: usize,
 }
 
 const SIZE: (f64, f64) = (360.0, 240.0);
@@ -64,8 +76,10 @@ pub(super) const WIDTH: f64 = 1.0;
 const DOT: f64 = 3.5;
 /// The largest number of points on a curve of a chart with dots.
 const MOST_DOTS: usize = 30;
-/// The length of a dash, and of the space behind it.
-const DASH: f64 = 3.0;
+/// The lengths of dashes and of the spaces behind them, in turn; none of a solid line.
+const DASHES: [&[f64]; 4] = [&[], &[5.0, 3.5], &[0.5, 3.0], &[8.0, 3.5, 0.5, 3.5]];
+/// The dashes of a jump.
+const JUMP: &[f64] = &[3.0, 3.0];
 /// The part of an axis beyond the points, as a share of their range.
 const SLACK: f64 = 0.03;
 
@@ -113,9 +127,11 @@ impl Chart<'_> {
         let left = room(&beside);
         let width = across(2.0 * MARGIN + left);
         let below = Axis::new(&x.part(), self.x_label, (width / STEP_BELOW) as i32);
-        let entries = self.curves.iter().zip(COLOURS.into_iter().cycle());
-        let entry = |((name, _), colour): (&(&str, _), Colour)| Entry { colour, line: true, text: (*name).to_owned() };
-        let legend = entries.map(entry).filter(|entry| !entry.text.is_empty()).collect();
+        let entries = self.curves.iter().enumerate().map(|(k, (name, _))| {
+            let (colour, dashes) = self.style(k);
+            Entry { colour, line: Some(dashes), text: (*name).to_owned() }
+        });
+        let legend = entries.filter(|entry| !entry.text.is_empty()).collect();
         let texts = Texts { title: self.title, caption: self.caption, legend };
 
         let plot = Area::new(2.0 * MARGIN + left, texts.above(), width, height);
@@ -130,27 +146,34 @@ impl Chart<'_> {
         let place = |&(x, y): &(f64, f64)| {
             (plot.left + plot.width * along.share(x), plot.bottom() - plot.height * above.share(y))
         };
-        for [from, to] in &self.jumps {
-            let pieces = dashes(place(from), place(to));
+        for jump in &self.jumps {
+            let pieces = dashed(pieces(&jump.each_ref().map(place)), JUMP);
             picture.shapes.push(Shape::Curve(Curve { pieces, width: HAIRLINE, colour: BLACK, within: plot }));
         }
         let dots = |points: &[(f64, f64)]| points.iter().filter(|(x, y)| x.is_finite() && y.is_finite()).count();
-        let dotted = self.curves.iter().all(|(_, points)| dots(points) <= MOST_DOTS);
-        for ((_, points), colour) in self.curves.iter().zip(COLOURS.into_iter().cycle()) {
+        let curves: Vec<_> = self.curves.iter().enumerate().map(|(k, (_, points))| (points, self.style(k))).collect();
+        let dotted = curves.iter().all(|(points, (colour, _))| *colour == BLACK || dots(points) <= MOST_DOTS);
+        for (points, (colour, dashes)) in curves {
             let points: Vec<_> = points.iter().map(place).collect();
             let curve = |pieces, width| Shape::Curve(Curve { pieces, width, colour, within: plot });
             let pieces = pieces(&points);
-            if dotted {
+            if dotted && colour != BLACK {
                 let dots = pieces.iter().flatten().map(|point| vec![*point]).collect();
                 picture.shapes.push(curve(dots, DOT));
             }
-            picture.shapes.push(curve(pieces, WIDTH));
+            picture.shapes.push(curve(dashed(pieces, dashes), WIDTH));
         }
         picture.outline(plot);
         draw_axis_below(&mut picture, &below, plot);
         draw_axis_beside(&mut picture, &beside, plot, -1.0, left);
         texts.draw(&mut picture, plot.left, bottom, across);
         Ok(picture)
+    }
+
+    /// The colour and the dashes of a curve by its number.
+    fn style(&self, k: usize) -> (Colour, &'static [f64]) {
+        let Style { colour, dashes } = self.styles.get(k).copied().unwrap_or(Style { colour: Some(k), dashes: 0 });
+        (colour.map_or(BLACK, |colour| COLOURS[colour % COLOURS.len()]), DASHES[dashes % DASHES.len()])
     }
 
     /// From the least to the largest value that the axis can have, and a little beyond.
@@ -201,17 +224,6 @@ pub fn distribution(values: impl Iterator<Item = f64> + Clone, classes: usize) -
             counts.into_iter().enumerate().map(point).collect()
         }
     }
-}
-
-/// The dashes of a line between two points; none if they are not finite.
-fn dashes(from: (f64, f64), to: (f64, f64)) -> Vec<Vec<(f64, f64)>> {
-    let (across, up) = (to.0 - from.0, to.1 - from.1);
-    let count = (0.5 * across.hypot(up) / DASH).ceil();
-    if !count.is_finite() {
-        return Vec::new();
-    }
-    let at = |share: f64| (from.0 + share * across, from.1 + share * up);
-    (0..count as usize).map(|k| [0.0, 0.5].map(|part| at((k as f64 + part) / count)).to_vec()).collect()
 }
 
 /// The pieces of a curve, which is broken where a point is not finite.

@@ -4,7 +4,7 @@ use crate::Picture;
 use crate::font;
 use crate::font::width;
 use crate::scale::Axis;
-use crate::shape::{Anchor, Area, BLACK, Colour, HAIRLINE};
+use crate::shape::{Anchor, Area, BLACK, Colour, Curve, HAIRLINE, INK, Shape};
 
 /// The sizes of the font.
 pub(super) const TITLE: f64 = 10.0;
@@ -17,8 +17,10 @@ pub(super) const MARGIN: f64 = 6.0;
 const TICK: f64 = 3.0;
 /// The distance between an axis and the next number, and that between two numbers below.
 const SPACE: f64 = 2.0;
-/// The side of a square in the legend, and the distance from it to its text, and to the next one.
+/// The side of a square in the legend, or the length of a line, which is longer if it is black; and the distance from it
+/// to its text, and to the next one.
 const SWATCH: f64 = 7.0;
+const BLACK_LINE: f64 = 24.0;
 const SWATCH_SPACE: f64 = 4.0;
 const ENTRY_SPACE: f64 = 14.0;
 
@@ -26,16 +28,20 @@ const ENTRY_SPACE: f64 = 14.0;
 pub(super) const STEP_BELOW: f64 = 45.0;
 pub(super) const STEP_BESIDE: f64 = 25.0;
 
-/// An entry of a legend: its colour, whether that is a line or an area, and its text.
+/// An entry of a legend: its colour, the dashes if that is the colour of a line and not of an area, and its text.
 pub(super) struct Entry {
     pub(super) colour: Colour,
-    pub(super) line: bool,
+    pub(super) line: Option<&'static [f64]>,
     pub(super) text: String,
 }
 
 impl Entry {
+    fn swatch(&self) -> f64 {
+        if self.line.is_some() && self.colour == BLACK { BLACK_LINE } else { SWATCH }
+    }
+
     fn width(&self) -> f64 {
-        SWATCH + SWATCH_SPACE + width(&self.text, LABEL) + ENTRY_SPACE
+        self.swatch() + SWATCH_SPACE + width(&self.text, LABEL) + ENTRY_SPACE
     }
 }
 
@@ -91,16 +97,44 @@ impl Texts<'_> {
         for (entry, (column, row)) in self.legend.iter().zip(self.places(across)) {
             let (column, top) = (left + column, bottom + row as f64 * LINE);
             let middle = top + 0.5 * SWATCH;
-            if entry.line {
-                picture.fill(Area::new(column, middle - 0.75, SWATCH + 1.0, 1.5), entry.colour);
+            let swatch = Area::new(column, top, entry.swatch(), SWATCH);
+            if let Some(dashes) = entry.line {
+                let pieces = dashed(vec![vec![(column, middle), (swatch.right(), middle)]], dashes);
+                picture.shapes.push(Shape::Curve(Curve { pieces, width: 1.5, colour: entry.colour, within: swatch }));
             } else {
-                let swatch = Area::new(column, top, SWATCH, SWATCH);
                 picture.fill(swatch, entry.colour);
                 picture.outline(swatch);
             }
-            picture.text(&entry.text, (column + SWATCH + SWATCH_SPACE, middle), LABEL, Anchor::Start);
+            picture.text(&entry.text, (swatch.right() + SWATCH_SPACE, middle), LABEL, Anchor::Start);
         }
     }
+}
+
+/// The dashes of the pieces of a curve, whose lengths alternate with those of the spaces between them; the pieces
+/// themselves if there are no lengths.
+pub(super) fn dashed(pieces: Vec<Vec<(f64, f64)>>, lengths: &[f64]) -> Vec<Vec<(f64, f64)>> {
+    if lengths.is_empty() {
+        return pieces;
+    }
+    let mut dashes: Vec<Vec<(f64, f64)>> = Vec::new();
+    for piece in pieces.iter().filter(|piece| piece.len() > 1) {
+        let (mut turns, mut left, mut is_drawn) = (lengths.iter().enumerate().cycle(), 0.0, false);
+        for (from, to) in piece.iter().zip(&piece[1..]) {
+            let (across, up) = (to.0 - from.0, to.1 - from.1);
+            let (length, mut at) = (across.hypot(up), 0.0);
+            while length - at > left {
+                at += left;
+                let point = (from.0 + at / length * across, from.1 + at / length * up);
+                dashes.last_mut().filter(|_| is_drawn).into_iter().for_each(|dash| dash.push(point));
+                let Some((k, next)) = turns.next() else { break };
+                (left, is_drawn) = (*next, k % 2 == 0);
+                dashes.extend(is_drawn.then(|| vec![point]));
+            }
+            left -= length - at;
+            dashes.last_mut().filter(|_| is_drawn).into_iter().for_each(|dash| dash.push(*to));
+        }
+    }
+    dashes
 }
 
 /// Draws the numbers and the label of an axis below `plot`.
@@ -108,7 +142,7 @@ pub(super) fn draw_axis_below(picture: &mut Picture, axis: &Axis, plot: Area) {
     let bottom = plot.bottom();
     for (share, number) in &axis.ticks {
         let x = plot.left + share * plot.width;
-        picture.fill(Area::new(x - 0.5 * HAIRLINE, bottom, HAIRLINE, length(number)), BLACK);
+        picture.fill(Area::new(x - 0.5 * HAIRLINE, bottom, HAIRLINE, length(number)), INK);
         picture.text(number, (x, bottom + TICK + SPACE + 0.4 * NUMBER), NUMBER, Anchor::Middle);
     }
     let middle = (plot.left + 0.5 * plot.width, bottom + NUMBERS + 0.5 * LINE);
@@ -122,7 +156,7 @@ pub(super) fn draw_axis_beside(picture: &mut Picture, axis: &Axis, plot: Area, s
     for (share, number) in &axis.ticks {
         let (y, tick) = (plot.bottom() - share * plot.height, length(number));
         let start = if side < 0.0 { edge - tick } else { edge };
-        picture.fill(Area::new(start, y - 0.5 * HAIRLINE, tick, HAIRLINE), BLACK);
+        picture.fill(Area::new(start, y - 0.5 * HAIRLINE, tick, HAIRLINE), INK);
         let anchor = if side < 0.0 { Anchor::End } else { Anchor::Start };
         picture.text(number, (edge + side * (TICK + SPACE), y), NUMBER, anchor);
     }

@@ -20,14 +20,14 @@ mod svg;
 use std::fs;
 use std::path::Path;
 
-pub use chart::{Chart, distribution};
+pub use chart::{Chart, Style, distribution};
 pub use colours::Colouring;
 pub use load::LoadScale;
 pub use map::Map;
 
 use asperity::{Error, Result};
 use raster::Raster;
-use shape::{Anchor, Area, BLACK, Colour, Shape, Text};
+use shape::{Anchor, Area, Colour, INK, Shape, Text};
 
 /// The resolution of pictures, in pixels per inch, where no other is wanted: two pixels for each point.
 pub const DPI: f64 = 144.0;
@@ -139,7 +139,7 @@ impl Picture {
 
     /// A line just around `area`.
     fn outline(&mut self, area: Area) {
-        self.shapes.extend(area.outline().map(|side| Shape::Fill(side, BLACK)));
+        self.shapes.extend(area.outline().map(|side| Shape::Fill(side, INK)));
     }
 
     /// Text in line with the point `at`, its digits and capitals centred on it.

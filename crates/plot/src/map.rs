@@ -245,7 +245,7 @@ impl<'a> Map<'a> {
 
     fn legend(&self) -> Vec<Entry> {
         let mut legend = Vec::new();
-        let mut entry = |colour, text: &str| legend.push(Entry { colour, line: false, text: text.to_owned() });
+        let mut entry = |colour, text: &str| legend.push(Entry { colour, line: None, text: text.to_owned() });
         if self.colouring == Colouring::Contact {
             entry(BLACK, "contact");
             if self.values.iter().any(|v| *v > 1.0) {

@@ -23,19 +23,26 @@ impl Scale {
     /// A scale on which numbers up to the magnitude `largest` are readable.
     fn new(largest: f64, unit: Option<&str>) -> Self {
         let unit = unit.unwrap_or("");
+        // a stiffness is said over micrometres
+        if unit == "Pa/m" && largest >= 1e12 {
+            let scale = Self::new(1e-6 * largest, Some("Pa/µm"));
+            return Self { factor: 1e6 * scale.factor, ..scale };
+        }
         // The rounding of the logarithm must not print 1 µm as 1000 nm.
         let decade = if largest > TINY { (largest.log10() + 1e-9).floor() as i32 } else { 0 };
-        let power = decade.div_euclid(3);
-        let symbol = unit.split_once('/').map_or(unit, |(symbol, _)| symbol);
-        match usize::try_from(power + 6).ok().and_then(|i| PREFIXES.get(i)) {
-            Some(prefix) if PREFIXABLE.contains(&symbol) => {
-                Self { factor: 10f64.powi(3 * power), exponent: 0, unit: format!("{prefix}{unit}") }
-            }
-            _ => {
-                let exponent = if (-2..4).contains(&decade) { 0 } else { decade };
-                Self { factor: 10f64.powi(exponent), exponent, unit: unit.to_owned() }
-            }
-        }
+        let (symbol, power) = symbol(unit);
+        // of µm² two decades lie below one, too
+        let lowest = 2 * (1 - power.abs());
+        let thousands = power.signum() * (decade - lowest).div_euclid(3 * power.abs());
+        let prefix = usize::try_from(thousands + 6).ok().and_then(|i| PREFIXES.get(i));
+        let prefix = prefix.filter(|_| PREFIXABLE.contains(&symbol));
+        let shift = prefix.map_or(0, |_| 3 * power * thousands);
+        let exponent = if (-2..4).contains(&(decade - shift)) { 0 } else { decade - shift };
+        let unit = match (prefix, power) {
+            (Some(prefix), -1) => format!("1/{prefix}{symbol}"),
+            (prefix, _) => format!("{}{unit}", prefix.unwrap_or(&"")),
+        };
+        Self { factor: 10f64.powi(shift + exponent), exponent, unit }
     }
 
     /// "name (unit)".
@@ -55,6 +62,14 @@ impl Scale {
         };
         text.trim_end().to_owned()
     }
+}
+
+/// The symbol of a unit, which may take a prefix, and its power: of m²/s it is 2, and of 1/m it is -1.
+fn symbol(unit: &str) -> (&str, i32) {
+    let (above, below) = unit.split_once('/').unwrap_or((unit, ""));
+    let powers = [('²', 2), ('³', 3)];
+    let raised = powers.into_iter().find_map(|(sign, power)| Some((above.strip_suffix(sign)?, power)));
+    if above == "1" { (below, -1) } else { raised.unwrap_or((above, 1)) }
 }
 
 /// A value to three digits on its own scale, with its unit.
@@ -97,9 +112,13 @@ impl Part {
     /// A logarithmic range between positive values.
     pub(super) fn logarithmic(from: f64, to: f64, unit: Option<&str>) -> Self {
         let mut scale = Scale::new(to, unit);
-        // powers of ten are at the numbers, where these are not readable on one scale
+        // powers of ten are at the numbers, where these are not readable on one scale; a square has its prefix there, too
         if scale.exponent != 0 || from < PLAIN * scale.factor {
-            scale = Scale { factor: 1.0, exponent: 0, unit: unit.unwrap_or("").to_owned() };
+            let unit = unit.unwrap_or("");
+            scale = match symbol(unit) {
+                (_, 1) => Scale { factor: 1.0, exponent: 0, unit: unit.to_owned() },
+                _ => Scale { factor: scale.factor / 10f64.powi(scale.exponent), exponent: 0, ..scale },
+            };
         }
         Self { from, to, scale, logarithmic: true }
     }
@@ -237,6 +256,7 @@ mod tests {
         assert_eq!(texts(2e-2, 0.4, None), ("0.02 0.05 0.1 0.2".into(), "q".into()));
         assert_eq!(texts(1e6, 1e9, Some("Pa")), ("0.001 0.01 0.1 1".into(), "q (GPa)".into()));
         assert_eq!(texts(1e3, 1e9, Some("Pa")).1, "q (Pa)");
+        assert_eq!(texts(1e-16, 1e-12, Some("m²")), ("10⁻⁴ 10⁻³ 10⁻² 10⁻¹ 10⁰".into(), "q (µm²)".into()));
         assert_eq!(texts(3.1, 3.3, None).0, "3.10 3.15 3.20 3.25 3.30");
         for (from, to) in [(1.0, 1.01), (1e-9, 1e-8), (0.7, 90.0), (1e-200, 1e200), (3e-7, 8e-5), (2.1, 3.9)] {
             // charts have room for eight
@@ -260,7 +280,14 @@ mod tests {
             (1e9, "Pa", "q (GPa)"),
             (0.05, "J/m²", "q (mJ/m²)"),
             (3.0, "N/m", "q (N/m)"),
-            (1e-12, "m²", "q (10⁻¹² m²)"),
+            (1e-12, "m²", "q (µm²)"),
+            (1e-13, "m²", "q (µm²)"),
+            (4e-15, "m²", "q (nm²)"),
+            (3e-20, "m³/(Pa·s)", "q (µm³/(Pa·s))"),
+            (2e7, "1/m", "q (1/µm)"),
+            (2e-9, "1/Pa", "q (1/GPa)"),
+            (1e-12, "1/um", "q (10⁻¹² 1/um)"),
+            (4e15, "Pa/m", "q (GPa/µm)"),
             (1e-30, "m", "q (10⁻³⁰ m)"),
             (20.0, "nm", "q (nm)"),
             (0.0, "Pa", "q (Pa)"),

@@ -4,6 +4,8 @@
 pub(super) type Colour = [u8; 3];
 
 pub(super) const BLACK: Colour = [0; 3];
+/// The colour of frames and ticks, another one than that of data: a dark page draws it lighter.
+pub(super) const INK: Colour = [17; 3];
 pub(super) const WHITE: Colour = [255; 3];
 pub(super) const GREY: Colour = [211; 3];
 

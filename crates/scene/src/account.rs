@@ -14,6 +14,7 @@ mod rows;
 mod sentences;
 mod slopes;
 pub mod statistics;
+pub mod theories;
 mod warnings;
 
 use asperity::contact::{ContactStatistics, Patch};

@@ -8,6 +8,7 @@ use asperity::solver::Method;
 use asperity::{Control, Grid, SelfAffine, Status, Surface};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::processes::Processes;
+use asperity_scene::theories::Theories;
 use asperity_scene::units::Units;
 use asperity_scene::{
     Account, Adhesion, After, Asked, Boundary, Elastic, Found, Goal, Input, Precision, Row, Scene, Session, Skin,
@@ -342,4 +343,34 @@ fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_the
         solved(&Asked { fraction: Some(0.2), ..Asked::under(Control::MeanPressure(0.0)) });
     let both = summary(&[&account, &searched], None);
     assert!(text(&both, "wanted").unwrap().starts_with(", 20.0 %, after "), "{both:?}");
+}
+
+#[test]
+fn theories_are_those_of_python() {
+    let rough =
+        SelfAffine::default().k_l(2.0).k_r(2.0).k_s(16.0).seed(1).surface(Grid::square(64, 1.0).unwrap()).unwrap();
+    let elastic = Elastic { modulus: 2.0, ..Elastic::default() };
+    let theories = Theories::of(&rough, &Scene { elastic, ..Scene::default() }).unwrap();
+    // asperity.exact.Persson and GreenwoodWilliamson of this surface, whose integrals are others, at three loads
+    let expected = [
+        (1e-3, 0.00797871263, 0.00747258970, 0.00994659216),
+        (1e-2, 0.07965567455, 0.00411622230, 0.07885719492),
+        (1e-1, 0.68268949214, 0.00021609249, 0.47855570016),
+    ];
+    let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+    let areas = theories.curves(("mean_pressure", "contact_fraction"), 1e-3, 0.1);
+    let forces = theories.curves(("normal_force", "contact_fraction"), 1e-3, 0.1);
+    let gaps = theories.curves(("mean_gap", "mean_pressure"), 1e-3, 0.1);
+    for ((pressure, area, gap, light), k) in expected.into_iter().zip([0, 50, 100]) {
+        near(areas[0].1[k].0, pressure);
+        near(areas[0].1[k].1, area);
+        near(gaps[0].1[k].0, gap);
+        let after =
+            areas[1].1.iter().position(|(p, _)| *p > pressure).map_or(areas[1].1.len() - 1, |after| after.max(1));
+        let [(p, a), (q, b)] = [after - 1, after].map(|k| areas[1].1[k]);
+        near(a * (b / a).powf((pressure / p).ln() / (q / p).ln()), light);
+    }
+    // on an area of one
+    assert_eq!(areas[0].1, forces[0].1);
+    assert!(theories.curves(("approach", "normal_force"), 1e-3, 0.1).is_empty());
 }

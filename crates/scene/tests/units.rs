@@ -4,7 +4,7 @@
 use asperity::path::PathSettings;
 use asperity_scene::allowed::Range;
 use asperity_scene::fall::{Fall, time};
-use asperity_scene::legs::{legs, logarithmic};
+use asperity_scene::legs::{Leg, abscissa, legs, logarithmic};
 use asperity_scene::list::{Loads, list};
 use asperity_scene::pace::Pace;
 use asperity_scene::quantity::{
@@ -136,10 +136,11 @@ fn units_of_a_dimension_follow_from_length_and_pressure() {
 #[test]
 fn numbers_and_headers_have_their_units() {
     assert_eq!(Units::si().number(6.273889e-10, LENGTH), "627.4 pm");
-    assert_eq!(Units::si().number(-1e-25, LENGTH), "0 m");
-    assert_eq!(Units::si().number(9.999e14, PRESSURE_PER_LENGTH), "999.9 TPa/m");
-    assert_eq!(Units::si().number(9.9999e14, PRESSURE_PER_LENGTH), "1e15 Pa/m");
-    assert_eq!(Units::si().number(2.6170857e17, PRESSURE_PER_LENGTH), "2.617e17 Pa/m");
+    let least = [-1e-25, -9e-22, 1e-21].map(|least| Units::si().number(least, LENGTH));
+    assert_eq!(least, ["0 m", "0 m", "1 zm"]);
+    assert_eq!(Units::si().number(9.999e14, PRESSURE_PER_LENGTH), "999.9 MPa/µm");
+    assert_eq!(Units::si().number(9.9999e14, PRESSURE_PER_LENGTH), "1 GPa/µm");
+    assert_eq!(Units::si().number(2.6170857e17, PRESSURE_PER_LENGTH), "261.7 GPa/µm");
     assert_eq!(Units::si().number(0.05, ENERGY_PER_AREA), "50 mJ/m²");
     assert_eq!(units("um", "MPa").number(0.5, PRESSURE), "0.5 MPa");
     assert_eq!(Units::default().number(0.5, PRESSURE), "0.5");
@@ -324,13 +325,15 @@ fn the_cases_of_a_study_are_named_by_what_varies() {
         let row = |(k, (case, hurst)): (usize, &(u64, f64))| json!({ "case": case, "hurst": hurst, "seed": case, "control": "mean-gap", "control_value": k % 2 });
         cases.iter().enumerate().map(row).collect()
     };
-    let found = |rows: &[Value]| -> Vec<(String, Vec<usize>)> {
-        let count = |(name, parts): (String, Vec<&[Value]>)| (name, parts.iter().map(|rows| rows.len()).collect());
-        legs(rows, |column, value| format!("{value}{}", if column == "hurst" { " H" } else { "" }))
-            .into_iter()
-            .map(count)
-            .collect()
+    let over = |rows: &[Value], x: &str| -> Vec<(String, Vec<usize>)> {
+        let told = |column: &str, value: f64| format!("{value}{}", if column == "hurst" { " H" } else { "" });
+        let count = |leg: Leg<'_>| {
+            let dash = if leg.dash.is_empty() { String::new() } else { format!("; {}", leg.dash) };
+            (leg.colour + &dash, leg.parts.iter().map(Vec::len).collect())
+        };
+        legs(rows, x, told).into_iter().map(count).collect()
     };
+    let found = |rows: &[Value]| over(rows, "mean_gap");
     let name = |text: &str, parts: &[usize]| (text.to_owned(), parts.to_vec());
     let two = [name("hurst 0.5 H, seed 1", &[2]), name("hurst 0.8 H, seed 2", &[2])];
     assert_eq!(found(&rows(&[(1, 0.5), (1, 0.5), (2, 0.8), (2, 0.8)])), two);
@@ -340,4 +343,13 @@ fn the_cases_of_a_study_are_named_by_what_varies() {
     assert_eq!(found(&rows(&many)), [name("hurst 0.5 H", &[1; 5]), name("hurst 0.8 H", &[1; 4])]);
     let seeds: Vec<_> = (1..10).map(|seed| (seed, 0.5)).collect();
     assert_eq!(found(&rows(&seeds)), [name("", &[1; 9])]);
+    // of two keys one is told by the colour and the other by the dash, whatever a law brings with it
+    let crossed: Vec<Value> = (0..6).map(|k| json!({ "case": k, "hurst": (0.2 + 0.3 * (k % 3) as f64), "law": (["none", "jkr"][k / 3]), "work": ([Value::Null, 1.into()][k / 3]), "control": "mean-gap" })).collect();
+    let legs = ["0.2", "0.5", "0.8"].map(|hurst| format!("hurst {hurst} H"));
+    let of = |law: &str| legs.iter().map(|hurst| name(&format!("{hurst}; {law}"), &[1])).collect::<Vec<_>>();
+    assert_eq!(found(&crossed), [of("law none"), of("law jkr, work 1")].concat());
+    // where cases have a row each, what varies is below
+    assert_eq!(abscissa(&crossed), Some("hurst"));
+    assert_eq!(over(&crossed, "hurst"), [name("law none", &[3]), name("law jkr, work 1", &[3])]);
+    assert_eq!((abscissa(&rows(&many)), abscissa(&rows(&[(1, 0.5), (1, 0.5), (2, 0.8)]))), (Some("hurst"), None));
 }

@@ -2,9 +2,15 @@
 
 use serde_json::Value;
 
+use crate::columns::spaced;
+
 /// The keys of reports and the columns of tables in the order in which one asks for them, by headings. Others are of the
 /// surface and the settings.
-pub const GROUPS: [(&str, &str); 7] = [
+pub const GROUPS: [(&str, &str); 8] = [
+    (
+        "Pull-off",
+        "pull_off_pressure pull_off_force limit_pressure limit_force limit_error lost_pressure preload solves",
+    ),
     (
         "Load",
         "case leg direction control control_value mean_pressure normal_force net_pressure spring_stiffness branch \
@@ -58,9 +64,4 @@ pub fn shown(name: &str, value: &Value, number: &dyn Fn(&str, f64) -> String) ->
         }
         other => Some(other.to_string()),
     }
-}
-
-/// A name with spaces.
-pub fn spaced(name: &str) -> String {
-    name.replace('_', " ")
 }

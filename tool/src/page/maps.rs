@@ -5,7 +5,6 @@ use asperity_maps::io::read_field;
 use asperity_plot::{Chart, Colouring, Map, distribution};
 use asperity_scene::Boundary;
 use ndarray::Zip;
-use serde_json::json;
 
 use super::{FINE, Page};
 use crate::outcome::Outcome;
@@ -19,6 +18,11 @@ const FINEST: f64 = 1200.0;
 const NOTICEABLE: f64 = 0.01;
 /// The number of classes of a distribution.
 const CLASSES: usize = 60;
+
+/// The resolution of a map with a pixel for each of the nodes along its longer side, which are 0.25 to 0.5 points wide.
+pub fn resolution(nodes: u64) -> f64 {
+    (0.288 * nodes as f64).clamp(FINE, FINEST)
+}
 
 /// Puts the maps of a solve on a page, with histograms of gap and pressure.
 pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapColours) -> Outcome<()> {
@@ -52,8 +56,7 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
             mark_yielded(&mut regions, depth.view());
         }
     }
-    // a pixel for each node, of which those of the picture are 0.25 to 0.5 points
-    let dpi = (0.288 * gap.dim().0.max(gap.dim().1) as f64).clamp(FINE, FINEST);
+    let dpi = resolution(gap.dim().0.max(gap.dim().1) as u64);
     let clusters = colours.clusters(solved.boundary() == Boundary::Periodic);
     let contact = draw_contact(grid, "Contact", units, &regions, clusters, dpi)?;
     let drawn = if adhesive { &pressure } else { &contact_pressure };
@@ -67,8 +70,7 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
     };
     let gaps = gaps.draw(dpi)?;
     for map in [contact, pressures, gaps] {
-        let told = json!({ "lengths": grid.lengths(), "unit": length, "key": map.key() });
-        page.map(&map.svg()?, &told.to_string());
+        page.map(&map, grid.lengths(), length)?;
     }
     let gap = ("gap", length, &gap, "nodes apart");
     for (x_label, x_unit, field, y_label) in

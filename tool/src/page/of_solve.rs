@@ -1,4 +1,4 @@
-//! The page of a solve.
+//! The page of a folder: of a solve, of the last state of a pull-off, or of what follows a solve.
 
 use std::fmt::Write;
 use std::fs;
@@ -8,36 +8,57 @@ use asperity::Error;
 use asperity_scene::{corrected, dimension_of};
 use serde_json::Value;
 
-use super::Page;
-use super::figures::{GROUPS, OF_ADHESION, place, shown, spaced};
-use crate::columns;
+use super::figures::{GROUPS, OF_ADHESION, place, shown};
+use super::maps::resolution;
+use super::{FINE, Page};
+use crate::columns::{self, spaced};
+use crate::contact;
+use crate::leak;
 use crate::outcome::Outcome;
 use crate::pictures::MapColours;
 use crate::quantity::{ENERGY, ENERGY_PER_AREA, PRESSURE};
+use crate::results::{Contents, REPORT};
 use crate::scene;
-use crate::solved::Solved;
+use crate::solved::{Solved, units_of};
 use crate::units::Units;
 
-/// The page of a folder of `asperity solve`.
+/// The page of a folder of results.
 pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
-    let path = folder.join("report.json");
+    let path = folder.join(REPORT);
     let text = fs::read_to_string(&path).map_err(|_| {
-        Error::file(&path, "is not there: name the folder of a solve, or the table of a sweep or a cycle")
+        Error::file(&path, "is not there: name a folder of results, or the table of a sweep or a cycle")
     })?;
-    let report: Value =
-        serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of a solve: {e}")))?;
+    let mut report: Value =
+        serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of asperity: {e}")))?;
+    let command = report["command"].as_str().unwrap_or_default().to_owned();
+    let longest = report["shape"].as_array().into_iter().flatten().filter_map(Value::as_u64).max();
+    let dpi = resolution(longest.unwrap_or_default());
+    match &*command {
+        "solve" | "demo" => {}
+        "pull-off" => {
+            // of the last state that holds
+            let mut all = report["last"].as_object().cloned().unwrap_or_default();
+            all.extend(report.as_object().cloned().unwrap_or_default().into_iter().filter(|(key, _)| key != "last"));
+            report = all.into();
+        }
+        "leak" => return page_of(folder, &report, leak::contents(folder, &report, dpi)?),
+        "contact" => return page_of(folder, &report, contact::contents(folder, &report, FINE)?),
+        other => return Err(Error::file(&path, format!("is of asperity {other}, which has no page")).into()),
+    }
     let solved = Solved { folder, report };
     let (report, units) = (&solved.report, solved.units());
     let scene = fs::read_to_string(folder.join(scene::NAME)).ok();
-    let word = |key: &str| report[key].as_str().unwrap_or_default();
-    let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
-    let name = name.unwrap_or_else(|| "results".to_owned());
-    let status = word("status");
-    let mut page = Page::new(&name, &format!("asperity solve, version {}: {status}", word("version")));
+    let status = report["status"].as_str().unwrap_or_default();
+    let mut page = Page::of_folder(folder, report, status);
 
     let mut warnings: Vec<String> = Vec::new();
     if status != "converged" {
         warnings.push(format!("The solve has not converged, it is {status}: the answer may be wrong."));
+    }
+    if report["reached"] == false {
+        warnings.push(
+            "The pull-off is not found to its tolerance: the surfaces may bear more than is found here.".to_owned(),
+        );
     }
     let said = report["warnings"].as_array().into_iter().flatten();
     warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
@@ -83,6 +104,33 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         page.figures(Some("Levels of nested grids"), &levels);
     }
     Ok(page.finish(scene.as_deref()))
+}
+
+/// The page of a folder with these contents, and with its report.
+fn page_of(folder: &Path, report: &Value, contents: Contents) -> Outcome<String> {
+    let (units, Contents { figures, shortfall, pictures }) = (units_of(report), contents);
+    let mut page = Page::of_folder(folder, report, if shortfall.is_some() { "not reached" } else { "done" });
+    page.warnings(shortfall.as_slice());
+    page.heading("Figures");
+    page.figures(None, &figures);
+    let mut drawn = Page::default();
+    for picture in pictures {
+        match picture.key() {
+            [] => drawn.figure(&picture.svg()?),
+            _ => drawn.map(&picture, &report["lengths"], units.length.as_deref())?,
+        }
+    }
+    if !drawn.text.is_empty() {
+        page.heading("Maps and curves");
+        page.pictures(&drawn.text);
+    }
+    page.heading("Settings");
+    // what is known along axes is among the figures
+    let inputs = report.as_object().into_iter().flatten().filter(|(_, value)| value["x"].is_null());
+    let number = number_of(report, &units);
+    let inputs = inputs.filter_map(|(key, value)| Some((key.clone(), shown(key, value, &number)?)));
+    page.figures(Some("All inputs"), &inputs.collect::<Vec<_>>());
+    Ok(page.finish(fs::read_to_string(folder.join(scene::NAME)).ok().as_deref()))
 }
 
 /// What writes the numbers of a report, by their keys.

@@ -7,37 +7,43 @@ use std::path::Path;
 use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::escaped;
-use asperity_scene::legs::{value, varied};
+use asperity_scene::dimension_of_key;
+use asperity_scene::legs::{abscissa, value, varied};
 use serde_json::Value;
 use toml::Table;
 
-use super::figures::{place, shown, spaced};
+use super::figures::{place, shown};
 use super::{FINE, Page};
-use crate::columns::Columns;
+use crate::allowed::Range;
+use crate::columns::{Columns, spaced};
 use crate::csv;
+use crate::loads::parsed;
 use crate::outcome::Outcome;
 use crate::pictures::{PlotOptions, chart, chart_of_columns, chart_of_loads};
+use crate::quantity::Quantity;
 use crate::scene;
 use crate::units::Units;
 use crate::warnings;
 
-/// The page of a table of `asperity sweep` or `asperity cycle`.
+/// The page of a table of loads, or of a study.
 pub fn page(table: &Path) -> Outcome<String> {
     let text = fs::read_to_string(table).map_err(|_| {
-        Error::file(table, "cannot be read: name the folder of a solve, or the table of a sweep or a cycle")
+        Error::file(table, "cannot be read: name a folder of results, or the table of a sweep or a cycle")
     })?;
     let (header, columns, rows) = rows(&text);
-    if rows.is_empty() || !columns.iter().any(|column| column == "control_value") {
+    let has = |name: &str| columns.iter().any(|column| column == name);
+    if rows.is_empty() || !has("control_value") && !has("closure") {
         return Err(Error::file(table, "is no table of a sweep or a cycle: it has no column control_value").into());
     }
     let scene = fs::read_to_string(scene::beside(table)).ok();
     let units = units_of_table(&header, scene.as_deref());
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let cycle = columns.iter().any(|column| column == "leg");
+    let cycle = has("leg");
     let study = columns.first().is_some_and(|column| column == "case");
     let command = match (study, cycle) {
         (true, _) => "study",
         (_, true) => "cycle",
+        _ if has("closure") => "interface",
         _ => "sweep",
     };
     let mut page = Page::new(&name, &format!("asperity {command}: {} rows", rows.len()));
@@ -46,7 +52,10 @@ pub fn page(table: &Path) -> Outcome<String> {
     let count = rows.len();
     let marked = format!("{unconverged} of {count} rows have not converged; they are marked in the table.");
     let said = warnings::read_beside(table)?.into_iter().map(|told| told.message);
-    page.warnings(&(unconverged > 0).then_some(marked).into_iter().chain(said).collect::<Vec<_>>());
+    let left = scene.as_deref().filter(|_| !study).and_then(|scene| left_of(&rows, scene));
+    let left = left
+        .map(|left| format!("The table is not complete, {left}: asperity run {}.{} continues it.", name, scene::NAME));
+    page.warnings(&left.into_iter().chain((unconverged > 0).then_some(marked)).chain(said).collect::<Vec<_>>());
     if cycle && !study {
         page.figures(None, &head_of_cycle(&rows, &units));
     }
@@ -74,7 +83,8 @@ pub fn page(table: &Path) -> Outcome<String> {
         !varied.contains(&column.as_str()) && same(column) && (count > 1 || place(column) == usize::MAX)
     };
     let (settings, mut kept): (Vec<_>, Vec<_>) = filled.partition(is_setting);
-    kept.sort_by_key(|(_, column)| if varied.contains(&column.as_str()) { 0 } else { place(column) });
+    let is_first = |column: &str| column == "case" || varied.contains(&column);
+    kept.sort_by_key(|(_, column)| if is_first(column) { 0 } else { place(column).saturating_add(1) });
     let cells = |tag: &str, text: &dyn Fn(&str) -> String| -> String {
         kept.iter().map(|(_, column)| format!("<{tag}>{}</{tag}>", escaped(&text(column)))).collect()
     };
@@ -94,11 +104,31 @@ pub fn page(table: &Path) -> Outcome<String> {
     Ok(page.finish(scene.as_deref()))
 }
 
+/// How far a table is that lacks rows of the loads in its scene.
+fn left_of(rows: &[Value], scene: &str) -> Option<String> {
+    let scene: Table = scene.parse().ok()?;
+    let (name, list) = scene.get("loads")?.as_table()?.iter().find(|(name, _)| *name != "spring-stiffness")?;
+    let dimension = dimension_of_key(&name.replace('-', "_"));
+    let number = |text: &str| match dimension {
+        Some(dimension) => dimension.within(Range::FINITE)(text),
+        None => text.parse().map(Quantity::number).map_err(|_| String::new()),
+    };
+    let loads = parsed(&list.as_str().map_or_else(|| list.to_string(), str::to_owned), &number).ok()?.values;
+    let (last, count, to) = (rows.last()?, loads.len(), loads.last()?);
+    match last["leg"].as_u64() {
+        None => (rows.len() < count).then(|| format!("it has {} of {count} rows", rows.len())),
+        Some(leg) => {
+            let is_over = leg as usize + 1 == count && (value(last, "control_value") / to - 1.0).abs() < 1e-6;
+            (!is_over).then(|| format!("it ends on leg {leg} of {}", count - 1))
+        }
+    }
+}
+
 /// Draws the chart of the loads of a table, if it is wanted.
 pub fn draw_loads(table: &Path, plot: &PlotOptions) -> Outcome<()> {
     let text = fs::read_to_string(table).map_err(|e| Error::unreadable(table, e))?;
     let (header, _, rows) = rows(&text);
-    plot.draw(&rows, &units_of_table(&header, None))
+    plot.draw(&rows, &units_of_table(&header, None), None)
 }
 
 /// What one asks of a cycle first: the pull-off, the jumps, and the energy that they dissipate. Those of a body with a
@@ -145,35 +175,47 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
 /// The curves of a table, in the order in which one asks for them.
 fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Picture>> {
     let differs = |column: &str| rows.iter().any(|row| row[column] != rows[0][column]);
-    let of = |x: &str, y: &str| chart_of_columns(rows, x, y, units, FINE);
-    let searched = !rows[0]["wanted_contact_fraction"].is_null();
+    let is_there = |column: &str| rows.iter().any(|row| !row[column].is_null());
+    let drawn = |x: &str, label: &str, ys: &[(&str, &str)]| chart(rows, (x, label), ys, Vec::new(), units, FINE);
+    let searched = is_there("wanted_contact_fraction");
     let load = if rows[0]["control"] == "normal-force" && !searched { "normal_force" } else { "mean_pressure" };
-    let free = rows.iter().any(|row| !row["approach"].is_null());
+    let free = is_there("approach");
+    let gap = if free { "approach" } else { "mean_gap" };
+    // the curves of a study have their own names
+    let (study, along) = (rows[0]["case"].is_u64(), abscissa(rows));
+    let x = along.unwrap_or(if cycle { gap } else { load });
     let mut charts = Vec::new();
     if cycle && rows[0]["control"] == "spring" {
         // what is measured
         let y = if free { "normal_force" } else { "mean_pressure" };
-        charts.push(chart(rows, ("control_value", "position of the spring"), &[("", y)], units, FINE)?);
+        charts.push(drawn("control_value", "position of the spring", &[("", y)])?);
     }
-    if cycle || !differs(load) {
-        charts.push(chart_of_loads(rows, units, FINE)?);
-    } else {
-        let areas = [("counted", "contact_fraction"), ("corrected", "corrected_contact_fraction")];
-        // the curves of a study have their own names
-        let known = if rows[0]["case"].is_u64() || rows[0][areas[1].1].is_null() { 1 } else { 2 };
-        let areas = if known == 1 { [("", areas[0].1), areas[1]] } else { areas };
-        charts.push(chart(rows, (load, &spaced(load)), &areas[..known], units, FINE)?);
-        charts.push(of(load, "mean_gap")?);
+    let areas = [("counted", "contact_fraction"), ("corrected", "corrected_contact_fraction")];
+    charts.push(match cycle || along.is_some() || !differs(load) {
+        true => chart_of_loads(rows, units, None, FINE)?,
+        false if study || !is_there(areas[1].1) => drawn(load, &spaced(load), &[("", areas[0].1)])?,
+        false => drawn(load, &spaced(load), &areas)?,
+    });
+    let leaks = [("along x", "transmissivity_x_upper"), ("along y", "transmissivity_y_upper")];
+    let mut pairs = vec![("closure", "mean_pressure")];
+    match along {
+        Some(x) if is_there("pull_off_pressure") => pairs.extend([(x, "contact_fraction"), (x, gap)]),
+        Some(x) => pairs.push((x, gap)),
+        None if !cycle => pairs.push((load, "mean_gap")),
+        None => {}
     }
-    let gap = if free { "approach" } else { "mean_gap" };
-    if !rows[0]["contact_stiffness"].is_null() {
-        charts.push(of(if cycle { gap } else { load }, "contact_stiffness")?);
+    pairs.extend(["contact_stiffness", "electrical_conductance", "thermal_conductance"].map(|y| (x, y)));
+    if study {
+        pairs.extend(leaks.map(|(_, y)| (x, y)));
+    } else if differs(x) && leaks.iter().any(|(_, y)| differs(y)) {
+        charts.push(drawn(x, &spaced(x), &leaks)?);
     }
-    for y in ["contact_fraction", if cycle { "dissipated" } else { "elastic_energy" }] {
-        // what is the same in all rows needs no curve
-        if differs(y) && differs(gap) {
-            charts.push(of(gap, y)?);
-        }
+    if along.is_none() {
+        pairs.extend(["contact_fraction", if cycle { "dissipated" } else { "elastic_energy" }].map(|y| (gap, y)));
+    }
+    // what is the same in all rows needs no curve
+    for (x, y) in pairs.into_iter().filter(|(x, y)| differs(x) && differs(y)) {
+        charts.push(chart_of_columns(rows, x, y, units, FINE)?);
     }
     Ok(charts)
 }

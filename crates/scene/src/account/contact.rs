@@ -3,7 +3,7 @@
 use asperity::contact::Clusters;
 use asperity::{Error, Grid, Result, Surface};
 use ndarray::{Array2, ArrayView2, Zip};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::key::{Boundary, LENGTH, PRESSURE, Units, record};
 
@@ -17,8 +17,9 @@ const AT_EDGE: f64 = 0.99;
 const GAP_WINDOW: f64 = 10.0;
 const PRESSURE_WINDOW: f64 = 4.0;
 const BELOW_MEDIAN: f64 = 0.5;
-/// The least number of nodes in a window.
+/// The least number of nodes in a window, and at a point of a curve, where these are not more than a share of all.
 const LEAST_NODES: usize = 100;
+const ENOUGH: f64 = 0.02;
 
 /// The contact of a solve in tables.
 #[derive(Clone, Debug)]
@@ -52,7 +53,7 @@ pub struct Density {
 /// The window begins above the values of nodes at the edge of the contact, whose density the grid makes uniform: along
 /// an edge in the continuum g ∝ x^(3/2) and λ ∝ x^(1/2) at a distance x, and from P dx uniform P(g) ∝ g^(−1/3) and
 /// P(λ) ∝ λ follow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exponent {
     /// The exponent.
     pub exponent: f64,
@@ -79,7 +80,7 @@ pub struct Spot {
 
 record! {
     /// The figures of the tables, as a report has them.
-    #[derive(Clone, Debug, Serialize)]
+    #[derive(Clone, Debug, Serialize, Deserialize)]
     ContactFigures of (tables: &ContactTables) {
         /// The number of spots.
         clusters: usize = tables.spots.len(),
@@ -191,9 +192,24 @@ impl Density {
         Self { density: density.collect(), edges, exponent }
     }
 
-    /// The middle of each bin in the logarithm, and its density.
-    pub fn points(&self) -> Vec<(f64, f64)> {
-        self.edges.windows(2).zip(&self.density).map(|(two, density)| ((two[0] * two[1]).sqrt(), *density)).collect()
+    /// The densities for a curve, each at the middle of its bin in the logarithm, on a map of as many nodes. Bins of few
+    /// values are joined to the next ones below, as their densities are noise.
+    pub fn points(&self, nodes: usize) -> Vec<(f64, f64)> {
+        let bins = self.edges.windows(2).zip(&self.density);
+        let values = |two: &[f64], density: f64| nodes as f64 * density * (two[1] - two[0]);
+        let all: f64 = bins.clone().map(|(two, density)| values(two, *density)).sum();
+        let enough = (ENOUGH * all).clamp(1.0, LEAST_NODES as f64) * (1.0 - 1e-9);
+        let (mut points, mut to, mut count) = (Vec::new(), None, 0.0);
+        for (two, density) in bins.rev() {
+            let to_edge = *to.get_or_insert(two[1]);
+            count += values(two, *density);
+            if count >= enough {
+                points.push(((two[0] * to_edge).sqrt(), count / nodes as f64 / (to_edge - two[0])));
+                (to, count) = (None, 0.0);
+            }
+        }
+        points.reverse();
+        points
     }
 }
 

@@ -2,14 +2,14 @@
 
 use asperity::Result;
 use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::key::{Boundary, LENGTH, LeakAsked, Skin, Units, VISCOSITY, record, times_ten_to, worded};
 use crate::numbers::{percent, plain};
 
 record! {
     /// The leakage through a gap, as its report has it.
-    #[derive(Clone, Debug, Serialize)]
+    #[derive(Clone, Debug, Serialize, Deserialize)]
     Leaked of (asked: &LeakAsked, leak: &Leak, grid_errors: [Option<f64>; 2]) {
         /// What is beyond the map.
         boundary: Boundary = asked.boundary,
@@ -33,7 +33,7 @@ record! {
 }
 
 /// What there is along x and along y.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Along<T> {
     /// Along x.
     pub x: T,
@@ -57,7 +57,7 @@ impl<T> Along<T> {
 
 record! {
     /// The narrowest place of the widest passage along an axis.
-    #[derive(Clone, Copy, Debug, Serialize)]
+    #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
     Narrowest of (found: &Constriction) {
         /// The gap there.
         gap: f64 = found.gap,
@@ -79,7 +79,7 @@ impl Narrowest {
 
 record! {
     /// A flow per pressure between two bounds, from those of the transmissivity.
-    #[derive(Clone, Copy, Debug, Serialize)]
+    #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
     Enclosed of (bounds: Bounds, viscosity: f64) {
         /// The lower bound.
         lower: f64 = bounds.lower / viscosity,
@@ -90,7 +90,7 @@ record! {
 
 record! {
     /// A transmissivity, and how it was found.
-    #[derive(Clone, Copy, Debug, Serialize)]
+    #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
     Transmissivity of (flow: &Flow, error: Option<f64>) {
         /// The lower bound.
         lower: f64 = flow.transmissivity.lower,

@@ -1,11 +1,29 @@
 //! The legs of a table, and the axes of its charts.
 
+use std::collections::{HashMap, HashSet};
+
 use serde_json::Value;
 
 use crate::account::INPUTS;
 
-/// The most curves of a study that a chart names: it has as many colours.
-const MOST_NAMED: usize = 8;
+/// The most colours and dashes of a chart, of which each has a name.
+const MOST_COLOURS: usize = 8;
+const MOST_DASHES: usize = 4;
+
+/// The first columns of the tables of cases.
+const FIRST: [&str; 3] = ["leg", "control", "pull_off_pressure"];
+
+/// The curves of one colour and dash in the chart of a table: parts of its rows that are not connected, with the names
+/// of colour and dash, which may be empty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leg<'a> {
+    /// The name of the colour.
+    pub colour: String,
+    /// The name of the dash.
+    pub dash: String,
+    /// The rows of each part.
+    pub parts: Vec<Vec<&'a Value>>,
+}
 
 /// The value of a column, not a number where there is none.
 pub fn value(row: &Value, column: &str) -> f64 {
@@ -14,15 +32,17 @@ pub fn value(row: &Value, column: &str) -> f64 {
 
 /// Whether the axes of columns `x` and `y` of rows are logarithmic: where the values along x span more than a decade, and
 /// are spread more evenly so; along y if that spans a decade, too. Those of a cycle are not: the area of its loop is an
-/// energy.
+/// energy. A transmissivity, which falls to zero as the cube of the gap, is logarithmic wherever it spans a decade.
 pub fn logarithmic(rows: &[Value], x: &str, y: &str) -> [bool; 2] {
-    let [across, up] = [x, y].map(|column| spread(rows, column));
+    let leaks = y.starts_with("transmissivity");
+    let across = spread(rows.iter().map(|row| value(row, x)));
+    let up = spread(rows.iter().map(|row| value(row, y)).filter(|value| !leaks || *value != 0.0));
     // more than a decade, but for rounding
     let is_wide = |[low, _, high]: [f64; 3]| low > 0.0 && high > 9.99 * low;
     // the one in the middle is nearer to the geometric mean of the ends than to their arithmetic mean
     let is_geometric = |[low, median, high]: [f64; 3]| median * median < (low * high).sqrt() * (0.5 * (low + high));
     let x_log = !is_cycle(rows) && across.is_some_and(|x| is_wide(x) && is_geometric(x));
-    [x_log, x_log && up.is_some_and(is_wide)]
+    [x_log, (x_log || leaks) && up.is_some_and(is_wide)]
 }
 
 /// Whether rows are those of a cycle.
@@ -30,19 +50,19 @@ fn is_cycle(rows: &[Value]) -> bool {
     rows.first().is_some_and(|row| row["leg"].is_u64())
 }
 
-/// The least, the median and the greatest of the values of a column that are finite, if there are any.
-fn spread(rows: &[Value], column: &str) -> Option<[f64; 3]> {
-    let mut values: Vec<_> = rows.iter().map(|row| value(row, column)).filter(|value| value.is_finite()).collect();
+/// The least, the median and the greatest of values that are finite, if there are any.
+fn spread(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
+    let mut values: Vec<_> = values.filter(|value| value.is_finite()).collect();
     values.sort_by(f64::total_cmp);
     Some([*values.first()?, values[(values.len() - 1) / 2], *values.last()?])
 }
 
-/// The parts of a table for one curve each, with its name: of a sweep the loads that rise or fall, of a cycle its legs,
-/// which begin with the row before them, and of a study its cases, by the numbers that they vary, each of a column as it
-/// is `told`. A single curve has no name.
-pub fn legs(rows: &[Value], told: impl Fn(&str, f64) -> String) -> Vec<(String, Vec<&[Value]>)> {
+/// The legs of a table over column `x`: of a sweep the loads that rise or fall, of a cycle its legs, which begin with the
+/// row before them, and of a study its cases, by the values that they vary, each of a column as it is `told`. A single
+/// one has no name.
+pub fn legs<'a>(rows: &'a [Value], x: &str, told: impl Fn(&str, f64) -> String) -> Vec<Leg<'a>> {
     if rows.first().is_some_and(|row| row["case"].is_u64()) {
-        return cases(rows, &told);
+        return cases(rows, x, &told);
     }
     let load = |row: &Value| value(row, "control_value");
     let cycle = is_cycle(rows);
@@ -55,12 +75,13 @@ pub fn legs(rows: &[Value], told: impl Fn(&str, f64) -> String) -> Vec<(String, 
     let mut starts = vec![0];
     starts.extend((2..rows.len()).filter(|&k| !same(k)).map(|k| k - 1));
     let ends = starts.iter().skip(1).map(|start| start + 1).chain([rows.len()]);
-    let legs: Vec<_> = starts.iter().zip(ends).map(|(&start, end)| &rows[start..end]).collect();
-    if legs.len() < 2 {
-        return vec![(String::new(), legs)];
-    }
-    let number = |k: usize| if legs.len() > 2 { format!(" {}", k / 2 + 1) } else { String::new() };
-    starts.iter().enumerate().map(|(k, start)| (direction(start + 1) + &number(k), vec![legs[k]])).collect()
+    let count = starts.len();
+    let number = |k: usize| if count > 2 { format!(" {}", k / 2 + 1) } else { String::new() };
+    let leg = |(k, (&start, end)): (usize, (&usize, usize))| {
+        let colour = if count > 1 { direction(start + 1) + &number(k) } else { String::new() };
+        Leg { colour, dash: String::new(), parts: vec![rows[start..end].iter().collect()] }
+    };
+    starts.iter().zip(ends).enumerate().map(leg).collect()
 }
 
 /// The columns that a study varies: those between the number of the case and the load, and of the inputs those that are
@@ -68,8 +89,7 @@ pub fn legs(rows: &[Value], told: impl Fn(&str, f64) -> String) -> Vec<(String, 
 pub fn varied(rows: &[Value]) -> Vec<&str> {
     let Some(first) = rows.first().filter(|row| row["case"].is_u64()) else { return Vec::new() };
     let mut keys = first.as_object().into_iter().flat_map(|row| row.keys().map(String::as_str));
-    let own =
-        keys.by_ref().skip_while(|key| *key != "case").skip(1).take_while(|key| !["leg", "control"].contains(key));
+    let own = keys.by_ref().skip_while(|key| *key != "case").skip(1).take_while(|key| !FIRST.contains(key));
     let mut varied: Vec<_> = own.collect();
     let differs =
         |key: &&str| INPUTS.split(' ').any(|input| input == *key) && rows.iter().any(|row| row[*key] != first[*key]);
@@ -77,40 +97,47 @@ pub fn varied(rows: &[Value]) -> Vec<&str> {
     varied
 }
 
-/// The cases of a study under the values that they vary; where there are more cases than colours, those together whose
-/// values agree in the columns with the fewest of them. A seed then names none: surfaces of several seeds are samples of
-/// one.
-fn cases<'a>(rows: &'a [Value], told: &dyn Fn(&str, f64) -> String) -> Vec<(String, Vec<&'a [Value]>)> {
-    let cases: Vec<_> = rows.chunk_by(|row, next| row["case"] == next["case"]).collect();
-    let few = cases.len() <= MOST_NAMED;
+/// The column along which the cases of a study lie, where each has a single row: of the numbers that vary, but for the
+/// seed, the one with the most values.
+pub fn abscissa(rows: &[Value]) -> Option<&str> {
     let mut columns = varied(rows);
-    columns.retain(|column| few || *column != "seed");
-    let count = |columns: &[&str]| grouped(&cases, columns, told).len();
-    columns.sort_by_cached_key(|column| count(&[column]));
-    let mut naming: Vec<&str> = Vec::new();
-    for column in columns {
-        naming.push(column);
-        if count(&naming) > MOST_NAMED {
-            naming.pop();
-        }
-    }
-    let mut found = grouped(&cases, &naming, told);
-    if let [(name, _)] = &mut *found {
-        name.clear();
-    }
-    found
+    columns.retain(|column| *column != "seed" && rows.iter().all(|row| row[*column].is_number()));
+    let found = columns.into_iter().max_by_key(|column| distinct(rows, &[column]))?;
+    let is_single = rows.windows(2).all(|two| two[0]["case"] != two[1]["case"]);
+    (is_single && distinct(rows, &[found]) > 1).then_some(found)
 }
 
-/// The cases by their values in some columns, which are their names.
-fn grouped<'a>(
-    cases: &[&'a [Value]],
-    columns: &[&str],
-    told: &dyn Fn(&str, f64) -> String,
-) -> Vec<(String, Vec<&'a [Value]>)> {
-    let mut found: Vec<(String, Vec<&[Value]>)> = Vec::new();
-    for case in cases {
+/// The number of combinations of values that rows have in columns.
+fn distinct(rows: &[Value], columns: &[&str]) -> usize {
+    let values = |row: &Value| columns.iter().map(|column| row[*column].to_string()).collect::<Vec<_>>();
+    rows.iter().map(values).collect::<HashSet<_>>().len()
+}
+
+/// The cases of a study over column `x`, by the other columns that vary: columns of which one determines the other are
+/// one key, the key with the fewest values is told by the dash, and the others by the colour, as far as there are
+/// colours. Where there are more cases than these, a seed names none: surfaces of several seeds are samples of one.
+fn cases<'a>(rows: &'a [Value], x: &str, told: &dyn Fn(&str, f64) -> String) -> Vec<Leg<'a>> {
+    let mut columns = varied(rows);
+    let is_along = columns.contains(&x);
+    let count = |columns: &[&str]| distinct(rows, columns);
+    columns.retain(|column| !is_along || count(&[x, column]) > count(&[x]));
+    let mut parts: Vec<Vec<&Value>> = Vec::new();
+    let mut known = HashMap::new();
+    for row in rows {
+        let case = if is_along { Value::Null } else { row["case"].clone() };
+        let key = columns.iter().map(|column| &row[*column]).chain([&case]).map(Value::to_string).collect::<Vec<_>>();
+        let k = *known.entry(key).or_insert(parts.len());
+        if k == parts.len() {
+            parts.push(Vec::new());
+        }
+        parts[k].push(row);
+    }
+    if is_along {
+        parts.iter_mut().for_each(|part| part.sort_by(|a, b| value(a, x).total_cmp(&value(b, x))));
+    }
+    let name = |part: &[&Value], columns: &[&str]| {
         let named = |column: &&str| {
-            let value = match &case[0][*column] {
+            let value = match &part[0][*column] {
                 Value::Null => return None,
                 Value::String(text) => text.clone(),
                 Value::Number(number) if number.is_f64() => told(column, number.as_f64().unwrap_or(f64::NAN)),
@@ -118,11 +145,32 @@ fn grouped<'a>(
             };
             Some(format!("{} {value}", column.replace('_', " ")))
         };
-        let name = columns.iter().filter_map(named).collect::<Vec<_>>().join(", ");
-        match found.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, cases)) => cases.push(case),
-            None => found.push((name, vec![case])),
+        columns.iter().filter_map(named).collect::<Vec<_>>().join(", ")
+    };
+    columns.retain(|column| count(&[column]) > 1 && (parts.len() <= MOST_COLOURS || *column != "seed"));
+    let mut keys: Vec<Vec<&str>> = Vec::new();
+    for column in columns {
+        let joined = |key: &Vec<&str>| count(&[&key[..], &[column]].concat()) == count(key).max(count(&[column]));
+        match keys.iter_mut().find(|key| joined(key)) {
+            Some(key) => key.push(column),
+            None => keys.push(vec![column]),
         }
     }
-    found
+    let fewest = (0..keys.len()).rev().min_by_key(|k| count(&keys[*k]));
+    let dashed = fewest.filter(|k| keys.len() > 1 && count(&keys[*k]) <= MOST_DASHES);
+    let dash = dashed.map(|k| keys.remove(k)).unwrap_or_default();
+    keys.sort_by_cached_key(|key| count(key));
+    let colour = keys.into_iter().fold(Vec::new(), |colour, key| {
+        let more = [colour.clone(), key].concat();
+        if count(&more) > MOST_COLOURS { colour } else { more }
+    });
+    let mut legs: Vec<Leg<'_>> = Vec::new();
+    for part in parts {
+        let [colour, dash] = [&colour, &dash].map(|columns| name(&part, columns));
+        match legs.iter_mut().find(|leg| (&leg.colour, &leg.dash) == (&colour, &dash)) {
+            Some(leg) => leg.parts.push(part),
+            None => legs.push(Leg { colour, dash, parts: vec![part] }),
+        }
+    }
+    legs
 }
