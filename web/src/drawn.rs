@@ -70,6 +70,7 @@ pub fn chart(given: &str) -> Outcome<String> {
         y_log: given.y_log,
         curves: curves.iter().map(|(name, points)| (name.as_str(), points.clone())).collect(),
         jumps: given.jumps,
+        ..Chart::default()
     };
     Ok(chart.draw_across(DPI, given.width)?.svg()?)
 }

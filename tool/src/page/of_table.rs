@@ -118,7 +118,11 @@ fn left_of(rows: &[Value], scene: &str) -> Option<String> {
     match last["leg"].as_u64() {
         None => (rows.len() < count).then(|| format!("it has {} of {count} rows", rows.len())),
         Some(leg) => {
-            let is_over = leg as usize + 1 == count && (value(last, "control_value") / to - 1.0).abs() < 1e-6;
+            let is_there = dimension.is_none() || (value(last, "control_value") - to).abs() <= 1e-6 * to.abs();
+            // a withdrawal ends where the surfaces are apart
+            let shares = ["contact_fraction", "attractive_fraction"].map(|share| value(last, share));
+            let is_apart = last["direction"] == "withdrawal" && shares == [0.0; 2];
+            let is_over = leg as usize + 1 == count && (is_there || is_apart);
             (!is_over).then(|| format!("it ends on leg {leg} of {}", count - 1))
         }
     }
