@@ -133,9 +133,12 @@ impl Page {
         }
     }
 
-    /// Pictures side by side, as many as there is room for.
-    fn pictures(&mut self, figures: &str) {
-        let _ = writeln!(self.text, "<div class=\"pictures\">\n{figures}</div>");
+    /// Pictures side by side under a heading, as many as there is room for.
+    fn pictures(&mut self, heading: &str, Self { text }: &Self) {
+        if !text.is_empty() {
+            self.heading(heading);
+            let _ = writeln!(self.text, "<div class=\"pictures\">\n{text}</div>");
+        }
     }
 
     /// A picture.

@@ -79,10 +79,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         page.text.push_str("</section>\n");
     }
     page.text.push_str("</div>\n");
-    if !maps.text.is_empty() {
-        page.heading("Maps and curves");
-        page.pictures(&maps.text);
-    }
+    page.pictures("Maps and curves", &maps);
     page.heading("Surface and settings");
     let number = number_of(report, &units);
     let (levels, others): (Vec<_>, Vec<_>) = report
@@ -120,10 +117,7 @@ fn page_of(folder: &Path, report: &Value, contents: Contents) -> Outcome<String>
             _ => drawn.map(&picture, &report["lengths"], units.length.as_deref())?,
         }
     }
-    if !drawn.text.is_empty() {
-        page.heading("Maps and curves");
-        page.pictures(&drawn.text);
-    }
+    page.pictures("Maps and curves", &drawn);
     page.heading("Settings");
     // what is known along axes is among the figures
     let inputs = report.as_object().into_iter().flatten().filter(|(_, value)| value["x"].is_null());

@@ -59,12 +59,11 @@ pub fn page(table: &Path) -> Outcome<String> {
     if cycle && !study {
         page.figures(None, &head_of_cycle(&rows, &units));
     }
-    page.heading("Curves");
     let mut curves = Page::default();
     for chart in charts(&rows, cycle, &units)? {
         curves.figure(&chart.svg()?);
     }
-    page.pictures(&curves.text);
+    page.pictures("Curves", &curves);
     page.heading("Rows");
     // what no row has is left out, what is the same in all is folded, and the others stand as one asks for them
     let control = rows[0]["control"].as_str().unwrap_or_default();
