@@ -5,6 +5,7 @@ use std::io::BufReader;
 
 use ndarray::Array2;
 
+use super::colours::cluster_colour;
 use super::map::map_size;
 use super::*;
 use asperity::Grid;

@@ -11,7 +11,7 @@ use crate::key::{Boundary, Scene};
 const ENERGY: f64 = 0.45;
 /// The reduced pressures from which and up to which the separation is integrated, and the steps of their logarithm.
 const REDUCED: (f64, f64) = (1e-9, 8.0);
-const STEPS: usize = 100_000;
+const STEPS: usize = 10_000;
 /// The points of a curve.
 const POINTS: usize = 100;
 
@@ -88,7 +88,11 @@ impl Theories {
             let slope = (ENERGY + 3.0 * (1.0 - ENERGY) * libm::erf(x).powi(2)) * (-x * x).exp();
             separations[k] = separations[k + 1] + step * slope;
         }
-        let separation = move |x: f64| separations[((x / REDUCED.0).ln() / step).round().min(STEPS as f64) as usize];
+        let separation = move |x: f64| {
+            let place = ((x / REDUCED.0).ln() / step).clamp(0.0, STEPS as f64 - 1e-6);
+            let (here, next) = (separations[place as usize], separations[place as usize + 1]);
+            here + place.fract() * (next - here)
+        };
         let Psd { wave_numbers, densities, waves, cell, .. } = &self.spectrum;
         let (mut slopes, mut terms) = (0.0, Vec::new());
         for ((q, density), waves) in wave_numbers.iter().zip(densities).zip(waves) {
