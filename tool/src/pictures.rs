@@ -144,11 +144,9 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, theories: Option<&Theories>
     let area = "contact_fraction";
     let (x, y) = match rows.first().and_then(|row| row["control"].as_str()) {
         _ if has("wanted_contact_fraction") => ("mean_pressure", area),
-        Some("mean-gap") => ("mean_gap", "mean_pressure"),
+        Some("approach" | "spring") if has("approach") => ("approach", "normal_force"),
+        Some("mean-gap" | "spring") => ("mean_gap", "mean_pressure"),
         Some("normal-force") => ("normal_force", area),
-        Some("approach") => ("approach", "normal_force"),
-        Some("spring") if has("approach") => ("approach", "normal_force"),
-        Some("spring") => ("mean_gap", "mean_pressure"),
         _ => ("mean_pressure", area),
     };
     let (x, y) = match abscissa(rows) {
