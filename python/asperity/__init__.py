@@ -39,6 +39,7 @@ from ._solution import (
 )
 from ._stability import Stability
 from ._sweep import Sweep
+from ._tip_table import TipTable
 from ._topography import Topography, from_topography, read
 from ._types import OwnLaw, Report
 from ._viscoelastic import Moment, Viscoelastic
@@ -85,6 +86,7 @@ __all__ = [
     "Sweep",
     "Symbol",
     "Tabulated",
+    "TipTable",
     "Topography",
     "Uzawa",
     "Varying",

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 from . import _asperity, _plot
 from ._curve import Curve, Direction, all_fits
-from ._equilibria import Array, scipy
+from ._equilibria import Array, Paraboloid, scipy
 from ._likelihood import Estimate, Likelihood, ModelFit
+from ._tip_table import TipTable
 from ._types import Quantity
 from ._units import given, number
 
@@ -137,7 +138,8 @@ def fit_curve(
     z: ArrayLike,
     force: ArrayLike,
     *,
-    radius: Quantity,
+    radius: Quantity | None = None,
+    tip: TipTable | None = None,
     spring_stiffness: Quantity | None = None,
     poisson: float | None = None,
     direction: Direction | None = None,
@@ -200,20 +202,34 @@ def fit_curve(
     >>> fit.modulus.lower < 2e9 < fit.modulus.upper, fit.work_of_adhesion.lower
     (True, 0.0)
     """
-    z, force, is_si = _given(z, force, length_unit, force_unit)
+    if (radius is None) == (tip is None):
+        raise TypeError(f"radius is {radius!r}, and tip is {tip!r}: give one of them")
+    if not isinstance(tip, TipTable | None):
+        raise TypeError(f"tip is a {type(tip).__name__}: make its table first, tip=asperity.TipTable(heights, ...)")
+    si = given.get()
+    if tip is not None:
+        if spring_stiffness is not None and si != tip.is_si:
+            raise ValueError(f"spring_stiffness is {spring_stiffness!r}, and the table is {tip!r}: give all units, or none")
+        si = tip.is_si
+    z, force = _given(z, force, si, length_unit, force_unit)
     if direction not in (None, "approach", "withdrawal"):
         raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
-    tip = _positive("radius", radius)
     compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
     if direction is not None and (z[-1] > z[0]) != (direction == "approach"):
         z, force = z[::-1], force[::-1]
     scipy("optimize")
     _refuse_saturated(force)
-    curve = Curve(z, force, direction, tip, compliance, jumps)
-    return CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, is_si))
+    curve = Curve(z, force, direction, tip or Paraboloid(_positive("radius", radius)), compliance, jumps)
+    fit = CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, si))
+    if tip is not None:
+        baseline = curve.columns @ np.array([end.value for end in (fit.offset, fit.slope, fit.drift) if end is not None])
+        approach = z - fit.contact_point.value - compliance * (fit.fitted - baseline)
+        work = 0.0 if fit.work_of_adhesion is None else fit.work_of_adhesion.upper
+        tip.refuse_beyond(fit.modulus.value, work, float(approach.max()))
+    return fit
 
 
-def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, Array, bool]:
+def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tuple[Array, Array]:
     """Both columns, in the SI if their units are given."""
     columns = []
     for name, values in (("z", z), ("force", force)):
@@ -237,16 +253,15 @@ def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, A
     for name, column in zip(("z", "force"), columns):
         if np.ptp(column) == 0.0:
             raise ValueError(f"{name} is {float(column[0])!r} at all points: a curve has it change from point to point")
-    si = given.get()
     if (units[0] is None) != (units[1] is None) or si != (units[0] is not None):
         raise ValueError(
-            f"length_unit is {units[0]!r}, force_unit is {units[1]!r}, and radius has {'a' if si else 'no'} unit: give all "
-            "units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
+            f"length_unit is {units[0]!r}, force_unit is {units[1]!r}, and the tip has {'a' if si else 'no'} unit: give "
+            "all units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
         )
     if si:
         keys = (("length_unit", "approach"), ("force_unit", "normal_force"))
         columns = [column * _unit(*key, unit) for column, key, unit in zip(columns, keys, units)]
-    return columns[0], columns[1], si
+    return columns[0], columns[1]
 
 
 def _unit(name: str, key: str, unit: str | None) -> float:
