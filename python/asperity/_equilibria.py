@@ -132,13 +132,10 @@ class Paraboloid:
         return self.length(modulus, work) / tabor < before
 
 
-def fold(where: Array, load: Array) -> tuple[int, int]:
-    """The ends of the greatest fall of the load at which equilibria go back, or the place at which it is steepest."""
-    steps, falls = np.diff(where), np.maximum(-np.diff(load), 0.0)
-    back = np.concatenate([[0], (steps <= 0.0).astype(int), [0]])
-    begins, ends = np.flatnonzero(np.diff(back) == 1), np.flatnonzero(np.diff(back) == -1)
+def fold(where: Array, load: Array) -> int:
+    """The point before the greatest jump on the way along these equilibria, or the steepest fall of the load."""
+    skipped = np.concatenate([[0], (where[1:] <= np.maximum.accumulate(where)[:-1]).astype(int), [0]])
+    begins, ends = np.flatnonzero(np.diff(skipped) == 1), np.flatnonzero(np.diff(skipped) == -1)
     if begins.size == 0:
-        steep = int(np.argmax(falls / np.maximum(steps, 1e-300)))
-        return steep, steep + 1
-    greatest = int(np.argmax([abs(load[end] - load[begin]) for begin, end in zip(begins, ends)]))
-    return int(begins[greatest]), int(ends[greatest])
+        return int(np.argmin(np.diff(load) / np.diff(where)))
+    return int(begins[np.argmax(np.abs(load[ends] - load[begins]))])
