@@ -223,10 +223,11 @@ class Curve:
         """The equilibria of a fit."""
         return fit.equilibria or self.tip.at(float(np.log(fit.tabor)))
 
-    def fitted(self, fit: Fitted) -> Array:
-        """The forces of a fit at the points, with the baseline."""
-        found = self.forces(fit.at[:4], self.equilibria(fit)) + self.baseline @ fit.at[4:]
-        return np.asarray(found[: self.z.size])
+    def fitted(self, fit: Fitted) -> tuple[Array, float]:
+        """The forces of a fit at the points, with the baseline, and its greatest approach."""
+        load = self.forces(fit.at[:4], self.equilibria(fit))[: self.z.size]
+        approach = self.z - self.point_at(fit.at[2]) - self.compliance * load
+        return load + self.columns @ fit.at[4:], float(approach.max())
 
     def greatest_work(self, fit: Fitted, most: float) -> float:
         """The greatest work of adhesion with which a model has squares of at most `most`."""

@@ -94,6 +94,9 @@ class Tip(Protocol):
     def holds(self, modulus: float, work: float, tabor: float, before: float) -> bool:
         """Whether there are equilibria, with a range that ends at this distance before contact."""
 
+    def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
+        """Refuses what a fit found beyond all equilibria."""
+
 
 class Paraboloid:
     """A smooth tip on a half-space, with the adhesion of Maugis and Dugdale."""
@@ -130,6 +133,9 @@ class Paraboloid:
     def holds(self, modulus: float, work: float, tabor: float, before: float) -> bool:
         # a longer range would be a part of the baseline
         return self.length(modulus, work) / tabor < before
+
+    def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
+        """There are equilibria of all approaches."""
 
 
 def fold(where: Array, load: Array) -> int:

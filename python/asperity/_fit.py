@@ -220,13 +220,7 @@ def fit_curve(
     scipy("optimize")
     _refuse_saturated(force)
     curve = Curve(z, force, direction, tip or Paraboloid(_positive("radius", radius)), compliance, jumps)
-    fit = CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, si))
-    if tip is not None:
-        baseline = curve.columns @ np.array([end.value for end in (fit.offset, fit.slope, fit.drift) if end is not None])
-        approach = z - fit.contact_point.value - compliance * (fit.fitted - baseline)
-        work = 0.0 if fit.work_of_adhesion is None else fit.work_of_adhesion.upper
-        tip.refuse_beyond(fit.modulus.value, work, float(approach.max()))
-    return fit
+    return CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, si))
 
 
 def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tuple[Array, Array]:

@@ -183,9 +183,10 @@ class Likelihood:
         models = {name: self.model(name) for name in curve.tip.fewer}
         least = min(model.aic for model in models.values())
         ratio = None if poisson is None else _asperity.contact_modulus([(1.0, number("poisson", poisson))])
-        fitted = curve.fitted(best)
+        fitted, approach = curve.fitted(best)
         residuals = curve.force - fitted
         tabor, work = self.tabor(), self.work()
+        curve.tip.refuse_beyond(modulus.value, 0.0 if work is None else work.upper, approach)
         alike = 1.0 - float(np.sum(np.diff(residuals) ** 2)) / (2.0 * best.squares)
         noise = float(np.sqrt(self.variance))
         if alike > 6.0 / np.sqrt(residuals.size) and noise > 1e-4 * np.ptp(curve.force):

@@ -16,7 +16,7 @@ from ._equilibria import Array, Equilibria, scipy
 from ._topography import Heights
 from ._types import AxisOrder, Lengths, OwnLaw, Quantity
 from ._units import in_si, number
-from ._warnings import InputWarning
+from ._warnings import InputWarning, warn
 
 #: Points between the ends of each piece of a branch, dense near the jump, where the force goes as a root.
 _ROOTS = np.linspace(0.0, 1.0, 120)
@@ -111,7 +111,7 @@ class TipTable:
             found = np.array([*pool.map(rows, roots)])
         self._pieces: Callable[[float], Array] = lambda root: found[0]
         self.fewer, self.tabor = {"no adhesion": 1}, np.ones(0)
-        self.ratio, self.error, self.radius, self.what = 0.0, 0.0, high, "this table"
+        self.ratio, self.error, self.radius = 0.0, 0.0, high
         if contact.adheres:
             self.fewer, self.tabor = {"no adhesion": 1, "adhesion": 0}, np.ones(1)
             row = contact.sweep(**self._loads([low])).run().rows[0]
@@ -126,12 +126,22 @@ class TipTable:
                     f"approaches begin at {approaches[0]!r}, where the attraction is {100.0 * far / pull:.2g} % of the "
                     "pull-off: begin further from contact"
                 )
-        self.what = repr(self)
+            if self.error > 0.05:
+                warn(
+                    f"a table of every second work is {100.0 * self.error:.2g} % wrong: give more works or steps, or an adhesion "
+                    "that the grid resolves",
+                    InputWarning,
+                )
 
     def __repr__(self) -> str:
         metre = " m" * self.is_si
         law = f", {self._law}, w/E* up to {self.ratio:.3g}{metre}, error {100.0 * self.error:.2g} %" if self.ratio else ""
         return f"TipTable({self.topography!r}, approaches from {self.low:.3g} to {self.high:.3g}{metre}{law})"
+
+    @property
+    def what(self) -> str:
+        """What a curve of another tip is not."""
+        return repr(self)
 
     def _loads(self, approaches: list[float]) -> dict[str, Any]:
         """Approaches as loads, over a layer as mean gaps."""
@@ -206,7 +216,6 @@ class TipTable:
         return work <= 1.001 * self.ratio * modulus
 
     def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
-        """Refuses what a fit found beyond the table."""
         if work > 1.001 * self.ratio * modulus:
             raise ValueError(
                 f"the curve asks for w/E* of {work / modulus:.3g} or more, and the table ends at {self.ratio:.3g}: make one of a "

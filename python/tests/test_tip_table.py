@@ -56,4 +56,62 @@ def test_own_cycles_of_a_rough_tip_are_fitted_back(tip, table, modulus, work, sp
     assert fit.modulus.value == pytest.approx(modulus, rel=0.02)
     assert fit.work_of_adhesion.value == pytest.approx(work, rel=0.02)
     assert fit.contact_point.value == pytest.approx(1e-9, abs=0.02e-9)
-    print(fit, fit.modulus.value/modulus, fit.work_of_adhesion.value/work)
+    assert fit.verdict.startswith("Adhesion is seen, by TipTable(") and fit.tabor_parameter is fit.range is None
+
+
+@pytest.mark.filterwarnings("ignore:hardness", "ignore:range", "ignore:window-edge")
+def test_what_is_beyond_a_table_is_refused(tip, table):
+    z, force = cycled(tip, 2.3e9, 0.041, None, approaches=[-4.9e-9, 1.5e-9, -4.9e-9])
+    with pytest.raises(ValueError, match="the curve goes to an approach of .*e-09, and the table to 1.6e-09"):
+        asperity.fit_curve(z * 1.5, force, tip=table)
+    with pytest.raises(ValueError, match="asks for w/E. of .* or more, and the table ends at 6e-11"):
+        asperity.fit_curve(*cycled(tip, 0.6e9, 0.06, None, approaches=[-4.9e-9, 1.5e-9, -4.9e-9]), tip=table)
+    with pytest.raises(ValueError, match="attraction is .* % of the pull-off: begin further from contact"):
+        asperity.TipTable(tip, approaches=(-0.5e-9, 1.5e-9), modulus=1e9, law=LAW, works=4, steps=10)
+    for wrong, told in (
+        ({"tip": tip}, "make its table first"),
+        ({}, "give one of them"),
+        ({"tip": table, "spring_stiffness": "2N/m"}, "give all units, or none"),
+    ):
+        with pytest.raises((TypeError, ValueError), match=told):
+            asperity.fit_curve(z, force, **wrong)
+    for wrong, told in (
+        ({"approaches": (1e-9, 2e-9)}, "they must be a negative one, before contact"),
+        ({"works": 5}, "works is 5: it must be even"),
+        ({"modulus": "1GPa"}, "give all units, or none"),
+        ({"body": asperity.Coating(1e-9, 1e9, 0.3, 0.3)}, "a table has one modulus"),
+    ):
+        with pytest.raises((TypeError, ValueError), match=told):
+            asperity.TipTable(tip, **{"approaches": (-1e-9, 2e-9), "modulus": 1e9, "law": LAW, **wrong})
+
+
+def noisy(force):
+    return force + np.random.default_rng(1).normal(scale=1e-3 * force.max(), size=force.size)
+
+
+def test_a_cone_is_that_of_sneddon():
+    cone = asperity.surface.cone(64, "100nm", angle=10)
+    table = asperity.TipTable(cone, approaches=("-1nm", "6nm"), modulus="1GPa")
+    z = np.linspace(-2.0, 5.0, 100)
+    force = 2e9 / (np.pi * np.tan(np.radians(10))) * 5.0 * (1e-9 * z.clip(0)) ** 2
+    fit = asperity.fit_curve(z, 1e9 * noisy(force), tip=table, length_unit="nm", force_unit="nN", poisson=0.5)
+    # the apex is a node, and the grid resolves the contact from a few nodes on
+    assert fit.modulus.value == pytest.approx(5e9, rel=2e-3) and abs(fit.contact_point.value) < 2e-11
+    assert fit.young == pytest.approx([0.75 * end for end in fit.modulus])
+    assert fit.work_of_adhesion is None and "without adhesion" in fit.verdict and list(fit.models) == ["no adhesion"]
+    assert "GPa" in repr(fit) and "5e-09 m" not in repr(table) and "-1e-09 to 6e-09 m" in repr(table)
+
+
+# a contact that is wide beside the thickness, which is at most two nodes
+@pytest.mark.filterwarnings("ignore:ends", "ignore:thin-body")
+@pytest.mark.parametrize(("base", "poisson"), [("bonded", 0.3), ("sliding", 0.3)])
+def test_a_sphere_on_a_thin_layer_is_one_on_springs(base, poisson):
+    tip, thickness = asperity.surface.paraboloid(64, 1.0, radius=20.0), 0.02
+    layer = asperity.Layer(thickness, poisson=poisson, base=base)
+    table = asperity.TipTable(tip, approaches=(-0.0001, 0.003), modulus=1.0, body=layer)
+    stiffness = (1 - poisson) ** 2 / (1 - 2 * poisson) if base == "bonded" else 1.0
+    z = np.linspace(-0.001, 0.0025, 200)
+    # springs of the stiffness M/t per area
+    force = np.pi * 20.0 * 5.0 * stiffness * z.clip(0) ** 2 / thickness
+    fit = asperity.fit_curve(z, noisy(force), tip=table)
+    assert fit.modulus.value == pytest.approx(5.0, rel=0.01)
