@@ -73,8 +73,10 @@ class Tip(Protocol):
     fewer: dict[str, int]
     #: Tabor parameters of the fullest; a single one where they are not told, none without adhesion
     tabor: Array
-    #: what a curve of another tip is not
-    what: str
+
+    @property
+    def what(self) -> str:
+        """What a curve of another tip is not of."""
 
     def limit(self, name: str) -> Equilibria:
         """The equilibria of a model with fewer parameters."""

@@ -1,4 +1,4 @@
-"""Force curves of a smooth tip: contact modulus and work of adhesion by a fit of Hertz, DMT, Maugis and JKR."""
+"""Force curves of tips: contact modulus and work of adhesion by a fit of Hertz, DMT, Maugis and JKR, or of a table."""
 
 from __future__ import annotations
 
@@ -31,11 +31,12 @@ class CurveFit:
         Contact modulus E*, a pressure.
     young : Estimate or None
         Young's modulus E = E* (1 − ν²) under a rigid tip, if Poisson's ratio was given.
-    work_of_adhesion : Estimate
-        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out.
-    tabor_parameter : Estimate
-        Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out.
-    range : Estimate
+    work_of_adhesion : Estimate or None
+        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out. None with a table
+        without adhesion.
+    tabor_parameter : Estimate or None
+        Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out. None with a table, as `range`.
+    range : Estimate or None
         Range ρ of the adhesion after Maugis and Dugdale, a length.
     contact_point : Estimate
         Position z at which the approach is zero.
@@ -49,9 +50,9 @@ class CurveFit:
     names : tuple of str
         Rows of the covariance: modulus, work_of_adhesion, contact_point, offset, slope, and drift.
     models : dict
-        `ModelFit` of Hertz, DMT, Maugis and JKR by these names.
+        `ModelFit` of Hertz, DMT, Maugis and JKR by these names, with a table of ``"no adhesion"`` and ``"adhesion"``.
     verdict : str
-        Which of these the curve tells apart, in a sentence.
+        Which of these the curve tells apart, in a sentence, with the table, its limits and its error.
     z, force, fitted, residuals : ndarray
         Positions and forces, forces of the best fit, and the difference.
     noise : float
@@ -60,9 +61,9 @@ class CurveFit:
 
     modulus: Estimate
     young: Estimate | None
-    work_of_adhesion: Estimate
-    tabor_parameter: Estimate
-    range: Estimate
+    work_of_adhesion: Estimate | None
+    tabor_parameter: Estimate | None
+    range: Estimate | None
     contact_point: Estimate
     offset: Estimate
     slope: Estimate
@@ -147,10 +148,13 @@ def fit_curve(
     length_unit: str | None = None,
     force_unit: str | None = None,
 ) -> CurveFit:
-    """Fits the force curve of a smooth tip: contact modulus, work of adhesion, contact point and baseline.
+    """Fits the force curve of a tip: contact modulus, work of adhesion, contact point and baseline.
 
-    The tip is a paraboloid on a half-space with the adhesion of Maugis and Dugdale, whose limits are DMT and JKR. Approach
-    and withdrawal are fitted together, with the jumps of the spring where an equilibrium ends. Needs SciPy.
+    By its ``radius`` the tip is a smooth paraboloid on a half-space with the adhesion of Maugis and Dugdale, whose limits
+    are DMT and JKR, at Tabor parameters from 0.01 to 50. Any other tip is a `TipTable`: a measured or rough one, a cone, or
+    one on a layer, with a law of a given range. What is beyond the table is refused, and its ``error`` is that of
+    interpolation. Approach and withdrawal are fitted together, with the jumps of the spring where an equilibrium ends.
+    Needs SciPy.
 
     Parameters
     ----------
@@ -160,8 +164,10 @@ def fit_curve(
         zero.
     force : array_like, shape (N,)
         Forces at these positions, compression positive.
-    radius : float or str
-        Radius of curvature of the tip.
+    radius : float or str, optional
+        Radius of curvature of a smooth tip.
+    tip : TipTable, optional
+        Equilibria of a tip of another shape, solved once for all of its curves, in place of a radius.
     spring_stiffness : float or str, optional
         Stiffness of the cantilever, a force per length.
     poisson : float, optional
@@ -183,7 +189,7 @@ def fit_curve(
     ------
     ValueError, TypeError
         For arrays that are not alike, not finite or too short, a force that is saturated, one without a contact, and a
-        spring that is too soft to see the stiffness of the contact.
+        spring that is too soft to see the stiffness of the contact. For a curve that leads beyond the table of the tip.
     ImportError
         Without SciPy.
 
@@ -191,6 +197,10 @@ def fit_curve(
     -----
     InputWarning
         If neighbouring residuals are alike: the curve is not that of such a tip, and intervals are too narrow.
+
+    See Also
+    --------
+    read_curve : z and force of a file.
 
     Examples
     --------

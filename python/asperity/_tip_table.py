@@ -140,7 +140,6 @@ class TipTable:
 
     @property
     def what(self) -> str:
-        """What a curve of another tip is not."""
         return repr(self)
 
     def _loads(self, approaches: list[float]) -> dict[str, Any]:
@@ -160,7 +159,7 @@ class TipTable:
         if self._body is not None:
             heights, body = self.topography.heights, self._body
             free = 1.0 if body.base == "sliding" else (1.0 - 2.0 * body.poisson) / (1.0 - body.poisson) ** 2
-            squeezed = free * body.thickness * columns["mean_pressure"] / modulus
+            squeezed = free * float(body.thickness) * columns["mean_pressure"] / modulus
             approach = heights.max() - heights.mean() - columns["mean_gap"] + squeezed
         there, back = columns["leg"] < 2, columns["leg"] > 1
         jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
@@ -203,11 +202,12 @@ class TipTable:
         return lambda modulus, work: self._equilibria(modulus, (work / modulus / self.ratio) ** (1.0 / 3.0))
 
     def load(self, approach: Array) -> Array:
-        return np.interp(approach, *self._equilibria(1.0, 0.0)[0])
+        where, loads = self._equilibria(1.0, 0.0)[0]
+        return np.asarray(np.interp(approach, where, loads))
 
     def approach(self, load: Array) -> Array:
         where, loads = self._equilibria(1.0, 0.0)[0][:, _ROOTS.size :]
-        return np.interp(load, loads, where)
+        return np.asarray(np.interp(load, loads, where))
 
     def least_work(self, modulus: float, approach: float) -> float:
         return 0.0
