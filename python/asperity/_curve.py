@@ -87,7 +87,7 @@ class Curve:
         for part in self._parts():
             falls = np.diff(self.force[part]) * (-1.0 if self.approaching[part[0]] else 1.0)
             falls -= np.median(np.lib.stride_tricks.sliding_window_view(np.pad(falls, 3, "edge"), 7), axis=1)
-            if falls.max() > 6.0 * self.noise:
+            if falls.max() > 8.0 * self.noise:
                 before = int(part[np.argmax(falls)])
                 found.append((part, before, float(self.z[before]), np.inf))
         return found

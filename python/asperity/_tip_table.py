@@ -59,13 +59,13 @@ class TipTable:
     Examples
     --------
     >>> import asperity, numpy as np
-    >>> cone = asperity.surface.cone(32, 1.0, angle=10)
+    >>> cone = asperity.surface.cone(64, 1.0, angle=10)
     >>> table = asperity.TipTable(cone, approaches=(-0.01, 0.04), modulus=1.0)
     >>> z = np.linspace(-0.01, 0.03, 100)
     >>> force = 2 / np.pi / np.tan(np.radians(10)) * 5.0 * z.clip(0) ** 2
-    >>> fit = asperity.fit_curve(z, force + np.random.default_rng(1).normal(scale=1e-5, size=100), tip=table)
-    >>> f"{fit.modulus.value:.1f}"
-    '5.0'
+    >>> fit = asperity.fit_curve(z, force + np.random.default_rng(1).normal(scale=5e-5, size=100), tip=table)
+    >>> fit.modulus.lower < 5.0 < fit.modulus.upper < 5.1
+    True
     """
 
     def __init__(
