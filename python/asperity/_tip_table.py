@@ -53,8 +53,8 @@ class TipTable:
     ratio : float
         Greatest w/E*, a length.
     error : float
-        Largest relative error of pull-off and greatest force by a table of every second work, where w/E* is above a
-        27th of the greatest one. That of the table itself is smaller.
+        Estimated relative error of pull-off and greatest force, where w/E* is above a 27th of the greatest one: a quarter
+        of that of a table of every second work.
 
     Examples
     --------
@@ -103,7 +103,7 @@ class TipTable:
 
         def rows(root: float) -> Array:
             keys = {**elastic, **adhesion} if root else elastic
-            return self._states(softest / (root or 1.0) ** 3, keys)
+            return self._states(float(softest / (root or 1.0) ** 3), keys)
 
         with ThreadPoolExecutor(os.cpu_count()) as pool, warnings.catch_warnings():
             # of moduli that are not those of the body
@@ -126,10 +126,10 @@ class TipTable:
                     f"approaches begin at {approaches[0]!r}, where the attraction is {100.0 * far / pull:.2g} % of the "
                     "pull-off: begin further from contact"
                 )
-            if self.error > 0.05:
+            if self.error > 0.02:
                 warn(
-                    f"a table of every second work is {100.0 * self.error:.2g} % wrong: give more works or steps, or an adhesion "
-                    "that the grid resolves",
+                    f"the table has an error of about {100.0 * self.error:.2g} %: give more works or steps, or an adhesion that "
+                    "the grid resolves",
                     InputWarning,
                 )
 
@@ -180,7 +180,7 @@ class TipTable:
 
     def _equilibria(self, modulus: float, root: float) -> tuple[Array, Array]:
         """Approaches and loads of both ways."""
-        pieces = self._pieces(min(root, 1.0))
+        pieces = self._pieces(min(root, 1.1))
         tail, behind, drawn, (place, off) = np.split(pieces, np.arange(1, 4) * _ROOTS.size)
         before = place - (place - self.low) * _ROOTS[::-1] ** 2
         apart = before < off
@@ -237,7 +237,7 @@ def _sampled(distance: Array, load: Array, span: float) -> Array:
 
 
 def _error(coarse: Any, roots: Array, rows: Array) -> float:
-    """The largest relative error of pull-offs and greatest forces."""
+    """A quarter of the largest relative error of pull-offs and greatest forces by every second work."""
     drawn = slice(2 * _ROOTS.size, -2)
     pairs = [(coarse(root)[drawn], row[drawn]) for root, row in zip(roots, rows) if root > 1.0 / 3.0]
-    return float(max(abs(of(found) / of(true) - 1.0) for found, true in pairs for of in (np.min, np.max)))
+    return 0.25 * float(max(abs(of(found) / of(true) - 1.0) for found, true in pairs for of in (np.min, np.max)))
