@@ -227,7 +227,8 @@ def _verdict(models: dict[str, ModelFit], tabor: Estimate | None, work: Estimate
         return f"By {what}, without adhesion."
     if model.p_value >= _LEVEL:
         unit = " J/m²" if is_si else ""
-        return f"No adhesion is seen: {without} fits as well, and the work of adhesion is at most {work.upper:.3g}{unit}."
+        told = "the tip without it" if tabor is None else without
+        return f"No adhesion is seen: {told} fits as well, and the work of adhesion is at most {work.upper:.3g}{unit}."
     if tabor is None:
         return f"Adhesion is seen, by {what}."
     fits = [name for name in ("DMT", "JKR") if models[name].p_value >= _LEVEL]

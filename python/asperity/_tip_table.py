@@ -6,7 +6,7 @@ import os
 import warnings
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from ._topography import Heights
 from ._types import AxisOrder, Lengths, OwnLaw, Quantity
 from ._units import in_si, number
 from ._warnings import InputWarning, warn
+
+#: Distances and forces.
+Pair: TypeAlias = tuple[Array, Array]
 
 #: Points between the ends of each piece of a branch, dense near the jump, where the force goes as a root.
 _ROOTS = np.linspace(0.0, 1.0, 120)
@@ -163,20 +166,21 @@ class TipTable:
             approach = heights.max() - heights.mean() - columns["mean_gap"] + squeezed
         there, back = columns["leg"] < 2, columns["leg"] > 1
         jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
-        tail, behind, place = self._cut(approach[there], load[there], jumps[there])
-        _, drawn, off = self._cut(approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1))
-        return np.concatenate([tail, behind, drawn, [place, off]])
+        place, before, behind = self._cut(approach[there], load[there], jumps[there])
+        off, _, drawn = self._cut(approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1))
+        pieces = ((before, place - self.low), (behind, self.high - place), (drawn, self.high - off))
+        tail, *others = (_sampled(*piece, span) for piece, span in pieces)
+        return np.concatenate([tail[::-1], *others, [place, off]])
 
-    def _cut(self, approach: Array, load: Array, jumps: Array) -> tuple[Array, Array, float]:
-        """Forces before and behind the place where they fall most steeply, and the place."""
+    def _cut(self, approach: Array, load: Array, jumps: Array) -> tuple[float, Pair, Pair]:
+        """The place where forces fall most steeply, and the distances and forces before and behind it."""
         slopes = np.diff(load) / np.maximum(np.diff(approach), 1e-9 * (self.high - self.low))
         at = int(np.argmin(slopes))
         place = 0.5 * float(approach[at] + approach[at + 1]) if slopes[at] < 0.0 else 0.0
         # without a jump the force is that of the points around it
         both = not jumps[at + 1]
         tail, behind = slice(None, at + 1 + both), slice(at + 1 - both, None)
-        before = _sampled(place - approach[tail][::-1], load[tail][::-1], place - self.low)
-        return before[::-1], _sampled(approach[behind] - place, load[behind], self.high - place), place
+        return place, (place - approach[tail][::-1], load[tail][::-1]), (approach[behind] - place, load[behind])
 
     def _equilibria(self, modulus: float, root: float) -> tuple[Array, Array]:
         """Approaches and loads of both ways."""
