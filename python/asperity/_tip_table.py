@@ -49,7 +49,7 @@ class TipTable:
     works : int
         Number of the ratios w/E* at which the tip is solved, even.
     steps : int
-        Least number of states of each branch.
+        Least number of states far from contact, near it, and in it, each way.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class TipTable:
         range: Quantity | None = None,
         body: Layer | None = None,
         works: int = 12,
-        steps: int = 80,
+        steps: int = 40,
     ) -> None:
         if not isinstance(body, Layer | None):
             raise TypeError(f"body is {body!r}: a table has one modulus: take a Layer, or leave it out for a half-space")
@@ -155,7 +155,9 @@ class TipTable:
 
     def _states(self, modulus: float, keys: dict[str, Any]) -> Array:
         """Forces over the modulus before the jump, and behind it on the approach and the withdrawal, and both places."""
-        loads = self._loads([self.low, self.high, self.low])
+        # with more of the steps about contact
+        ends = [self.low, 0.25 * self.low, 0.25 * self.high, self.high]
+        loads = self._loads([*ends, *ends[-2::-1]])
         given: Any = f"{modulus!r}Pa" if self.is_si else modulus
         columns = cycle(self.topography, modulus=given, steps=self._steps, threads=1, **loads, **keys).columns
         approach, load = columns["approach"], columns["normal_force"] / modulus
@@ -164,7 +166,8 @@ class TipTable:
             free = 1.0 if body.base == "sliding" else (1.0 - 2.0 * body.poisson) / (1.0 - body.poisson) ** 2
             squeezed = free * float(body.thickness) * columns["mean_pressure"] / modulus
             approach = heights.max() - heights.mean() - columns["mean_gap"] + squeezed
-        there, back = columns["leg"] < 2, columns["leg"] > 1
+        back = columns["direction"] == "withdrawal"
+        there = ~back
         jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
         place, before, behind = self._cut(approach[there], load[there], jumps[there])
         off, _, drawn = self._cut(approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1))
