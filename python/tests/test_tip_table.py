@@ -1,5 +1,7 @@
 """Force curves of tips of any shape are fitted by tables of solves, and give what the curves were made of."""
 
+import pickle
+
 import numpy as np
 import pytest
 from force_curves import LENGTH, MODULUS, RADIUS, RANGE, WORK, curve, cycled, rough_tip
@@ -55,6 +57,17 @@ def test_what_is_beyond_a_table_is_refused(tip, table):
     ):
         with pytest.raises((TypeError, ValueError), match=told):
             asperity.TipTable(tip, **{"approaches": (-1e-9, 2e-9), "modulus": 1e9, "law": LAW, **wrong})
+
+
+@pytest.mark.filterwarnings("ignore:the table has an error")
+def test_a_table_takes_any_law_and_travels(tip):
+    law = asperity.VanDerWaals(hamaker=6e-20, range=RANGE)
+    few = {"approaches": (-8e-9, 1e-9), "modulus": 2e9, "works": 4, "steps": 10}
+    table = asperity.TipTable(tip, law=asperity.CutOff(law, 5e-9), **few)
+    # that of two half-spaces, A/(12 π D₀²)
+    assert table.ratio == pytest.approx(6e-20 / (12 * np.pi * RANGE**2) / 2e9)
+    there, back = pickle.loads(pickle.dumps(table)).at(0.0)(3e9, 0.01)
+    assert np.array_equal(there, table.at(0.0)(3e9, 0.01)[0]) and there[1].min() < 0.0
 
 
 def noisy(force, share=1e-3):
