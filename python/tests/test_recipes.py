@@ -259,7 +259,7 @@ def test_the_recipe_runs(title, tmp_path, monkeypatch):
     rough = asperity.surface.self_affine(96, 2e-6, rms_height=6e-9, k_l=2, k_s=12, seed=2)
     heading = {"delimiter": ",", "header": "Height (nm),Force (nN)", "comments": ""}
     np.savetxt("curve.csv", 1e9 * np.column_stack(curve(1.0, 20.0, points=400)), **heading)
-    if "rough tip" in title:
+    if "curve of a rough tip" in title:
         warnings.filterwarnings("ignore", "hardness", asperity.InputWarning)
         tip = rough_tip()
         np.savez("tip.npz", heights=tip.heights, lengths=tip.lengths, unit="m")
