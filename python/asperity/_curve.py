@@ -257,7 +257,8 @@ class Curve:
         ways = equilibria(modulus, work)
         (where, load), (where_back, load_back) = ((way[0] + self.compliance * way[1], way[1]) for way in ways)
         there, back = np.maximum.accumulate(where), np.minimum.accumulate(where_back[::-1])[::-1]
-        first, last = fold(where, load), back.size - 1 - fold(-where_back[::-1], -load_back[::-1])
+        first = fold(where, there, load)
+        last = back.size - 1 - fold(-where_back[::-1], -back[::-1], -load_back[::-1])
         z = self.z - point
         found = np.where(self.approaching, np.interp(z, there, load), np.interp(z, back, load_back))
         # a side ends at its fold

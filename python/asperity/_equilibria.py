@@ -140,10 +140,14 @@ class Paraboloid:
         """There are equilibria of all approaches."""
 
 
-def fold(where: Array, load: Array) -> int:
-    """The point before the greatest jump on the way along these equilibria, or the steepest fall of the load."""
-    skipped = np.concatenate([[0], (where[1:] <= np.maximum.accumulate(where)[:-1]).astype(int), [0]])
-    begins, ends = np.flatnonzero(np.diff(skipped) == 1), np.flatnonzero(np.diff(skipped) == -1)
-    if begins.size == 0:
+def fold(where: Array, reached: Array, load: Array) -> int:
+    """The point before the greatest jump on the way along equilibria, or the steepest fall of the load.
+
+    What was reached before is the greatest place so far; places behind it are skipped.
+    """
+    skipped = where[1:] <= reached[:-1]
+    if not skipped.any():
         return int(np.argmin(np.diff(load) / np.diff(where)))
+    changes = np.flatnonzero(np.diff(skipped, prepend=False, append=False))
+    begins, ends = changes[::2], changes[1::2]
     return int(begins[np.argmax(np.abs(load[ends] - load[begins]))])

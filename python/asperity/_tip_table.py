@@ -42,7 +42,8 @@ class TipTable:
         greatest one of the curves.
     modulus, law, work_of_adhesion, range
         Contact modulus E* and adhesion law, as those of `solve`: those of the greatest w/E* of the curves. The range of
-        the law is fixed. Without a law the force is in proportion to the modulus, and any will do.
+        the law is fixed, and best one that the grid resolves: by `JKR` a smooth tip of 64 x 64 nodes is fitted with a work
+        of adhesion 7 % too small. Without a law the force is in proportion to the modulus, and any will do.
     body : Layer, optional
         Layer under the tip, a half-space by default. Its boundary is periodic, so that the map has to be much wider than
         the contact.
