@@ -47,7 +47,7 @@ def read_curve(
     A text has columns between tabs, semicolons, commas or spaces, with decimal points or commas, under headings with
     units, such as ``Height (nm)`` and ``Force [nN]``, or a line of names and one of units. Binary files, such as
     ``.jpk-force`` and ``.ibw``, are read by afmformats, which ``pip install 'asperity[curves]'`` brings. Positions that
-    fall towards contact are turned round.
+    fall towards contact are turned round. Points that are not finite are left out.
 
     Parameters
     ----------
@@ -95,8 +95,10 @@ def read_curve(
             kind = "length" if given == "z" else "force"
             raise ValueError(f"{path}: column {name!r} has no unit of {kind}: give {kind}_unit, or another {given}")
         found.append(factor * values)
-    where, load = found
-    falls = where[load > 0.5 * (load.max() + np.median(load))].mean() < where.mean()
+    where, load = np.array(found)[:, np.isfinite(found).all(axis=0)]
+    if not load.size:
+        raise ValueError(f"{path}: has no point with a finite position and force")
+    falls = where[load >= 0.5 * (load.max() + np.median(load))].mean() < where.mean()
     return ForceCurve(-where if falls else where, load)
 
 
@@ -121,7 +123,11 @@ def _instrument(path: Any, number: int) -> list[tuple[str, str, Array]]:
 def _text(path: Any, content: bytes) -> list[tuple[str, str, Array]]:
     """The columns of a text: names, units, which may be empty, and values."""
     encoding = "utf-16" if content.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig"
-    lines = content.decode(encoding, errors="replace").splitlines()
+    try:
+        lines = content.decode(encoding).splitlines()
+    except UnicodeDecodeError:
+        # as of instruments on Windows
+        lines = content.decode("cp1252", errors="replace").splitlines()
     begins = ((at, separator) for at, line in enumerate(lines) for separator in "\t;, " if _numbers(line, separator))
     first, separator = next(begins, (0, ""))
     rows = [(at, _numbers(line, separator)) for at, line in enumerate(lines[first:], first) if line.strip(" #\t")[:1]]

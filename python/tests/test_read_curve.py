@@ -16,6 +16,7 @@ TEXTS = {
     "decimal commas": "Messung vom Montag\n\nWeg (nm);Kraft (nN)\n-10,5;-0,5\n0,25;0,25\n2;3,5\n",
     "spaces and decimal commas": "Height (pm)  Vertical deflection (pN)\n-10500,0 -500,0\n250,0 250,0\n2000,0 3500,0\n",
     "units below": "z, F\nnm, nN\n-10.5, -0.5\n0.25, 0.25\n2.0, 3.5\n",
+    "micrometres": "Höhe (µm)\tKraft (nN)\n-0,0105\t-0,5\n0,00025\t0,25\n0,002\t3,5\n",
     "slashes": "z/nm;F/nN\n-10.5;-0.5\n0.25;0.25\n2;3.5\n",
     "two segments that fall towards contact": "# speed: 1\n# columns: height force\n# units: m N\n"
     "1.05e-8 -5e-10\n-2.5e-10 2.5e-10\n\n# segment: retract\n# columns: height force\n-2e-9 3.5e-9\n",
@@ -23,7 +24,7 @@ TEXTS = {
 
 
 @pytest.mark.parametrize("name", TEXTS)
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "cp1252"])
 def test_texts_are_read(name, encoding, tmp_path):
     path = tmp_path / "curve.txt"
     path.write_text(TEXTS[name], encoding=encoding)
@@ -46,6 +47,8 @@ def test_columns_are_chosen(tmp_path):
     with pytest.raises(ValueError, match="column '' has no unit of length: give length_unit"):
         asperity.read_curve(path)
     assert asperity.read_curve(path, length_unit="um", force_unit="nN").z == pytest.approx([0.0, 2e-6])
+    path.write_text("z (nm)\tF (nN)\n0\tnan\n1\t2\n")
+    assert np.array(asperity.read_curve(path)) == pytest.approx(1e-9 * np.array([[1.0], [2.0]]))
 
 
 def test_what_is_no_curve_is_refused(tmp_path, monkeypatch):
@@ -54,6 +57,7 @@ def test_what_is_no_curve_is_refused(tmp_path, monkeypatch):
         ("", "has no line of at least two numbers"),
         ("a b\nc d\n", "has no line of at least two numbers"),
         ("z (nm)\tF (nN)\n1\t2\n3\t4\t5\n", "line 3 is no row of 2 numbers: '3"),
+        ("z (nm)\tF (nN)\n1\tnan\n", "has no point with a finite position and force"),
         ("z (nm)\tF (nN)\n1\t2\nend\n", "line 3 is no row of 2 numbers: 'end'"),
     ):
         path.write_text(text)
