@@ -13,7 +13,7 @@ on the number of threads. The interpreter's lock is free during a solve.
 
 from __future__ import annotations
 
-from . import _fit, _flow, _laws, _pair, _prepare, contact, exact, surface
+from . import _fit, _flow, _laws, _pair, _prepare, _read_curve, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
@@ -29,6 +29,7 @@ from ._laws import *
 from ._laws import CutOff, Tabulated, Varying
 from ._progress import progress
 from ._pull_off import PullOff
+from ._read_curve import ForceCurve
 from ._solution import (
     Conductance,
     Constriction,
@@ -39,6 +40,7 @@ from ._solution import (
 )
 from ._stability import Stability
 from ._sweep import Sweep
+from ._tip_table import TipTable
 from ._topography import Topography, from_topography, read
 from ._types import OwnLaw, Report
 from ._viscoelastic import Moment, Viscoelastic
@@ -50,6 +52,7 @@ contact_modulus = _checked(_pair.contact_modulus)
 fit_curve = _checked(_fit.fit_curve)
 leakage = _checked(_flow.leakage)
 prepare = _checked(_prepare.prepare)
+read_curve = _checked(_read_curve.read_curve)
 
 __all__ = [
     "AccuracyWarning",
@@ -64,6 +67,7 @@ __all__ = [
     "Cycle",
     "Estimate",
     "Flow",
+    "ForceCurve",
     "InputWarning",
     "Interface",
     "Iteration",
@@ -85,6 +89,7 @@ __all__ = [
     "Sweep",
     "Symbol",
     "Tabulated",
+    "TipTable",
     "Topography",
     "Uzawa",
     "Varying",
@@ -104,6 +109,7 @@ __all__ = [
     "progress",
     "pull_off",
     "read",
+    "read_curve",
     "report",
     "solve",
     "stability",

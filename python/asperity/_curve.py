@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ._equilibria import TABOR, Array, fold, limits, scipy, tables
+from ._equilibria import TABOR, Array, Equilibria, Tip, fold, scipy
 
 Direction: TypeAlias = Literal["approach", "withdrawal"]
 
@@ -22,14 +22,14 @@ class Fitted(NamedTuple):
     """A fit of one model.
 
     The parameters are those of `Curve`, the logarithm of the Tabor parameter, and the baseline; their spread is the inverse
-    of the normal matrix. Without a table the Tabor parameter was free.
+    of the normal matrix. Without equilibria the Tabor parameter was free.
     """
 
     squares: float
     at: Array
     spread: Array
     tabor: float
-    table: Array | None
+    equilibria: Equilibria | None
 
 
 class Curve:
@@ -39,13 +39,10 @@ class Curve:
     point z₀ + p₂ times a length.
     """
 
-    #: names of the models that are limits of that of Maugis
-    limits = ("Hertz", "DMT", "JKR")
-
     def __init__(
-        self, z: Array, force: Array, direction: Direction | None, radius: float, compliance: float, jumps: bool
+        self, z: Array, force: Array, direction: Direction | None, tip: Tip, compliance: float, jumps: bool
     ) -> None:
-        self.z, self.force, self.radius, self.compliance = z, force, radius, compliance
+        self.z, self.force, self.tip, self.compliance = z, force, tip, compliance
         self.turn = {None: int(np.argmax(z)) + 1, "approach": z.size, "withdrawal": 0}[direction]
         if direction is None:
             self.turn = 0 if self.turn == 1 else self.turn
@@ -90,14 +87,14 @@ class Curve:
         for part in self._parts():
             falls = np.diff(self.force[part]) * (-1.0 if self.approaching[part[0]] else 1.0)
             falls -= np.median(np.lib.stride_tricks.sliding_window_view(np.pad(falls, 3, "edge"), 7), axis=1)
-            if falls.max() > 6.0 * self.noise:
+            if falls.max() > 8.0 * self.noise:
                 before = int(part[np.argmax(falls)])
                 found.append((part, before, float(self.z[before]), np.inf))
         return found
 
     def find_jumps(self, fit: Fitted) -> bool:
         """Takes the jumps of a fit, where the points of both its sides are most likely to meet; whether any is new."""
-        _, lower, upper = self._sides_of(fit.at[:4], self.table(fit))
+        _, lower, upper = self._sides_of(fit.at[:4], self.equilibria(fit))
         found = []
         for part in self._parts():
             force = (self.force - self.columns @ fit.at[4:])[part]
@@ -125,31 +122,28 @@ class Curve:
         return self.contact.tobytes(), self.apart.tobytes(), [weight > 0.0 for _, _, weight in self.jumps]
 
     def _start(self) -> None:
-        """Scales of the parameters, and contacts of DMT to begin with, by slopes of approach over force^(2/3)."""
+        """Scales of the parameters, and contacts to begin with, by the approaches of one without adhesion."""
         z, force = self.z, self.force - self.force.min()
         base = float(np.median(force[z <= np.quantile(z, 0.25)]))
-        self.work = max(base, self.noise, 1e-6 * float(force.max())) / (1.75 * np.pi * self.radius)
+        self.work = max(base, self.noise, 1e-6 * float(force.max())) / (1.75 * np.pi * self.tip.radius)
         pressed = force > base + 0.3 * (force.max() - base)
-        power = force[pressed] ** (2.0 / 3.0)
         approach = z[pressed] - self.compliance * force[pressed]
         if self._slope() <= 0.0:
             self._refuse_falling()
         self.length = float(np.ptp(z)) / 100.0
-        # more than the greatest approach, of which these points have more than a half
-        reach = 3.0 * float(np.ptp(approach))
 
-        slopes = np.ptp(z) / power.max() * np.geomspace(1.0, 1e-3, 25)
-        moduli, points = 0.75 / np.sqrt(self.radius) * slopes**-1.5, approach.mean() - slopes * power.mean()
-        middle = slopes.size // 2
+        moduli = force.max() / self.tip.load(np.ptp(z) * np.geomspace(1.0, 1e-3, 25))
+        points = approach.mean() - np.array([self.tip.approach(force[pressed] / modulus).mean() for modulus in moduli])
+        middle = moduli.size // 2
         self.modulus, self.point = float(moduli[middle]), float(points[middle])
-        # below it the tables end: adhesion that is none
-        self.floor = float((reach / 1.5e5) ** 1.5 * self.modulus / np.sqrt(self.radius) / self.work)
-        ones = np.ones(slopes.size)
+        # more than the greatest approach, of which these points have more than a half; below it is adhesion that is none
+        self.floor = self.tip.least_work(self.modulus, 3.0 * float(np.ptp(approach))) / self.work
+        ones = np.ones(moduli.size)
         self.begins = np.stack([np.log(moduli / self.modulus), ones, (points - self.point) / self.length, 0.0 * ones], 1)
 
-    def begin(self, table: Array) -> Array:
+    def begin(self, equilibria: Equilibria) -> Array:
         """The parameters to begin with for these equilibria."""
-        squares = np.array([np.sum(self.cleared(self.data - self.forces(p, table)) ** 2) for p in self.begins])
+        squares = np.array([np.sum(self.cleared(self.data - self.forces(p, equilibria)) ** 2) for p in self.begins])
         # the softest of those that fit about as well: a soft spring hardly tells a hard contact from a rigid one
         return np.asarray(self.begins[np.argmax(squares < 2.0 * squares.min())])
 
@@ -220,23 +214,20 @@ class Curve:
         kept = np.delete(np.delete(fit.spread, 3, 0), 3, 1)
         return np.asarray(kept * np.outer(scales, scales))
 
-    def tabor_length(self, fit: Fitted) -> float:
-        """The length (w²R/E*²)^(1/3), over the range the Tabor parameter."""
-        modulus, work, _ = self.values(fit.at)
-        return float((work**2 * self.radius / modulus**2) ** (1.0 / 3.0))
+    def holds(self, fit: Fitted) -> bool:
+        """Whether the tip has equilibria for a fit."""
+        modulus, work, point = self.values(fit.at)
+        return self.tip.holds(modulus, work, fit.tabor, point - float(self.z.min()))
 
-    def has_baseline(self, fit: Fitted) -> bool:
-        """Whether the range ends before the data do: a longer one would be a part of the baseline."""
-        return self.tabor_length(fit) / fit.tabor < self.point_at(fit.at[2]) - float(self.z.min())
-
-    def table(self, fit: Fitted) -> Array:
+    def equilibria(self, fit: Fitted) -> Equilibria:
         """The equilibria of a fit."""
-        return fit.table if fit.table is not None else np.asarray(tables()(np.log(fit.tabor)))
+        return fit.equilibria or self.tip.at(float(np.log(fit.tabor)))
 
-    def fitted(self, fit: Fitted) -> Array:
-        """The forces of a fit at the points, with the baseline."""
-        found = self.forces(fit.at[:4], self.table(fit)) + self.baseline @ fit.at[4:]
-        return np.asarray(found[: self.z.size])
+    def fitted(self, fit: Fitted) -> tuple[Array, float]:
+        """The forces of a fit at the points, with the baseline, and its greatest approach."""
+        load = self.forces(fit.at[:4], self.equilibria(fit))[: self.z.size]
+        approach = self.z - self.point_at(fit.at[2]) - self.compliance * load
+        return load + self.columns @ fit.at[4:], float(approach.max())
 
     def greatest_work(self, fit: Fitted, most: float) -> float:
         """The greatest work of adhesion with which a model has squares of at most `most`."""
@@ -244,8 +235,8 @@ class Curve:
 
         def is_beyond(root: float) -> bool:
             nonlocal last
-            last = self.fit(self.table(fit), np.array([last.at[0], root, *last.at[2:4]]), [0, 2])
-            return last.squares >= most or not self.has_baseline(last)
+            last = self.fit(self.equilibria(fit), np.array([last.at[0], root, *last.at[2:4]]), [0, 2])
+            return last.squares >= most or not self.holds(last)
 
         low = float(fit.at[1])
         high = max(1.5 * low, 0.05)
@@ -256,24 +247,25 @@ class Curve:
             low, high = (low, middle) if is_beyond(middle) else (middle, high)
         return self.work_at(high)
 
-    def forces(self, p: Array, table: Array) -> Array:
+    def forces(self, p: Array, equilibria: Equilibria) -> Array:
         """The forces of the contact at the points, each on its side of a jump, and how far jumps are off."""
-        return self._sides_of(p, table)[0]
+        return self._sides_of(p, equilibria)[0]
 
-    def _sides_of(self, p: Array, table: Array) -> tuple[Array, Array, Array]:
+    def _sides_of(self, p: Array, equilibria: Equilibria) -> tuple[Array, Array, Array]:
         """These, and the forces of all points apart and in contact."""
         modulus, work, point = self.values(p)
-        load = work * self.radius * table[1]
-        where = (work**2 * self.radius / modulus**2) ** (1.0 / 3.0) * table[0] + self.compliance * load
-        there, back = np.maximum.accumulate(where), np.minimum.accumulate(where[::-1])[::-1]
-        first, last = fold(where, load)
+        ways = equilibria(modulus, work)
+        (where, load), (where_back, load_back) = ((way[0] + self.compliance * way[1], way[1]) for way in ways)
+        there, back = np.maximum.accumulate(where), np.minimum.accumulate(where_back[::-1])[::-1]
+        first = fold(where, there, load)
+        last = back.size - 1 - fold(-where_back[::-1], -back[::-1], -load_back[::-1])
         z = self.z - point
-        found = np.where(self.approaching, np.interp(z, there, load), np.interp(z, back, load))
+        found = np.where(self.approaching, np.interp(z, there, load), np.interp(z, back, load_back))
         # a side ends at its fold
-        upper = np.interp(z, back[last:], load[last:])
+        upper = np.interp(z, back[last:], load_back[last:])
         lower = np.interp(z, there[: first + 1], load[: first + 1])
         found = np.where(self.contact, upper, np.where(self.apart, lower, found))
-        places = point + where[last], point + where[first]
+        places = point + where_back[last], point + where[first]
         off = [(places[approaching] - place) * weight for approaching, place, weight in self.jumps]
         return np.append(found, off), lower, upper
 
@@ -286,10 +278,10 @@ class Curve:
         steps = _STEP * np.eye(p.size)[free]
         return np.column_stack([(of(p + step) - of(p - step)) / (2.0 * _STEP) for step in steps])
 
-    def fit(self, table: Array | None, start: Array, free: list[int]) -> Fitted:
-        """The least squares of a table of equilibria, or of Maugis with a Tabor parameter that is free."""
+    def fit(self, equilibria: Equilibria | None, start: Array, free: list[int]) -> Fitted:
+        """The least squares of these equilibria, or of all with a Tabor parameter that is free."""
         def forces(p: Array) -> Array:
-            return self.forces(p, tables()(p[3]) if table is None else table)
+            return self.forces(p, equilibria or self.tip.at(p[3]))
 
         def full(part: Array) -> Array:
             p = start.copy()
@@ -316,11 +308,11 @@ class Curve:
         wide = np.zeros((at.size, at.size))
         wide[np.ix_(places, places)] = spread
         squares = float(np.sum(self.cleared(rest) ** 2))
-        return Fitted(squares, at, wide, float(np.exp(p[3])), table)
+        return Fitted(squares, at, wide, float(np.exp(p[3])), equilibria)
 
 
 def all_fits(curve: Curve) -> dict[str, Fitted]:
-    """Fits of the limits by their names, and of Maugis at Tabor parameters by these, with the jumps of the best."""
+    """Fits of the limits by their names, and of all others at Tabor parameters by these, with the jumps of the best."""
     fits = _fits(curve, {})
     for _ in range(3):
         if not curve.find_jumps(min(fits.values(), key=lambda fit: fit.squares)):
@@ -330,25 +322,30 @@ def all_fits(curve: Curve) -> dict[str, Fitted]:
 
 
 def _fits(curve: Curve, before: dict[str, Fitted]) -> dict[str, Fitted]:
-    """These with the jumps of the curve, from DMT, from JKR, and from fits before."""
+    """These with the jumps of the curve, from the limits, and from fits before."""
     fits: dict[str, Fitted] = {}
-    for name, table in limits().items():
-        begin = before[name].at[:4] if before else curve.begin(table)
-        fits[name] = curve.fit(table, begin, [0, 2] if name == "Hertz" else [0, 1, 2])
+    tip, order = curve.tip, curve.tip.tabor
+    for name in filter(tip.fewer.get, tip.fewer):
+        begin = before[name].at[:4] if before else curve.begin(tip.limit(name))
+        fits[name] = curve.fit(tip.limit(name), begin, [0, 1, 2] if fits else [0, 2])
 
     def at(log_tabor: float, near: Array | None) -> Fitted:
-        table = np.asarray(tables()(log_tabor))
-        begin = curve.begin(table) if near is None else near
-        return curve.fit(table, np.append(begin[:3], log_tabor), [0, 1, 2])
+        equilibria = tip.at(log_tabor)
+        begin = curve.begin(equilibria) if near is None else near
+        return curve.fit(equilibria, np.append(begin[:3], log_tabor), [0, 1, 2])
 
-    for near, order in ((fits["JKR"].at, TABOR[::-1]), (fits["DMT"].at, TABOR), (None, TABOR)):
-        for tabor in order:
+    # along the Tabor parameter from both of its limits, and each from its own begin
+    limits = [fit.at for fit in fits.values()]
+    for near, along in (*zip(limits[:-3:-1], (order[::-1], order)), (None, order)):
+        for tabor in along:
             found, key = at(np.log(tabor), near), f"{tabor:.6g}"
             near = None if near is None else found.at
             if key not in fits or found.squares < fits[key].squares:
                 fits[key] = found
-    inner = [fits[f"{tabor:.6g}"] for tabor in TABOR]
-    starts = [*inner, *(fit for fit in before.values() if fit.table is None)]
+    inner = [fits[f"{tabor:.6g}"] for tabor in order]
+    if len(inner) < 2:
+        return fits
+    starts = [*inner, *(fit for fit in before.values() if fit.equilibria is None)]
     free = min((curve.fit(None, near.at[:4], [0, 1, 2, 3]) for near in starts), key=lambda fit: fit.squares)
     if free.squares < min(near.squares for near in inner):
         fits[f"{free.tabor:.6g}"] = free

@@ -1,4 +1,4 @@
-"""Force curves of a smooth tip: contact modulus and work of adhesion by a fit of Hertz, DMT, Maugis and JKR."""
+"""Force curves of tips: contact modulus and work of adhesion by a fit of Hertz, DMT, Maugis and JKR, or of a table."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 from . import _asperity, _plot
 from ._curve import Curve, Direction, all_fits
-from ._equilibria import Array, scipy
+from ._equilibria import Array, Paraboloid, scipy
 from ._likelihood import Estimate, Likelihood, ModelFit
+from ._tip_table import TipTable
 from ._types import Quantity
 from ._units import given, number
 
@@ -30,11 +31,12 @@ class CurveFit:
         Contact modulus E*, a pressure.
     young : Estimate or None
         Young's modulus E = E* (1 − ν²) under a rigid tip, if Poisson's ratio was given.
-    work_of_adhesion : Estimate
-        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out.
-    tabor_parameter : Estimate
-        Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out.
-    range : Estimate
+    work_of_adhesion : Estimate or None
+        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out. None with a table
+        without adhesion.
+    tabor_parameter : Estimate or None
+        Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out. None with a table, as `range`.
+    range : Estimate or None
         Range ρ of the adhesion after Maugis and Dugdale, a length.
     contact_point : Estimate
         Position z at which the approach is zero.
@@ -48,9 +50,9 @@ class CurveFit:
     names : tuple of str
         Rows of the covariance: modulus, work_of_adhesion, contact_point, offset, slope, and drift.
     models : dict
-        `ModelFit` of Hertz, DMT, Maugis and JKR by these names.
+        `ModelFit` of Hertz, DMT, Maugis and JKR by these names, with a table of ``"no adhesion"`` and ``"adhesion"``.
     verdict : str
-        Which of these the curve tells apart, in a sentence.
+        Which of these the curve tells apart, in a sentence, with the table, its limits and its error.
     z, force, fitted, residuals : ndarray
         Positions and forces, forces of the best fit, and the difference.
     noise : float
@@ -59,9 +61,9 @@ class CurveFit:
 
     modulus: Estimate
     young: Estimate | None
-    work_of_adhesion: Estimate
-    tabor_parameter: Estimate
-    range: Estimate
+    work_of_adhesion: Estimate | None
+    tabor_parameter: Estimate | None
+    range: Estimate | None
     contact_point: Estimate
     offset: Estimate
     slope: Estimate
@@ -137,7 +139,8 @@ def fit_curve(
     z: ArrayLike,
     force: ArrayLike,
     *,
-    radius: Quantity,
+    radius: Quantity | None = None,
+    tip: TipTable | None = None,
     spring_stiffness: Quantity | None = None,
     poisson: float | None = None,
     direction: Direction | None = None,
@@ -145,10 +148,13 @@ def fit_curve(
     length_unit: str | None = None,
     force_unit: str | None = None,
 ) -> CurveFit:
-    """Fits the force curve of a smooth tip: contact modulus, work of adhesion, contact point and baseline.
+    """Fits the force curve of a tip: contact modulus, work of adhesion, contact point and baseline.
 
-    The tip is a paraboloid on a half-space with the adhesion of Maugis and Dugdale, whose limits are DMT and JKR. Approach
-    and withdrawal are fitted together, with the jumps of the spring where an equilibrium ends. Needs SciPy.
+    By its ``radius`` the tip is a smooth paraboloid on a half-space with the adhesion of Maugis and Dugdale, whose limits
+    are DMT and JKR, at Tabor parameters from 0.01 to 50. Any other tip is a `TipTable`: a measured or rough one, a cone, or
+    one on a layer, with a law of a given range. What is beyond the table is refused, and its ``error`` is that of
+    interpolation. Approach and withdrawal are fitted together, with the jumps of the spring where an equilibrium ends.
+    Needs SciPy.
 
     Parameters
     ----------
@@ -158,8 +164,10 @@ def fit_curve(
         zero.
     force : array_like, shape (N,)
         Forces at these positions, compression positive.
-    radius : float or str
-        Radius of curvature of the tip.
+    radius : float or str, optional
+        Radius of curvature of a smooth tip.
+    tip : TipTable, optional
+        Equilibria of a tip of another shape, solved once for all of its curves, in place of a radius.
     spring_stiffness : float or str, optional
         Stiffness of the cantilever, a force per length.
     poisson : float, optional
@@ -181,7 +189,7 @@ def fit_curve(
     ------
     ValueError, TypeError
         For arrays that are not alike, not finite or too short, a force that is saturated, one without a contact, and a
-        spring that is too soft to see the stiffness of the contact.
+        spring that is too soft to see the stiffness of the contact. For a curve that leads beyond the table of the tip.
     ImportError
         Without SciPy.
 
@@ -189,6 +197,10 @@ def fit_curve(
     -----
     InputWarning
         If neighbouring residuals are alike: the curve is not that of such a tip, and intervals are too narrow.
+
+    See Also
+    --------
+    read_curve : z and force of a file.
 
     Examples
     --------
@@ -200,20 +212,28 @@ def fit_curve(
     >>> fit.modulus.lower < 2e9 < fit.modulus.upper, fit.work_of_adhesion.lower
     (True, 0.0)
     """
-    z, force, is_si = _given(z, force, length_unit, force_unit)
+    if (radius is None) == (tip is None):
+        raise TypeError(f"radius is {radius!r}, and tip is {tip!r}: give one of them")
+    if not isinstance(tip, TipTable | None):
+        raise TypeError(f"tip is a {type(tip).__name__}: make its table first, tip=asperity.TipTable(heights, ...)")
+    si = given.get()
+    if tip is not None:
+        if spring_stiffness is not None and si != tip.is_si:
+            raise ValueError(f"spring_stiffness is {spring_stiffness!r}, and the table is {tip!r}: give all units, or none")
+        si = tip.is_si
+    z, force = _given(z, force, si, length_unit, force_unit)
     if direction not in (None, "approach", "withdrawal"):
         raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
-    tip = _positive("radius", radius)
     compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
     if direction is not None and (z[-1] > z[0]) != (direction == "approach"):
         z, force = z[::-1], force[::-1]
     scipy("optimize")
     _refuse_saturated(force)
-    curve = Curve(z, force, direction, tip, compliance, jumps)
-    return CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, is_si))
+    curve = Curve(z, force, direction, tip or Paraboloid(_positive("radius", radius)), compliance, jumps)
+    return CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, si))
 
 
-def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, Array, bool]:
+def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tuple[Array, Array]:
     """Both columns, in the SI if their units are given."""
     columns = []
     for name, values in (("z", z), ("force", force)):
@@ -237,16 +257,15 @@ def _given(z: ArrayLike, force: ArrayLike, *units: str | None) -> tuple[Array, A
     for name, column in zip(("z", "force"), columns):
         if np.ptp(column) == 0.0:
             raise ValueError(f"{name} is {float(column[0])!r} at all points: a curve has it change from point to point")
-    si = given.get()
     if (units[0] is None) != (units[1] is None) or si != (units[0] is not None):
         raise ValueError(
-            f"length_unit is {units[0]!r}, force_unit is {units[1]!r}, and radius has {'a' if si else 'no'} unit: give all "
-            "units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
+            f"length_unit is {units[0]!r}, force_unit is {units[1]!r}, and the tip has {'a' if si else 'no'} unit: give "
+            "all units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
         )
     if si:
         keys = (("length_unit", "approach"), ("force_unit", "normal_force"))
         columns = [column * _unit(*key, unit) for column, key, unit in zip(columns, keys, units)]
-    return columns[0], columns[1], si
+    return columns[0], columns[1]
 
 
 def _unit(name: str, key: str, unit: str | None) -> float:

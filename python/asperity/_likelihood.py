@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _asperity
 from ._curve import Curve, Fitted
-from ._equilibria import Array, scipy
+from ._equilibria import Array, Paraboloid, scipy
 from ._units import number
 from ._warnings import InputWarning, warn
 
@@ -63,16 +63,19 @@ class Likelihood:
     def __init__(self, curve: Curve, fits: dict[str, Fitted]) -> None:
         self.curve, self.fits = curve, fits
         self.special = scipy("special")
-        inner = [fit for name, fit in fits.items() if name not in curve.limits]
+        self.limits = {name: fits[name] for name, fewer in curve.tip.fewer.items() if fewer}
+        self.without, *others = self.limits.values()
+        inner = [fit for name, fit in fits.items() if name not in self.limits]
         # at the greatest Tabor parameter the range is that of JKR, none
-        self.inner = sorted(filter(curve.has_baseline, inner), key=lambda fit: fit.tabor) or [fits["50"]]
-        self.best = min((*self.inner, fits["DMT"], fits["JKR"]), key=lambda fit: fit.squares)
+        last = max(inner or [self.without], key=lambda fit: fit.tabor)
+        self.inner = sorted(filter(curve.holds, inner), key=lambda fit: fit.tabor) or [last]
+        self.best = min((*self.inner, *others), key=lambda fit: fit.squares)
         self.freedom = curve.z.size - self.best.at.size
         self.variance = self.best.squares / self.freedom
         # the square of Student's t is F with one degree of freedom
         self.most = self.best.squares + self.variance * self.special.fdtri(1, self.freedom, 1.0 - _LEVEL)
-        self.bare = self.probability(fits["Hertz"], 2) >= _LEVEL
-        family = [*self.inner, fits["DMT"], fits["JKR"], *[fits["Hertz"]] * self.bare]
+        self.bare = self.probability(self.without, next(iter(curve.tip.fewer.values()))) >= _LEVEL
+        family = [*self.inner, *others, *[self.without] * self.bare]
         self.likely = [fit for fit in family if fit.squares <= self.most]
 
     def probability(self, fit: Fitted, fewer: int) -> float:
@@ -88,16 +91,20 @@ class Likelihood:
         lower = max(lower, 0.0) if index == 1 else lower
         return Estimate(of(float(self.best.at[index])), of(float(lower)), of(float(upper)))
 
-    def work(self) -> Estimate:
+    def work(self) -> Estimate | None:
         """The work of adhesion; one that may be none has its likelihood followed up to its end."""
+        if not self.curve.tip.tabor.size:
+            return None
         found = self.estimate(1, self.curve.work_at)
         if not self.bare:
             return found
-        adhesive = [fit for fit in self.likely if self.name(fit) != "Hertz"]
+        adhesive = [fit for fit in self.likely if fit is not self.without]
         return Estimate(found.value, 0.0, max(self.curve.greatest_work(fit, self.most) for fit in adhesive))
 
-    def tabor(self) -> Estimate:
+    def tabor(self) -> Estimate | None:
         """The Tabor parameter, between the places at which the squares pass what is likely."""
+        if not isinstance(self.curve.tip, Paraboloid):
+            return None
         if self.bare:
             return Estimate(np.nan, 0.0, np.inf)
         least = min(range(len(self.inner)), key=lambda k: self.inner[k].squares)
@@ -119,10 +126,13 @@ class Likelihood:
 
     def name(self, of: Fitted) -> str:
         """The name of a fit among the limits; that of Maugis for all others."""
-        return next((name for name in self.curve.limits if self.fits[name] is of), "Maugis")
+        return next((name for name, fit in self.limits.items() if fit is of), "Maugis")
 
-    def range(self) -> Estimate:
+    def range(self) -> Estimate | None:
         """The range of adhesion, none with JKR and of any length with DMT."""
+        tip = self.curve.tip
+        if not isinstance(tip, Paraboloid):
+            return None
         if self.bare:
             return Estimate(np.nan, 0.0, np.inf)
         ends = {"JKR": (0.0, 0.0, 0.0), "DMT": (np.inf, np.inf, np.inf)}
@@ -132,7 +142,7 @@ class Likelihood:
                 return ends[name]
             tangent = np.array([-2.0, 4.0 / max(fit.at[1], 1e-9)]) / 3.0
             half = np.sqrt((self.most - fit.squares) * (tangent @ fit.spread[:2, :2] @ tangent))
-            length = self.curve.tabor_length(fit) / fit.tabor
+            length = tip.length(*self.curve.values(fit.at)[:2]) / fit.tabor
             return length, length * float(np.exp(-half)), length * float(np.exp(min(half, 99.0)))
 
         spans = [of(fit) for fit in self.likely]
@@ -141,7 +151,7 @@ class Likelihood:
     def covariance(self) -> Array:
         """The covariance over all Tabor parameters: that within fits, and that between them."""
         fits = self.inner
-        weights = np.gradient(np.log([fit.tabor for fit in fits]))
+        weights = np.gradient(np.log([fit.tabor for fit in fits])) if len(fits) > 1 else np.ones(1)
         squares = np.array([fit.squares for fit in fits])
         weights *= np.exp(-0.5 * (squares - squares.min()) / self.variance)
         weights /= weights.sum()
@@ -152,14 +162,14 @@ class Likelihood:
 
     def model(self, name: str) -> ModelFit:
         """A row of the models."""
-        fit = min(self.inner, key=lambda fit: fit.squares) if name == "Maugis" else self.fits[name]
-        fewer = {"Hertz": 2, "Maugis": 0}.get(name, 1)
+        fit = self.limits.get(name) or min(self.inner, key=lambda fit: fit.squares)
+        fewer = self.curve.tip.fewer[name]
         probability = self.probability(fit, fewer) if fewer else 1.0
         points = self.curve.z.size
         aic = points * np.log(fit.squares / points) - 2.0 * fewer
         modulus, work, point = self.curve.values(fit.at)
         rms = float(np.sqrt(fit.squares / points))
-        return ModelFit(modulus, 0.0 if name == "Hertz" else work, point, rms, float(aic), probability)
+        return ModelFit(modulus, 0.0 if fit is self.without else work, point, rms, float(aic), probability)
 
     def told(self, poisson: float | None, is_si: bool) -> dict[str, Any]:
         """All numbers by their names, or the refusal of a curve that does not tell them."""
@@ -170,18 +180,19 @@ class Likelihood:
         modulus = self.estimate(0, curve.modulus_at)
         if not modulus.upper < 10.0 * modulus.lower:
             curve.refuse_vague(modulus.lower, modulus.upper)
-        models = {name: self.model(name) for name in ("Hertz", "DMT", "Maugis", "JKR")}
+        models = {name: self.model(name) for name in curve.tip.fewer}
         least = min(model.aic for model in models.values())
         ratio = None if poisson is None else _asperity.contact_modulus([(1.0, number("poisson", poisson))])
-        fitted = curve.fitted(best)
+        fitted, approach = curve.fitted(best)
         residuals = curve.force - fitted
         tabor, work = self.tabor(), self.work()
+        curve.tip.refuse_beyond(modulus.value, 0.0 if work is None else work.upper, approach)
         alike = 1.0 - float(np.sum(np.diff(residuals) ** 2)) / (2.0 * best.squares)
         noise = float(np.sqrt(self.variance))
         if alike > 6.0 / np.sqrt(residuals.size) and noise > 1e-4 * np.ptp(curve.force):
             warn(
-                f"residuals of neighbouring points have a correlation of {alike:.2f}: the curve is not that of a smooth "
-                "paraboloid on an elastic half-space, or its noise is slow, and the intervals are too narrow; plot() shows it",
+                f"residuals of neighbouring points have a correlation of {alike:.2f}: the curve is not that of "
+                f"{curve.tip.what}, or its noise is slow, and the intervals are too narrow; plot() shows it",
                 InputWarning,
             )
         drifts = best.at.size == 7
@@ -198,7 +209,7 @@ class Likelihood:
             covariance=self.covariance(),
             names=("modulus", "work_of_adhesion", "contact_point", "offset", "slope") + ("drift",) * drifts,
             models={name: model._replace(aic=model.aic - least) for name, model in models.items()},
-            verdict=_verdict(models, tabor, work, is_si),
+            verdict=_verdict(models, tabor, work, curve.tip.what, is_si),
             z=curve.z,
             force=curve.force,
             fitted=fitted,
@@ -209,11 +220,17 @@ class Likelihood:
         )
 
 
-def _verdict(models: dict[str, ModelFit], tabor: Estimate, work: Estimate, is_si: bool) -> str:
+def _verdict(models: dict[str, ModelFit], tabor: Estimate | None, work: Estimate | None, what: str, is_si: bool) -> str:
     """Which models the curve tells apart, in a sentence."""
-    if models["Hertz"].p_value >= _LEVEL:
+    without, model = next(iter(models.items()))
+    if work is None:
+        return f"By {what}, without adhesion."
+    if model.p_value >= _LEVEL:
         unit = " J/m²" if is_si else ""
-        return f"No adhesion is seen: Hertz fits as well, and the work of adhesion is at most {work.upper:.3g}{unit}."
+        told = "the tip without it" if tabor is None else without
+        return f"No adhesion is seen: {told} fits as well, and the work of adhesion is at most {work.upper:.3g}{unit}."
+    if tabor is None:
+        return f"Adhesion is seen, by {what}."
     fits = [name for name in ("DMT", "JKR") if models[name].p_value >= _LEVEL]
     if len(fits) == 2:
         return "Adhesion is seen, but the curve cannot tell DMT from JKR: both fit as well as Maugis."

@@ -1,7 +1,8 @@
-"""Force curves of a smooth tip, by the exact solutions."""
+"""Force curves of a smooth tip, by the exact solutions, and of a rough one, by solves."""
 
 import numpy as np
 
+import asperity
 from asperity import exact
 
 RADIUS, MODULUS, WORK = 20e-9, 2e9, 0.05
@@ -41,3 +42,25 @@ def curve(tabor, spring=None, *, noise=0.02, points=400, seed=1, far=6, offset=2
     z = np.append(z, z[::-1]) + 3e-9
     force = np.append(there, back[::-1]) + offset + slope * z + drift * np.linspace(0, 1, z.size)
     return z, force + np.random.default_rng(seed).normal(scale=noise * PULL, size=z.size)
+
+
+#: the range of the adhesion of the rough tip
+RANGE = 0.5e-9
+
+
+def rough_tip():
+    """A tip of 40 nm with a roughness of 0.25 nm."""
+    sphere = asperity.surface.sphere(48, 40e-9, radius=40e-9)
+    rough = asperity.surface.self_affine(48, 40e-9, rms_height=0.25e-9, hurst=0.8, k_l=3, k_s=10, seed=1)
+    return asperity.Topography(sphere.heights + rough.heights, sphere.lengths)
+
+
+def cycled(tip, modulus, work, spring=None, noise=0.01):
+    """Positions and forces of an own cycle, with an offset and noise."""
+    z = np.linspace(-4.8e-9, 3e-9 if spring else 1.5e-9, 150)
+    z = np.append(z, z[::-1])
+    loads = {"springs": [(spring, rest) for rest in z]} if spring else {"approaches": z}
+    law = asperity.Exponential(work, RANGE)
+    force = asperity.sweep(tip, modulus=modulus, law=law, boundary="free", **loads).columns["normal_force"]
+    noise *= np.random.default_rng(1).normal(size=force.size) * abs(force.min())
+    return z + 1e-9, force + 0.2e-9 + noise

@@ -7,7 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
-from force_curves import curve
+from force_curves import curve, cycled, rough_tip
 
 import asperity
 
@@ -153,6 +153,15 @@ def bonding_of_a_wafer(found):
         assert closed.contact_fraction == 1.0 if share > 1 else closed.contact_fraction < area
 
 
+def a_force_curve_of_a_rough_tip(found):
+    fit = found["fit"]
+    with pytest.warns(asperity.InputWarning, match="is not that of a smooth paraboloid"):
+        smooth = asperity.fit_curve(*asperity.read_curve("rough.csv"), radius="40nm", **found["units"])
+    assert [f"{end / 1e9:.2f}" for end in fit.modulus] == ["2.00", "1.98", "2.02"]
+    assert [f"{1e3 * one.work_of_adhesion.value:.0f}" for one in (fit, smooth)] == ["40", "31"]
+    assert f"{100 * found['table'].error:.0f}" == "1" and pathlib.Path("rough.png").stat().st_size > 1000
+
+
 def two_hundred_surfaces(found):
     area = found["area"]
     assert len(set(area)) > 100 and f"{area.mean():.3f} {area.std():.3f}" == "0.224 0.007"
@@ -248,7 +257,13 @@ def test_the_recipe_runs(title, tmp_path, monkeypatch):
     pytest.importorskip("scipy")
     monkeypatch.chdir(tmp_path)
     rough = asperity.surface.self_affine(96, 2e-6, rms_height=6e-9, k_l=2, k_s=12, seed=2)
-    np.savetxt("curve.txt", 1e9 * np.column_stack(curve(1.0, 20.0, points=400)))
+    heading = {"delimiter": ",", "header": "Height (nm),Force (nN)", "comments": ""}
+    np.savetxt("curve.csv", 1e9 * np.column_stack(curve(1.0, 20.0, points=400)), **heading)
+    if "curve of a rough tip" in title:
+        warnings.filterwarnings("ignore", "hardness", asperity.InputWarning)
+        tip = rough_tip()
+        np.savez("tip.npz", heights=tip.heights, lengths=tip.lengths, unit="m")
+        np.savetxt("rough.csv", 1e9 * np.column_stack(cycled(tip, 2e9, 0.04, 10.0)), **heading)
     np.savez("measured.npz", heights=rough.heights, lengths=rough.lengths, unit="m")
     found = {}
     exec(RECIPES[title], found)

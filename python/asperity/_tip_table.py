@@ -1,0 +1,255 @@
+"""The equilibria of a tip of any shape, by solves that are made once."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+
+from ._body import Layer
+from ._contact import Contact, cycle
+from ._equilibria import Array, Equilibria, scipy
+from ._topography import Heights
+from ._types import AxisOrder, Lengths, OwnLaw, Quantity
+from ._units import in_si, number
+from ._warnings import InputWarning, warn
+
+#: Distances and forces.
+Pair: TypeAlias = tuple[Array, Array]
+
+#: Points between the ends of each piece of a branch, dense near the jump, where the force goes as a root.
+_ROOTS = np.linspace(0.0, 1.0, 120)
+
+
+class TipTable:
+    """The equilibria of a tip of any shape and its adhesion, solved once, with which `fit_curve` fits many curves.
+
+    The force over E* depends on the approach, the adhesion law over w, and w/E* alone. So solves of one law at some
+    moduli serve all moduli and works of adhesion whose ratio is at most that of the table. Between its works, monotone
+    cubics interpolate both branches. The withdrawal is that from the greatest approach. A table of 64 x 64 nodes takes
+    seconds. Needs SciPy.
+
+    Parameters
+    ----------
+    heights, lengths, axes
+        Heights of the tip, as those of `solve`: a measured map, or a form of `asperity.surface`, as a cone, with or
+        without roughness.
+    approaches : (float, float)
+        Approaches between which the tip is solved: one before contact, negative, where its attraction is small, and the
+        greatest one of the curves.
+    modulus, law, work_of_adhesion, range
+        Contact modulus E* and adhesion law, as those of `solve`: those of the greatest w/E* of the curves. The range of
+        the law is fixed, and best one that the grid resolves: by `JKR` a smooth tip of 64 x 64 nodes is fitted with a work
+        of adhesion 7 % too small. Without a law the force is in proportion to the modulus, and any will do.
+    body : Layer, optional
+        Layer under the tip, a half-space by default. Its boundary is periodic, so that the map has to be much wider than
+        the contact.
+    works : int
+        Number of the ratios w/E* at which the tip is solved, even.
+    steps : int
+        Least number of states far from contact, near it, and in it, each way.
+
+    Attributes
+    ----------
+    ratio : float
+        Greatest w/E*, a length.
+    error : float
+        Estimated relative error of pull-off and greatest force, where w/E* is above a 27th of the greatest one: a quarter
+        of that of a table of every second work.
+
+    Examples
+    --------
+    >>> import asperity, numpy as np
+    >>> cone = asperity.surface.cone(64, 1.0, angle=10)
+    >>> table = asperity.TipTable(cone, approaches=(-0.01, 0.04), modulus=1.0)
+    >>> z = np.linspace(-0.01, 0.03, 100)
+    >>> force = 2 / np.pi / np.tan(np.radians(10)) * 5.0 * z.clip(0) ** 2
+    >>> fit = asperity.fit_curve(z, force + np.random.default_rng(1).normal(scale=5e-5, size=100), tip=table)
+    >>> fit.modulus.lower < 5.0 < fit.modulus.upper < 5.1
+    True
+    """
+
+    def __init__(
+        self,
+        heights: Heights,
+        lengths: Lengths | None = None,
+        *,
+        axes: AxisOrder | None = None,
+        approaches: tuple[Quantity, Quantity],
+        modulus: Quantity,
+        law: str | OwnLaw | None = None,
+        work_of_adhesion: Quantity | None = None,
+        range: Quantity | None = None,
+        body: Layer | None = None,
+        works: int = 12,
+        steps: int = 40,
+    ) -> None:
+        if not isinstance(body, Layer | None):
+            raise TypeError(f"body is {body!r}: a table has one modulus: take a Layer, or leave it out for a half-space")
+        self._body, self._steps, si = body, steps, isinstance(modulus, str)
+        if any(isinstance(end, str) != si for end in approaches):
+            raise ValueError(f"approaches are {approaches!r}, and modulus is {modulus!r}: give all units, or none")
+        if works < 4 or works % 2:
+            raise ValueError(f"works is {works!r}: it must be even, and at least 4")
+        low, high = (in_si("approach", end) if isinstance(end, str) else number("approaches", end) for end in approaches)
+        if not low < 0.0 < high:
+            raise ValueError(f"approaches are {approaches!r}: they must be a negative one, before contact, and a greatest one")
+        self.is_si, self.low, self.high = si, low, high
+        elastic: dict[str, Any] = {"boundary": "free" if body is None else "periodic", "body": body}
+        adhesion: dict[str, Any] = {"law": law, "work_of_adhesion": work_of_adhesion, "range": range}
+        contact = Contact(heights, lengths, axes=axes, modulus=modulus, **elastic, **adhesion)
+        self.topography, softest = contact.topography, contact.modulus
+        #: the cubic roots of w/E* over the greatest: displacements by adhesion go as powers of it
+        roots = np.linspace(0.0, 1.0, works + 1) if contact.adheres else np.zeros(1)
+
+        def rows(root: float) -> Array:
+            keys = {**elastic, **adhesion} if root else elastic
+            return self._states(float(softest / (root or 1.0) ** 3), keys)
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool, warnings.catch_warnings():
+            # of moduli that are not those of the body
+            warnings.filterwarnings("ignore", "hardness", InputWarning)
+            found = np.array([*pool.map(rows, roots)])
+        self._bare = found[0]
+        self.fewer, self.tabor = {"no adhesion": 1}, np.ones(0)
+        self.ratio, self.error, self.radius = 0.0, 0.0, high
+        if contact.adheres:
+            self.fewer, self.tabor = {"no adhesion": 1, "adhesion": 0}, np.ones(1)
+            row = contact.sweep(**self._loads([low])).run().rows[0]
+            work, own = row["work_of_adhesion"], cast(Any, contact.own_law)
+            if work is None:
+                # of a law that does not tell it, the mean at contact
+                work = -np.mean(own.energy(np.zeros(contact.topography.heights.shape)))
+            self.ratio, self._law = float(work) / softest, row["law"]
+            between = scipy("interpolate").PchipInterpolator
+            self._between = between(roots, found)
+            pull, far = -found[-1, :-2].min(), -found[-1, 0]
+            self.radius = float(pull / (1.75 * np.pi * self.ratio))
+            self.error = _error(between(roots[::2], found[::2]), roots[1::2], found[1::2])
+            if far > 0.02 * pull:
+                raise ValueError(
+                    f"approaches begin at {approaches[0]!r}, where the attraction is {100.0 * far / pull:.2g} % of the "
+                    "pull-off: begin further from contact"
+                )
+            if self.error > 0.02:
+                warn(
+                    f"the table has an error of about {100.0 * self.error:.2g} %: give more works or steps, or an adhesion that "
+                    "the grid resolves",
+                    InputWarning,
+                )
+
+    def __repr__(self) -> str:
+        metre = " m" * self.is_si
+        law = f", {self._law}, w/E* up to {self.ratio:.3g}{metre}, error {100.0 * self.error:.2g} %" if self.ratio else ""
+        return f"TipTable({self.topography!r}, approaches from {self.low:.3g} to {self.high:.3g}{metre}{law})"
+
+    @property
+    def what(self) -> str:
+        return repr(self)
+
+    def _loads(self, approaches: list[float]) -> dict[str, Any]:
+        """Approaches as loads, over a layer as mean gaps."""
+        heights = self.topography.heights
+        if self._body is not None:
+            approaches = [float(heights.max() - heights.mean()) - approach for approach in approaches]
+        lengths = [f"{length!r}m" for length in approaches] if self.is_si else approaches
+        return {"approaches": lengths} if self._body is None else {"mean_gaps": lengths, "start": "apart"}
+
+    def _states(self, modulus: float, keys: dict[str, Any]) -> Array:
+        """Forces over the modulus before the jump, and behind it on the approach and the withdrawal, and both places."""
+        # with more of the steps about contact
+        ends = [self.low, 0.25 * self.low, 0.25 * self.high, self.high]
+        loads = self._loads([*ends, *ends[-2::-1]])
+        given: Any = f"{modulus!r}Pa" if self.is_si else modulus
+        columns = cycle(self.topography, modulus=given, steps=self._steps, threads=1, **loads, **keys).columns
+        approach, load = columns["approach"], columns["normal_force"] / modulus
+        if self._body is not None:
+            heights, body = self.topography.heights, self._body
+            free = 1.0 if body.base == "sliding" else (1.0 - 2.0 * body.poisson) / (1.0 - body.poisson) ** 2
+            squeezed = free * float(body.thickness) * columns["mean_pressure"] / modulus
+            approach = heights.max() - heights.mean() - columns["mean_gap"] + squeezed
+        back = columns["direction"] == "withdrawal"
+        there = ~back
+        jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
+        place, before, behind = self._cut(approach[there], load[there], jumps[there])
+        off, _, drawn = self._cut(approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1))
+        pieces = ((before, place - self.low), (behind, self.high - place), (drawn, self.high - off))
+        tail, *others = (_sampled(*piece, span) for piece, span in pieces)
+        return np.concatenate([tail[::-1], *others, [place, off]])
+
+    def _cut(self, approach: Array, load: Array, jumps: Array) -> tuple[float, Pair, Pair]:
+        """The place where forces fall most steeply, and the distances and forces before and behind it."""
+        slopes = np.diff(load) / np.maximum(np.diff(approach), 1e-9 * (self.high - self.low))
+        at = int(np.argmin(slopes))
+        place = 0.5 * float(approach[at] + approach[at + 1]) if slopes[at] < 0.0 else 0.0
+        # without a jump the force is that of the points around it
+        both = not jumps[at + 1]
+        tail, behind = slice(None, at + 1 + both), slice(at + 1 - both, None)
+        return place, (place - approach[tail][::-1], load[tail][::-1]), (approach[behind] - place, load[behind])
+
+    def _equilibria(self, modulus: float, root: float) -> tuple[Array, Array]:
+        """Approaches and loads of both ways."""
+        pieces = self._between(min(root, 1.1)) if root else self._bare
+        tail, behind, drawn, (place, off) = np.split(pieces, np.arange(1, 4) * _ROOTS.size)
+        before = place - (place - self.low) * _ROOTS[::-1] ** 2
+        apart = before < off
+
+        def way(start: float, first: Array, force: Array, then: Array) -> Array:
+            where = np.append(first, start + (self.high - start) * _ROOTS**2)
+            load = np.append(force, then)
+            # a fit may look beyond the table, and what it finds there is refused
+            slope = (load[-1] - load[-2]) / (where[-1] - where[-2])
+            span = 9.0 * (self.high - self.low)
+            return np.stack([np.append(where, where[-1] + span), modulus * np.append(load, load[-1] + span * slope)])
+
+        return way(place, before, tail, behind), way(off, before[apart], tail[apart], drawn)
+
+    def limit(self, name: str) -> Equilibria:
+        return lambda modulus, work: self._equilibria(modulus, 0.0)
+
+    def at(self, log_tabor: float) -> Equilibria:
+        return lambda modulus, work: self._equilibria(modulus, (work / modulus / self.ratio) ** (1.0 / 3.0))
+
+    def load(self, approach: Array) -> Array:
+        where, loads = self._equilibria(1.0, 0.0)[0]
+        return np.asarray(np.interp(approach, where, loads))
+
+    def approach(self, load: Array) -> Array:
+        where, loads = self._equilibria(1.0, 0.0)[0][:, _ROOTS.size :]
+        return np.asarray(np.interp(load, loads, where))
+
+    def least_work(self, modulus: float, approach: float) -> float:
+        return 0.0
+
+    def holds(self, modulus: float, work: float, tabor: float, before: float) -> bool:
+        return work <= 1.001 * self.ratio * modulus
+
+    def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
+        if work > 1.001 * self.ratio * modulus:
+            raise ValueError(
+                f"the curve asks for w/E* of {work / modulus:.3g} or more, and the table ends at {self.ratio:.3g}: make one of a "
+                "smaller modulus, or of a greater work of adhesion"
+            )
+        if approach > 1.001 * self.high:
+            raise ValueError(
+                f"the curve goes to an approach of {approach:.3g}, and the table to {self.high:.3g}: make one that goes "
+                "further, or leave out points"
+            )
+
+
+def _sampled(distance: Array, load: Array, span: float) -> Array:
+    """Forces at distances from a jump that are dense near it."""
+    roots = np.sqrt(np.maximum(distance, 0.0) / span)
+    rising = np.append(True, np.diff(np.maximum.accumulate(roots)) > 0.0)
+    found = scipy("interpolate").PchipInterpolator(roots[rising], load[rising], extrapolate=False)
+    return np.asarray(found(np.clip(_ROOTS, roots[0], roots[rising][-1])))
+
+
+def _error(coarse: Any, roots: Array, rows: Array) -> float:
+    """A quarter of the largest relative error of pull-offs and greatest forces by every second work."""
+    drawn = slice(2 * _ROOTS.size, -2)
+    pairs = [(coarse(root)[drawn], row[drawn]) for root, row in zip(roots, rows) if root > 1.0 / 3.0]
+    return 0.25 * float(max(abs(of(found) / of(true) - 1.0) for found, true in pairs for of in (np.min, np.max)))

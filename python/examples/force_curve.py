@@ -1,0 +1,78 @@
+# %% [markdown]
+# # From a force curve to modulus and adhesion
+#
+# A force curve of a rough tip, from its file to the contact modulus and the work of adhesion. Roughness holds the bodies
+# apart, so that a smooth tip of the same radius would need less adhesion to pull off at the same force. A table of solves
+# of the tip's own map, made once, fits all of its curves.
+
+# %%
+import warnings
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import asperity
+
+# the asperities of a tip press hard
+warnings.filterwarnings("ignore", "hardness", asperity.InputWarning)
+
+# %% [markdown]
+# The tip has a radius of 60 nm and a roughness of 0.3 nm. In place of this map take that of your tip, by `asperity.read`.
+
+# %%
+side, radius = 60e-9, 60e-9
+sphere = asperity.surface.sphere(64, side, radius=radius)
+rough = asperity.surface.self_affine(64, side, rms_height=0.3e-9, k_l=2, k_s=16, seed=4)
+tip = asperity.Topography(sphere.heights + rough.heights, sphere.lengths)
+
+# %% [markdown]
+# In place of a measurement: solves of a body of 2 GPa with a work of adhesion of 50 mJ/m², which the tip approaches and
+# leaves on a cantilever of 10 N/m, with noise, in a file with German decimal commas.
+
+# %%
+stiffness = 10.0
+z = np.linspace(-4e-9, 4e-9, 150)
+z = np.concatenate([z, z[::-1]])
+law = asperity.Exponential(work_of_adhesion=0.05, range=0.5e-9)
+springs = [(stiffness, position) for position in z]
+force = asperity.sweep(tip, modulus=2e9, law=law, boundary="free", springs=springs).columns["normal_force"]
+force += np.random.default_rng(1).normal(scale=0.15e-9, size=force.size)
+with open("force_curve.csv", "w") as file:
+    file.write("Höhe (nm);Kraft (nN)\n")
+    file.writelines(f"{1e9 * x:.4f};{1e9 * y:.4f}\n".replace(".", ",") for x, y in zip(z, force))
+
+# %% [markdown]
+# The table goes from 5 nm before contact to 4 nm behind it, and to the ratio w/E* of 60 mJ/m² over 1 GPa. Its range is
+# that of the law.
+
+# %%
+table = asperity.TipTable(
+    tip, approaches=(-5e-9, 4e-9), modulus=1e9, law=asperity.Exponential(work_of_adhesion=0.06, range=0.5e-9)
+)
+print(table)
+
+# %%
+curve = asperity.read_curve("force_curve.csv")
+fit = asperity.fit_curve(*curve, tip=table, spring_stiffness=stiffness)
+print(fit)
+assert abs(fit.modulus.value / 2e9 - 1) < 0.03 and abs(fit.work_of_adhesion.value / 0.05 - 1) < 0.02
+
+# %% [markdown]
+# A smooth tip fits as well as it can, with a work of adhesion that is too small, and a warning says that the curve is none
+# of a smooth tip.
+
+# %%
+with warnings.catch_warnings(record=True) as told:
+    warnings.simplefilter("always")
+    smooth = asperity.fit_curve(*curve, radius=radius, spring_stiffness=stiffness)
+print(f"smooth: {1e3 * smooth.work_of_adhesion.value:.0f} mJ/m2, {told[0].message}")
+assert smooth.work_of_adhesion.upper < 0.045
+
+# %%
+figure = fit.plot(length_unit="m", force_unit="N")
+upper, lower = figure.axes
+upper.plot(1e9 * smooth.z, 1e9 * smooth.fitted, "k:", linewidth=1, label="smooth tip")
+lower.plot(1e9 * smooth.z, 1e12 * smooth.residuals, "k:", linewidth=0.6)
+upper.legend(frameon=False)
+figure.savefig("force_curve.png", dpi=150)
+plt.show()

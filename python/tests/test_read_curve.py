@@ -1,0 +1,89 @@
+"""Files of force curves are read into the SI, or refused with a reason on one line."""
+
+import sys
+
+import numpy as np
+import pytest
+
+import asperity
+
+Z, FORCE = np.array([-10.5, 0.25, 2.0]), np.array([-0.5, 0.25, 3.5])
+
+#: Texts of these numbers.
+TEXTS = {
+    "tabs": "Height (nm)\tForce [nN]\n-10.5\t-0.5\n0.25\t0.25\n2\t3.5\n",
+    "csv": '"Time (s)","Height (nm)","Deflection (V)","Force (nN)"\n0,-10.5,1,-0.5\n1,0.25,1,0.25\n2,2,1,3.5\n',
+    "decimal commas": "Messung vom Montag\n\nWeg (nm);Kraft (nN)\n-10,5;-0,5\n0,25;0,25\n2;3,5\n",
+    "spaces and decimal commas": "Height (pm)  Vertical deflection (pN)\n-10500,0 -500,0\n250,0 250,0\n2000,0 3500,0\n",
+    "units below": "z, F\nnm, nN\n-10.5, -0.5\n0.25, 0.25\n2.0, 3.5\n",
+    "micrometres": "Höhe (µm)\tKraft (nN)\n-0,0105\t-0,5\n0,00025\t0,25\n0,002\t3,5\n",
+    "slashes": "z/nm;F/nN\n-10.5;-0.5\n0.25;0.25\n2;3.5\n",
+    "two segments that fall towards contact": "# speed: 1\n# columns: height force\n# units: m N\n"
+    "1.05e-8 -5e-10\n-2.5e-10 2.5e-10\n\n# segment: retract\n# columns: height force\n-2e-9 3.5e-9\n",
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "cp1252"])
+def test_texts_are_read(name, encoding, tmp_path):
+    path = tmp_path / "curve.txt"
+    path.write_text(TEXTS[name], encoding=encoding)
+    z, force = asperity.read_curve(path)
+    assert z == pytest.approx(1e-9 * Z, rel=1e-12) and force == pytest.approx(1e-9 * FORCE, rel=1e-12)
+
+
+def test_columns_are_chosen(tmp_path):
+    path = tmp_path / "curve.txt"
+    path.write_text("Height (nm)\tTip (nm)\tForce (nN)\n0\t1\t2\n1\t3\t4\n")
+    with pytest.raises(ValueError, match="columns 'Height' in nm, 'Tip' in nm, 'Force' in nN: it is not clear which is z"):
+        asperity.read_curve(path)
+    for z in ("Tip", 1):
+        assert asperity.read_curve(path, z=z).z == pytest.approx([1e-9, 3e-9])
+    with pytest.raises(ValueError, match="none of them alone is 'Piezo'"):
+        asperity.read_curve(path, z="Piezo")
+    with pytest.raises(ValueError, match="column 'Tip' has no unit of force: give force_unit, or another force"):
+        asperity.read_curve(path, z=0, force="Tip")
+    path.write_text("0 1\n2 3\n")
+    with pytest.raises(ValueError, match="column '' has no unit of length: give length_unit"):
+        asperity.read_curve(path)
+    assert asperity.read_curve(path, length_unit="um", force_unit="nN").z == pytest.approx([0.0, 2e-6])
+    path.write_text("z (nm)\tF (nN)\n0\tnan\n1\t2\n")
+    assert np.array(asperity.read_curve(path)) == pytest.approx(1e-9 * np.array([[1.0], [2.0]]))
+
+
+def test_what_is_no_curve_is_refused(tmp_path, monkeypatch):
+    path = tmp_path / "curve.txt"
+    for text, told in (
+        ("", "has no line of at least two numbers"),
+        ("a b\nc d\n", "has no line of at least two numbers"),
+        ("z (nm)\tF (nN)\n1\t2\n3\t4\t5\n", "line 3 is no row of 2 numbers: '3"),
+        ("z (nm)\tF (nN)\n1\tnan\n", "has no point with a finite position and force"),
+        ("z (nm)\tF (nN)\n1\t2\nend\n", "line 3 is no row of 2 numbers: 'end'"),
+    ):
+        path.write_text(text)
+        with pytest.raises(ValueError, match=told) as refused:
+            asperity.read_curve(path)
+        assert "\n" not in str(refused.value) and str(path) in str(refused.value)
+    with pytest.raises(FileNotFoundError):
+        asperity.read_curve(tmp_path / "none.txt")
+    path.write_bytes(b"PK\x03\x04\x00\x00")
+    monkeypatch.setitem(sys.modules, "afmformats", None)
+    with pytest.raises(ValueError, match=r"is binary: pip install 'asperity\[curves\]'"):
+        asperity.read_curve(path)
+
+
+def test_files_of_instruments_are_read(tmp_path):
+    afmformats = pytest.importorskip("afmformats")
+    path = tmp_path / "curve.h5"
+    data = {"force": 1e-9 * FORCE, "height (measured)": -1e-9 * Z, "height (piezo)": -2e-9 * Z, "time": Z}
+    curve = afmformats.AFMForceDistance(data, {"path": path, "enum": 0, "imaging mode": "force-distance"})
+    curve.export_data(path, fmt="hdf5")
+    z, force = asperity.read_curve(path)
+    # heights fall towards contact
+    assert z == pytest.approx(1e-9 * Z) and force == pytest.approx(1e-9 * FORCE)
+    assert asperity.read_curve(path, z="height (piezo)").z == pytest.approx(2e-9 * Z)
+    with pytest.raises(ValueError, match="is not read by afmformats: it finds 1 curves, and none of number 1"):
+        asperity.read_curve(path, number=1)
+    path.write_bytes(b"\0" * 100)
+    with pytest.raises(ValueError, match="is not read by afmformats: "):
+        asperity.read_curve(path)
