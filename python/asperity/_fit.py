@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,8 +15,6 @@ from ._tip_table import TipTable
 from ._types import Quantity
 from ._units import given, number
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 class CurveFit:
@@ -110,21 +108,23 @@ class CurveFit:
             lines.append(f"{name:<18}{rms:>12}   {model.aic:.1f}   {model.p_value:.2g}")
         return "\n".join([*lines, self.verdict])
 
-    def plot(self, *, length_unit: str | None = None, force_unit: str | None = None) -> Figure:
-        """Draws data, fit and residuals; needs matplotlib.
+    def plot(self, ax: Any = None, *, length_unit: str | None = None, force_unit: str | None = None) -> Any:
+        """Draws data and fit, and the residuals below; needs matplotlib.
 
         Parameters
         ----------
+        ax : sequence of two matplotlib Axes, optional
+            Axes to draw on; new ones by default.
         length_unit, force_unit : str, optional
             Units for the axes. ``"m"`` and ``"N"``, those of a fit with units, get prefixes.
 
         Returns
         -------
-        matplotlib Figure
+        ndarray of two matplotlib Axes
         """
         own = ("m", "N") if self._is_si else (None, None)
         units = (length_unit or own[0], force_unit or own[1])
-        return _plot.force_curve(self.z, self.force, self.fitted, self._turn, *units)
+        return _plot.force_curve(self.z, self.force, self.fitted, self._turn, *units, ax)
 
 
 def _digits(factor: float, found: Estimate) -> list[str]:

@@ -49,7 +49,8 @@ class Flow(NamedTuple):
     pressure: NDArray[np.float64]
     flow: NDArray[np.float64]
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Leakage(NamedTuple):
@@ -67,7 +68,8 @@ class Leakage(NamedTuple):
     y: Flow
     report: dict[str, Any]
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def leakage(

@@ -11,7 +11,6 @@ from . import _asperity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
@@ -113,9 +112,11 @@ def contact(
     legend = [Patch(facecolor=steps[k], edgecolor="k", linewidth=0.5, label=names[k]) for k in found]
     if legend:
         # below the label of the axis
-        below = offset_copy(ax.transAxes, ax.figure, y=-38.0, units="points")
-        place = {"loc": "upper left", "bbox_to_anchor": (0.0, 0.0), "bbox_transform": below, "borderaxespad": 0.0}
-        ax.legend(handles=legend, ncols=4, frameon=False, fontsize="small", handlelength=1.0, columnspacing=1.0, **place)
+        figure: Any = ax.figure
+        below = offset_copy(ax.transAxes, figure, y=-38.0, units="points")
+        place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.0, 0.0), "bbox_transform": below}
+        place |= {"borderaxespad": 0.0, "handlelength": 1.0, "columnspacing": 1.0}
+        ax.legend(handles=legend, ncols=4, frameon=False, fontsize="small", **place)
 
 
 def pressure(
@@ -151,8 +152,8 @@ def pressure(
         _bar(ax, image, _label(name, unit), place, "neither" if beyond == 0.0 else "max" if sign > 0.0 else "min")
     ax.set_title("elastic pressure" if adhesive else "contact pressure", pad=6.0 + 11.0 * len(captions))
     for line, caption in enumerate(reversed(captions)):
-        offset = {"xytext": (0.0, 4.0 + 11.0 * line), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
-        ax.annotate(caption, (0.5, 1.0), xycoords="axes fraction", **offset)
+        above: dict[str, Any] = {"xytext": (0.0, 4.0 + 11.0 * line), "textcoords": "offset points", "ha": "center"}
+        ax.annotate(caption, (0.5, 1.0), xycoords="axes fraction", fontsize="small", **above)
 
 
 def two(ax: Any, **options: Any) -> Any:
@@ -281,12 +282,10 @@ def force_curve(
     turn: int,
     length_unit: str | None,
     force_unit: str | None,
-) -> Figure:
+    ax: Any,
+) -> Any:
     """A force curve with its fit over the position, and the residuals below; the withdrawal begins at the point `turn`."""
-    plt = _pyplot()
-    figure, (upper, lower) = plt.subplots(
-        2, 1, sharex=True, figsize=(5.2, 4.6), height_ratios=[3, 1], layout="constrained"
-    )
+    ax = upper, lower = two(ax, nrows=2, sharex=True, figsize=(5.2, 4.6), height_ratios=[3, 1], layout="constrained")
     across, length = _scaled(z, length_unit)
     up, unit = _scaled(force, force_unit)
     rest, small = _scaled(force - fitted, force_unit)
@@ -300,4 +299,4 @@ def force_curve(
     lower.set_ylabel(_label("residual", small))
     lower.set_xlabel(_label("z", length))
     upper.legend(frameon=False)
-    return figure  # type: ignore[no-any-return]
+    return ax

@@ -57,4 +57,5 @@ class PullOff(NamedTuple):
     operator_applications: int
     solution: Solution
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)

@@ -50,7 +50,8 @@ class ContactStatistics(NamedTuple):
     attractive_fraction: float
     apart_fraction: float
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class PressureDistribution(NamedTuple):
@@ -67,7 +68,8 @@ class PressureDistribution(NamedTuple):
     density: NDArray[np.float64]
     edges: NDArray[np.float64]
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Constriction(NamedTuple):
@@ -87,7 +89,8 @@ class Constriction(NamedTuple):
     node: tuple[int, int]
     path: NDArray[np.int64]
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Percolation(NamedTuple):
@@ -102,7 +105,8 @@ class Percolation(NamedTuple):
     x: Constriction | None
     y: Constriction | None
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Conductance(NamedTuple):
@@ -553,7 +557,8 @@ class Solution:
         if self.gap.ndim == 1:
             sides = (self._flattened, self.displacement)
             return _plot.profiles(sides, pressure, self.lengths[0], length_unit, pressure_unit, ax)
-        title, classes, names = f"contact {100 * self.contact_fraction:.3g} %", self._classes(), CLASSES
+        title, classes = f"contact {100 * self.contact_fraction:.3g} %", self._classes()
+        names: tuple[str, ...] = CLASSES
         if colour_clusters:
             sizes, classes = _asperity.clusters(self.contact, self.flow_boundary == "periodic")
             title, names = f"{title}, {len(sizes)} cluster{'' if len(sizes) == 1 else 's'}", ()

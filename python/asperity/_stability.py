@@ -41,4 +41,5 @@ class Stability(NamedTuple):
     operator_applications: int
     mode: NDArray[np.floating[Any]]
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)

@@ -46,7 +46,8 @@ class SurfaceStatistics(NamedTuple):
     rms_curvature_differences: float
     nayak: float
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class PowerSpectralDensity(NamedTuple):
@@ -69,7 +70,8 @@ class PowerSpectralDensity(NamedTuple):
     waves: NDArray[np.int64]
     cell: float
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def self_affine(

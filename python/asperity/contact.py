@@ -29,7 +29,8 @@ class Clusters(NamedTuple):
     sizes: NDArray[np.int64]
     labels: NDArray[np.int64]
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def clusters(contact: Any) -> Clusters:
@@ -76,7 +77,8 @@ class Density(NamedTuple):
     edges: NDArray[np.float64]
     exponent: dict[str, Any] | None
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class ContactTables(NamedTuple):
@@ -101,7 +103,8 @@ class ContactTables(NamedTuple):
     clusters: NDArray[np.float64]
     figures: dict[str, Any]
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def tables(solution: Solution) -> ContactTables:

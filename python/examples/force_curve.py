@@ -69,10 +69,9 @@ print(f"smooth: {1e3 * smooth.work_of_adhesion.value:.0f} mJ/m2, {told[0].messag
 assert smooth.work_of_adhesion.upper < 0.045
 
 # %%
-figure = fit.plot(length_unit="m", force_unit="N")
-upper, lower = figure.axes
+upper, lower = fit.plot(length_unit="m", force_unit="N")
 upper.plot(1e9 * smooth.z, 1e9 * smooth.fitted, "k:", linewidth=1, label="smooth tip")
 lower.plot(1e9 * smooth.z, 1e12 * smooth.residuals, "k:", linewidth=0.6)
 upper.legend(frameon=False)
-figure.savefig("force_curve.png", dpi=150)
+upper.figure.savefig("force_curve.png", dpi=150)
 plt.show()

@@ -140,7 +140,7 @@ def test_a_fit_is_drawn():
     plt = pytest.importorskip("matplotlib.pyplot")
     z, force = curve(1.0, 20.0)
     fit = asperity.fit_curve(z, force, radius=RADIUS, spring_stiffness=20.0)
-    upper, lower = fit.plot(length_unit="m", force_unit="N").axes
+    upper, lower = fit.plot(length_unit="m", force_unit="N")
     assert (upper.get_ylabel(), lower.get_xlabel(), len(upper.get_lines())) == ("force (nN)", "z (nm)", 4)
     assert lower.get_ylabel() == "residual (pN)"
     assert np.allclose(lower.get_lines()[0].get_ydata(), 1e12 * fit.residuals[:200])
