@@ -36,7 +36,7 @@ pub fn quantity(key: &str, text: &str) -> PyResult<f64> {
     let dimension =
         dimension_of_key(key).ok_or_else(|| refused("it must be a number, which has no unit".to_owned()))?;
     let found = dimension.within(Range::FINITE)(text).map_err(refused)?;
-    let number = || refused(format!("give a number, or a text with a unit of {}", dimension.what));
+    let number = || refused(format!("give a number, or a string with a unit of {}", dimension.what));
     if found.has_unit { Ok(found.value) } else { Err(number()) }
 }
 

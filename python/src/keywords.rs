@@ -43,7 +43,7 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
     value.extract().map(Typed::Number).or_else(|_| {
         let value = value.repr()?;
         let message =
-            "it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa, or a text with a unit";
+            "it must be a number, in units that fit the others, such as 70e9 for 70 GPa in Pa, or a string with a unit";
         Err(PyTypeError::new_err(format!("{key} is {value}: {message}")))
     })
 }

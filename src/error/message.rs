@@ -15,7 +15,7 @@ impl fmt::Display for Error {
             }
             Self::NotFinite { name, count, nodes, first, value } => {
                 let remedy = if value.is_nan() {
-                    "fill missing points first, as asperity_maps::fill does"
+                    "fill missing points first, for example by asperity_maps::fill"
                 } else {
                     "an infinite value is not a missing point; correct it where it comes from"
                 };

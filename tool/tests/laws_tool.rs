@@ -160,7 +160,7 @@ fn springs_stand_for_the_wall() {
     for (wall, parts) in [
         ("penalty", ["--wall penalty lacks --wall-stiffness", "a pressure per length"]),
         ("hard --wall-stiffness 5", ["--wall-stiffness is 5, but --wall hard", "--wall uzawa"]),
-        ("uzawa --wall-stiffness 5nN", ["--wall-stiffness", "pressure per length, as 1GPa/um"]),
+        ("uzawa --wall-stiffness 5nN", ["--wall-stiffness", "pressure per length, such as 1GPa/um"]),
     ] {
         bench.refused_with(&format!("{SOLVE} --out out --wall {wall}"), &parts);
     }

@@ -67,7 +67,7 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
         if let [first, ..] = columns[..] {
             let names = quoted(&columns.join(", "));
             return refuse(format!(
-                "is a record array with the columns {names}: save one, as array[{}]",
+                "is a record array with the columns {names}: save one, such as array[{}]",
                 quoted(first)
             ));
         }
