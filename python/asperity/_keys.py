@@ -17,6 +17,7 @@ class SurfaceKeywords(TypedDict, total=False):
     """The surface, the bodies, and the boundary."""
 
     modulus: Quantity | None
+    boundary: Literal["periodic", "free"] | None
     absent_missing: bool | None
     layer: Quantity | None
     base: Literal["bonded", "sliding"] | None
@@ -63,6 +64,7 @@ class LoadKeywords(TypedDict, total=False):
     normal_force: Quantity | None
     approach: Quantity | None
     spring_stiffness: Quantity | None
+    spring_position: Quantity | None
     reduced_pressure: float | None
     contact_fraction: float | None
 
@@ -147,7 +149,8 @@ class PullOffKeywords(TypedDict, total=False):
 KEYS: dict[str, dict[str, tuple[object, str]]] = {
     "Surface": {
         "modulus": (None, "Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that deforms"),
-        "absent_missing": (False, "Surroundings of the map boundary: Kind::word(Boundary::words, &['BOUNDARY']).or('periodic'), Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch or in a hole; in the files of results their gap is NaN and their pressures are 0"),
+        "boundary": ("periodic", "Surroundings of the map"),
+        "absent_missing": (False, "Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch or in a hole; in the files of results their gap is NaN and their pressures are 0"),
         "layer": (None, "Thickness of an elastic layer on a rigid base, instead of a half-space; needs poisson"),
         "base": (None, "Hold of the base on the layer: bonded, or sliding without friction [default: bonded]"),
         "coating": (None, "Thickness of an elastic coating on the half-space; modulus is then that of the substrate; needs coating_modulus, coating_poisson and poisson"),
@@ -184,7 +187,8 @@ KEYS: dict[str, dict[str, tuple[object, str]]] = {
         "normal_force": (None, "Normal force that is held, compression positive: the mean pressure times the area of the map"),
         "approach": (None, "Approach that is held, with a free boundary: how far the bodies have moved towards each other from the position of first touch without deformation; negative before it"),
         "spring_stiffness": (None, "Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs spring_position"),
-        "reduced_pressure": (None, "Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z - D); with a periodic one a mean gap, F = K (G - Z) spring_position: Kind::quantity(LENGTH, Range::FINITE, &['Z']).needs(&['spring_stiffness']), Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)"),
+        "spring_position": (None, "Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z - D); with a periodic one a mean gap, F = K (G - Z)"),
+        "reduced_pressure": (None, "Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)"),
         "contact_fraction": (None, "Share of the nodes in contact to search for, to one node or 1 %. Without adhesion the search varies the mean pressure, with adhesion the mean gap, and with adhesion and a free boundary the approach. If the contact jumps past the share, the nearer side of the jump is written, and the exit code is 2"),
     },
     "Loads": {

@@ -112,7 +112,7 @@ impl Breach {
                 (Some(other), " as the derivative of the traction: correct one of the two")
             }
             Self::Derivative(other) => (Some(other), " as the derivative of the energy: correct one of the two"),
-            Self::Zero => (None, ": it must be 0, as the law is zero by its `hints`"),
+            Self::Zero => (None, ": it must be 0, since the law is zero by its `hints`"),
             Self::Concave(other) => (Some(other), " at a smaller one: the energy is not concave, as its `hints` say"),
             Self::Jump(other) => (
                 Some(other),

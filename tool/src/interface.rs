@@ -104,7 +104,7 @@ impl Fill for Options {
         let rows = table.solve()?;
         let converged = table.converged("or --tolerance");
         if !converged && !self.codes.is_empty() {
-            complain("warning", "there are no files --for codes of finite elements, as rows have not converged");
+            complain("warning", "there are no files --for finite-element codes, since rows have not converged");
         }
         table.first(|| {
             let written = if converged { self.write(&rows, table)? } else { Vec::new() };

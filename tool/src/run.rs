@@ -68,7 +68,7 @@ impl Arguments {
         let mut table = document(&path)?;
         if let Some(section) = study::SECTIONS.iter().find(|section| table.contains_key(**section)) {
             let file = path.display();
-            return Err(refuse(format!("has [{section}], as a study: solve it by 'asperity study {file}'")).into());
+            return Err(refuse(format!("has [{section}] like a study: solve it by 'asperity study {file}'")).into());
         }
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,

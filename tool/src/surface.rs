@@ -152,7 +152,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     let others = [options.out.clone(), scene::beside(&options.out)];
     if options.psd.as_deref().is_some_and(|psd| check_apart(psd, others.iter().map(PathBuf::as_path)).is_err()) {
-        return Err(format!("--psd is {}, as --out: give it a name of its own", options.out.display()).into());
+        return Err(format!("--psd is {}, the same as --out: give it a name of its own", options.out.display()).into());
     }
     scene.check_beside(&options.out, options.force)?;
     use_threads(options.threads)?;

@@ -40,8 +40,8 @@ const FLAT: f64 = 4.0 * f64::EPSILON;
 /// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
 const UNLIKE: f64 = 0.05;
 
-/// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy. With its code it is
-/// a line of at most 90 characters; `docs/program/warnings.md` explains each code.
+/// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy, on a line of at
+/// most 90 characters. The page `docs/program/warnings.md` explains each code.
 ///
 /// A warning refuses and changes nothing, and the reader decides whether it matters. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the

@@ -9,8 +9,8 @@ use super::part::Part::Figure;
 use super::{Warning, WarningCode};
 
 impl Warning {
-    /// A body whose stiffness for the shortest waves on a `grid` does not grow as their wave number to 5 %, as that of a
-    /// half-space does, [`ThinBody`](WarningCode::ThinBody): figures that assume contact edges on a half-space do not hold.
+    /// A body whose stiffness for the shortest waves on a `grid` does not grow as their wave number to 5 %, unlike that
+    /// of a half-space, [`ThinBody`](WarningCode::ThinBody): figures that assume a half-space do not hold.
     ///
     /// ```
     /// use asperity::Grid;

@@ -5,7 +5,7 @@ use std::fmt;
 /// The codes, with their names and what they mean.
 macro_rules! codes {
     ($($(#[$meaning:meta])* $code:ident = $name:literal,)+) => {
-        /// The code of a [`Warning`](crate::warning::Warning). The page `docs/program/warnings.md` explains each of them.
+        /// The code of a [`Warning`](crate::warning::Warning), which the page `docs/program/warnings.md` explains.
         ///
         /// ```
         /// use asperity_maps::warning::WarningCode;

@@ -170,7 +170,7 @@ impl Warning {
         Some(Self::told(
             WarningCode::Modulus,
             0.0,
-            "the contact modulus is {}, below {} Pa: give it in Pa, as lengths are in m",
+            "the contact modulus is {}, below {} Pa: give it in Pa, since lengths are in m",
             [Pressure(modulus), Word(format!("{SOFTEST:e}"))],
         ))
     }

@@ -148,8 +148,8 @@ impl Adhesion {
                     ));
                 }
                 Some(value) if law.of_grid && key == "range" => format!(
-                    "{value}, but {{law}} {name} is the limit of no range, as short as the grid can resolve: leave it out, or \
-                     choose a law with a range, as {{law}} exponential"
+                    "{value}, but {{law}} {name} is the limit of zero range, as short as the grid can resolve: leave it out, or \
+                     choose a law with a range, such as {{law}} exponential"
                 ),
                 Some(value) if !law.needs.contains(&key) => {
                     format!("{value}, but {{law}} {name} has no use for it: leave it out")

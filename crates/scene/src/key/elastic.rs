@@ -23,9 +23,10 @@ keys! {
             /// Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
             /// deforms
             modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]).or("1"),
-            /// Surroundings of the map boundary: Kind::word(Boundary::words, &["BOUNDARY"]).or("periodic"), Treat
-            /// missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch
-            /// or in a hole; in the files of results their gap is NaN and their pressures are 0
+            /// Surroundings of the map
+            boundary: Kind::word(Boundary::words, &["BOUNDARY"]).or("periodic"),
+            /// Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch or
+            /// in a hole; in the files of results their gap is NaN and their pressures are 0
             absent_missing: Kind::switch(),
         }
         "Body" {

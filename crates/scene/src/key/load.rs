@@ -21,10 +21,10 @@ keys! {
             /// {spring_position}
             spring_stiffness:
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_position"]),
-            /// Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F
-            /// = K (Z - D); with a periodic one a mean gap, F = K (G - Z) spring_position: Kind::quantity(LENGTH,
-            /// Range::FINITE, &["Z"]).needs(&["spring_stiffness"]), Mean pressure that is held, over the contact
-            /// modulus and the rms slope of the surface: p/(E* h'rms)
+            /// Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z
+            /// - D); with a periodic one a mean gap, F = K (G - Z)
+            spring_position: Kind::quantity(LENGTH, Range::FINITE, &["Z"]).needs(&["spring_stiffness"]),
+            /// Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)
             reduced_pressure: Kind::number(Range::FINITE, &["R"]),
             /// Share of the nodes in contact to search for, to one node or 1 %. Without adhesion the search varies the
             /// mean pressure, with adhesion the mean gap, and with adhesion and a free boundary the approach. If the
@@ -129,7 +129,7 @@ impl Given {
     pub fn loads(&self) -> Result<Vec<Load>, String> {
         let found = self.loads_by(|kind| kind.many)?;
         if found.is_empty() {
-            return Err("there are no loads: give a list, as {mean_pressures}".to_owned());
+            return Err("there are no loads: give a list, such as {mean_pressures}".to_owned());
         }
         Ok(found)
     }

@@ -64,7 +64,7 @@ pub fn between(
         (Boundary::Free, ..) | (_, None, None) => shift,
         (_, Some(_), Some(_)) if shifted => {
             return Err(format!(
-                "{told}, but as a mirrored map moves its original leaves its place: make both maps periodic by \
+                "{told}, but when a mirrored map moves, its original leaves its place: make both maps periodic by \
                  {{prepare:window}}, without mirror images"
             ));
         }
