@@ -174,8 +174,8 @@ def read(
         from . import _instruments
 
         return _instruments.read(source, channel, refused)
-    log = (f"also in the file: {', '.join(beside)}".replace("--masked", "masked=True"),) if beside else () return
-    Topography(**made, source=source, log=log)
+    log = (f"also in the file: {', '.join(beside)}".replace("--masked", "masked=True"),) if beside else ()
+    return Topography(**made, source=source, log=log)
 
 
 def from_topography(topography: HeightMap) -> Topography:

@@ -1,5 +1,7 @@
 //! The session of a command, and its warnings as it says them.
 
+use std::io::{self, IsTerminal};
+
 use asperity_scene::{Input, Session, Skin, Told};
 use clap::Args;
 
@@ -27,11 +29,11 @@ pub fn say_new(warnings: &mut Warnings) {
     say(warnings.tell());
 }
 
-/// Says warnings, and where their codes are explained.
+/// Says warnings, and on a terminal where their codes are explained.
 pub fn say(warnings: &[Told]) {
     warnings.iter().for_each(|told| complain("warning", &told.to_string()));
     let codes: Vec<_> = warnings.iter().map(|told| told.code.as_str()).collect();
-    if !codes.is_empty() {
+    if !codes.is_empty() && io::stderr().is_terminal() {
         complain("note", &format!("docs/program/warnings.md explains {}", codes.join(", ")));
     }
 }

@@ -81,7 +81,7 @@ fn percolation_is_told_with_its_constriction() {
     bench.said(ROUGH);
     let solve = format!("solve {PRESSED} --mean-pressure 4MPa --percolation --out pressed");
     let said = bench.said(&solve);
-    assert!(said.contains("gap along x") && said.contains("wide at its constriction, node ["), "{said}");
+    assert!(said.contains("gap along x") && said.contains("at the constriction, node ["), "{said}");
     let report = bench.report("pressed");
     let leak = bench.reported("leak pressed");
     for key in ["percolates", "constriction"] {
