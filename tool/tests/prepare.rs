@@ -573,7 +573,10 @@ fn offsets_of_lines_along_the_other_axis_are_told() {
     };
     let (said, codes) = told("--out a.npz");
     assert_eq!(codes, ["scan-axis"]);
-    assert!(said.starts_with("warning: scan-axis: lines along y are offset") && said.contains("choose scan axis y"), "{said}");
+    assert!(
+        said.starts_with("warning: scan-axis: lines along y are offset") && said.contains("choose scan axis y"),
+        "{said}"
+    );
     assert_eq!(told("--scan-axis y --out b.npz"), (String::new(), vec![]));
 }
 
