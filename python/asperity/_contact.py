@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 R = TypeVar("R", bound=Rows[Any])
 
-#: The parameters of laws, which are no keywords beside an object that has its own.
+#: The parameters of laws, which are no keywords next to an object that has its own.
 _OF_LAWS = tuple(key for key in KEYS["Adhesion"] if key not in ("law", "wall", "wall_stiffness", "hardness"))
 
 #: Keywords that the law of an interface does not have, per area of a periodic cell.
@@ -70,7 +70,7 @@ _OF_THEORIES = {
 
 
 def _refuse_beside(name: str, own: Any, keys: dict[str, Any]) -> None:
-    """Refuses keys beside an object that has them."""
+    """Refuses keys given with an object that has them."""
     for key in own:
         if key in keys:
             raise TypeError(f"{key} is given with {name}, an object that has its own: leave one of them out")

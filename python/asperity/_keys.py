@@ -94,7 +94,7 @@ class NestedKeywords(TypedDict, total=False):
 
 
 class FindingsKeywords(TypedDict, total=False):
-    """The findings beside a solution."""
+    """The findings after a solution."""
 
     stability: bool | None
     leave: bool | None
