@@ -72,7 +72,7 @@ fn refused(error: Error, also: &str) -> PyErr {
             "give wall='none', or LennardJones(..., cut=True)",
         )
         .replace("or take a free half-space", "or boundary='free'")
-        .replace("as asperity_maps::fill does", "as by asperity.prepare(heights, lengths, fill=True)")
+        .replace("asperity_maps::fill", "asperity.prepare(heights, lengths, fill=True)")
         .replace(
             "choose one, by asperity prepare --channel NUMBER",
             "choose one, by asperity.read(path, channel=NUMBER)",
