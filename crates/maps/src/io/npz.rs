@@ -40,7 +40,7 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
             let names = archive.file_names().take(10).map(|name| quoted(array(name)));
             let names = names.collect::<Vec<_>>().join(", ");
             return refuse(format!(
-                "holds {count} arrays ({names}), expected one, or one named heights: save only the heights, as .npy or .npz"
+                "holds {count} arrays ({names}), expected one, or one named heights: save the heights alone, as .npy or .npz"
             ));
         }
     };
