@@ -1,6 +1,6 @@
 /* The engine as the page calls it: one call after the other, on the thread of `worker.js`.
 
-   Keys are those of reports, as `work_of_adhesion`. Values are as they were typed: texts with units, as "70GPa", or
+   Keys are those of reports, as `work_of_adhesion`. Values are as they were typed: strings with units such as "70GPa", or
    numbers; what is empty counts as not given. Every call is a promise, refused with the sentence of the program. Fields
    are typed arrays, node (i, j) at index i ny + j, with i along x and j along y.
 

@@ -207,7 +207,7 @@ class Page {
     const away = this.awaited && new URLSearchParams(this.awaited).get("map");
     if (away) this.doubts.unshift(`This link needs the map ${away}, which is not part of it: open that map.`);
     list("doubts", this.doubts);
-    if (!map.lengths) throw new Error("the file has no side lengths: type them, as 20um, or 20um 10um");
+    if (!map.lengths) throw new Error("the file has no side lengths: type them, such as 20um, or 20um 10um");
     this.statistics = await this.engine.statistics();
     // of a map with missing points there are none
     const { figures, rows } = this.statistics;

@@ -104,7 +104,7 @@ export class Settings {
     const told = [name, `${shape.join(" × ")} nodes`];
     if (lengths) told.push(lengths.map(side => read(side, unit ?? "")).join(" × "));
     if (missing) told.push(`${missing} missing points`);
-    if (unread.length) told.push(`beside it ${unread.join(", ")}`);
+    if (unread.length) told.push(`next to it ${unread.join(", ")}`);
     document.getElementById("opened").textContent = told.join(", ");
   }
 

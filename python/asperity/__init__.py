@@ -1,4 +1,4 @@
-"""How rough surfaces touch and stick: frictionless normal contact with adhesion, with a certified error.
+"""Computes how rough surfaces touch and stick: frictionless normal contact with adhesion, with a certified error.
 
 >>> import asperity
 >>> rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, k_s=16, seed=1)
@@ -7,8 +7,8 @@
 >>> solution.converged
 True
 
-Fields have shape (Nx, Ny), x along the first axis. Any consistent units; compression is positive. Results do not depend
-on the number of threads. The interpreter's lock is free during a solve.
+Fields have shape (Nx, Ny), with x along the first axis. Units may be any consistent ones, and compression is positive.
+Results do not depend on the number of threads. The interpreter's lock is free during a solve.
 """
 
 from __future__ import annotations

@@ -15,11 +15,11 @@ from ._types import Quantity
 
 @dataclass(frozen=True)
 class Layer(Measured):
-    """An elastic layer on a rigid base, in the place of a half-space; ``modulus`` is its contact modulus E*.
+    """An elastic layer on a rigid base, instead of a half-space; ``modulus`` is its contact modulus E*.
 
-    A layer that is thick beside the wavelength acts as a half-space. A thin one acts as springs of the stiffness M/t,
-    with M = E*(1 − ν)²/(1 − 2ν), or of E*/t if it slides. A thin bonded layer of ν = ½ is incompressible, and has to
-    flow sideways. The boundary is periodic.
+    A layer that is thick compared with the wavelength acts like a half-space. A thin one acts like springs of stiffness
+    M/t, with M = E*(1 − ν)²/(1 − 2ν), or of stiffness E*/t if it slides. A thin bonded layer of ν = ½ is
+    incompressible, and has to flow sideways. The boundary is periodic.
 
     Parameters
     ----------
@@ -56,8 +56,8 @@ class Layer(Measured):
 class Coating(Measured):
     """An elastic coating that is bonded to a half-space, whose contact modulus E* is ``modulus``.
 
-    Waves that are short beside the thickness have the stiffness of the coating, long ones that of the substrate. The
-    boundary is periodic.
+    Waves that are short compared with the thickness have the stiffness of the coating, and long ones that of the
+    substrate. The boundary is periodic.
 
     Parameters
     ----------
@@ -96,16 +96,16 @@ class Coating(Measured):
 class Symbol:
     """An elastic body by the stiffness of its waves, a function of your own.
 
-    A wave of the displacement u cos(qx·x + qy·y) of the surface needs the pressure k u cos(qx·x + qy·y), and k is what the
-    function returns: that of the half-space is ½E*q. The function sets the scale of the stiffness, too: the
-    ``modulus`` beside it only converts a ``reduced_pressure``. Measures of the grid use the modulus 2k/q of the
-    shortest waves. The boundary is periodic.
+    A wave of the displacement u cos(qx·x + qy·y) of the surface needs the pressure k u cos(qx·x + qy·y), and k is what
+    the function returns: that of the half-space is ½E*q. The function also sets the scale of the stiffness, so that
+    ``modulus`` only converts a ``reduced_pressure``. Measures of the grid use the modulus 2k/q of the shortest waves.
+    The boundary is periodic.
 
     Parameters
     ----------
     function : callable
         ``function(q)`` of the wave number q = √(qx² + qy²), or ``function(qx, qy)`` of a body that differs with the
-        direction; which one is told by the number of its parameters without a default. It is given arrays of float64, in
+        direction; the number of its parameters without a default decides which. It is given arrays of float64, in
         radians per length, 2π over the wavelength, of the waves of a grid, up to a million at once, and returns the
         stiffnesses k > 0, real and a pressure per length, as an array of the same shape: in the units of the call, Pa/m
         where it has units. A body of two directions has k(−qx, −qy) = k(qx, qy). It is not asked for q = 0.

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
 R = TypeVar("R", bound=Rows[Any])
 
-#: The parameters of laws, which are no keywords beside an object that has its own.
+#: The parameters of laws, which are no keywords next to an object that has its own.
 _OF_LAWS = tuple(key for key in KEYS["Adhesion"] if key not in ("law", "wall", "wall_stiffness", "hardness"))
 
 #: Keywords that the law of an interface does not have, per area of a periodic cell.
@@ -71,10 +71,10 @@ _OF_THEORIES = {
 
 
 def _refuse_beside(name: str, own: Any, keys: dict[str, Any]) -> None:
-    """Refuses keys beside an object that has them."""
+    """Refuses keys given with an object that has them."""
     for key in own:
         if key in keys:
-            raise TypeError(f"{key} is given beside {name}, an object that has its own: leave one of them out")
+            raise TypeError(f"{key} is given with {name}, an object that has its own: leave one of them out")
 
 
 def _pair(name: str, spring: Any) -> tuple[Any, Any]:
@@ -111,9 +111,9 @@ def solve(
     """Presses a rough surface against an elastic half-space.
 
     Give one load: ``mean_pressure``, ``mean_gap``, ``normal_force``, ``approach``, ``spring``, ``reduced_pressure`` or
-    ``contact_fraction``. Quantities are numbers in any consistent units, or all are texts with units, such as
-    ``modulus="70GPa"`` and ``law=asperity.Exponential("50mJ/m2", "1nm")``: then the map is brought to metres, and all
-    results are in the SI.
+    ``contact_fraction``. Quantities are numbers in any consistent units, or all are strings with units, such as
+    ``modulus="70GPa"`` and ``law=asperity.Exponential("50mJ/m2", "1nm")``. The map is then converted to metres, and all
+    results are in SI units.
 
     Parameters
     ----------
@@ -150,18 +150,17 @@ def solve(
         What is beyond the heights: the same again, or nothing, so that the half-space is free of traction there. A
         free boundary needs a map that is not a line, and takes four times the memory.
     absent_missing : bool
-        Takes missing points for absent nodes, at which nothing faces the half-space, for example around a punch or in
-        a hole. There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other
-        nodes.
+        Treats missing points as absent nodes, where nothing faces the half-space, for example around a punch or in a
+        hole. There the gap is infinite and the pressures are zero; fractions and the mean gap are of the other nodes.
     law : Law, an object of your own, or str, optional
-        Adhesion law, or its name with its parameters beside it, as ``law="exponential", work_of_adhesion=...,
-        range=...``; none by default. `JKR` is the one of which the work of adhesion alone is known. `Exponential`,
-        `MaugisDugdale`, `LennardJones`, `Morse`, `PowerLaw`, `VanDerWaals` and `Tabulated` have a range, `CutOff` ends
-        one, and with `Varying` its work of adhesion differs from node to node. An object with ``energy(gap)``,
-        ``traction(gap)`` and ``slope(gap)`` of arrays is a law, too: see `check_law`.
+        Adhesion law, or its name with its parameters, such as ``law="exponential", work_of_adhesion=..., range=...``;
+        none by default. `JKR` needs only the work of adhesion. `Exponential`, `MaugisDugdale`, `LennardJones`, `Morse`,
+        `PowerLaw`, `VanDerWaals` and `Tabulated` have a range, `CutOff` ends one, and with `Varying` its work of
+        adhesion differs from node to node. An object with ``energy(gap)``, ``traction(gap)`` and ``slope(gap)`` of
+        arrays is a law, too: see `check_law`.
     wall : {"hard", "none", "penalty", "uzawa"}, Penalty or Uzawa
-        What keeps the surfaces apart: a rigid wall at zero gap, a law that repels alone, as `LennardJones` and `Morse`
-        do, or springs of a stiffness, as an object or with ``wall_stiffness`` beside their name.
+        What keeps the surfaces apart: a rigid wall at zero gap, a law that repels by itself, such as `LennardJones` and
+        `Morse`, or springs of a stiffness, as an object or by name with ``wall_stiffness``.
     hardness : float or array_like, optional
         Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
         ``Solution.plastic_depth``. An array has it at each node, x along the first axis, in Pa where other quantities
@@ -185,7 +184,7 @@ def solve(
     stability : bool
         Finds out whether the solution is stable: ``report["stability"]`` and ``mode``.
     leave : bool
-        Goes on from an unstable equilibrium to a stable one.
+        Continues from an unstable equilibrium to a stable one.
     stiffness : bool
         Finds the contact stiffness, how much the load grows as the bodies approach each other: ``contact_stiffness``
         and ``normal_stiffness`` of the solution.
@@ -193,11 +192,11 @@ def solve(
         Electrical resistivities of both half-spaces: with ``stiffness`` the conductance of the contact per area, in
         ``report["conductance"]`` with its relative error, that of the grid included as far as it is known.
     accuracy : float, optional
-        Relative error that is wanted, such as 0.01. Chooses the tolerance, solves on coarser grids too, and
-        interpolates the heights on finer ones until the estimated error is as small: the fields, and ``heights`` and
-        ``topography`` of the solution, are on the finest grid. Before the solve, the logger ``asperity`` says how much
-        time and memory that is likely to take; ``plan`` of the solution has the same. A tolerance beside it may be
-        smaller than the one that it chooses.
+        Relative error to reach, such as 0.01. Chooses the tolerance, solves on coarser grids too, and interpolates the
+        heights on finer ones until the estimated error is small enough: the fields, and ``heights`` and ``topography``
+        of the solution, are on the finest grid. Before the solve, the logger ``asperity`` says how much time and memory
+        this will probably take; ``plan`` of the solution has the same. A tolerance that is given with it may be smaller
+        than the one that it chooses.
     accuracy_of : {"area", "gap", "approach", "pressure", "stiffness"}, optional
         Quantity that has the accuracy: the contact area corrected for its edge, by default; the mean gap or the mean
         pressure, if it is not given; or the contact stiffness.
@@ -229,7 +228,7 @@ def solve(
     >>> solution.status, int(solution.contact.sum())
     ('converged', 185)
 
-    A sphere, which is a body of its own, beside Hertz:
+    A sphere, which is a body of its own, compared with Hertz:
 
     >>> sphere = -(x[:, None] ** 2 + x**2) / 4
     >>> tip = asperity.solve(sphere, 1.0, modulus=1.0, normal_force=0.01, boundary="free")
@@ -274,7 +273,7 @@ def sweep(
     reduced_pressures : sequence of float
         Mean pressures over E* h'rms, with h'rms the rms slope of the surface.
     contact_fractions : sequence of float
-        Shares of the nodes that are to be in contact, as ``contact_fraction`` of `solve`; two more columns are
+        Shares of the nodes in contact to search for, like ``contact_fraction`` of `solve`; two more columns are
         ``wanted_contact_fraction`` and ``reached``.
     stiffness : bool
         Finds the contact stiffness under each load: two more columns, ``contact_stiffness`` and ``normal_stiffness``.
@@ -282,13 +281,13 @@ def sweep(
         Electrical resistivities, or thermal conductivities, of both half-spaces: with ``stiffness`` the columns
         ``electrical_conductance`` or ``thermal_conductance``, per area, and ``conductance_error``.
     leakage : float, optional
-        Relative distance of two bounds between which the transmissivity of the gap is found, as by `leakage`: columns
+        Relative distance of two bounds of the transmissivity of the gap, like those of `leakage`: columns
         ``transmissivity_x_lower``, ``transmissivity_x_upper`` and the same along y.
     out : str or path, optional
-        File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
-        comes. The same call goes on with a file that is there, also with loads added to the end of the list, and ends
-        with the same bytes as one that was not interrupted; for that it keeps ``.state`` beside the file. Rows that
-        the file has are in ``columns`` and are not solved again: iterating gives the states behind them.
+        File for the rows, ``.csv`` or ``.jsonl``, as the program writes it from the same inputs. A row is appended as
+        soon as it is solved. The same call continues a file that is there, also with loads added to the end of the
+        list, and ends with the same bytes as one that was not interrupted; for that it keeps ``.state`` next to the
+        file. Rows that the file has are in ``columns`` and are not solved again: iterating gives the states after them.
     fields : str or path, optional
         Folder for gap, pressure and contact pressure of the rows, ``gap-0001.npy`` and so on; with ``out``.
     force : bool
@@ -348,10 +347,10 @@ def cycle(
     smooth : bool
         Whether jumps of the law's traction are smoothed by what the grid resolves.
     out : str or path, optional
-        File for the rows, ``.csv`` or ``.jsonl``, as the tool writes it from the same inputs. A row is appended as it
-        comes. The same call goes on with a file that is there, and ends with the same bytes as one that was not
-        interrupted; for that it keeps ``.state`` beside the file. Rows that the file has are in ``columns`` and are
-        not solved again: iterating gives the states behind them.
+        File for the rows, ``.csv`` or ``.jsonl``, as the program writes it from the same inputs. A row is appended as
+        soon as it is solved. The same call continues a file that is there, and ends with the same bytes as one that was
+        not interrupted; for that it keeps ``.state`` next to the file. Rows that the file has are in ``columns`` and
+        are not solved again: iterating gives the states after them.
     fields : str or path, optional
         Folder for gap, pressure and contact pressure at the jumps and of the last row, ``gap-0001.npy`` and so on; with
         ``out``.
@@ -413,8 +412,9 @@ def pull_off(
     """Finds the pull-off: the greatest tension under which surfaces that adhere stay together.
 
     The tension grows, each solve from the gap of the one before, until the surfaces come apart; then the pull-off is
-    between the two, and the bracket is narrowed. Contacts that are lost on the way are lost under the load, as on a soft
-    spring; `cycle` draws the surfaces apart and shows each of them. Parameters that are not here are those of `solve`.
+    between the two, and the bracket is narrowed. The load is given, as if by a soft spring, so that many contacts may
+    break at once; `cycle` draws the surfaces apart and shows each break. Parameters that are not here are those of
+    `solve`.
 
     Parameters
     ----------
@@ -423,13 +423,13 @@ def pull_off(
     law : Law or an object of your own
         Adhesion law.
     preload : float, optional
-        Mean pressure to which surfaces that come from afar were pressed before. Without it they were pressed flat, or
-        were as ``branch`` or ``start`` says.
+        Mean pressure to which surfaces that come from afar were pressed before. Without it they were pressed flat,
+        unless ``branch`` or ``start`` says otherwise.
     rtol : float
         Relative tolerance: width of the bracket over the pull-off.
     accuracy : float, optional
-        Relative error of the pull-off that is wanted, as 0.05, with `JKR`. The heights are interpolated on finer grids
-        until the estimated error is as small.
+        Relative error of the pull-off to reach, such as 0.05, with `JKR`. The heights are interpolated on finer grids
+        until the estimated error is small enough.
     memory : float, optional
         Memory that an accuracy may take, in GiB; all that is free by default.
 
@@ -476,8 +476,8 @@ def viscoelastic(
     body : Layer, optional
         Body that deforms, a half-space by default; work and energies are without the mean compression of a layer.
     law : Law, an object of your own, or str, optional
-        Adhesion law, as that of `solve`, with a range. One whose traction jumps, as `MaugisDugdale`, holds edges on the
-        nodes.
+        Adhesion law, like that of `solve`, with a range. A law whose traction jumps, such as `MaugisDugdale`, holds
+        edges on the nodes.
     prony : sequence of (float, float)
         Shares gₖ of the instantaneous modulus that relax, and their relaxation times τₖ. Shares add up to 1 at most.
     times : sequence of float
@@ -547,7 +547,7 @@ def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stabilit
         )
     if report["hardness"] is not None:
         raise ValueError(
-            "the solution was found with a hardness: a surface that yields does not come back, as the test takes for granted"
+            "the solution was found with a hardness: a surface that yields does not come back, which the test assumes"
         )
     keys: dict[str, Any] = {key: report.get(key) for key in names(ContactKeywords) if key not in ("shift", "against")}
     if not isinstance(solution.law, str | None):
@@ -672,7 +672,7 @@ class Contact:
         self._warned: set[str] = set()
         if self.topography.periodic is False and boundary == "periodic":
             warn(
-                "the map is not periodic, and the solve takes it for periodic: use asperity.prepare(heights, "
+                "the map is not periodic, but the solve treats it as periodic: use asperity.prepare(heights, "
                 "mirror=True) or window=0.1, or boundary='free' if the body ends there",
                 InputWarning,
             )

@@ -70,7 +70,7 @@ class Curve:
             deviation = max(deviation, 1e-6 * float(np.ptp(self.z)))
             if self.fits_jumps:
                 self.jumps.append((approaching, place, max(self.noise, self._least) / deviation))
-        # a place of a jump is a row beside those of the forces
+        # a place of a jump is a row next to those of the forces
         rows = len(self.jumps)
         self.data = np.append(self.force, np.zeros(rows))
         self.baseline = np.vstack([self.columns, np.zeros((rows, self.columns.shape[1]))])

@@ -17,7 +17,7 @@ Array: TypeAlias = NDArray[np.float64]
 #: adhesion.
 Equilibria: TypeAlias = Callable[[float, float], tuple[Array, Array]]
 
-#: Tabor parameters between the ends of the tables, beside DMT and JKR, which are the limits.
+#: Tabor parameters between the ends of the tables, which are DMT and JKR.
 TABOR = np.geomspace(0.01, 50.0, 13)
 #: Knots of the tables over the Tabor parameter.
 _KNOTS = np.geomspace(0.008, 60.0, 61)

@@ -75,7 +75,7 @@ class CurveFit:
     fitted: Array
     residuals: Array
     noise: float
-    #: the first point of the withdrawal, and whether numbers are in the SI
+    #: the first point of the withdrawal, and whether numbers are in SI units
     _turn: int
     _is_si: bool
 
@@ -179,7 +179,7 @@ def fit_curve(
         Whether to fit the places of jumps, which are where an equilibrium ends. Vibrations may bring a jump early: then
         False takes from a jump only on which side of it a point is.
     length_unit, force_unit : str, optional
-        Units of z and force, as "nm" and "nN", beside a radius as "20nm". Results are in the SI.
+        Units of z and force, such as "nm" and "nN", with a radius such as "20nm". Results are in SI units.
 
     Returns
     -------
@@ -234,7 +234,7 @@ def fit_curve(
 
 
 def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tuple[Array, Array]:
-    """Both columns, in the SI if their units are given."""
+    """Both columns, in SI units if their units are given."""
     columns = []
     for name, values in (("z", z), ("force", force)):
         try:

@@ -1,4 +1,4 @@
-"""Solutions and theories by formulas: what they are, and their numbers, which may be texts with a unit."""
+"""Solutions and theories by formulas: what they are, and their numbers, which may be strings with a unit."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ._units import Quantities, in_si, number
 
 
 class Formula:
-    """A frozen dataclass of numbers, all with units or none: with units they, and all that follows, are in the SI."""
+    """A frozen dataclass of numbers, all with units or none: with units they, and all that follows, are in SI units."""
 
     #: What it is of, its formula, and its source.
     about: ClassVar[str]
@@ -43,7 +43,7 @@ class Formula:
         return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in shown.items())})"
 
     def _read(self, name: str, values: ArrayLike) -> ArrayLike:
-        """Numbers, or texts with a unit, in the units of its own."""
+        """Numbers, or strings with a unit, in the units of its own."""
         typed = np.asarray(values)
         if typed.dtype.kind != "U":
             return values

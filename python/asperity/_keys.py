@@ -94,7 +94,7 @@ class NestedKeywords(TypedDict, total=False):
 
 
 class FindingsKeywords(TypedDict, total=False):
-    """The findings beside a solution."""
+    """The findings after a solution."""
 
     stability: bool | None
     leave: bool | None
@@ -149,21 +149,21 @@ class PullOffKeywords(TypedDict, total=False):
 KEYS: dict[str, dict[str, tuple[object, str]]] = {
     "Surface": {
         "modulus": (None, "Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that deforms"),
-        "boundary": ("periodic", "What is beyond the map"),
-        "absent_missing": (False, "Take missing points of the file for absent nodes, at which nothing faces the half-space, as around a punch or in a hole; in the files of results their gap is NaN and their pressures 0"),
-        "layer": (None, "Thickness of an elastic layer on a rigid base, in the place of a half-space; needs poisson"),
+        "boundary": ("periodic", "Surroundings of the map"),
+        "absent_missing": (False, "Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch or in a hole; in the files of results their gap is NaN and their pressures are 0"),
+        "layer": (None, "Thickness of an elastic layer on a rigid base, instead of a half-space; needs poisson"),
         "base": (None, "Hold of the base on the layer: bonded, or sliding without friction [default: bonded]"),
-        "coating": (None, "Thickness of an elastic coating on the half-space, of which modulus is that of the substrate; needs coating_modulus, coating_poisson and poisson"),
+        "coating": (None, "Thickness of an elastic coating on the half-space; modulus is then that of the substrate; needs coating_modulus, coating_poisson and poisson"),
         "coating_modulus": (None, "Contact modulus E/(1 - nu^2) of the coating, a pressure"),
         "coating_poisson": (None, "Poisson's ratio of the coating"),
-        "plate": (None, "Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space, of which modulus is that under it"),
+        "plate": (None, "Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; modulus is then that of the half-space"),
         "poisson": (None, "Poisson's ratio of the layer, or of the substrate under a coating"),
-        "against_modulus": (None, "Contact modulus E/(1 - nu^2) of the body on the other side, an elastic half-space [default: it is rigid]"),
-        "shift": (None, "Shift of the surface on the other side along x and y, any part of a node [default: 0 0]; negative ones with a unit are written --shift=-1um,0um"),
-        "whole": (False, "Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and force are those of the original"),
+        "against_modulus": (None, "Contact modulus E/(1 - nu^2) of the second body, an elastic half-space [default: it is rigid]"),
+        "shift": (None, "Shift of the second surface along x and y, also by parts of a node [default: 0 0]; write negative ones with a unit as --shift=-1um,0um"),
+        "whole": (False, "Give results on all nodes of a map that asperity prepare has mirrored; without it, fields, pictures, contact and force are those of the original"),
     },
     "Adhesion": {
-        "law": (None, "Adhesion law, over the gap g; asperity laws tells what each needs and where it is from"),
+        "law": (None, "Adhesion law, over the gap g; asperity laws lists the parameters and the source of each"),
         "work_of_adhesion": (None, "Work of adhesion, an energy per area; all that jkr needs"),
         "range": (None, "Range of adhesion, a length; for lennard-jones and van-der-waals the distance of the surfaces in contact"),
         "exponent": (None, "Exponent of the energy of a power law"),
@@ -171,7 +171,7 @@ KEYS: dict[str, dict[str, tuple[object, str]]] = {
         "cut_off": (None, "Gap at which a law that never ends is cut off, smoothly and with all of its work of adhesion"),
         "wall": ("hard", "What keeps the surfaces apart: a rigid wall, the repulsion of lennard-jones or morse alone, or springs"),
         "wall_stiffness": (None, "Stiffness of the springs of a penalty or uzawa wall, a pressure per length"),
-        "hardness": (None, "Hardness, a pressure that caps the contact pressure: the surface yields there and stays flattened"),
+        "hardness": (None, "Hardness, the greatest contact pressure: where it is reached, the surface yields and stays flattened"),
     },
     "Solver": {
         "method": ("default", "Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)"),
@@ -185,56 +185,56 @@ KEYS: dict[str, dict[str, tuple[object, str]]] = {
         "mean_gap": (None, "Mean gap that is held, a length; with a periodic boundary"),
         "mean_pressure": (None, "Mean external pressure that is held, over the area of the map, compression positive"),
         "normal_force": (None, "Normal force that is held, compression positive: the mean pressure times the area of the map"),
-        "approach": (None, "Approach that is held, with a free boundary: how far the bodies have moved towards each other since they would first touch undeformed; negative before"),
-        "spring_stiffness": (None, "Stiffness of a spring in series, as of a machine or a cantilever, force per length; needs spring_position"),
-        "spring_position": (None, "Position of the spring's far end: with a free boundary the approach D at which the spring is relaxed, F = K (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z)"),
+        "approach": (None, "Approach that is held, with a free boundary: how far the bodies have moved towards each other from the position of first touch without deformation; negative before it"),
+        "spring_stiffness": (None, "Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs spring_position"),
+        "spring_position": (None, "Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z - D); with a periodic one a mean gap, F = K (G - Z)"),
         "reduced_pressure": (None, "Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)"),
-        "contact_fraction": (None, "Share of the nodes that is to be in contact, to one node or 1 %: the mean pressure for it is searched for by some solves, with adhesion the mean gap, with a free boundary and adhesion the approach. If the contact jumps past it, the nearer side of the jump is written, and the exit code is 2"),
+        "contact_fraction": (None, "Share of the nodes in contact to search for, to one node or 1 %. Without adhesion the search varies the mean pressure, with adhesion the mean gap, and with adhesion and a free boundary the approach. If the contact jumps past the share, the nearer side of the jump is written, and the exit code is 2"),
     },
     "Loads": {
-        "mean_gaps": (None, "Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log, with commas between"),
-        "mean_pressures": (None, "Mean external pressures over the area of the map, compression positive: a list as for the gaps"),
-        "normal_forces": (None, "Normal forces, compression positive: a list as for the gaps"),
-        "approaches": (None, "Approaches, with a free boundary: how far the bodies have moved towards each other since they would first touch undeformed, negative before; a list as for the gaps. A list that grows from a negative one begins with the bodies apart"),
-        "spring_stiffness": (None, "Stiffness of a spring in series, as of a machine or a cantilever, force per length; needs spring_positions"),
-        "spring_positions": (None, "Positions Z of the spring's far end: with a free boundary the approach D at which the spring is relaxed, F = K (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z); a list as for the gaps. With a free boundary a list that grows from a negative one begins with the bodies apart"),
-        "reduced_pressures": (None, "Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list as for the gaps"),
+        "mean_gaps": (None, "Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log, separated by commas"),
+        "mean_pressures": (None, "Mean external pressures over the area of the map, compression positive: a list like that of the gaps"),
+        "normal_forces": (None, "Normal forces, compression positive: a list like that of the gaps"),
+        "approaches": (None, "Approaches, with a free boundary: how far the bodies have moved towards each other from the position of first touch without deformation, negative before it; a list like that of the gaps. A list that grows from a negative value begins with the bodies apart"),
+        "spring_stiffness": (None, "Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs spring_positions"),
+        "spring_positions": (None, "Positions Z of the spring's far end, at which the spring is relaxed: with a free boundary approaches, F = K (Z - D); with a periodic one mean gaps, F = K (G - Z); a list like that of the gaps. With a free boundary a list that grows from a negative value begins with the bodies apart"),
+        "reduced_pressures": (None, "Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list like that of the gaps"),
     },
     "Fractions": {
-        "contact_fractions": (None, "Shares of the nodes that are to be in contact: a list as for the gaps. The load of each is searched for as by asperity solve --contact-fraction, and the columns wanted_contact_fraction and reached are added"),
+        "contact_fractions": (None, "Shares of the nodes in contact to search for: a list like that of the gaps. The load of each is found like that of asperity solve --contact-fraction, and the table has two more columns, wanted_contact_fraction and reached"),
     },
     "Nested": {
-        "nested": (None, "Solve on coarser grids first, where these resolve the adhesion; the default where that is faster"),
+        "nested": (None, "Solve on coarser grids first, if these resolve the adhesion; the default if that is faster"),
     },
     "Findings": {
         "stability": (False, "Find out whether the solution is stable, and write its softest mode to mode.npy"),
-        "leave": (False, "Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies stability"),
+        "leave": (False, "Continue from an unstable equilibrium to one that is not, and say how far the energy falls; implies stability"),
         "stiffness": (False, "Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length"),
     },
     "Stiffness": {
         "stiffness": (False, "Find the contact stiffness under each load, in two more columns: contact_stiffness, how much the mean pressure grows with the approach, and normal_stiffness, how much the force does"),
     },
     "Conductor": {
-        "resistivities": (None, "Electrical resistivities of both half-spaces: with stiffness the electrical conductance of the contact per area, by Barber's identity, and its relative error, that of the grid included"),
+        "resistivities": (None, "Electrical resistivities of both half-spaces: with stiffness these give the electrical conductance of the contact per area, by Barber's identity, and its relative error, including that of the grid"),
         "conductivities": (None, "Thermal conductivities of both half-spaces: the same for heat"),
     },
     "Leakage": {
-        "leakage": (None, "Enclose the transmissivity of the gap along x and y under each load between two bounds, as asperity leak, in a table in columns transmissivity_x_lower and so on, as close as a share of the upper one [default: 1e-3 if leakage stands alone]"),
+        "leakage": (None, "Enclose the transmissivity of the gap along x and y under each load between two bounds, like asperity leak; in a table the columns are transmissivity_x_lower and so on. The value is the distance of the bounds as a share of the upper one [default: 1e-3 if leakage has no value]"),
     },
     "Accuracy": {
-        "accuracy": (None, "Relative error that is wanted, as 0.01: chooses the tolerance, solves on coarser grids too, and interpolates the surface on finer ones until the estimated error is as small; the results are on the finest grid"),
+        "accuracy": (None, "Relative error to reach, such as 0.01: chooses the tolerance, solves on coarser grids too, and interpolates the surface on finer ones until the estimated error is small enough; the results are on the finest grid"),
         "accuracy_of": (None, "Quantity that has the accuracy [default: area]"),
         "memory": (None, "Memory that accuracy may take, in GiB [default: all that is free]"),
     },
     "Path": {
         "steps": (50, "Least number of steps from one turning point to the next"),
         "smallest_step": (1e-4, "Step to which jumps are located, as a share of the way from one turning point to the next"),
-        "imbalance": (1e-4, "Imbalance of energy that a step may have, as a share of how much the energy has changed, and of twenty times what jumps have dissipated so far: jumps that are smaller are not located one by one"),
+        "imbalance": (1e-4, "Imbalance of energy that a step may have, as a share of the change of the energy so far and of twenty times what jumps have dissipated; smaller jumps are not located one by one"),
     },
     "PullOff": {
-        "preload": (None, "Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed flat, or were as branch or start says"),
+        "preload": (None, "Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed flat, unless branch or start says otherwise"),
         "rtol": (0.02, "Relative tolerance of the pull-off"),
-        "accuracy": (None, "Relative error of the pull-off that is wanted, as 0.05, with the law jkr: interpolates the surface on finer grids until the estimated error is as small"),
+        "accuracy": (None, "Relative error of the pull-off to reach, such as 0.05, with the law jkr: interpolates the surface on finer grids until the estimated error is small enough"),
         "memory": (None, "Memory that accuracy may take, in GiB [default: all that is free]"),
     },
 }

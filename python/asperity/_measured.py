@@ -1,4 +1,4 @@
-"""Descriptions whose numbers may be texts with a unit, as walls and bodies are."""
+"""Descriptions whose numbers may be strings with a unit, such as walls and bodies."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def contact_modulus(
     Returns
     -------
     float
-        In the unit of Young's modulus; a text in Pa if that is a text with a unit, as ``modulus`` takes it.
+        In the unit of Young's modulus; a string in Pa if that is a string with a unit, as ``modulus`` accepts it.
 
     Raises
     ------

@@ -24,7 +24,7 @@ def _pyplot() -> Any:
 
 
 def _scaled(values: Any, unit: str | None) -> tuple[float, str]:
-    """The factor for an axis with these values, and its unit: those of the SI get prefixes."""
+    """The factor for an axis with these values, and its unit: SI units get prefixes."""
     if unit not in ("m", "Pa", "N", "J/m²", "N/m"):
         return 1.0, unit or ""
     finite = np.abs(np.asarray(values, dtype=float))
@@ -196,7 +196,7 @@ def sweep(
     length_unit: str | None,
     pressure_unit: str | None,
 ) -> Axes:
-    """Contact fraction or mean gap over mean pressure, beside theories that have it."""
+    """Contact fraction or mean gap over mean pressure, with theories that have it."""
     if ax is None:
         _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
     pressure, found = columns["mean_pressure"], columns[name]

@@ -69,12 +69,12 @@ def prepare(
         Brings the scan lines of an AFM to one height: by the median of each line, by that of the differences from line
         to line, for large features, or by a polynomial of this order, subtracted from each line.
     scan_axis : {"x", "y"}
-        Direction of the scan lines. Where lines along the other one have by far the larger offsets, an `InputWarning`
-        says so. The rows of an image are along x if ``axes`` is "yx", and along y if it is not.
+        Direction of the scan lines. If lines along the other direction have by far the larger offsets, an
+        `InputWarning` says so. The rows of an image are along x if ``axes`` is "yx", and along y if it is not.
     remove_scars : bool or float
-        Replaces scars by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are all
-        higher, or all lower, than both lines beside them, by more than this many rms differences of neighbouring lines.
-        True is 0.667, at which rough surfaces have none.
+        Replaces scars by the heights around them. Scars are pieces of one to four scan lines, at least 16 nodes long,
+        that are everywhere higher, or everywhere lower, than both neighbouring lines, by more than this many rms
+        differences of neighbouring lines. True is 0.667, at which rough surfaces have none.
     despike : bool or float
         Threshold, in robust standard deviations of all nodes: a node that is farther than this from the median of the
         5 x 5 nodes around it is a spike, and gets that median. True is 10, which leaves the features of most surfaces.
@@ -90,7 +90,7 @@ def prepare(
         Continues the map by its mirror images: twice as many nodes along both axes. The map remembers its ``original``,
         and a solution has results of that part alone, unless it is asked for the ``whole``.
     cut_off_wavelength : float or str, optional
-        Leaves out the waves shorter than this, for example those that are noise: `surface.knee_wavelength` finds where
+        Removes the waves shorter than this, for example those that are noise: `surface.knee_wavelength` finds where
         noise begins. The map should be periodic by then.
     resample : (int, int), optional
         Numbers of nodes of the grid on which it is interpolated.
@@ -98,8 +98,8 @@ def prepare(
     Returns
     -------
     Topography
-        With a line in its ``log`` for each step, as the tool prints them. Probable mistakes, such as a code for
-        missing points that was left among the heights, come as an `InputWarning`.
+        With a line in its ``log`` for each step, like those that the program prints. Probable mistakes, such as a code
+        for missing points that was left among the heights, give an `InputWarning`.
 
     Examples
     --------

@@ -15,12 +15,12 @@ class PullOff(NamedTuple):
     Attributes
     ----------
     pressure : float or None
-        Greatest tension that was borne, over the area of the map; None if no state under a tension was found.
+        Greatest tension that the surfaces bore, over the area of the map; None if no state under a tension was found.
     force : float or None
         The force of that tension.
     limit_pressure, limit_force : float or None
-        Pull-off in the limit of no range that the state tells, with `JKR`: the tension less the share of the process zone
-        at the edges of the contacts, which the nodes make too wide.
+        Pull-off in the limit of zero range, with `JKR`: the tension less the share of the process zone at the edges of
+        the contacts, which the nodes make too wide.
     limit_error : float or None
         Estimated relative error of the limit, by a grid of half as many nodes along the sides.
     accuracy : float or None

@@ -19,7 +19,7 @@ _SPACED = re.compile(r"[^()\[\]]+(?:\([^()]*\)|\[[^\[\]]*\])")
 
 
 class ForceCurve(NamedTuple):
-    """The columns of a force curve, in the SI, as `fit_curve` takes them with the units "m" and "N".
+    """The columns of a force curve, in SI units, as `fit_curve` takes them with the units "m" and "N".
 
     Attributes
     ----------
@@ -185,7 +185,7 @@ def _chosen(path: Any, columns: list[tuple[str, str, Array]], key: str, given: s
 
 
 def _factor(key: str, unit: str) -> float | None:
-    """What a unit is in the SI, or None of another dimension."""
+    """What a unit is in SI units, or None of another dimension."""
     try:
         return _asperity.quantity(key, f"1{unit}") if unit else None
     except ValueError:

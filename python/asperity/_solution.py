@@ -31,8 +31,8 @@ class ContactStatistics(NamedTuple):
     contact_fraction : float
         Share of the nodes in contact.
     corrected_contact_fraction : float
-        Contact area within the edge that gap and contact pressure tell between the nodes; NaN where a surface has
-        yielded, of which they tell none.
+        Contact area within the contact edge, which gap and contact pressure locate between the nodes; NaN where a
+        surface has yielded, for which they cannot.
     perimeter : float
         Length of the edge of the contact along the sides of the cells.
     cluster_sizes : ndarray of int64
@@ -119,7 +119,7 @@ class Conductance(NamedTuple):
     whole : float
         Conductance 1/R of the whole map.
     relative_error : float or None
-        Relative error, the estimated one of the grid included; None where nested grids do not tell that.
+        Relative error, including the estimated error of the grid; None where nested grids do not give it.
     """
 
     per_area: float

@@ -213,9 +213,9 @@ def fourier(
 ) -> Topography:
     """Makes a periodic surface of its Fourier coefficients, Σ h(q) exp(2πi(qX x/Lx + qY y/Ly)).
 
-    The coefficients are as FFTW's inverse transform takes them: those of ``numpy.fft.rfft2(heights)`` over the number of
-    heights. A wave stands for its opposite too, with the complex conjugate; where both are given, they count once. The
-    file is that of the contact-mechanics challenge (Müser et al. 2017), a text of lines ``qX, qY, Re, Im``.
+    The coefficients are as FFTW's inverse transform takes them: those of ``numpy.fft.rfft2(heights)`` over the number
+    of heights. A wave stands for its opposite too, with the complex conjugate; where both are given, they count once.
+    The file is that of the contact-mechanics challenge (Müser et al. 2017), a text file of lines ``qX, qY, Re, Im``.
 
     Parameters
     ----------
@@ -225,7 +225,7 @@ def fourier(
         Numbers of nodes and side lengths, as of `self_affine`; the grid must have more than twice as many nodes along a
         side as a wave has periods.
     fourier_unit : float, optional
-        Length of which the coefficients are multiples; needed beside side lengths with a unit.
+        Length of which the coefficients are multiples; needed if the side lengths have a unit.
 
     Returns
     -------

@@ -47,10 +47,9 @@ class Sweep(Rows[Solution]):
         of : {"area", "gap"}
             Whether to draw the contact fraction, or the mean gap.
         theory : bool
-            Draws theories of the surface beside the numbers: `asperity.exact.Persson`, and
-            `asperity.exact.GreenwoodWilliamson` for the area. The area has then also the points of the
-            ``corrected_contact_fraction``, which compares with theories better than that of the nodes. Without adhesion,
-            on a half-space, with a periodic boundary.
+            Draws theories of the surface as well: `asperity.exact.Persson`, and `asperity.exact.GreenwoodWilliamson`
+            for the area. The area has then also the points of the ``corrected_contact_fraction``, which compares with
+            theories better than that of the nodes. Without adhesion, on a half-space, with a periodic boundary.
         length_unit, pressure_unit : str, optional
             Units for the axes.
 

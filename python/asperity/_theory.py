@@ -63,7 +63,7 @@ class Persson(_Theory):
     modulus : float
         Contact modulus E*, a pressure.
     spectrum : PowerSpectralDensity, optional
-        Power spectral density of the surface, which the mean gap needs; in the SI where the modulus has a unit.
+        Power spectral density of the surface, which the mean gap needs; in SI units if the modulus has a unit.
 
     Examples
     --------

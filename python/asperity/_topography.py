@@ -125,9 +125,9 @@ def read(
 ) -> Topography:
     """Reads a file of heights.
 
-    Files of instruments are read by SurfaceTopography, which ``pip install 'asperity[instruments]'`` brings:
-    Nanoscope, JPK, NT-MDT, Igor, Park, ISO 25178-72 (.x3p), Digital Surf, Keyence, Zygo, Wyko, Sensofar, Alicona,
-    NetCDF, HDF5 and others. Texts are read by asperity alone.
+    Files of instruments are read by SurfaceTopography, which ``pip install 'asperity[instruments]'`` brings: Nanoscope,
+    JPK, NT-MDT, Igor, Park, ISO 25178-72 (.x3p), Digital Surf, Keyence, Zygo, Wyko, Sensofar, Alicona, NetCDF, HDF5 and
+    others. Only asperity reads text files.
 
     Parameters
     ----------
@@ -135,12 +135,12 @@ def read(
         ``.npy``, ``.npz``, Gwyddion's ``.gwy``, ``.gsf`` or text, ``.xyz``, or a plain text matrix; the content decides.
         Or the file of an instrument, with that package.
     channel : int or str, optional
-        Channel of a ``.gwy`` file, of a text with several blocks of numbers, or of the file of an instrument, by number
-        or title; needed only if several have heights.
+        Channel of a ``.gwy`` file, of a text file with several blocks of numbers, or of the file of an instrument, by
+        number or title; needed only if several have heights.
     skip_lines : int
-        Number of lines at the start of a text that are left out, as a heading.
+        Number of lines to skip at the start of a text file, such as a heading.
     missing_words : str or list of str
-        Words of a text that stand for missing points, beside nan, NA, Bad, #N/A and the like.
+        Words of a text file that stand for missing points, besides nan, NA, Bad, #N/A and the like.
     masked : bool
         Whether the points under the mask of a ``.gwy`` file are missing.
 
@@ -148,8 +148,8 @@ def read(
     -------
     Topography
         In metres where the file has a unit of length; missing points are NaN. The first line of an image is that of the
-        largest y. The ``log`` names what stands beside the heights: other channels, a mask, and lines that may tell a size
-        and are not understood.
+        largest y. The ``log`` names what else the file contains: other channels, a mask, and lines that may give a size
+        but are not understood.
 
     Raises
     ------
@@ -174,7 +174,7 @@ def read(
         from . import _instruments
 
         return _instruments.read(source, channel, refused)
-    log = (f"beside: {', '.join(beside)}".replace("--masked", "masked=True"),) if beside else ()
+    log = (f"also in the file: {', '.join(beside)}".replace("--masked", "masked=True"),) if beside else ()
     return Topography(**made, source=source, log=log)
 
 
@@ -195,7 +195,7 @@ def from_topography(topography: HeightMap) -> Topography:
         name = type(topography).__name__
         raise TypeError(f"topography is a {name}: it must have heights() and physical_sizes")
     if not getattr(topography, "is_uniform", True):
-        raise ValueError("topography is not on a uniform grid: interpolate it first, as by its to_uniform()")
+        raise ValueError("topography is not on a uniform grid: interpolate it first, for example by its to_uniform()")
     heights, is_line = array_of(topography.heights())
     sizes = topography.physical_sizes
     lengths = None if sizes is None else _lengths(sizes[0] if is_line else tuple(sizes), heights.shape)
@@ -211,7 +211,7 @@ def plain(keys: dict[str, Any]) -> dict[str, Any]:
 def taken(
     heights: Heights, lengths: Any = None, axes: AxisOrder | None = None, si: bool | None = None
 ) -> Topography:
-    """The map of whatever holds heights, with the side lengths that are given for it; in metres beside units."""
+    """The map of whatever holds heights, with the side lengths that are given for it; in metres with units."""
     topography = found(heights, axes)
     if units.get() if si is None else si:
         topography = _in_metres(topography)
@@ -286,7 +286,7 @@ def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) 
     array: Any = values if masked else np.asarray(values)
     if array.dtype.names is not None:
         columns = ", ".join(array.dtype.names)
-        raise TypeError(f'{name} are a record array of {columns}: give one column, as a["{array.dtype.names[0]}"]')
+        raise TypeError(f'{name} are a record array of {columns}: give one column, such as a["{array.dtype.names[0]}"]')
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{name} are an array of {array.dtype}: they must be real numbers")
     if array.ndim == 3 and array.size > 0:

@@ -23,14 +23,14 @@ RemovedForm: TypeAlias = Literal["sphere", "cylinder"]
 Status: TypeAlias = Literal["converged", "iteration-limit", "stalled", "detached", "stopped"]
 
 Shape: TypeAlias = int | tuple[int, int]
-#: A number, or a text with a unit, as "70GPa".
+#: A number, or a string with a unit, such as "70GPa".
 Quantity: TypeAlias = float | str
 Lengths: TypeAlias = Quantity | tuple[Quantity, Quantity]
 Tilt: TypeAlias = float | tuple[float, float] | None
 
 
 class HeightMap(Protocol):
-    """A map of another package, as one of SurfaceTopography."""
+    """A map of another package, such as SurfaceTopography."""
 
     @property
     def physical_sizes(self) -> Any:
@@ -97,7 +97,7 @@ class GridError(TypedDict):
 
 
 class GridErrors(TypedDict):
-    """The estimated errors by the grid; None where one cannot be told, or is given."""
+    """The estimated errors of the grid; None where one is unknown, or its quantity is given."""
 
     area: GridError | None
     gap: GridError | None

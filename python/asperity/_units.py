@@ -1,4 +1,4 @@
-"""Quantities with a unit, as "70GPa": the numbers of a call in the SI."""
+"""Quantities with a unit, such as "70GPa": the numbers of a call in SI units."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _asperity
 
-#: Whether the numbers of the call that runs have units, and are in the SI.
+#: Whether the numbers of the call that runs have units, and are in SI units.
 given: ContextVar[bool] = ContextVar("given", default=False)
 
 #: Numbers of formulas alone, by names of the same dimension that the compiled core knows.
@@ -25,7 +25,7 @@ class Quantities:
         self._bare: dict[str, Any] = {}
 
     def read(self, key: str, value: Any) -> Any:
-        """The value of a keyword with numbers in the SI in the place of its texts with units."""
+        """The value of a keyword with numbers in SI units instead of its strings with units."""
         if value is None or isinstance(value, bytes) or not _asperity.has_dimension(_LIKE.get(key, key)):
             return value
         if isinstance(value, str):
@@ -50,7 +50,7 @@ class Quantities:
 
 
 def in_si(key: str, text: str) -> float:
-    """The number in the SI of a text with a unit."""
+    """The number in SI units of a string with a unit."""
     like = _LIKE.get(key, key)
     try:
         return _asperity.quantity(like, text)
@@ -74,4 +74,5 @@ def number(name: str, value: Any) -> float:
             return float(value)
     except (TypeError, ValueError):
         pass
-    raise TypeError(f"{name} is {value!r}: it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa")
+    units = "in units that fit the others, such as 70e9 for 70 GPa in Pa"
+    raise TypeError(f"{name} is {value!r}: it must be a number, {units}")

@@ -183,7 +183,7 @@ class Viscoelastic(Rows[Moment]):
         row["corrected_contact_fraction"] = solution.statistics.corrected_contact_fraction
         self.rows.append(self._row({**row, **self._moment._asdict()}))
         self._start = solution
-        # bodies that came apart under a force, or an observer that ended it, leave no state to go on from
+        # bodies that came apart under a force, or an observer that ended it, leave no state to continue from
         self._ended = solution.status in ("detached", "stopped")
         return self._moment
 

@@ -18,7 +18,10 @@ class AccuracyWarning(UserWarning):
 
 
 class InputWarning(UserWarning):
-    """A probable mistake in the heights, the units or the range of adhesion; the answer may be right all the same."""
+    """A probable mistake in the heights, the units or the range of adhesion; the answer may still be right.
+
+    The message begins with a code, which the page ``docs/program/warnings.md`` explains.
+    """
 
 
 def warn_of_input(found: dict[str, str]) -> None:

@@ -46,7 +46,7 @@ def _meant(word: str, known: Sequence[str]) -> str:
 def checked(function: Callable[P, R], module: str = "asperity") -> Callable[P, R]:
     """A function of the package, as users see it.
 
-    It reads quantities with units, and tells what a keyword may mean that it does not have.
+    It reads quantities with units, and suggests what an unknown keyword may mean.
     """
     known = tuple(inspect.signature(function).parameters)
 

@@ -1,11 +1,11 @@
-"""Exact solutions and theories, at many loads at once, to compare solves with.
+"""Exact solutions and theories, at many loads at once, for comparison with solves.
 
 A solution gives states at given loads, contact radii, approaches or mean gaps, of any shape; a state gives its numbers
 in that shape, and its fields at any places. Numbers beyond the range of a solution are a ``ValueError``. A theory of
 rough surfaces gives numbers over the mean pressure; it is an approximation.
 
-Parameters are numbers in any consistent units, or texts with units. With units all results are in the SI, and loads and
-places are texts, or numbers in the SI.
+Parameters are numbers in any consistent units, or strings with units. With units all results are in SI units, and loads
+and places are strings, or numbers in SI units.
 
 >>> import numpy as np
 >>> from asperity import exact
@@ -51,7 +51,7 @@ __all__ = [
 class _States:
     """States of a solution, with their numbers as properties."""
 
-    #: The numbers by which a state is told.
+    #: The numbers by which a state is printed.
     _told: ClassVar[tuple[str, ...]]
 
     def __init_subclass__(cls) -> None:

@@ -1,10 +1,10 @@
 # %% [markdown]
 # # The force–distance curve of an AFM tip
 #
-# A tip on a cantilever comes down on a sample, jumps into contact, is pressed, and is pulled off again. Jump-in and
-# pull-off are where no equilibrium is near any more: the cycle locates them, with the energy that they cost. Beside it
-# are the two limits of a sphere on a half-space: JKR, for a range of adhesion that is short beside the deformation, and
-# DMT, for one that is long.
+# A tip on a cantilever comes down on a sample, jumps into contact, is pressed, and is pulled off again. At jump-in and
+# pull-off there is no equilibrium nearby: the cycle locates them, with the energy that they cost. The curve is compared
+# with the two limits of a sphere on a half-space: JKR, for a range of adhesion that is short compared with the
+# deformation, and DMT, for a long one.
 
 # %%
 import matplotlib.pyplot as plt

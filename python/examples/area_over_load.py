@@ -1,5 +1,5 @@
 # %% [markdown]
-# # Contact area over load, beside Persson's curve
+# # Contact area over load, compared with Persson's theory
 #
 # Persson (2001): the contact fraction of a random surface under the mean pressure p̄ is erf(√2 p̄/(E* h'rms)).
 

@@ -29,14 +29,14 @@ pub fn has_dimension(key: &str) -> bool {
     dimension_of_key(key).is_some()
 }
 
-/// The number in the SI of a text with a unit.
+/// The number in SI units of a text with a unit.
 #[pyfunction]
 pub fn quantity(key: &str, text: &str) -> PyResult<f64> {
     let refused = |expected| PyValueError::new_err(format!("{key} is {text}: {expected}"));
     let dimension =
         dimension_of_key(key).ok_or_else(|| refused("it must be a number, which has no unit".to_owned()))?;
     let found = dimension.within(Range::FINITE)(text).map_err(refused)?;
-    let number = || refused(format!("give a number, or a text with a unit of {}", dimension.what));
+    let number = || refused(format!("give a number, or a string with a unit of {}", dimension.what));
     if found.has_unit { Ok(found.value) } else { Err(number()) }
 }
 

@@ -43,7 +43,7 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
     value.extract().map(Typed::Number).or_else(|_| {
         let value = value.repr()?;
         let message =
-            "it must be a number, in units that fit the others, as 70e9 for 70 GPa in Pa, or a text with a unit";
+            "it must be a number, in units that fit the others, such as 70e9 for 70 GPa in Pa, or a string with a unit";
         Err(PyTypeError::new_err(format!("{key} is {value}: {message}")))
     })
 }
@@ -73,7 +73,7 @@ impl Keywords {
     fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, is_si: bool) -> PyResult<Self> {
         let given = read(&known!(SurfaceKeys, AdhesionKeys, SolverKeys), keywords)?;
         let law = law.map(Law::of).transpose()?;
-        // numbers of a solution in the SI, beside texts, say nothing of units
+        // numbers of a solution in SI units, beside texts, say nothing of units
         let quantities = match is_si {
             true => Quantities::default(),
             false => Quantities::all([given.quantities(), law.as_ref().map(quantities).unwrap_or_default()]),
@@ -82,7 +82,7 @@ impl Keywords {
         Ok(Self { given, law, quantities })
     }
 
-    /// The numbers of a key, in the SI if they have units.
+    /// The numbers of a key, in SI units if they have units.
     fn numbers(&self, key: &str) -> Option<Vec<f64>> {
         self.given.numbers(key)
     }

@@ -38,7 +38,7 @@ pub struct Given {
 }
 
 impl Given {
-    /// The number that was typed, in the SI if it has a unit.
+    /// The number that was typed, in SI units if it has a unit.
     pub fn read(&mut self, key: &str, typed: Measure) -> PyResult<f64> {
         let value = match typed {
             Measure::Number(value) => {

@@ -25,7 +25,7 @@ pub fn meant(word: &str, known: Vec<String>) -> Option<String> {
 /// The exception of an error in the heights of a solve, in which missing points may be absent nodes.
 pub fn refusal_of_heights(error: Error) -> PyErr {
     let missing = matches!(error, Error::NotFinite { value, .. } if value.is_nan());
-    refused(error, if missing { ", or take them for absent nodes by absent_missing=True" } else { "" })
+    refused(error, if missing { ", or treat them as absent nodes by absent_missing=True" } else { "" })
 }
 
 /// The exception of an error in a map of works of adhesion, in which no point can be missing.
@@ -72,7 +72,7 @@ fn refused(error: Error, also: &str) -> PyErr {
             "give wall='none', or LennardJones(..., cut=True)",
         )
         .replace("or take a free half-space", "or boundary='free'")
-        .replace("as asperity_maps::fill does", "as by asperity.prepare(heights, lengths, fill=True)")
+        .replace("asperity_maps::fill", "asperity.prepare(heights, lengths, fill=True)")
         .replace(
             "choose one, by asperity prepare --channel NUMBER",
             "choose one, by asperity.read(path, channel=NUMBER)",

@@ -122,7 +122,7 @@ def test_an_interruption_says_what_stands(folders, command, ended):
     process.send_signal(ended)
     said = process.communicate(timeout=60)[1].decode()
     assert process.returncode == -ended
-    assert said.startswith("interrupted: 0 of 3 cases are done: the same command goes on") and said.count("\n") == 1
+    assert said.startswith("interrupted: 0 of 3 cases are done: the same command continues") and said.count("\n") == 1
     # the cases end with it
     sizes = [0, 1]
     while sizes[-1] != sizes[-2]:

@@ -57,10 +57,10 @@ def test_keys_are_those_of_objects(rough, objects, keys):
 
 def test_keys_beside_objects_that_have_them_are_refused(rough, law):
     for wrong, match in [
-        ({"law": law, "range": 1.0}, "range is given beside law"),
-        ({"body": asperity.Layer(0.1, 0.3), "poisson": 0.3}, "poisson is given beside body"),
-        ({"wall": asperity.Penalty(1.0), "wall_stiffness": 2.0}, "wall_stiffness is given beside wall"),
-        ({"spring": (1.0, 1.0), "spring_position": 2.0}, "spring_position is given beside spring"),
+        ({"law": law, "range": 1.0}, "range is given with law"),
+        ({"body": asperity.Layer(0.1, 0.3), "poisson": 0.3}, "poisson is given with body"),
+        ({"wall": asperity.Penalty(1.0), "wall_stiffness": 2.0}, "wall_stiffness is given with wall"),
+        ({"spring": (1.0, 1.0), "spring_position": 2.0}, "spring_position is given with spring"),
     ]:
         with pytest.raises(TypeError, match=match):
             asperity.solve(rough, modulus=1.0, **wrong)
@@ -226,7 +226,7 @@ def test_a_law_of_a_table_is_an_object(rough):
 
 def test_springs_have_their_positions_and_no_others(rough):
     contact = asperity.Contact(rough, modulus=1.0)
-    with pytest.raises(TypeError, match="spring_positions is given beside springs"):
+    with pytest.raises(TypeError, match="spring_positions is given with springs"):
         contact.sweep(springs=[(1.0, 0.1)], spring_positions=[0.05])
     with pytest.raises(ValueError, match="springs is empty"):
         contact.sweep(springs=[])

@@ -77,7 +77,7 @@ def test_numbers_have_units_or_none():
         ("modulus is 2000000000.0, without a unit, but radius 20nm has", lambda: exact.Hertz("20nm", 2e9)),
         ("radius is 20Pa: Pa is a unit of something else", lambda: exact.Hertz("20Pa", "2GPa")),
         ("load is 1nm: nm is a unit of something else", lambda: exact.Hertz("20nm", "2GPa").at_load("1nm")),
-        ("load is 2.0: give a number, or a text", lambda: exact.Hertz("20nm", "2GPa").at_load(["1nN", 2.0])),
+        ("load is 2.0: give a number, or a string", lambda: exact.Hertz("20nm", "2GPa").at_load(["1nN", 2.0])),
         ("load is 1nN, with a unit, but Hertz(radius=2, modulus=1) has", lambda: exact.Hertz(2.0, 1.0).at_load("1nN")),
         ("rms_slope is 1nm: it must be a number, which has no unit", lambda: exact.Persson("1nm", "1GPa")),
         ("rms_slope is 0: it must be positive", lambda: exact.Persson(0.0, 1.0)),

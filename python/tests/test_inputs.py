@@ -50,7 +50,7 @@ def test_missing_points_are_refused_with_the_remedy(rough):
     for missing in (heights, np.ma.masked_invalid(heights), np.ma.masked_array(rough.heights, np.isnan(heights))):
         with pytest.raises(ValueError, match=r"1 of 4096 nodes .* at index \[3, 5\].*asperity.prepare\(.*fill=True"):
             gap(missing)
-        with pytest.raises(ValueError, match="or take them for absent nodes by absent_missing=True"):
+        with pytest.raises(ValueError, match="or treat them as absent nodes by absent_missing=True"):
             gap(missing)
         filled = asperity.prepare(missing, 1.0, fill=True)
         assert filled.missing == 0 and np.isfinite(gap(filled, None)).all()
@@ -148,7 +148,7 @@ def test_texts_are_read_by_what_is_said_of_them(tmp_path):
     with pytest.raises(ValueError, match=r'2 channels \(0 "Topo", 1 "zurück"\).*asperity.read\(path, channel=NUMBER\)'):
         read(text)
     second = read(text, channel="zurück")
-    assert second.heights[0, 1] == 9e-9 and second.lengths == (3e-6, 2e-6) and second.log == ('beside: 0 "Topo"',)
+    assert second.heights[0, 1] == 9e-9 and second.lengths == (3e-6, 2e-6) and second.log == ('also in the file: 0 "Topo"',)
 
     words = "Height\nof a tip\n1 2 lost\n4 7 6\n"
     with pytest.raises(ValueError, match=r"asperity.read\(path, missing_words=...\), here \"lost\""):
@@ -159,7 +159,7 @@ def test_texts_are_read_by_what_is_said_of_them(tmp_path):
     assert tip.heights.shape == (2, 3) and np.isnan(tip.heights[0, 2])
     with pytest.raises(ValueError, match="has no masks"):
         read(words, masked=True)
-    assert read("# Weite: 3 um\n1 2\n3 4\n").log == ("beside: Weite: 3 um",)
+    assert read("# Weite: 3 um\n1 2\n3 4\n").log == ("also in the file: Weite: 3 um",)
 
 
 def test_coordinates_and_bytes_that_are_no_heights_are_told(rough):
@@ -442,7 +442,7 @@ def test_a_warning_of_scars_knows_whether_some_were_removed():
     assert (removed.scars_removed, left.scars_removed) == (0.667, 1000.0)
     asperity.solve(removed, modulus=1.0, mean_pressure=4e-3)
     raw = asperity.prepare(scan, 1.0)
-    for heights, remedy in ((raw, "remove them"), (left, "as prepare --remove-scars 1000 has left them")):
+    for heights, remedy in ((raw, "prepare --remove-scars --scan-axis"), (left, "--remove-scars below 1000")):
         with pytest.warns(asperity.InputWarning, match=f"scars: .*{remedy}"):
             asperity.solve(heights, modulus=1.0, mean_pressure=4e-3)
 

@@ -19,7 +19,7 @@ def frame():
 
 def test_a_record_array_is_refused_by_its_columns():
     table = np.zeros((NX, NY), [("z", float), ("q", np.float32)])
-    with pytest.raises(TypeError, match=r'heights are a record array of z, q: give one column, as a\["z"\]'):
+    with pytest.raises(TypeError, match=r'heights are a record array of z, q: give one column, such as a\["z"\]'):
         asperity.prepare(table)
     with pytest.raises(TypeError, match="start gaps are a record array"):
         asperity.solve(HEIGHTS, (3.0, 1.2), modulus=1.0, mean_gap=1.0, start=table)

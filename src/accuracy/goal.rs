@@ -131,7 +131,7 @@ impl Accuracy {
     /// [`Error::Value`] if the accuracy is not between 0 and 1, or the given tolerance is larger.
     pub fn tolerance(&self, settings: &Settings) -> Result<f64> {
         if !(self.target > 0.0 && self.target < 1.0) {
-            let (name, value, requirement) = ("accuracy", self.target, "between 0 and 1, as 0.01 for 1 %");
+            let (name, value, requirement) = ("accuracy", self.target, "between 0 and 1, such as 0.01 for 1 %");
             return Err(Error::Value { name, value, requirement });
         }
         let needed = (SHARE * self.target).min(LOOSEST);

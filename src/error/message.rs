@@ -15,7 +15,7 @@ impl fmt::Display for Error {
             }
             Self::NotFinite { name, count, nodes, first, value } => {
                 let remedy = if value.is_nan() {
-                    "fill missing points first, as asperity_maps::fill does"
+                    "fill missing points first, for example by asperity_maps::fill"
                 } else {
                     "an infinite value is not a missing point; correct it where it comes from"
                 };
@@ -112,7 +112,7 @@ impl Breach {
                 (Some(other), " as the derivative of the traction: correct one of the two")
             }
             Self::Derivative(other) => (Some(other), " as the derivative of the energy: correct one of the two"),
-            Self::Zero => (None, ": it must be 0, as the law is zero by its `hints`"),
+            Self::Zero => (None, ": it must be 0, since the law is zero by its `hints`"),
             Self::Concave(other) => (Some(other), " at a smaller one: the energy is not concave, as its `hints` say"),
             Self::Jump(other) => (
                 Some(other),

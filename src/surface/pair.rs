@@ -59,7 +59,7 @@ impl Surface {
         if (x.1, y.1) != (0.0, 0.0) {
             if absent.is_some() {
                 let (name, value) = if x.1 == 0.0 { ("shift along y", sy) } else { ("shift along x", sx) };
-                let requirement = "a whole number of nodes, as the other surface has absent nodes";
+                let requirement = "a whole number of nodes, since the other surface has absent nodes";
                 return Err(Error::Value { name, value, requirement });
             }
             facing = by_lines(facing, |lines| shifted(lines, x.1), |lines| shifted(lines, y.1));

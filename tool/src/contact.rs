@@ -23,12 +23,12 @@ use crate::units::Units;
 
 /// Tabulate and chart the contact of a solve.
 ///
-/// Distributions of gap and contact pressure, the autocorrelation of the pressure, and clusters. SOLVED is the folder
-/// of a solve, of which gap.npy, contact_pressure.npy and report.json are taken. Near the edge of the contact the
-/// densities of gap and contact pressure are powers of them, of -1/3 and 1 at a hard wall without adhesion; the
-/// exponents are told in a window above the nodes at the edge itself, whose density the grid makes uniform, and not
-/// where the nodes do not reach that near. The autocorrelation of the contact pressure is about its mean and over its
-/// variance, in a periodic cell.
+/// The tables are the distributions of gap and contact pressure, the autocorrelation of the pressure, and the clusters.
+/// SOLVED is the folder of a solve, from which gap.npy, contact_pressure.npy and report.json are read. Near the edge of
+/// the contact the densities of gap and contact pressure are powers of them, with the exponents -1/3 and 1 at a hard
+/// wall without adhesion. The exponents are determined in a window above the values of the nodes next to the edge,
+/// whose density is an artefact of the grid; if no window fits, they are unknown. The autocorrelation of the contact
+/// pressure is about its mean and over its variance, in a periodic cell.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {

@@ -18,18 +18,18 @@ use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 
 /// Follow the contact along a cycle of approach and withdrawal, and find its jumps.
 ///
-/// Numbers may have units, all of them or none, as in asperity solve. The loads are the turning points, at least two:
-/// the first is the start, and from each to the next the tool goes in adaptive steps, an approach or a withdrawal. A
-/// withdrawal ends once the surfaces are apart, where they neither touch nor attract each other. Where the state jumps,
-/// the step is halved down to a given share of the way, which locates the jump and the energy that it dissipates. A
-/// limit point is the greatest or least load of a branch; a cycle along pressures or forces goes on beyond it at given
-/// mean gaps (with a free boundary at given approaches). Each state gives a row of the file, with the columns of
-/// asperity sweep, the work done by the load so far and the energy dissipated in jumps so far, per area, the imbalance
-/// of energy, and the event on the way to it: jump-in, jump-out, pull-off, limit-point, bifurcation. With a hardness
-/// the surface keeps its plastic depth, and the balance has the energy that yielding dissipates. The same command again
-/// continues an interrupted cycle; for that it keeps FILE.state beside the file, which may be deleted at the end.
-/// FILE.scene.toml beside it repeats or continues the cycle by asperity run. Exits with 0 if all rows converged, 2 if
-/// not, and 1 if the input is refused or a file cannot be written.
+/// Numbers may have units, all of them or none, like those of asperity solve. The loads are the turning points, at
+/// least two: the first is the start, and the program goes from each to the next in adaptive steps, on approach or
+/// withdrawal. A withdrawal ends once the surfaces neither touch nor attract each other. Where the state jumps, the
+/// step is halved down to a given share of the way, which locates the jump and the energy that it dissipates. A limit
+/// point is the greatest or least load of a branch; beyond it, a cycle along pressures or forces continues at given
+/// mean gaps (with a free boundary at given approaches). Each state gives a row of the file. It has the columns of
+/// asperity sweep, the work of the load and the energy dissipated in jumps so far, the imbalance of energy (all per
+/// area), and the event on the way to it: jump-in, jump-out, pull-off, limit-point, bifurcation. With a hardness the
+/// surface keeps its plastic depth, and the balance has the energy that yielding dissipates. The same command continues
+/// an interrupted cycle; for that it keeps FILE.state next to the file, which may be deleted at the end. asperity run
+/// FILE.scene.toml repeats or continues the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is
+/// refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
@@ -39,12 +39,12 @@ pub struct Options {
     /// File for the rows, .csv or .jsonl (one JSON object per line)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
-    /// Folder for the fields at the jumps, made if needed: of the rows with an event, of those before them, and of the
-    /// last row, gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy and so on
+    /// Folder for the fields at the jumps, made if needed: gap-0001.npy, pressure-0001.npy, contact_pressure-0001.npy
+    /// and so on, for the rows with an event, the rows before them, and the last row
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     fields: Option<PathBuf>,
-    /// File for a picture of the mean pressure over the mean gap, with a free boundary of the normal force over the
-    /// approach, with jumps as dashed lines, .png, .svg or .pdf
+    /// File for a picture of the mean pressure over the mean gap, or with a free boundary of the normal force over the
+    /// approach, with jumps as dashed lines; .png, .svg or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -94,7 +94,7 @@ impl Fill for Options {
             self.manner.printing.say(&format!("{:>4}  {}{event}", table.session.rows(), table.brief(&row.account)));
         }
         self.conclude(table)?;
-        Ok(table.converged("or use a larger --tolerance"))
+        Ok(table.converged("or --tolerance"))
     }
 }
 

@@ -31,8 +31,8 @@ use crate::{Command, Tool, parsed};
 
 /// Press a built-in rough surface, without and with adhesion at the same load.
 ///
-/// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files. Beside the maps it
-/// writes scene.toml, with which asperity run does the case with adhesion again: something to change and to try.
+/// Prints a table and writes maps of the heights, the contact and the pressure. Needs no files. Also writes scene.toml:
+/// asperity run repeats the case with adhesion from it, for you to change and try.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {

@@ -57,7 +57,7 @@ pub fn with_sides(path: &Path, map: Topography, given: &Given, si: bool) -> Outc
     Ok((map, origin))
 }
 
-/// The map of a file, in the SI in metres, and the unit from which it was converted.
+/// The map of a file, in metres if numbers are in SI units, and the unit from which it was converted.
 pub fn map_in(si: bool, path: &Path) -> Outcome<(Topography, Option<String>)> {
     in_metres_if(si, path, read_topography(path)?)
 }
@@ -72,7 +72,7 @@ pub fn check_room((nx, ny): (usize, usize)) -> Outcome<()> {
     Ok(())
 }
 
-/// A map, in the SI in metres, and the unit from which it was converted.
+/// A map, in metres if numbers are in SI units, and the unit from which it was converted.
 fn in_metres_if(si: bool, path: &Path, map: Topography) -> Outcome<(Topography, Option<String>)> {
     let unit = map.unit.clone().filter(|unit| si && unit != LENGTH.si);
     Ok((if si { converted(path, map, LENGTH.si)? } else { map }, unit))
@@ -132,7 +132,7 @@ fn sides_of(
 ) -> Outcome<Option<(f64, f64)>> {
     let given = given.lengths(shape);
     if si && map.lengths.is_none() && given.is_none() {
-        let text = "the numbers have units, but nothing says how large the map is: give --lengths, as 20um";
+        let text = "the numbers have units, but nothing says how large the map is: give --lengths, such as 20um";
         return Err(format!("{}: {text}", path.display()).into());
     }
     let mut known = map.lengths;
@@ -172,7 +172,7 @@ pub fn warn_of_unread(path: &Path, map: &Topography, are: &str, warn: Warn<'_>) 
         let names: Vec<_> = map.unread.iter().take(MOST_NAMES).map(|name| format!("{name:?}")).collect();
         let more = if map.unread.len() > MOST_NAMES { ", ..." } else { "" };
         let text = format!(
-            "{} has no side lengths that are understood, and beside its heights {}{more}: the side lengths {are}; give \
+            "{} has no side lengths that are understood, and besides its heights {}{more}: the side lengths {are}; give \
              --lengths, or name their array lengths",
             path.display(),
             names.join(", ")
@@ -193,7 +193,7 @@ pub fn surface_or_absent(path: &Path, mut map: Topography, absent: bool, warn: W
     let infinite = map.heights.iter().any(|h| h.is_infinite());
     let missing = !infinite && map.missing() > 0;
     if !missing || !absent {
-        let remedy = if missing { ", or take them for absent nodes by --absent-missing" } else { "" };
+        let remedy = if missing { ", or treat them as absent nodes by --absent-missing" } else { "" };
         check_complete(path, &map).map_err(|error| format!("{error}{remedy}"))?;
     }
     let surface = if missing { map.surface_with_absent() } else { map.surface() };

@@ -49,9 +49,15 @@ pub fn meant_by(command: &Command, name: &str, dashes: &str) -> Option<String> {
     Some(format!("did you mean '{dashes}{meant}', {}{rest}{values}?", first.to_lowercase()))
 }
 
+/// What no command computes.
+const NEVER: [&str; 6] = ["friction", "friction-coefficient", "shear", "wear", "hardening", "temperature"];
+
 /// For a name that is no option of a command.
 fn of_option(tool: &Command, command: &Command, word: &str) -> Vec<String> {
     let name = word.trim_start_matches('-');
+    if NEVER.contains(&name) {
+        return vec![format!("asperity knows no {name}, docs/more/limits.md lists what it does not do")];
+    }
     let has = |command: &&Command| find(command, name).is_some();
     let others: Vec<_> = tool.get_subcommands().filter(has).map(Command::get_name).collect();
     let positional = command.get_positionals().find(|option| option.get_id() == name);

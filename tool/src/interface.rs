@@ -21,13 +21,13 @@ use crate::table::{Fill, Manner, Table, TableOptions};
 
 /// Tabulate the law of an interface over the load, for finite elements.
 ///
-/// Solves as asperity sweep does, and writes a row for each load: the mean pressure, the mean gap, the closure, which
-/// is the approach of the mean planes since the undeformed surfaces first touched, the contact area, the contact
-/// stiffness, which is the slope of the pressure over the closure, with its relative error, and with --resistivities,
-/// --conductivities or --leakage conductance and transmissivity. --for adds files that a code of finite elements reads,
-/// beside the table: pressure over closure, conductance and transmissivity over pressure, from no pressure on. With
-/// adhesion the rows are those of one branch, and one of them needs a pressure of zero, or less. Exits with 0 if all
-/// rows converged, 2 if not (then there is the table alone), and 1 if the input is refused.
+/// Solves like asperity sweep, and writes a row for each load: the mean pressure, the mean gap, the closure, the
+/// contact area, and the contact stiffness with its relative error. The closure is the approach of the mean planes
+/// since the undeformed surfaces first touched, and the stiffness is the slope of the pressure over the closure.
+/// --resistivities, --conductivities and --leakage add conductance and transmissivity. --for adds files that a
+/// finite-element code reads: pressure over closure, and conductance and transmissivity over pressure, from zero
+/// pressure on. With adhesion the rows are those of one branch, and one of them needs a pressure of zero or less. Exits
+/// with 0 if all rows converged, 2 if not (then only the table is written), and 1 if the input is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
@@ -37,7 +37,7 @@ pub struct Options {
     /// File for the table, .csv
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
-    /// Codes to write files for, beside the table and named as it is: law.inp; law.pressure.txt and
+    /// Codes to write files for, next to the table and named after it: law.inp; law.pressure.txt and
     /// law.conductance.txt; law.pressure.csv and law.conductance.csv
     #[arg(long = "for", value_enum, value_name = "CODE", value_delimiter = ',', help_heading = "Output")]
     codes: Vec<Code>,
@@ -102,9 +102,9 @@ impl Options {
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
         let rows = table.solve()?;
-        let converged = table.converged("or use a larger --tolerance or finer steps");
+        let converged = table.converged("or --tolerance");
         if !converged && !self.codes.is_empty() {
-            complain("warning", "there are no files --for codes of finite elements, as rows have not converged");
+            complain("warning", "there are no files --for finite-element codes, since rows have not converged");
         }
         table.first(|| {
             let written = if converged { self.write(&rows, table)? } else { Vec::new() };

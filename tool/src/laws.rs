@@ -18,8 +18,8 @@ use crate::scene::SceneFile;
 
 /// List the adhesion laws, with formula, parameters and source.
 ///
-/// Tractions are over the gap g, attraction positive. Gaps count from the wall; without one, for lennard-jones from
-/// where the law is singular, and for morse from where it is at rest. With a law only that one is listed, and --plot
+/// Tractions are over the gap g, attraction positive. Gaps count from the wall. Without a wall, those of lennard-jones
+/// count from its singularity, and those of morse from its equilibrium. With a law only that one is listed, and --plot
 /// draws it.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]

@@ -26,16 +26,16 @@ use crate::units::Units;
 
 /// Find out whether a gap is open from side to side, and how much leaks through it.
 ///
-/// GAP is the folder of a solve, of which gap.npy, the side lengths and the boundary are taken, or a file of gaps: open
-/// where they are positive, closed elsewhere. The flow is that of Reynolds' equation, and its transmissivity Q times
-/// viscosity over pressure, a length cubed, is enclosed between two bounds: that of any pressure, and that of any flow
-/// that is conserved. Along each axis the constriction is told, the narrowest place of the widest passage. Exits with 0
-/// if the bounds are as close as --tolerance, 2 if not (they hold all the same), and 1 if the input is refused.
+/// GAP is the folder of a solve, from which gap.npy, the side lengths and the boundary are read, or a file of gaps:
+/// open where they are positive, closed elsewhere. The flow obeys Reynolds' equation. Its transmissivity, the flow
+/// times the viscosity over the pressure, a length cubed, lies between two bounds: that of any pressure, and that of
+/// any conserved flow. The constriction along each axis is the narrowest place of the widest passage. Exits with 0 if
+/// the distance of the bounds is within --tolerance, 2 if not (they still hold), and 1 if the input is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Folder of a solve, or a file of gaps, shape (Nx, Ny): .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, or a text
-    /// matrix. Gaps are distances of the surfaces; heights are refused by their negative values
+    /// matrix. Gaps are distances of the surfaces; heights are refused because of their negative values
     #[arg(value_name = "GAP")]
     gap: PathBuf,
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub struct Options {
     leak: Chosen<LeakKeys>,
 
     /// Folder for report.json, scene.toml, and for each axis along which the gap is open pressure_x.npy (relative to
-    /// the pressure that falls), flow_x.npy (per width, over pressure and times viscosity, a length squared), and
+    /// the pressure drop), flow_x.npy (per width, over the pressure and times the viscosity, a length squared), and
     /// flow_x.png with the widest passage
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     out: Option<PathBuf>,

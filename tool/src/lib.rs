@@ -71,10 +71,11 @@ use crate::processes::{Processes, is_elsewhere};
 use crate::scene::SceneFile;
 use crate::session::Strictness;
 
-/// Frictionless normal contact of rough surfaces, with adhesion.
+/// Compute how rough surfaces touch and stick.
 ///
-/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, in a periodic cell or with a
-/// free boundary, by an FFT-based boundary element method, and says how accurate they are.
+/// Finds the gap and the pressure between an elastic half-space and a rigid rough surface, with or without adhesion,
+/// and says how accurate they are. The contact is normal and frictionless, in a periodic cell or with a free boundary.
+/// The method is an FFT-based boundary element method.
 #[derive(Parser)]
 #[command(name = "asperity", version, after_help = EXAMPLES, max_term_width = 100)]
 struct Tool {

@@ -49,7 +49,7 @@ impl ProblemOptions {
         Ok(Self { given, scene, files })
     }
 
-    /// Reads the files, with all in metres if numbers are in the SI, of fields the rows that this process holds, and
+    /// Reads the files, with all in metres if numbers are in SI units, of fields the rows that this process holds, and
     /// starts the threads.
     pub fn read(&self, si: bool, processes: &Processes) -> Outcome<Problem> {
         self.with(None, si, processes, &mut warn)

@@ -32,16 +32,17 @@ pub use of_table::draw_loads;
 /// Put the results of a run on one page for a browser.
 ///
 /// RESULTS is the folder of a solve, a pull-off, a leakage or a contact, or the table of a sweep, a cycle, an interface
-/// or a study. The page has the figures, the warnings, maps that can be zoomed, curves, the scene that repeats the run,
-/// and how to cite. It is one file, which loads nothing from elsewhere: for a colleague, or next to the data. Maps and
-/// curves are drawn from the files in the folder, those of a solve from gap.npy, pressure.npy and contact_pressure.npy.
+/// or a study. The page shows the numbers, the warnings, maps that can be zoomed, curves, the scene that repeats the run,
+/// and how to cite. It is one file, which loads nothing from elsewhere, to send to a colleague or to keep with the data.
+/// Maps and curves are drawn from the files in the folder, those of a solve from gap.npy, pressure.npy and
+/// contact_pressure.npy.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
     /// Folder of results, or table of a sweep, a cycle, an interface or a study
     #[arg(value_name = "RESULTS")]
     results: PathBuf,
-    /// File for the page [default: report.html in the folder, or beside the table]
+    /// File for the page [default: report.html in the folder, or FILE.html next to the table]
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: Option<PathBuf>,
     /// Replace a page that is there

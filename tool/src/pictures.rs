@@ -60,8 +60,8 @@ pub struct Resolution {
 /// The colours of the maps of contact and pressure.
 #[derive(Args, Clone, Default)]
 pub struct MapColours {
-    /// Pressures at the ends of the colour bar, as for pictures that are to be compared; with adhesion that of the
-    /// largest tension, negative, and that of the largest compression [default: as far as most of the load is carried]
+    /// Pressures at the ends of the colour bar, for pictures that are to be compared; with adhesion the largest
+    /// tension, negative, and the largest compression [default: as far as most of the load is carried]
     #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, allow_hyphen_values = true)]
     #[arg(value_parser = PRESSURE.within(Range::FINITE), help_heading = "Output")]
     colour_limits: Option<Vec<Quantity>>,
@@ -81,7 +81,7 @@ impl MapColours {
         self.colour_clusters.then_some(sides_meet)
     }
 
-    /// Whether the limits have a unit, and are in the SI.
+    /// Whether the limits have a unit, and are in SI units.
     pub fn has_unit(&self) -> bool {
         self.colour_limits.iter().flatten().any(|limit| limit.has_unit)
     }

@@ -12,15 +12,16 @@ use serde_json::json;
 use crate::heights::{check_room, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::output::OutputFile;
-use crate::printing::{Printing, aligned, complain, in_options, name, say, warn};
+use crate::printing::{Printing, aligned, in_options, name, say, warn};
 use crate::scene::SceneFile;
+use crate::session;
 
 /// Make a measured map into a surface that can be solved.
 ///
 /// A measurement has missing points, a tilt, and edges that do not meet; a surface that is solved is complete and
-/// periodic. Nothing is done that is not asked for, and each step prints a line; FILE.scene.toml beside the result
-/// repeats the steps. Whatever the order of the options, the steps are: --lengths, --missing, --scale, --unit, --crop,
-/// --flip, --align-rows, --remove-scars, --despike, --remove-form, --detrend, --fill, --window or --mirror,
+/// periodic. Only the steps that you choose are done, and each prints a line. FILE.scene.toml next to the result
+/// repeats them. Whatever the order of the options, the order of the steps is --lengths, --missing, --scale, --unit,
+/// --crop, --flip, --align-rows, --remove-scars, --despike, --remove-form, --detrend, --fill, --window or --mirror,
 /// --cut-off-wavelength, --resample.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
@@ -30,16 +31,17 @@ pub struct Options {
     #[arg(value_name = "IN")]
     input: PathBuf,
 
-    /// Channel of a .gwy file, or of a text with several blocks, by its number or its title, if several have heights
+    /// Channel of a .gwy file, or of a text file with several blocks, by its number or its title, if several have
+    /// heights
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
-    /// Lines at the start of a text that are left out, as a heading
+    /// Number of lines to skip at the start of a text file, such as a heading
     #[arg(long, value_name = "LINES", default_value_t = 0, hide_default_value = true)]
     skip_lines: usize,
-    /// Word of a text that stands for missing points, beside nan, NA, Bad, #N/A and the like; may be repeated
+    /// Word of a text file that stands for missing points, besides nan, NA, Bad, #N/A and the like; may be repeated
     #[arg(long, value_name = "WORD")]
     missing_word: Vec<String>,
-    /// Takes the points under the mask of a .gwy file for missing
+    /// Treat the points under the mask of a .gwy file as missing
     #[arg(long)]
     masked: bool,
 
@@ -123,7 +125,7 @@ fn prepared(options: &Options, si: bool, log: &mut Log) -> Outcome<Topography> {
         warn_of_unread(&options.input, &map, "stay unknown", &mut warn);
     }
     let map = steps.run(map, log);
-    log.warnings.iter().for_each(|warning| complain("warning", &warning.to_string()));
+    session::say(&log.warnings);
     map.map_err(|error| match error {
         Error::NotFinite { count, nodes, .. } => {
             format!("{}: {nodes} heights, {count} missing: add --fill", options.input.display()).into()

@@ -15,10 +15,10 @@ use crate::outcome::Outcome;
 /// The form of standard output: a table, JSON or nothing.
 #[derive(Args, Clone, Copy)]
 pub struct Printing {
-    /// Print no table and no progress, nothing but warnings
+    /// Print no table and no progress, only warnings
     #[arg(long, help_heading = "Output")]
     quiet: bool,
-    /// Print the report as one JSON document, and nothing else; its keys are in the documentation, on the page reports
+    /// Print the report as one JSON document, and nothing else; the page reports of the documentation explains its keys
     #[arg(long, help_heading = "Output")]
     json: bool,
 }

@@ -15,13 +15,13 @@ use crate::study;
 
 /// Do what a scene file says.
 ///
-/// A scene is a TOML file with the name of a command (solve, sweep, cycle, pull-off, interface, contact, leak,
-/// prepare, surface, stats or demo) and its options by their long names, without the hyphens in front. Numbers, words and lists are
-/// written as TOML has them, an option without a value is set by true. Options may stand in sections, named as in the
-/// help of the command. File names are relative to the scene. Options after the name of the scene replace those in it,
-/// and the side lengths of a file of heights after it those in the scene.
+/// A scene is a TOML file with the name of a command (solve, sweep, cycle, pull-off, interface, contact, leak, prepare,
+/// surface, stats or demo) and its options by their long names, without the hyphens in front. Numbers, words and lists
+/// are written in TOML; an option without a value is set to true. Options may be in sections with the names of the help
+/// of the command. File names are relative to the scene. Options after the name of the scene replace those in it. So do
+/// the side lengths of a file of heights that is given there.
 ///
-/// Every run leaves a scene that repeats it: scene.toml in a folder of results, FILE.scene.toml beside a file.
+/// Every run writes a scene that repeats it: scene.toml in a folder of results, or FILE.scene.toml next to a file.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -47,7 +47,7 @@ const EXAMPLES: &str = "\
     asperity solve --heights heights.npy --mean-gap 0.04 --out results
     asperity run results/scene.toml --out again
     asperity run results/scene.toml --mean-gap 0.03 --out closer
-  Go on with a sweep that was interrupted:
+  Continue an interrupted sweep:
     asperity sweep --heights heights.npy --mean-gaps 0.05:0.04:3 --out sweep.csv
     asperity run sweep.csv.scene.toml";
 
@@ -68,7 +68,7 @@ impl Arguments {
         let mut table = document(&path)?;
         if let Some(section) = study::SECTIONS.iter().find(|section| table.contains_key(**section)) {
             let file = path.display();
-            return Err(refuse(format!("has [{section}], as a study: solve it by 'asperity study {file}'")).into());
+            return Err(refuse(format!("has [{section}] like a study: solve it by 'asperity study {file}'")).into());
         }
         let name = match table.remove("command") {
             Some(Value::String(name)) if COMMANDS.contains(&name.as_str()) => name,

@@ -59,7 +59,7 @@ impl SceneFile {
         Self { command: command.get_name().to_owned(), entries, quantities }
     }
 
-    /// Whether quantities have units; then all numbers are in the SI.
+    /// Whether quantities have units; then all numbers are in SI units.
     pub fn is_si(&self) -> bool {
         self.quantities.is_si()
     }

@@ -22,11 +22,11 @@ use crate::threads;
 
 /// Solve contacts whose solution is known, and compare.
 ///
-/// Shows in some seconds, without files, that this program finds on this machine what theory says: the sphere of Hertz,
-/// that of Maugis and Dugdale, and the waves of Westergaard and Johnson, in f64 and f32; and that a rough contact comes
-/// out the same, bit for bit, from one thread and from all. Lengths are in periods of the surface, pressures in contact
-/// moduli. What each difference may be is in the documentation, on the page self-test. Exits with 0 if all holds, and 2 if
-/// something does not.
+/// Checks in some seconds, without files, that this program agrees with theory on this machine: for the sphere of
+/// Hertz, that of Maugis and Dugdale, and the waves of Westergaard and Johnson, in f64 and f32. A rough contact must
+/// also come out the same, bit for bit, on one thread and on all. Lengths are in periods of the surface, and pressures
+/// in contact moduli. The page self-test of the documentation explains the allowed differences. Exits with 0 if all
+/// checks hold, and 2 if one does not.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -221,7 +221,7 @@ fn rough() -> Outcome<Vec<Check>> {
     let ((double, of_double), (single, of_single)) = (on_threads::<f64>(&contact)?, on_threads::<f32>(&contact)?);
     let mut checks: Vec<_> = of_double.into_iter().chain(of_single).collect();
     let gaps = [single.mean_gap, double.mean_gap, single.tolerance * double.mean_gap];
-    checks.push(Check::of(&single, "rough contact, mean gap in f32 beside f64", gaps));
+    checks.push(Check::of(&single, "rough contact, mean gap in f32 against f64", gaps));
     Ok(checks)
 }
 

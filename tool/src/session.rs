@@ -1,6 +1,8 @@
 //! The session of a command, and its warnings as it says them.
 
-use asperity_scene::{Input, Session, Skin};
+use std::io::{self, IsTerminal};
+
+use asperity_scene::{Input, Session, Skin, Told};
 use clap::Args;
 
 use crate::options::{Problem, ProblemOptions, Scalar};
@@ -11,20 +13,29 @@ use crate::report;
 use crate::scene::SceneFile;
 use crate::warnings::Warnings;
 
-/// The code of the warning that rows have not converged; it stands before the message, as those of all warnings do.
+/// The code of the warning that rows have not converged, which precedes its message.
 pub const UNCONVERGED: &str = "unconverged";
 
 /// Whether warnings are errors.
 #[derive(Args, Clone, Copy, Default)]
 pub struct Strictness {
-    /// Take warnings for errors: refuse input with a probable mistake in it, and write no solution with one
+    /// Treat warnings as errors: refuse input with a probable mistake, and write no solution with one
     #[arg(long, help_heading = "Output")]
     strict: bool,
 }
 
 /// Says the warnings that were not said before.
 pub fn say_new(warnings: &mut Warnings) {
-    warnings.tell().iter().for_each(|told| complain("warning", &told.to_string()));
+    say(warnings.tell());
+}
+
+/// Says warnings, and on a terminal where their codes are explained.
+pub fn say(warnings: &[Told]) {
+    warnings.iter().for_each(|told| complain("warning", &told.to_string()));
+    let codes: Vec<_> = warnings.iter().map(|told| told.code.as_str()).collect();
+    if !codes.is_empty() && io::stderr().is_terminal() {
+        complain("note", &format!("docs/program/warnings.md explains {}", codes.join(", ")));
+    }
 }
 
 /// The session of a problem, with what was read of its files.

@@ -30,13 +30,14 @@ use crate::summary::{table, warn};
 
 /// Solve a contact problem under one load.
 ///
-/// Either all numbers have units, as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m, or none has, and then any consistent units
-/// will do. With units all results are in the SI, and heights of a file that names no unit are in m. The folder gets
-/// gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
-/// part), with a hardness plastic_depth.npy, or files as --format says, report.json, contact.png and pressure.png (or
-/// .svg, .pdf), and scene.toml, which repeats the run; all of them or none. Exits with 0 if converged, 2 if not (the
-/// fields are written all the same), and 1 if the input is refused or the files cannot be written (then there are
-/// none). Probable mistakes, as a tilt, are warnings, on a line each and in the report; --strict takes them for errors.
+/// Either all numbers have units, such as 70GPa, 20um, 50mJ/m2, 5nN or 40N/m, or none has, and then any consistent
+/// units will do. With units all results are in SI units, and heights of a file that names no unit are in m. The folder
+/// gets gap.npy, pressure.npy (the full elastic pressure, compression positive) and contact_pressure.npy (its repulsive
+/// part), and with a hardness plastic_depth.npy; --format chooses other files. It also gets report.json, contact.png
+/// and pressure.png (or .svg, .pdf), and scene.toml, which repeats the run. Either all files are written or none. Exits
+/// with 0 if converged, 2 if not (the fields are still written), and 1 if the input is refused or the files cannot be
+/// written. Probable mistakes, such as a tilt, give warnings, one line each and in the report; --strict treats them as
+/// errors.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())))]
 pub struct Options {
@@ -51,17 +52,17 @@ pub struct Options {
     force: bool,
     #[command(flatten)]
     findings: Chosen<(FindingsKeys, ConductorKeys, PercolationKeys, LeakageKeys)>,
-    /// Fields to write beside gap and pressures: displacement.npy is gap and height, less a plastic depth, as long as
-    /// the other body is rigid; if both are elastic, the displacement of the first one, and against_displacement.npy
-    /// that of the other
+    /// Fields to write besides gap and pressures. If the second body is rigid, displacement.npy is gap plus height,
+    /// less a plastic depth. If both are elastic, it is the displacement of the first one, and against_displacement.npy
+    /// that of the second
     #[arg(long, value_enum, value_name = "FIELD", requires = "out", help_heading = "Output")]
     fields: Option<Beside>,
-    /// Write distribution.csv: the probability density of the contact pressure over the nodes, in so many bins from 0
-    /// to the largest; its integral is the contact fraction [default: 50 if --distribution stands alone]
+    /// Write distribution.csv: the probability density of the contact pressure over the nodes, in this many bins from 0
+    /// to the largest pressure; its integral is the contact fraction [default: 50 if --distribution has no value]
     #[arg(long, value_name = "BINS", num_args = 0..=1, default_missing_value = "50", help_heading = "Output")]
     #[arg(value_parser = bins, allow_negative_numbers = true, requires = "out")]
     distribution: Option<usize>,
-    /// Files for the fields: .npy one each, all in fields.npz for numpy, or in fields.vti for ParaView; may be
+    /// Files for the fields: .npy one each, all in fields.npz for NumPy, or in fields.vti for ParaView; may be
     /// repeated
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "npy", value_delimiter = ',')]
     #[arg(help_heading = "Output")]
@@ -96,7 +97,7 @@ const EXAMPLES: &str = "\
       --nested --out nested
   A contact area that is right to 5 %, on a grid as fine as that takes:
     asperity solve --heights heights.npy --mean-pressure 0.01 --accuracy 0.05 --out right
-  On from the case with adhesion to a tension:
+  Continue from the case with adhesion to a tension:
     asperity solve --heights heights.npy --lengths 1um --modulus 1GPa --mean-pressure -10kPa \\
       --law exponential --work-of-adhesion 50mJ/m2 --range 1nm --initial-gap sticky/gap.npy \\
       --out pulled";

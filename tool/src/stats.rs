@@ -17,15 +17,16 @@ use crate::output::{OutputFile, check_apart, write_text};
 use crate::printing::{Printing, aligned, warn};
 use crate::report;
 use crate::scene::SceneFile;
+use crate::session;
 use crate::units::Units;
 
 /// Print the statistics of a rough surface.
 ///
-/// Heights, slopes, curvatures and Nayak's parameter, of the surface as it stands, continued periodically: a tilt, or
-/// edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier spectrum and from
-/// differences between neighbours; if they differ much, the map does not resolve the surface. Where the spectrum
-/// flattens to a floor of noise, its knee is told. Where the side lengths are unknown, there is none of these, and no
-/// Nayak's parameter.
+/// Prints heights, slopes, curvatures and Nayak's parameter of the surface without any correction, continued
+/// periodically: a tilt, or edges that do not meet, count as roughness. Slopes and curvatures come from the Fourier
+/// spectrum and from differences between neighbours; if the two differ much, the map does not resolve the surface. If
+/// the spectrum flattens to a floor of noise, its knee is printed. Without side lengths there are no slopes, no
+/// curvatures and no Nayak's parameter.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {
@@ -36,8 +37,8 @@ pub struct Options {
     #[command(flatten)]
     lengths: Chosen<LengthsKeys>,
     /// File for the radially averaged power spectral density, comma-separated: the wave number in radians per length,
-    /// the density, of which the integral over both wave numbers is the mean square height, and of how many waves it
-    /// is the mean
+    /// the density, whose integral over both wave numbers is the mean square height, and the number of waves in its
+    /// mean
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     psd: Option<PathBuf>,
     /// Replace a file that is there
@@ -63,7 +64,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let units = Units::of_map(map.unit.as_deref());
     let no_heights = [WarningCode::Axes, WarningCode::ByteOrder, WarningCode::MissingCode];
     let found = Warning::of_topography(&map).into_iter().filter(|found| no_heights.contains(&found.code));
-    found.for_each(|found| warn(units.told(&found).to_string()));
+    session::say(&found.map(|found| units.told(&found)).collect::<Vec<_>>());
     check_complete(path, &map)?;
     let surface = map.lengths.map(|_| map.clone().surface()).transpose()?;
     if let Some(file) = psd {

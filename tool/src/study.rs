@@ -25,19 +25,18 @@ use crate::processes::Processes;
 use crate::report;
 use crate::warnings;
 
-/// Solve every combination of surfaces, laws and other options, as one table.
+/// Solve every combination of surfaces, laws and other options, in one table.
 ///
 /// A study is a TOML file like the scene of a sweep, a cycle, a solve or a pull-off, with lists of values in a section
-/// [vary]: each combination of them is a case, the last list changes fastest. Options that belong together are a list of
-/// tables. With a section [make], the surface of each case is made with these options of asperity surface, which may
-/// vary as well. The table has the rows of all cases, after the number of the case and the values that vary: those of a
-/// sweep or a cycle, of a solve the one of a sweep with its load, and of a pull-off one with the keys of its report.
+/// [vary]: each combination of them is a case, and the last list changes fastest. Options that belong together are a
+/// list of tables. With a section [make], the surface of each case is made with these options of asperity surface,
+/// which may vary as well. Each row of the table begins with the number of the case and the values that vary. A sweep
+/// or a cycle gives all of its rows, a solve one row of a sweep, and a pull-off one row with the keys of its report.
 ///
-/// The rows of each case are kept in OUT.cases by what they depend on: the same command again goes on where an
-/// interrupted one was, and a study that has become larger solves only what is new. Slices of a study can be solved by
-/// several machines that share the folder; the table is written by the run that finds all cases done, with the same
-/// bytes whoever solved them. Exits with 0 if all rows converged or the slice is done, 2 if rows did not converge, and
-/// 1 if a case is refused.
+/// The rows of each case are kept in OUT.cases. The same command continues an interrupted study, and a study that has
+/// become larger solves only the new cases. Several machines that share the folder can solve slices of a study. The run
+/// that finds all cases done writes the table, with the same bytes whoever solved them. Exits with 0 if all rows
+/// converged or the slice is done, 2 if rows did not converge, and 1 if a case is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Options {

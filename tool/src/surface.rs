@@ -23,12 +23,12 @@ use crate::threads::use_threads;
 
 /// Make a self-affine rough surface or a simple body, and print its statistics.
 ///
-/// A body has a --form, as a sphere, whose missing parts a solve takes for absent nodes by --absent-missing;
-/// --rms-height or --rms-slope puts roughness on it. The roughness is periodic and isotropic. Its power spectral
-/// density is constant from KL to KR, falls as k^(-2-2H) from KR to KS, on a line as k^(-1-2H), and is zero elsewhere.
-/// Wave numbers count periods along x. A seed stands for the same surface on every grid that resolves KS, with the
-/// given rms height or slope to rounding. --fourier takes the waves of the roughness from a file. FILE.scene.toml beside
-/// the heights makes them again by asperity run.
+/// A body has a --form, such as a sphere. A solve treats its missing parts as absent nodes by --absent-missing.
+/// --rms-height or --rms-slope adds roughness. The roughness is periodic and isotropic. Its power spectral density is
+/// constant from KL to KR, falls as k^(-2-2H) from KR to KS (on a line as k^(-1-2H)), and is zero elsewhere. Wave
+/// numbers count periods along x. A seed gives the same surface on every grid that resolves KS, with the given rms
+/// height or slope to rounding. --fourier reads the waves of the roughness from a file. asperity run FILE.scene.toml
+/// makes the heights again.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("nodes").required(true).args(["size", "shape"])))]
@@ -45,7 +45,7 @@ pub struct Options {
     /// File for the heights: .npy, or with the side lengths .npz or .gsf (for Gwyddion, in f32)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: PathBuf,
-    /// File for the radially averaged power spectral density as by asperity stats, beside its target
+    /// File for the radially averaged power spectral density, like that of asperity stats, and its target
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     psd: Option<PathBuf>,
     /// Replace files that are there
@@ -104,14 +104,16 @@ fn described(options: &Options, scene: &SceneFile) -> Outcome<Described> {
     }
     let unit = scene.is_si().then_some(LENGTH.si);
     if unit.is_some() && options.grid.0.lengths(shape).is_none() {
-        return Err("the numbers have units, but nothing says how large the map is: give --lengths, as 20um".into());
+        return Err(
+            "the numbers have units, but nothing says how large the map is: give --lengths, such as 20um".into()
+        );
     }
     if let (Some(_), Some(key)) = (&fourier, options.roughness.0.first()) {
         let text = format!("{{{key}}} is of random roughness, which {{fourier}} replaces: leave it out");
         return in_options(Err(text));
     }
     if unit.is_some() && fourier.is_some() && options.fourier.0.fourier_unit().is_none() {
-        let text = "the numbers have units, but the coefficients have none: give --fourier-unit, as 0.1mm";
+        let text = "the numbers have units, but the coefficients have none: give --fourier-unit, such as 0.1mm";
         return Err(text.into());
     }
     let grid = Grid::new(shape, options.grid.0.lengths(shape).unwrap_or((1.0, 1.0)))?;
@@ -150,7 +152,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let psd = options.psd.as_deref().map(|path| OutputFile::create(path, options.force)).transpose()?;
     let others = [options.out.clone(), scene::beside(&options.out)];
     if options.psd.as_deref().is_some_and(|psd| check_apart(psd, others.iter().map(PathBuf::as_path)).is_err()) {
-        return Err(format!("--psd is {}, as --out: give it a name of its own", options.out.display()).into());
+        return Err(format!("--psd is {}, the same as --out: give it a name of its own", options.out.display()).into());
     }
     scene.check_beside(&options.out, options.force)?;
     use_threads(options.threads)?;

@@ -21,15 +21,15 @@ use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 
 /// Solve a contact problem under many loads, one after the other.
 ///
-/// Each load starts from the solutions under the loads before it. Numbers may have units, all of them or none, as in
-/// asperity solve. Each load gives a row of the file: the load, the mean gap, the contact area and its statistics, the
-/// energies, and how the solve ended. contact_fraction counts nodes in contact; corrected_contact_fraction is the area
-/// within the contact edge, which gap and pressure locate between the nodes; clusters counts separate contacts, and
-/// largest_cluster the nodes of the largest. The same command again continues an interrupted sweep, or one with loads
-/// added to the end of the list, to the same file, byte for byte; for that it keeps FILE.state beside the file,
-/// which may be deleted at the end. FILE.scene.toml beside it repeats or continues the sweep by asperity run. With a
-/// hardness the surface keeps its plastic depth from load to load. Exits with 0 if all rows converged, 2 if not (they
-/// are written all the same), and 1 if the input is refused or the file cannot be written.
+/// Each load starts from the solutions under the loads before it. Numbers may have units, all of them or none, like
+/// those of asperity solve. Each load gives a row of the file: the load, the mean gap, the contact area and its
+/// statistics, the energies, and how the solve ended. contact_fraction counts nodes in contact;
+/// corrected_contact_fraction is the area within the contact edge, which gap and pressure locate between the nodes;
+/// clusters counts separate contacts, and largest_cluster the nodes of the largest. The same command continues an
+/// interrupted sweep, also after loads were added to the end of the list; the file is the same, byte for byte. For that
+/// it keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or
+/// continues the sweep. With a hardness the surface keeps its plastic depth from load to load. Exits with 0 if all rows
+/// converged, 2 if not (they are still written), and 1 if the input is refused or the file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many()).args(FractionsKeys::KEYS.iter().map(|key| key.name))))]
 pub struct Options {
@@ -63,7 +63,7 @@ const EXAMPLES: &str = "\
   Contact area and stiffness against load, twenty loads over two decades:
     asperity sweep --heights heights.npy --mean-pressures 1e-3:1e-1:20:log --stiffness \\
       --out area.csv --plot area.pdf
-  With units; rows and header are in the SI then:
+  With units; rows and header are then in SI units:
     asperity sweep --heights heights.npy --lengths 20um --modulus 70GPa \\
       --mean-pressures 1MPa:1GPa:12:log --out steel.csv
   Approach and withdrawal with adhesion, eleven mean gaps each:
@@ -96,8 +96,8 @@ impl Fill for Options {
         table.first(|| self.plot.draw(&rows, table.session.units(), table.theories.as_ref()))?;
         self.manner.printing.report(|| table.report(json!({ "last": rows.last() })));
         Ok(table.converged(match table.searches() {
-            true => "or leave out the contact fractions past which the contact jumps",
-            false => "use a larger --tolerance or finer steps, or less tension where they are detached",
+            true => "or leave out jumps",
+            false => "or --tolerance",
         }))
     }
 }

@@ -160,7 +160,7 @@ impl<T: Scalar> Table<'_, T> {
         let TableOptions { out, manner, .. } = self.options;
         let command = if manner.force { "the same command without --force" } else { "the same command" };
         let (rows, of, out) = (self.session.rows(), of_rows(&self.session, " of "), out.display());
-        interruption::stands(format!("{rows}{of} rows are in {out}: {command} goes on from there"));
+        interruption::stands(format!("{rows}{of} rows are in {out}: {command} continues from there"));
     }
 
     /// Whether the boundary is free.
@@ -257,15 +257,14 @@ impl<T: Scalar> Table<'_, T> {
 
     /// Whether all rows converged; if not, a warning says so, with what else may help.
     pub fn converged(&self, remedy: &str) -> bool {
-        let (count, rows, path) = (self.session.unconverged(), self.session.rows(), self.options.out.display());
+        let (count, rows) = (self.session.unconverged(), self.session.rows());
         if count > 0 {
             let precise = match self.options.problem.scene.precision {
-                Precision::F32 => "use --precision f64, as f32 ends where its rounding does, ",
+                Precision::F32 => "use --precision f64, ",
                 Precision::F64 => "",
             };
             let text = format!(
-                "{UNCONVERGED}: {count} of {rows} rows not converged, their status and errors are in {path}: {precise}\
-                 raise --max-iterations, {remedy}"
+                "{UNCONVERGED}: {count} of {rows} rows not converged: {precise}raise --max-iterations {remedy}"
             );
             complain("warning", &text);
         }

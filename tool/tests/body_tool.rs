@@ -75,6 +75,6 @@ fn a_body_that_is_thin_beside_the_nodes_is_named() {
     let bench = rough();
     let output = bench.run(&format!("{PRESSED} --layer 2e-3 --poisson 0.3 --quiet --out thin"));
     let error = String::from_utf8(output.stderr).unwrap();
-    assert!(error.starts_with("warning: thin-body: the stiffness of the shortest waves on the grid is "), "{error}");
+    assert!(error.starts_with("warning: thin-body: half the wavelength is "), "{error}");
     assert_eq!(bench.report("thin")["warnings"][0]["code"], "thin-body");
 }

@@ -130,7 +130,7 @@ fn a_hardness_varies_over_the_nodes_of_a_map() {
     bench.refused_with(&format!("{run} hardness.npy --out none"), &["hardness", "-1"]);
     bench.refused_with(
         &format!("{run} hardness.npy --hardness 1 --out none"),
-        &["--hardness is given beside --hardness-map"],
+        &["--hardness is given with --hardness-map"],
     );
 }
 

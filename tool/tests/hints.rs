@@ -25,6 +25,7 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
             &["did you mean '--modulus', contact modulus E*", "Poisson's ratio"],
         ),
         (format!("{solve} --mean-gap 1 -E 3"), &["did you mean '--modulus'"]),
+        (format!("{solve} --mean-gap 1 --friction 0.3"), &["knows no friction, docs/more/limits.md lists"]),
         (format!("{solve} --mean-gap 1 --adhesion morse"), &["did you mean '--law', adhesion law", ": none, jkr, "]),
         (
             format!("{solve} --mean-pressures 1,2"),
@@ -42,7 +43,7 @@ fn other_words_for_options_get_the_one_that_is_meant_and_what_it_is() {
         (format!("{solve} --mean-pressure 1 --against h.npy --shift 0:1um:8"), &["'asperity study', by shift ="]),
         (format!("{solve} --mean-pressure 1 --poisson 0.3 --layer 1,2"), &["'asperity study', by layer ="]),
         (format!("{sweep} --approach 1"), &["did you mean '--approaches',"]),
-        (format!("{sweep} --mean-pressures 1MPa-100MPa"), &["a range is FROM:TO:COUNT, as 1MPa:100MPa:10 or"]),
+        (format!("{sweep} --mean-pressures 1MPa-100MPa"), &["a range is FROM:TO:COUNT, such as 1MPa:100MPa:10 or"]),
         (format!("{solve} --mean-gap 1 --plot a.png"), &["'--plot' is an option of sweep, cycle, study and laws"]),
         (format!("{solve} --mean-gap 1 --lengths 2,3"), &["with spaces between, '--lengths 2 3'"]),
         ("solve h.npy --mean-gap 1 --out r".to_owned(), &["'--heights h.npy'"]),

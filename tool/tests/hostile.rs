@@ -497,7 +497,7 @@ mod tool {
             assert_eq!(output.status.code(), Some(1), "{command}");
             assert_eq!(names(bench.path()), before, "{command}");
         }
-        // what a sweep has got is kept, and it goes on from there when there is room
+        // what a sweep has got is kept, and it continues from there when there is room
         let sweep = "sweep --heights heights.npy --mean-gaps 0.04:0.03:12 --quiet --out sweep.csv";
         let output = limited(bench.path(), 4 * GIGABYTE, "65", &words(sweep));
         assert_orderly(&output, sweep);

@@ -57,8 +57,9 @@ fn an_interrupted_table_says_how_many_rows_stand_and_goes_on() {
         let count = bench.read(name).lines().skip(1).count();
         let of = if number == 2 { " of 4000" } else { "" };
         // a row may have been written, but not its state
-        let stands = [count, count - 1]
-            .map(|count| format!("interrupted: {count}{of} rows are in {name}: the same command goes on from there\n"));
+        let stands = [count, count - 1].map(|count| {
+            format!("interrupted: {count}{of} rows are in {name}: the same command continues from there\n")
+        });
         assert!(ended == Some(number) && stands.contains(&said), "{ended:?} {said}");
         fs::remove_file(bench.path(name)).unwrap();
     }
@@ -82,7 +83,8 @@ fn a_study_ends_with_its_cases_and_says_how_many_are_done() {
         assert!(!is_free("csv") && !is_free("lock"));
         let (_, said) = interrupted(signal, process);
         wait_until(|| is_free("csv"));
-        let told = "interrupted: 0 of 2 cases are done: the same command goes on, also within those that were begun\n";
+        let told =
+            "interrupted: 0 of 2 cases are done: the same command continues, also within those that were begun\n";
         assert_eq!(said, if signal == "-INT" { told } else { "" });
     }
 }

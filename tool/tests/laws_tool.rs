@@ -160,7 +160,7 @@ fn springs_stand_for_the_wall() {
     for (wall, parts) in [
         ("penalty", ["--wall penalty lacks --wall-stiffness", "a pressure per length"]),
         ("hard --wall-stiffness 5", ["--wall-stiffness is 5, but --wall hard", "--wall uzawa"]),
-        ("uzawa --wall-stiffness 5nN", ["--wall-stiffness", "pressure per length, as 1GPa/um"]),
+        ("uzawa --wall-stiffness 5nN", ["--wall-stiffness", "pressure per length, such as 1GPa/um"]),
     ] {
         bench.refused_with(&format!("{SOLVE} --out out --wall {wall}"), &parts);
     }
@@ -219,7 +219,7 @@ fn the_law_without_a_range_has_that_of_the_grid() {
     assert!(0.0 < limit && limit < by_energy, "{limit} {by_energy}");
     assert!((by_energy * 2e-6 / -number(&report, "adhesive_energy") - 1.0).abs() < 1e-12);
     for (options, parts) in [
-        ("--range 1e-3", &["--range is 0.001", "limit of no range", "leave it out"][..]),
+        ("--range 1e-3", &["--range is 0.001", "limit of zero range", "leave it out"][..]),
         ("--wall none", &["--law jkr does not repel"]),
         ("--cut-off 1", &["ends by itself"]),
         ("--accuracy 0.1 --accuracy-of stiffness", &["accuracy of the stiffness", "does not converge"]),

@@ -36,7 +36,7 @@ fn a_slot_leaks_as_its_cube_says() {
     }
     let said = bench.said("leak slot.npy --lengths 2 1");
     assert!(
-        ["along x", "a gap of 2 at the constriction", "error of the grid", "closed"]
+        ["along x", "the gap is 2 at the constriction", "error of the grid", "closed"]
             .iter()
             .all(|word| said.contains(word)),
         "{said}"

@@ -68,7 +68,7 @@ fn no_output_replaces_what_its_run_reads() {
     refused("solve --heights results/gap.npy --mean-pressure 0.01 --format npz --out results --force");
     refused("sweep --heights heights.npy --mean-pressures 0.01 --format csv --out heights.npy --force");
     let out = bench.refused(&format!("{SURFACE} rough.npy --psd ./rough.npy"));
-    assert!(out.contains("--psd is rough.npy, as --out"), "{out}");
+    assert!(out.contains("--psd is rough.npy, the same as --out"), "{out}");
     assert!(bench.bytes("heights.npy") == heights && bench.bytes("results/gap.npy") == heights);
 }
 

@@ -296,7 +296,7 @@ fn rows_that_did_not_converge_are_written_and_counted() {
     let law = "--law maugis-dugdale --work-of-adhesion 1e-4 --range 1e-3";
     let output = bench.sweep(&format!("{law} --mean-gaps 0.03,0.02 --out unresolved.csv"), 0);
     let warning = text(&output.stderr);
-    assert!(warning.contains("under-resolved") && warning.lines().count() == 1, "{warning}");
+    assert!(warning.contains("mu_rho") && warning.lines().count() == 1, "{warning}");
 }
 
 #[test]

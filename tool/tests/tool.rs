@@ -315,7 +315,7 @@ fn adhesion_adds_contact_and_tells_if_it_is_under_resolved() {
 
         let output = bench.run(&format!("solve --heights heights.npy {options} --range 1e-3 --out {law} --force"));
         let warning = text(&output.stderr);
-        let parts = ["mu_rho = 1.25", "the law jkr", "7 times finer, of 448 x 448 nodes"];
+        let parts = ["mu_rho = 1.25", "use jkr"];
         assert!(parts.iter().all(|part| warning.contains(part)), "{warning}");
         assert_eq!(bench.report(law)["under_resolved"], true);
     }

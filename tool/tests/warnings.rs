@@ -45,8 +45,10 @@ fn codes(report: &Value) -> Vec<&str> {
 fn said(stderr: &str) -> Vec<&str> {
     let first =
         |line: &'_ str| line.len() - line.trim_start_matches(|c: char| c.is_ascii_lowercase() || c == '-').len();
-    let lines = stderr.lines().map(|line| line.strip_prefix("warning: ").unwrap());
-    lines.filter(|line| line[first(line)..].starts_with(':')).map(|line| &line[..first(line)]).collect()
+    let lines = stderr.lines().filter_map(|line| line.strip_prefix("warning: "));
+    let lines: Vec<_> = lines.filter(|line| line[first(line)..].starts_with(':')).collect();
+    assert!(lines.iter().all(|line| line.chars().count() <= 90), "{lines:?}");
+    lines.iter().map(|line| &line[..first(line)]).collect()
 }
 
 #[test]
@@ -109,7 +111,7 @@ fn a_tip_in_a_periodic_cell_and_a_modulus_beside_metres_are_told() {
         assert_eq!((output.status.code(), &found[..]), (Some(0), expected), "{arguments}: {stderr}");
     }
     let output = bench.run("solve --heights rough.npz --modulus 70 --mean-pressure 1 --strict --out strict");
-    let told = "modulus: the contact modulus is 70, and the lengths are in m, with nodes 31.2 nm apart";
+    let told = "modulus: the contact modulus is 70, below 1e3 Pa";
     assert!(text(&output.stderr).contains(told), "{}", text(&output.stderr));
 }
 
@@ -127,7 +129,7 @@ fn strict_takes_warnings_for_errors_and_writes_nothing() {
         );
     }
     let high = "solve --heights clean.npy --mean-pressure 5 --no-pictures --out high";
-    bench.refused_with(&format!("{high} --strict"), &["beyond-modulus", "contact modulus"]);
+    bench.refused_with(&format!("{high} --strict"), &["beyond-modulus", "contact pressure"]);
     // an answer that is refused before the first row of a table leaves no table
     for table in [
         "sweep --mean-pressures 5,6 --out s.csv",
@@ -161,7 +163,7 @@ fn a_range_is_told_once_and_with_how_wrong_the_answer_may_be() {
     let stderr = text(&output.stderr);
     let lines: Vec<_> = stderr.lines().filter(|line| line.contains("mu_rho")).collect();
     assert!(
-        lines.len() == 1 && lines[0].starts_with("warning: range: ") && lines[0].contains("times the given one"),
+        lines.len() == 1 && lines[0].starts_with("warning: range: ") && lines[0].contains("makes w act as"),
         "{stderr}"
     );
     let report = bench.report("short");
@@ -182,7 +184,7 @@ fn warnings_have_the_units_of_tables() {
     let law = "--law exponential --work-of-adhesion 100kJ/m2 --range";
     let output = bench.run(&format!("{solve} {law} 2m --out long"));
     let stderr = text(&output.stderr);
-    assert!(stderr.contains("range: the range of adhesion, 2 m, exceeds the heights, which span "), "{stderr}");
+    assert!(stderr.contains("range: the range of adhesion, 2 m, exceeds the heights, "), "{stderr}");
     assert!(stderr.contains(" mm: "), "{stderr}");
     // on the page, too
     bench.said("report long");
@@ -209,7 +211,7 @@ fn a_code_for_missing_points_is_named_as_it_stands_in_the_file() {
             let command = format!("{command} 1kPa --heights map.npz --modulus 1GPa --force --strict");
             let refused = bench.refused(&command);
             let start = format!("error: missing-code: {} stands at {count} node", display(code));
-            assert!(refused.starts_with(&start) && refused.contains(" nm to "), "{refused}");
+            assert!(refused.starts_with(&start), "{refused}");
             assert!(refused.contains(&format!("--missing {} --fill", display(code))), "{refused}");
         }
         let filled = bench.said(&format!("prepare map.npz --missing {} --fill --out f.npz --force", display(code)));
@@ -303,7 +305,7 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
             bench.run(&format!("sweep --heights clean.npy --mean-pressures {pressures} --out rows.csv --force --json"));
         let report: Value = serde_json::from_slice(&output.stdout).unwrap();
         let message = report["warnings"][0]["message"].as_str().unwrap().to_owned();
-        assert_eq!(text(&output.stderr).lines().filter(|line| line.contains("beyond-modulus")).count(), 1);
+        assert_eq!(text(&output.stderr).lines().filter(|line| line.contains("beyond-modulus:")).count(), 1);
         assert!(bench.read("rows.csv.warnings.txt").ends_with(&format!("]: {message}\n")));
         let only = bench.run("sweep --heights clean.npy --mean-pressures 9 --out only.csv --force --json");
         let only: Value = serde_json::from_slice(&only.stdout).unwrap();

@@ -78,7 +78,9 @@ impl Engine {
         let (typed, si) = (given.typed(), given.quantities().is_si());
         let shape = given.shape().map_err(reason)?;
         if si && given.lengths(shape).is_none() {
-            return Err("the numbers have units, but nothing says how large the map is: give lengths, as 20um".into());
+            return Err(
+                "the numbers have units, but nothing says how large the map is: give lengths, such as 20um".into()
+            );
         }
         let sides = given.lengths(shape).unwrap_or((1.0, 1.0));
         let body: Body = given.object()?;

@@ -155,7 +155,7 @@ impl Problem {
     }
 }
 
-/// The surface of a map for a solve, in metres where numbers are in the SI, and the unit from which it was converted.
+/// The surface of a map for a solve, in metres where numbers are in SI units, and the unit from which it was converted.
 fn surface(
     map: &Topography,
     name: &str,
@@ -178,7 +178,7 @@ fn surface(
         (None, Some(known)) => known,
         (None, None) if si => {
             return Err(format!(
-                "{name}: the numbers have units, but nothing says how large the map is: give lengths, as 20um"
+                "{name}: the numbers have units, but nothing says how large the map is: give lengths, such as 20um"
             )
             .into());
         }
@@ -187,7 +187,7 @@ fn surface(
     let missing = map.missing();
     if missing > 0 && !absent {
         return Err(format!(
-            "{name}: {missing} of {} heights are missing: fill them by the step fill, or take them for absent nodes by \
+            "{name}: {missing} of {} heights are missing: fill them by the step fill, or treat them as absent nodes by \
              absent_missing",
             map.heights.len()
         )

@@ -301,7 +301,7 @@ fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, reading: 
         (reading.masked && !matches!(format, Format::Gwy), "masks", "that masked points are missing"),
     ];
     if let Some((_, what, option)) = given.iter().find(|(is_useless, ..)| *is_useless) {
-        return refuse(format!("has no {what}, as files of this format: leave {option} out"));
+        return refuse(format!("has no {what}, like all files of this format: leave {option} out"));
     }
     let map = match format {
         Format::Gwy => read_gwy(&mut reader, size, reading),

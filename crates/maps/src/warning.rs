@@ -40,11 +40,12 @@ const FLAT: f64 = 4.0 * f64::EPSILON;
 /// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
 const UNLIKE: f64 = 0.05;
 
-/// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy.
+/// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy, on a line of at
+/// most 90 characters. The page `docs/program/warnings.md` explains each code.
 ///
 /// A warning refuses and changes nothing, and the reader decides whether it matters. Clean periodic surfaces have
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the
-/// contact modulus beside them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve,
+/// contact modulus with them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve,
 /// [`of_solution`](Self::of_solution) and [`of_hardness`](Self::of_hardness) at its answer, and
 /// [`of_images`](Self::of_images) at that on a mirrored map.
 ///
@@ -96,7 +97,7 @@ impl Warning {
         self.message_with(Self::figure, Self::figure)
     }
 
-    /// The message with lengths and pressures as these make texts of them, which may have units. They are rounded to
+    /// The message with lengths and pressures as these functions write them, with units for example. They are rounded to
     /// three digits.
     ///
     /// ```
@@ -106,7 +107,7 @@ impl Warning {
     /// let found = Warning::of_law::<f64>(&Exponential::new(1e-5, 2e-8)?, &surface, 1e9);
     /// let (nm, gpa) = (|length| format!("{} nm", 1e9 * length), |pressure| format!("{} GPa", 1e-9 * pressure));
     /// let message = found[0].message_with(nm, gpa);
-    /// assert!(message.starts_with("the range of adhesion, 20 nm, exceeds the heights, which span 2 nm"), "{message}");
+    /// assert!(message.starts_with("the range of adhesion, 20 nm, exceeds the heights, 2 nm"), "{message}");
     /// # Ok::<(), asperity::Error>(())
     /// ```
     pub fn message_with(&self, length: impl Fn(f64) -> String, pressure: impl Fn(f64) -> String) -> String {
@@ -169,13 +170,13 @@ impl Warning {
         let mut found: Vec<_> = cells(surface.grid()).into_iter().chain(ends_within(surface)).collect();
         found.extend(layout::axes(heights));
         if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
-            let text = "all heights are {}: there is nothing that could touch first; check the file, or the map";
+            let text = "all heights are {}: check the file, or the map";
             found.push(Self::told(WarningCode::Flat, 0.0, text, [Length(extremes.low)]));
             return found;
         }
         let codes = extremes.codes();
         if !codes.is_empty() {
-            found.extend(codes.into_iter().map(|(value, count)| missing_code(value, count, &extremes)));
+            found.extend(codes.into_iter().map(|(value, count)| missing_code(value, count)));
             return found;
         }
         let relief = Relief::of(surface.heights(), &extremes);
@@ -206,7 +207,7 @@ impl Warning {
             return vec![warning];
         }
         let extremes = Extremes::of(&heights);
-        let codes = extremes.codes().into_iter().map(|(value, count)| missing_code(value, count, &extremes));
+        let codes = extremes.codes().into_iter().map(|(value, count)| missing_code(value, count));
         let mut found: Vec<_> = layout::axes(&heights).into_iter().chain(codes).collect();
         if found.is_empty() {
             found.extend(map.rms_slope().and_then(|found| slope(found, STEEP_MAP)));
@@ -230,13 +231,11 @@ impl Warning {
             return found;
         }
         let greatest = pressures().fold(f64::NEG_INFINITY, f64::max);
-        let counts = [count, solution.contact_pressure.len()].map(|nodes| Word(nodes.to_string()));
         found.push(Self::told(
             WarningCode::BeyondModulus,
             greatest / modulus,
-            "the contact pressure is up to {}, {} times the contact modulus E*, and above it at {} of {} nodes: linear \
-             elasticity does not hold there; check the modulus, the load and the unit of the lengths",
-            [vec![Pressure(greatest), Figure(greatest / modulus)], counts.into()].concat(),
+            "the contact pressure is up to {}, {} E*: check the load and the units",
+            [Pressure(greatest), Figure(greatest / modulus)],
         ));
         found
     }
@@ -271,8 +270,7 @@ impl Warning {
         Ok(Some(Self::told(
             WarningCode::Images,
             (part - expected).abs() / expected.max(1.0),
-            "{} % of the original of this mirrored map are in contact, but {} % of the whole: the contact is not that of \
-             its mirror images, as adhesion may begin on one of them; look at the whole",
+            "{} % of the original touch, but {} % of the whole: look at the whole",
             [percent(part, original.grid()), percent(whole, original.whole())],
         )))
     }
@@ -280,7 +278,6 @@ impl Warning {
 
 fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
     let share = solution.report.edge_traction.filter(|_| solution.report.reaches_edge)?;
-    let text = "contact or traction reaches the edge of the window, with {} of the largest traction: what lies beyond is \
-                not there; unless the body ends at this edge, take a larger window, or an adhesion of less range";
+    let text = "contact or traction reaches the edge, {} of the largest: widen the map";
     Some(Warning::told(WarningCode::WindowEdge, share, text, [Figure(share)]))
 }

@@ -8,7 +8,21 @@ use ndarray::Array2;
 const SIDES: (f64, f64) = (1.0, 0.8);
 
 fn codes(surface: &Surface) -> Vec<&'static str> {
-    Warning::of_surface(surface).iter().map(|warning| warning.code.name()).collect()
+    Warning::of_surface(surface).iter().map(short).map(|warning| warning.code.name()).collect()
+}
+
+/// A warning that is a line of at most 90 characters.
+fn short(warning: &Warning) -> &Warning {
+    assert!(warning.to_string().chars().count() <= 90, "{warning}");
+    warning
+}
+
+#[test]
+fn the_page_of_warnings_explains_each_code() {
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/program/warnings.md")).unwrap();
+    let entries: Vec<_> = page.lines().filter_map(|line| line.strip_prefix("## ")).collect();
+    let codes = WarningCode::ALL.iter().map(|code| code.name()).chain(["unconverged"]);
+    assert_eq!(entries, codes.collect::<Vec<_>>());
 }
 
 /// A rough map of 80 × 64 square cells, periodic.
@@ -154,11 +168,8 @@ fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
         assert!(!codes(&surface_with_absent(grid, hole).unwrap()).contains(&"ends"), "hole {n}");
     }
     let message = Warning::of_surface(&Surface::paraboloid(Grid::square(64, 1.0).unwrap(), 2.0).unwrap())[0].message();
-    // −(31/64)²/4 against −1/24 on average, and slopes of 63/256 and 61/256 on the two sides
-    assert!(
-        ["0.017 and more below", "changes by 0.484", "boundary free"].iter().all(|part| message.contains(part)),
-        "{message}"
-    );
+    // −(31/64)²/4 against −1/24 on average
+    assert!(["by 0.017 or more", "free boundary"].iter().all(|part| message.contains(part)), "{message}");
     // a piece of a ball with its roughness, mirrored
     for (seed, bow) in (0..30).flat_map(|seed| [0.0, 0.02, 0.3, 2.0].map(|bow| (seed, bow))) {
         let rough = SelfAffine::default().k_l(1.0).k_r(1.0).k_s(20.0).seed(seed);
@@ -219,8 +230,8 @@ fn a_repeated_value_far_outside_is_a_code_for_missing_points_and_nothing_else_is
     let both = |heights: &mut Array2<f64>| {
         heights[[4, 5]] = -9.999;
         heights[[40, 5]] = -9.999;
-        heights[[41, 50]] = f64::MAX;
-        heights[[42, 50]] = f64::MAX;
+        heights[[41, 50]] = 1e308;
+        heights[[42, 50]] = 1e308;
     };
     assert_eq!(changed(both), ["missing-code", "missing-code"]);
     let mut heights = rough().heights().clone();
@@ -238,7 +249,7 @@ fn single_nodes_far_out_of_their_neighbours_are_spikes() {
     let warnings = Warning::of_surface(&Surface::new(*rough().grid(), heights).unwrap());
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     let message = warnings[0].message();
-    assert!(["2 single nodes", "[20, 30]", "kurtosis"].iter().all(|part| message.contains(part)), "{message}");
+    assert!(["2 single nodes", "[20, 30]", "despike"].iter().all(|part| message.contains(part)), "{message}");
     // on a line too
     let line = Surface::wave(Grid::line(200, 1.0).unwrap(), 0.01, 2).unwrap();
     let mut heights = line.heights().clone();
@@ -275,17 +286,16 @@ fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
     let surface = Surface::wave_2d(Grid::square(64, 1.0).unwrap(), 0.01, 2).unwrap();
     let found = |work: f64, range: f64| Warning::of_law::<f64>(&Exponential::new(work, range).unwrap(), &surface, 1.0);
     assert!(found(1e-5, 2e-3).is_empty());
-    let resolved = |warnings: Vec<Warning>| (warnings.len(), warnings[0].code, warnings[0].message());
+    let resolved = |warnings: Vec<Warning>| (warnings.len(), warnings[0].code, short(&warnings[0]).message());
     // √(1e-5/64)/ρ
     let (count, code, message) = resolved(found(1e-5, 3e-4));
     assert_eq!((count, code), (1, WarningCode::Range));
-    for part in ["mu_rho = 1.32", "adhesion of 0.72 to 1.65 times", "the law jkr", "7 times finer, of 448 x 448 nodes"]
-    {
+    for part in ["mu_rho = 1.32", "0.72 to 1.65 w", "use jkr"] {
         assert!(message.contains(part), "{message}");
     }
-    // far beyond what was measured, and beyond all grids
+    // far beyond what was measured
     let (_, _, message) = resolved(found(1e-5, 2e-5));
-    assert!(message.contains("less than 0.25 to more than 13.8 times") && !message.contains("finer"), "{message}");
+    assert!(message.contains("<0.25 to >13.8 w"), "{message}");
     // without a range there is none to resolve
     assert!(Warning::of_law::<f64>(&Jkr::new(1e-5).unwrap(), &surface, 1.0).is_empty());
     // a law that jumps is smoothed
@@ -308,7 +318,7 @@ fn a_contact_pressure_above_the_modulus_is_told() {
     assert!(found(0.01).is_empty());
     let warnings = found(3.0);
     assert_eq!((warnings.len(), warnings[0].code), (1, WarningCode::BeyondModulus));
-    assert!(warnings[0].message().contains("of 256 nodes"), "{}", warnings[0]);
+    assert!(short(&warnings[0]).message().contains(" E*: "), "{}", warnings[0]);
 }
 
 #[test]
@@ -319,7 +329,7 @@ fn the_pull_off_is_as_wrong_as_the_warning_says() {
     for (mu_rho, factor) in [(1.0, 1.17), (2.0, 3.49)] {
         let law = Exponential::new(work, (work / 256.0_f64).sqrt() / mu_rho).unwrap();
         let warnings = Warning::of_law::<f64>(&law, &surface, 1.0);
-        let told = format!(" to {} times", if factor > 2.0 { "3.5" } else { "1.17" });
+        let told = format!(" to {} w", if factor > 2.0 { "3.5" } else { "1.17" });
         assert!(warnings[0].message().contains(&told), "{}", warnings[0]);
         let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
         let preload = 0.3 * std::f64::consts::PI * 0.01;

@@ -21,7 +21,7 @@ const LISTS: [List; 13] = [
     ("Loads", "The loads of a table, a list of one kind", LoadsKeys::KEYS),
     ("Fractions", "The contact fractions of a table", FractionsKeys::KEYS),
     ("Nested", "The grids of a solve", NestedKeys::KEYS),
-    ("Findings", "The findings beside a solution", FindingsKeys::KEYS),
+    ("Findings", "The findings after a solution", FindingsKeys::KEYS),
     ("Stiffness", "The contact stiffness of each row of a table", StiffnessKeys::KEYS),
     ("Conductor", "The conductors, of which the contact stiffness tells the conductance", ConductorKeys::KEYS),
     ("Leakage", "The leakage of a table", LeakageKeys::KEYS),

@@ -81,7 +81,9 @@ pub fn solve(
     let threads = (threads::count() / jobs).max(1);
     let stand = |done: usize| {
         let (done, all) = (before + done, before + count);
-        stands(format!("{done} of {all} cases are done: the same command goes on, also within those that were begun"));
+        stands(format!(
+            "{done} of {all} cases are done: the same command continues, also within those that were begun"
+        ));
     };
     stand(0);
     let progress = Mutex::new(Progress { left, ..Progress::default() });

@@ -41,7 +41,7 @@ pub(super) fn read_gwy(reader: &mut impl Read, size: u64, reading: &Reading) -> 
         _ if reading.masked => {
             return refuse("has no mask over this channel: leave out that masked points are missing");
         }
-        _ if count > 0 => map.unread.push(format!("a mask over {count} points, which --masked takes for missing")),
+        _ if count > 0 => map.unread.push(format!("a mask over {count} points, which --masked treats as missing")),
         _ => {}
     }
     Ok(map)
@@ -233,7 +233,7 @@ mod tests {
         assert_eq!((map.heights[[0, 0]], map.heights[[2, 0]]), (4e-9, 6e-9));
         assert_eq!(map.lengths, Some((6e-6, 2e-6)));
         // the mask is over five of six points, and NaN is in none
-        assert_eq!(map.unread, ["a mask over 5 points, which --masked takes for missing"]);
+        assert_eq!(map.unread, ["a mask over 5 points, which --masked treats as missing"]);
         let file = gwy(&[&others[..], &[channel(0, "Height", &field("nm"))]].concat());
         let reading = Reading { masked: true, ..Reading::default() };
         assert_eq!(reading.read_bytes("map.gwy", &file).unwrap().missing(), 6);

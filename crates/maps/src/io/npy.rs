@@ -67,7 +67,7 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
         if let [first, ..] = columns[..] {
             let names = quoted(&columns.join(", "));
             return refuse(format!(
-                "is a record array with the columns {names}: save one, as array[{}]",
+                "is a record array with the columns {names}: save one, such as array[{}]",
                 quoted(first)
             ));
         }
@@ -83,7 +83,7 @@ fn read_shape(reader: &mut impl Read, size: u64) -> Parsed<Header> {
             let least = shape.iter().min().copied().unwrap_or_default();
             let one = if shape.first() == Some(&least) { "array[0]" } else { "array[..., 0]" };
             return refuse(format!(
-                "has shape {shape:?}, expected two dimensions [Nx, Ny], or one: save one height map, as {one}"
+                "has shape {shape:?}, expected two dimensions [Nx, Ny], or one: save one height map, such as {one}"
             ));
         }
     };

@@ -52,7 +52,7 @@ impl Trend {
             Self::Quadric => Ok(2),
             Self::Polynomial(order) if order <= Self::MOST => Ok(order),
             Self::Polynomial(order) => {
-                let requirement = "at most 12: beyond, roughness is taken for a trend";
+                let requirement = "at most 12: beyond, roughness is treated as a trend";
                 Err(Error::Value { name: "order of the trend", value: order as f64, requirement })
             }
         }

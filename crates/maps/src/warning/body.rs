@@ -1,17 +1,16 @@
-//! The probable mistakes in a body beside the nodes of a grid.
+//! The probable mistakes in a body on the nodes of a grid.
 
 use std::f64::consts::PI;
 
 use asperity::Grid;
 use asperity::elastic::Body;
 
-use super::part::Part::{Figure, Word};
+use super::part::Part::Figure;
 use super::{Warning, WarningCode};
 
 impl Warning {
-    /// A body whose stiffness for the shortest waves on a `grid` does not grow as their wave number to 5 %, as that of a
-    /// half-space does, [`ThinBody`](WarningCode::ThinBody): what takes contact edges for those on a half-space does not
-    /// hold.
+    /// A body whose stiffness for the shortest waves on a `grid` does not grow as their wave number to 5 %, unlike that
+    /// of a half-space, [`ThinBody`](WarningCode::ThinBody): figures that assume a half-space do not hold.
     ///
     /// ```
     /// use asperity::Grid;
@@ -30,16 +29,9 @@ impl Warning {
             _ => dx.max(dy),
         };
         // 2 on a half-space, and 1 on springs
-        let growth = |spacing: f64| body.stiffness(PI / spacing, 0.0) / body.stiffness(0.5 * PI / spacing, 0.0);
-        let is_off = |finer: &f64| (growth(spacing / finer) - 2.0).abs() > 0.1;
-        let finer = (0..30).map(|power| f64::from(1 << power)).find(|finer| !is_off(finer));
-        let or_finer = finer.map_or(String::new(), |finer| format!(", or a grid {finer} times finer"));
-        let text = "the stiffness of the shortest waves on the grid is {} times that of waves twice as long, not 2 \
-                    times as on a half-space, as where the body is thin beside the nodes: the area corrected for its \
-                    edge, its estimated error and mu_rho are those of a half-space, and do not hold; use the contact \
-                    fraction{}";
-        let growth = growth(spacing);
-        is_off(&1.0)
-            .then(|| Self::told(WarningCode::ThinBody, (growth - 2.0).abs(), text, [Figure(growth), Word(or_finer)]))
+        let growth = body.stiffness(PI / spacing, 0.0) / body.stiffness(0.5 * PI / spacing, 0.0);
+        let off = (growth - 2.0).abs();
+        let text = "half the wavelength is {} times as stiff, not 2: use the contact fraction";
+        (off > 0.1).then(|| Self::told(WarningCode::ThinBody, off, text, [Figure(growth)]))
     }
 }

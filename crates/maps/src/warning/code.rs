@@ -2,87 +2,75 @@
 
 use std::fmt;
 
-/// The code of a [`Warning`](crate::warning::Warning).
-///
-/// ```
-/// use asperity_maps::warning::WarningCode;
-/// assert_eq!(WarningCode::OpenEdges.to_string(), "open-edges");
-/// ```
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum WarningCode {
-    /// The map as a whole is inclined: opposite edges differ by the drop of its plane.
-    Tilt,
-    /// The heights fall to all edges, or end before them, as those of a sphere: a body, which in a periodic cell stands
-    /// among images of itself.
-    Ends,
-    /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
-    OpenEdges,
-    /// The rms slope exceeds ½, that of a measured map 100, as where heights and lengths are in different units.
-    Steep,
-    /// The rms slope is less than 1e-8, as where heights and lengths are in different units.
-    Smooth,
-    /// The contact modulus E* is below that of any solid in the unit that the lengths ask for.
-    Modulus,
-    /// A contact pressure exceeds the contact modulus E*.
-    BeyondModulus,
-    /// The stiffness of the shortest waves is not that of a half-space, as of a layer that is thinner than some nodes.
-    ThinBody,
-    /// Single nodes are far out of their neighbours.
-    Spikes,
-    /// A value far outside the rest that stands for missing points, as −9999.
-    MissingCode,
-    /// The first line or column runs evenly, as coordinates do.
-    Axes,
-    /// The magnitudes of the numbers are those of bytes in the wrong order.
-    ByteOrder,
-    /// The cells of the grid are far from square.
-    Cells,
-    /// The range of adhesion exceeds the heights, or is too short for the grid.
-    Range,
-    /// All heights are the same.
-    Flat,
-    /// Contact or traction reaches the edge of a free boundary's window.
-    WindowEdge,
-    /// The contact of a mirrored map is not that of its mirror images.
-    Images,
-    /// The lines across the scan lines that are to be brought to one height have by far the larger offsets.
-    ScanAxis,
-    /// Much of the load stands on single lines, as on scars of a measurement.
-    Scars,
-    /// Much of the load stands on single nodes, as on noise.
-    Noise,
-    /// Most of the load stands above a tenth of the contact modulus E*, where most solids yield.
-    Hardness,
+/// The codes, with their names and what they mean.
+macro_rules! codes {
+    ($($(#[$meaning:meta])* $code:ident = $name:literal,)+) => {
+        /// The code of a [`Warning`](crate::warning::Warning), which the page `docs/program/warnings.md` explains.
+        ///
+        /// ```
+        /// use asperity_maps::warning::WarningCode;
+        /// assert_eq!(WarningCode::OpenEdges.to_string(), "open-edges");
+        /// ```
+        #[non_exhaustive]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum WarningCode { $($(#[$meaning])* $code,)+ }
+
+        impl WarningCode {
+            /// All codes.
+            pub const ALL: &[Self] = &[$(Self::$code,)+];
+
+            /// The name that the tool and `report.json` use.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$code => $name,)+ }
+            }
+        }
+    };
 }
 
-impl WarningCode {
-    /// The name that the tool and `report.json` use.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tilt => "tilt",
-            Self::Ends => "ends",
-            Self::OpenEdges => "open-edges",
-            Self::Steep => "steep",
-            Self::Smooth => "smooth",
-            Self::Modulus => "modulus",
-            Self::BeyondModulus => "beyond-modulus",
-            Self::ThinBody => "thin-body",
-            Self::Spikes => "spikes",
-            Self::MissingCode => "missing-code",
-            Self::Axes => "axes",
-            Self::ByteOrder => "byte-order",
-            Self::Cells => "cells",
-            Self::Range => "range",
-            Self::Flat => "flat",
-            Self::WindowEdge => "window-edge",
-            Self::Images => "images",
-            Self::ScanAxis => "scan-axis",
-            Self::Scars => "scars",
-            Self::Noise => "noise",
-            Self::Hardness => "hardness",
-        }
-    }
+codes! {
+    /// The map as a whole is inclined: opposite edges differ by the drop of its plane.
+    Tilt = "tilt",
+    /// The heights fall to all edges, or end before them, like those of a sphere: a body, which in a periodic cell has
+    /// images of itself as neighbours.
+    Ends = "ends",
+    /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
+    OpenEdges = "open-edges",
+    /// The rms slope exceeds ½, that of a measured map 100: heights and lengths may be in different units.
+    Steep = "steep",
+    /// The rms slope is less than 1e-8: heights and lengths may be in different units.
+    Smooth = "smooth",
+    /// The contact modulus E* is below that of any solid in the unit that the lengths ask for.
+    Modulus = "modulus",
+    /// A contact pressure exceeds the contact modulus E*.
+    BeyondModulus = "beyond-modulus",
+    /// The stiffness of the shortest waves is not that of a half-space: a layer may be thinner than some nodes.
+    ThinBody = "thin-body",
+    /// Single nodes are far above or below their neighbours.
+    Spikes = "spikes",
+    /// A value far outside the rest that stands for missing points, such as −9999.
+    MissingCode = "missing-code",
+    /// The first line or column runs evenly, like coordinates.
+    Axes = "axes",
+    /// The magnitudes of the numbers are those of bytes in the wrong order.
+    ByteOrder = "byte-order",
+    /// The cells of the grid are far from square.
+    Cells = "cells",
+    /// The range of adhesion exceeds the heights, or is too short for the grid.
+    Range = "range",
+    /// All heights are the same.
+    Flat = "flat",
+    /// Contact or traction reaches the edge of a free boundary's window.
+    WindowEdge = "window-edge",
+    /// The contact of a mirrored map is not that of its mirror images.
+    Images = "images",
+    /// The lines across the scan lines that are to be brought to one height have by far the larger offsets.
+    ScanAxis = "scan-axis",
+    /// Much of the load is on single lines, such as scars of a measurement.
+    Scars = "scars",
+    /// Much of the load is on single nodes, such as those of noise.
+    Noise = "noise",
+    /// Most of the load is above a tenth of the contact modulus E*, where most solids yield.
+    Hardness = "hardness",
 }
 
 impl fmt::Display for WarningCode {

@@ -3,7 +3,6 @@
 use asperity::{Grid, Surface};
 use ndarray::Array2;
 
-use super::extremes::Extremes;
 use super::part::Part::{Figure, Length, Pressure, Word};
 use super::relief::{Relief, Side};
 use super::spikes::Spikes;
@@ -68,27 +67,23 @@ pub(super) fn cells(grid: &Grid) -> Option<Warning> {
     if nx == 1 || ny == 1 || aspect <= CELLS {
         return None;
     }
-    let (lx, ly) = grid.lengths();
     Some(Warning::told(
         WarningCode::Cells,
         aspect,
-        "cells are {} by {}, {} times as long as wide: check the side lengths, {} by {} for {} nodes, or resample to \
-         square cells",
-        [Length(dx), Length(dy), Figure(aspect), Length(lx), Length(ly), Word(format!("{nx} x {ny}"))],
+        "cells are {} by {}, {} times as long as wide: check the side lengths",
+        [Length(dx), Length(dy), Figure(aspect)],
     ))
 }
 
-pub(super) fn missing_code(value: f64, count: usize, extremes: &Extremes) -> Warning {
+pub(super) fn missing_code(value: f64, count: usize) -> Warning {
     // all digits, as the remedy needs them
     let value = if (1e-3..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") };
     let nodes = format!("{count} {}", if count == 1 { "node" } else { "nodes" });
-    let (low, high) = extremes.rest;
     Warning::told(
         WarningCode::MissingCode,
         count as f64,
-        "{} stands at {}, far outside of the other heights, {} to {}, as a code for missing points does: declare it \
-         missing, and fill (prepare --missing {} --fill); nothing else can be told of the heights before",
-        [Word(value.clone()), Word(nodes), Length(low), Length(high), Word(value)],
+        "{} stands at {}: use prepare --missing {} --fill",
+        [Word(value.clone()), Word(nodes), Word(value)],
     )
 }
 
@@ -104,14 +99,12 @@ pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
     }
     let (lx, ly) = grid.lengths();
     let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
-    let across = x.abs() + y.abs();
-    let times = across / (relief.rms * relief.unit);
+    let times = (x.abs() + y.abs()) / (relief.rms * relief.unit);
     Some(Warning::told(
         WarningCode::Tilt,
         times,
-        "the map is tilted by {} along x and {} along y, {} across it, {} times the rms height about that plane: \
-         remove a plane (detrend)",
-        [Figure(x / lx), Figure(y / ly), Length(across), Figure(times)],
+        "the map is tilted by {} along x, {} along y: remove a plane",
+        [Figure(x / lx), Figure(y / ly)],
     ))
 }
 
@@ -120,22 +113,11 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
     let factor = if nx.min(ny) == 1 { OPEN_END } else { OPEN_EDGE };
     let stands_out = |side: &Side| side.edge > STANDS_OUT * side.greatest_step;
     let open = |side: &Side| side.tells() && side.edge > factor * side.rms_step && stands_out(side);
-    let open = relief.sides.iter().zip(["x", "y"]).filter(|(side, _)| open(side));
-    let open: Vec<_> = open.map(|(side, name)| (side.edge * relief.unit, name, side.edge / side.rms_step)).collect();
-    let worst = open.iter().map(|(.., times)| *times).reduce(f64::max)?;
-    let text = match open[..] {
-        [_] => {
-            "opposite edges do not meet, the rms step across the periodic edge is {} along {}, {} times that between \
-             neighbours inside: make the map periodic, by mirror images (mirror) or a taper (window)"
-        }
-        _ => {
-            "opposite edges do not meet, the rms step across the periodic edge is {} along {}, {} times that between \
-             neighbours inside, and {} along {}, {} times that between neighbours inside: make the map periodic, by \
-             mirror images (mirror) or a taper (window)"
-        }
-    };
-    let parts = open.into_iter().flat_map(|(step, name, times)| [Length(step), Word(name.to_owned()), Figure(times)]);
-    Some(Warning::told(WarningCode::OpenEdges, worst, text, parts.collect::<Vec<_>>()))
+    let (sides, axes): (Vec<_>, Vec<_>) = relief.sides.iter().zip(["x", "y"]).filter(|(side, _)| open(side)).unzip();
+    let worst = sides.iter().map(|side| side.edge / side.rms_step).reduce(f64::max)?;
+    let step = sides.iter().map(|side| side.edge * relief.unit).fold(0.0, f64::max);
+    let text = "opposite edges do not meet along {}, by {} rms: mirror the map";
+    Some(Warning::told(WarningCode::OpenEdges, worst, text, [Word(axes.join(" and ")), Length(step)]))
 }
 
 /// The highest of heights along the edges, without those of absent nodes; −∞ if all of these are absent.
@@ -149,9 +131,9 @@ fn highest_at_edges(surface: &Surface, heights: &Array2<f64>) -> f64 {
 
 /// A body that ends before the edges.
 pub(super) fn ends_within(surface: &Surface) -> Option<Warning> {
-    let text = "no node along the edges has a surface, as around a punch: {}";
+    let text = "no node along the edges has a surface: use a free boundary";
     let ends = surface.absent().is_some() && highest_at_edges(surface, surface.heights()) == f64::NEG_INFINITY;
-    ends.then(|| Warning::told(WarningCode::Ends, 0.0, text, [Word(ALONE.to_owned())]))
+    ends.then(|| Warning::told(WarningCode::Ends, 0.0, text, []))
 }
 
 /// A body that falls to the edges, which are creases between it and its images.
@@ -164,22 +146,9 @@ pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warnin
     if !relief.sides.iter().all(falls) || below <= 0.0 {
         return None;
     }
-    let (dx, dy) = surface.grid().spacing();
-    let slope = |side: &Side, spacing: f64| side.falls.iter().sum::<f64>() * relief.unit / spacing;
-    let slope = slope(&relief.sides[0], dx).max(slope(&relief.sides[1], dy));
-    Some(Warning::told(
-        WarningCode::Ends,
-        0.0,
-        "the heights fall to all edges, {} and more below their mean, and the slope changes by {} there, as between \
-         spheres or cones side by side: {}",
-        [Length(below * relief.unit), Figure(slope), Word(ALONE.to_owned())],
-    ))
+    let text = "the heights fall to all edges, by {} or more: use a free boundary";
+    Some(Warning::told(WarningCode::Ends, 0.0, text, [Length(below * relief.unit)]))
 }
-
-/// What a body that ends is in a periodic cell, and the remedies.
-const ALONE: &str = "in a periodic cell a body stands among images of itself; give the half-space a free boundary \
-                     (boundary free), make the map wider around the body on a layer or coating, or, if the roughness \
-                     alone is wanted, remove the form (remove-form)";
 
 impl Warning {
     /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
@@ -204,9 +173,8 @@ impl Warning {
         Some(Self::told(
             WarningCode::Modulus,
             0.0,
-            "the contact modulus is {}, and the lengths are in m, with nodes {} apart: beside these it is in Pa, and \
-             less than the {} Pa of soft gels; give it in Pa, as 7e10 for 70 GPa, or give all numbers a unit",
-            [Pressure(modulus), Length(spacing), Word(format!("{SOFTEST:e}"))],
+            "the contact modulus is {}, below {} Pa: give it in Pa, since lengths are in m",
+            [Pressure(modulus), Word(format!("{SOFTEST:e}"))],
         ))
     }
 }
@@ -218,21 +186,19 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
         _ if slope > 0.0 && slope < SMOOTH => (WarningCode::Smooth, format!("less than {SMOOTH:e}"), slope.recip()),
         _ => return None,
     };
-    let text = "the rms slope by differences is {}, {}: are heights and lengths in one unit? scale the heights, or \
-                correct the side lengths";
+    let text = "the rms slope by differences is {}, {}: check the units";
     Some(Warning::told(code, severity, text, [Figure(slope), Word(than)]))
 }
 
 pub(super) fn spikes(relief: &Relief) -> Option<Warning> {
-    let Spikes { count, farthest, node: (i, j), kurtosis } = Spikes::of(relief)?;
-    let nodes = format!("{count} single {}", if count == 1 { "node is far" } else { "nodes are far" });
+    let Spikes { count, farthest, node: (i, j) } = Spikes::of(relief)?;
+    let nodes = format!("{count} single {}", if count == 1 { "node stands" } else { "nodes stand" });
     let (times, node) = (farthest / relief.rms, format!("[{i}, {j}]"));
     Some(Warning::told(
         WarningCode::Spikes,
         times,
-        "{} out of all neighbours, the farthest by {}, {} times the rms height, at index {}; the kurtosis of the \
-         heights is {} (3 if Gaussian): give such nodes the median around them (despike)",
-        [Word(nodes), Length(farthest * relief.unit), Figure(times), Word(node), Figure(kurtosis)],
+        "{} out, by up to {}, at {}: use despike",
+        [Word(nodes), Length(farthest * relief.unit), Word(node)],
     ))
 }
 
@@ -248,8 +214,7 @@ impl Warning {
     pub fn of_despiked(spikes: usize, points: usize) -> Option<Self> {
         let share = spikes as f64 / points as f64;
         (share > MANY_SPIKES).then(|| {
-            let text = "{} % of the points have the median around them now, more than {} %, so that features of the surface \
-                        may be among them: raise the threshold of despike";
+            let text = "{} % of the points are spikes, more than {} %: raise the threshold of despike";
             Self::told(WarningCode::Spikes, share, text, [Figure(100.0 * share), Figure(100.0 * MANY_SPIKES)])
         })
     }

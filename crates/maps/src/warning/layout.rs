@@ -35,18 +35,17 @@ pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
     let is_profile = heights.ncols() == 2;
     let (what, numbers, remedy) = match [Axis(0), Axis(1)].map(is_axis) {
         [false, false] => return None,
-        [_, true] if is_profile => ("first column", heights.column(0), "is it a profile? give the second column alone"),
-        [true, false] => ("first line", heights.row(0), AXES),
-        [is_both, _] => {
-            (if is_both { "first line and the first column" } else { "first column" }, heights.column(0), AXES)
-        }
+        [_, true] if is_profile => ("first column runs", heights.column(0), "a profile? give the second column alone"),
+        [true, false] => ("first line runs", heights.row(0), AXES),
+        [true, true] => ("first line and the first column run", heights.column(0), AXES),
+        [false, true] => ("first column runs", heights.column(0), AXES),
     };
-    let text = "the {} of the numbers runs evenly, up to {}, which heights do not: {}";
+    let text = "the {} evenly, up to {}: {}";
     let last = numbers[numbers.len() - 1];
     Some(Warning::told(WarningCode::Axes, 0.0, text, [Word(what.into()), Figure(last), Word(remedy.into())]))
 }
 
-const AXES: &str = "are these coordinates? leave them out, and give the side lengths (lengths)";
+const AXES: &str = "leave out coordinates";
 
 /// Numbers of which the bytes are in the wrong order.
 pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
@@ -63,8 +62,7 @@ pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
         return None;
     }
     let power = |power: f64| Word(format!("1e{power:.0}"));
-    let text = "half of the magnitudes are from {} to {}, which no heights are: are their bytes in the wrong order? in \
-                Python: array.byteswap()";
+    let text = "half of the magnitudes are from {} to {}: swap the bytes";
     Some(Warning::told(WarningCode::ByteOrder, high - low, text, [power(low), power(high)]))
 }
 
@@ -87,7 +85,7 @@ mod tests {
         assert!(found(&heights).is_empty());
         let mut table = heights.clone();
         table.row_mut(0).iter_mut().enumerate().for_each(|(j, h)| *h = 0.25 * j as f64);
-        assert!(found(&table)[0].starts_with("axes: the first line of the numbers runs evenly, up to 2.75"));
+        assert!(found(&table)[0].starts_with("axes: the first line runs evenly, up to 2.75"));
         table.column_mut(0).iter_mut().enumerate().for_each(|(i, h)| *h = 3.0 - i as f64);
         table[[0, 0]] = f64::NAN;
         assert!(found(&table)[0].contains("first line and the first column"));

@@ -1,6 +1,6 @@
 //! The warning about scan lines: the lines along the other axis have the offsets.
 
-use super::part::Part::{Figure, Length, Word};
+use super::part::Part::{Figure, Word};
 use super::{Warning, WarningCode};
 use crate::topography::{LineSteps, ScanAxis, Topography};
 
@@ -58,10 +58,8 @@ impl Warning {
         Some(Self::told(
             WarningCode::ScanAxis,
             0.0,
-            "lines along {} are offset from one to the next by {}, {} times as irregularly as those along {}, which \
-             are to be brought to one height: if the instrument scanned along {}, choose {} for the scan axis, or \
-             exchange the axes",
-            [across.clone(), Length(other.shared), times, along, across.clone(), across],
+            "lines along {} are offset {} times as much as those along {}: choose scan axis {}",
+            [across.clone(), times, along, across],
         ))
     }
 }

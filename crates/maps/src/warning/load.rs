@@ -21,22 +21,20 @@ const LEAST_NODES: usize = 100;
 const BORNE: f64 = 0.1;
 const MOST: f64 = 0.5;
 
-/// Nodes that stand alone: their number, their load, and the greatest pressure.
+/// Nodes that stand alone: their number and their load.
 #[derive(Clone, Copy, Default)]
 struct Nodes {
     count: usize,
     load: f64,
-    greatest: f64,
 }
 
 impl Nodes {
     fn add(&mut self, other: Self) {
         self.count += other.count;
         self.load += other.load;
-        self.greatest = self.greatest.max(other.greatest);
     }
 
-    /// Goes on along a line with a node that is alone across it, or ends there, and counts if it was long.
+    /// Continues a line with a node that is alone across it, or ends it, and counts it if it was long.
     fn go_on(&mut self, node: Option<Self>, counted: &mut Self) {
         match node {
             Some(node) => self.add(node),
@@ -62,7 +60,7 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>, scars_removed: Option<f64
         let mut line_along_y = Nodes::default();
         for (j, line_along_x) in lines_along_x.iter_mut().enumerate() {
             let pressure = pressures[[i, j]].widen();
-            let node = Nodes { count: 1, load: pressure, greatest: pressure };
+            let node = Nodes { count: 1, load: pressure };
             let alone = |before: [usize; 2], after: [usize; 2]| {
                 let beside = pressures[before].widen().max(pressures[after].widen());
                 (pressure > ALONE * beside).then_some(node)
@@ -86,23 +84,18 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>, scars_removed: Option<f64
     };
     let (nodes, axis) = kinds.into_iter().filter(much).max_by(|a, b| a.0.load.total_cmp(&b.0.load))?;
     let (share, percent) = (nodes.load / all.load, Figure(100.0 * nodes.load / all.load));
-    let (times, greatest) = (Figure(ALONE), Pressure(nodes.greatest));
     Some(match axis.map(str::to_owned) {
         Some(axis) => Warning::told(
             WarningCode::Scars,
             share,
-            "{} % of the load stands on single lines along {}, on nodes that press more than {} times as hard as those \
-             of both lines beside them, with up to {}: scars, if {} is the scan axis of a measurement; look at these \
-             lines in the map, and {}",
-            [percent, Word(axis.clone()), times, greatest, Word(axis.clone()), Word(remedy(&axis, scars_removed))],
+            "{} % of the load is on lines along {}: {}",
+            [percent, Word(axis.clone()), Word(remedy(&axis, scars_removed))],
         ),
         None => Warning::told(
             WarningCode::Noise,
             share,
-            "{} % of the load stands on single nodes, which press more than {} times as hard as all beside them, with \
-             up to {}: noise of a measurement, or contacts that the nodes do not resolve; leave out short waves (prepare \
-             --cut-off-wavelength), give spikes the median around them (despike), or refine the map",
-            [percent, times, greatest],
+            "{} % of the load is on single nodes: use despike, or cut off short waves",
+            [percent],
         ),
     })
 }
@@ -110,11 +103,8 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>, scars_removed: Option<f64
 /// The remedy for scars along an axis, where some may have been removed beyond a threshold.
 fn remedy(axis: &str, scars_removed: Option<f64>) -> String {
     match scars_removed {
-        None => format!("remove them (prepare --remove-scars --scan-axis {axis})"),
-        Some(threshold) => format!(
-            "as prepare --remove-scars {threshold} has left them, use a lower threshold, with --scan-axis {axis}, or \
-             leave out what is shorter than a wavelength (--cut-off-wavelength)"
-        ),
+        None => format!("prepare --remove-scars --scan-axis {axis}"),
+        Some(threshold) => format!("use --remove-scars below {threshold}"),
     }
 }
 
@@ -144,9 +134,7 @@ impl Warning {
         if solution.report.plastic.is_some() || modulus <= 0.0 || above.is_nan() || above <= MOST * all {
             return None;
         }
-        let text = "{} % of the load stands on nodes that press harder than a tenth of the contact modulus E*, {}, at \
-                    which most solids yield: if the slopes are right, give the hardness of the softer body \
-                    (--hardness)";
+        let text = "{} % of the load is above E*/10, {}: give the hardness of the softer body";
         let parts = [Figure(100.0 * above / all), Pressure(BORNE * modulus)];
         Some(Self::told(WarningCode::Hardness, above / all, text, parts))
     }

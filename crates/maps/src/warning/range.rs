@@ -1,7 +1,7 @@
 //! The warnings about the range of adhesion: it is too short for the grid, or exceeds the heights.
 
 use asperity::adhesion::mu_rho;
-use asperity::{AdhesionLaw, Grid, Real, Report, Surface};
+use asperity::{AdhesionLaw, Real, Report, Surface};
 
 use super::extremes::Extremes;
 use super::part::Part::{Figure, Length, Word};
@@ -24,18 +24,15 @@ impl Warning {
             found.push(Self::told(
                 WarningCode::Range,
                 mu_rho / RESOLVED,
-                "adhesion is under-resolved, mu_rho = {} exceeds {}: the grid holds the edges of contacts, as a work \
-                 of adhesion of {} times the given one would (approach, withdrawal); use the law jkr, the limit of no \
-                 range, as the nodes cannot follow one as short as this{}",
-                [Figure(mu_rho), Figure(RESOLVED), Word(held(mu_rho)), Word(finer(mu_rho, surface.grid()))],
+                "mu_rho = {} exceeds {}: the grid makes w act as {} w: use jkr",
+                [Figure(mu_rho), Figure(RESOLVED), Word(held(mu_rho))],
             ));
         }
         if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
             found.push(Self::told(
                 WarningCode::Range,
                 range / span,
-                "the range of adhesion, {}, exceeds the heights, which span {}: it then pulls on the whole surface \
-                 alike, as a pressure would; give it in the unit of the lengths",
+                "the range of adhesion, {}, exceeds the heights, {}: check its unit",
                 [Length(range), Length(span)],
             ));
         }
@@ -62,24 +59,8 @@ fn held(mu_rho: f64) -> String {
         format!("{less}{low:.2} to {more}{high:.*}", if high < 2.0 { 2 } else { 1 })
     };
     let Some(pair) = HELD.windows(2).find(|pair| mu_rho <= pair[1].0) else {
-        return told(HELD[HELD.len() - 1].1, ["less than ", "more than "]);
+        return told(HELD[HELD.len() - 1].1, ["<", ">"]);
     };
     let share = (mu_rho / pair[0].0).ln() / (pair[1].0 / pair[0].0).ln();
     told([0, 1].map(|k| pair[0].1[k].powf(1.0 - share) * pair[1].1[k].powf(share)), [""; 2])
-}
-
-/// The most nodes along a side of a grid to which a warning sends.
-const MOST_NODES: f64 = 16384.0;
-
-/// The grid that would resolve the range, as a second remedy, if it may be had.
-fn finer(mu_rho: f64, grid: &Grid) -> String {
-    // μ_ρ goes with the root of the spacing
-    let times = (mu_rho / RESOLVED).powi(2).ceil();
-    let (nx, ny) = grid.shape();
-    let nodes = [nx, ny].into_iter().filter(|&side| side > 1).map(|side| times * side as f64).collect::<Vec<_>>();
-    if nodes.iter().any(|&nodes| nodes > MOST_NODES) {
-        return String::new();
-    }
-    let nodes = nodes.iter().map(f64::to_string).collect::<Vec<_>>().join(" x ");
-    format!(", or a grid {times} times finer, of {nodes} nodes")
 }

@@ -19,8 +19,6 @@ pub struct Spikes {
     /// The greatest distance from the mean of the neighbours, and the node.
     pub farthest: f64,
     pub node: (usize, usize),
-    /// The kurtosis of the heights about their plane.
-    pub kurtosis: f64,
 }
 
 impl Spikes {
@@ -50,11 +48,7 @@ impl Spikes {
         candidates.retain(|(out, _)| *out > SPIKE * f64::sqrt(squares / count));
         let (farthest, node) =
             candidates.iter().copied().reduce(|most, next| if next.0 > most.0 { next } else { most })?;
-        let x = |k: usize, n: usize| (k as f64 - 0.5 * (n as f64 - 1.0)) / n as f64;
-        let [across, along] = &relief.sides;
-        let plane = |(i, j)| relief.mean + across.drop * x(i, nx) + along.drop * x(j, ny);
-        let fourth: f64 = heights.indexed_iter().map(|(node, h)| ((h - plane(node)) / rms).powi(4)).sum();
-        Some(Self { count: candidates.len(), farthest, node, kurtosis: fourth / heights.len() as f64 })
+        Some(Self { count: candidates.len(), farthest, node })
     }
 }
 

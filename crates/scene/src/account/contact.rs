@@ -153,7 +153,7 @@ impl ContactFigures {
                 let [from, to] = [from, to].map(|value| units.number(value, dimension));
                 format!("{exponent:.3}, from {from} to {to}, {nodes} nodes")
             }
-            None => "not to be told: the nodes do not reach that near the edge of the contact".to_owned(),
+            None => "not determined: the nodes do not come close enough to the edge of the contact".to_owned(),
         };
         let mut rows = vec![
             ("clusters of contact", self.clusters.to_string()),

@@ -72,7 +72,7 @@ impl Narrowest {
     /// Where the passage along an axis is narrowest, in words.
     pub(crate) fn in_words(found: Option<&Self>, units: &Units) -> String {
         found.map_or("closed".to_owned(), |Self { gap, node: (i, j), .. }| {
-            format!("open, a gap of {} at the constriction, node [{i}, {j}]", units.number(*gap, LENGTH))
+            format!("open, the gap is {} at the constriction, node [{i}, {j}]", units.number(*gap, LENGTH))
         })
     }
 }

@@ -79,7 +79,7 @@ fn inaccurate(account: &Account, reached: &Reached) -> String {
 fn unstable(account: &Account) -> Option<String> {
     account.stability.as_ref().filter(|found| found.verdict == Verdict::Unstable)?;
     Some(match &account.departures {
-        None => "the equilibrium is unstable, it would not last: {leave=} goes on from it".to_owned(),
+        None => "the equilibrium is unstable, it would not last: {leave=} continues from it".to_owned(),
         Some(left) => format!("still unstable after {} departures: try another {{initial_gap}}", left.len()),
     })
 }

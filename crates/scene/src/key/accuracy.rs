@@ -14,8 +14,9 @@ keys! {
     /// The accuracy that is asked for, from which tolerance and grid follow.
     AccuracyKeys {
         "Solver" {
-            /// Relative error that is wanted, as 0.01: chooses the tolerance, solves on coarser grids too, and interpolates
-            /// the surface on finer ones until the estimated error is as small; the results are on the finest grid
+            /// Relative error to reach, such as 0.01: chooses the tolerance, solves on coarser grids too, and
+            /// interpolates the surface on finer ones until the estimated error is small enough; the results are on the
+            /// finest grid
             accuracy: Kind::number(Range::POSITIVE, &["A"])
                 .excludes(&["initial_gap", "nested", "no_nested", "stability", "leave"]),
             /// Quantity that has the accuracy [default: area]
@@ -30,15 +31,15 @@ keys! {
     /// The pull-off that is asked for.
     PullOffKeys {
         "Load" {
-            /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed flat,
-            /// or were as {branch} or {initial_gap} says
+            /// Mean pressure to which surfaces that come from afar were pressed before; without it they were pressed
+            /// flat, unless {branch} or {initial_gap} says otherwise
             preload: Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
             /// Relative tolerance of the pull-off
             rtol: Kind::number(Range::SHARE, &["T"]).or("0.02"),
         }
         "Solver" {
-            /// Relative error of the pull-off that is wanted, as 0.05, with the law jkr: interpolates the surface on finer
-            /// grids until the estimated error is as small
+            /// Relative error of the pull-off to reach, such as 0.05, with the law jkr: interpolates the surface on
+            /// finer grids until the estimated error is small enough
             accuracy: Kind::number(Range::POSITIVE, &["A"]).excludes(&["initial_gap"]),
             /// Memory that {accuracy} may take, in GiB [default: all that is free]
             memory: Kind::number(Range::POSITIVE, &["GIB"]).needs(&["accuracy"]),
@@ -80,7 +81,7 @@ impl Given {
         let of = Quantity::ALL.into_iter().find(|quantity| quantity.name() == of).unwrap_or(Quantity::Area);
         match (self.number("accuracy"), memory) {
             (None, _) if memory.is_some() || self.has("accuracy_of") => {
-                Err("{accuracy_of} and {memory} are of an accuracy: give {accuracy}, as 0.01 for 1 %".to_owned())
+                Err("{accuracy_of} and {memory} are of an accuracy: give {accuracy}, such as 0.01 for 1 %".to_owned())
             }
             (_, Some(memory)) if memory <= 0.0 || memory.is_nan() => {
                 Err(format!("{{memory}} is {memory}: it must be positive, in GiB"))

@@ -17,7 +17,7 @@ keys! {
     /// The adhesion between the surfaces, the wall, and the hardness.
     AdhesionKeys {
         "Adhesion" {
-            /// Adhesion law, over the gap g; asperity laws tells what each needs and where it is from
+            /// Adhesion law, over the gap g; asperity laws lists the parameters and the source of each
             law: Kind::word(laws, &["LAW"]).or("none"),
             /// Work of adhesion, an energy per area; all that jkr needs
             work_of_adhesion: Kind::quantity(ENERGY_PER_AREA, Range::NON_NEGATIVE, &["W"]),
@@ -31,7 +31,8 @@ keys! {
             law_table: Kind::file(),
             /// Gap at which a law that never ends is cut off, smoothly and with all of its work of adhesion
             cut_off: Kind::quantity(LENGTH, Range::POSITIVE, &["D"]),
-            /// Work of adhesion at each node, in a file as for the heights and of their shape, in the place of one for all
+            /// Work of adhesion at each node, instead of one for all, in a file with a format and the shape of the
+            /// heights
             work_of_adhesion_map: Kind::file(),
             /// What keeps the surfaces apart: a rigid wall, the repulsion of lennard-jones or morse alone, or springs
             wall: Kind::word(Wall::words, &["WALL"]).or("hard"),
@@ -39,10 +40,10 @@ keys! {
             wall_stiffness: Kind::quantity(PRESSURE_PER_LENGTH, Range::POSITIVE, &["K"]),
         }
         "Body" {
-            /// Hardness, a pressure that caps the contact pressure: the surface yields there and stays flattened
+            /// Hardness, the greatest contact pressure: where it is reached, the surface yields and stays flattened
             hardness: Kind::quantity(PRESSURE, Range::POSITIVE, &["H"]),
-            /// Hardness at each node, in a file as for the heights and of their shape, in the place of one for all; in Pa
-            /// where other numbers have units
+            /// Hardness at each node, instead of one for all, in a file with a format and the shape of the heights; in
+            /// Pa if other numbers have units
             hardness_map: Kind::file(),
         }
     }
@@ -142,13 +143,13 @@ impl Adhesion {
                 }
                 Some(_) if replaced => {
                     return Err(format!(
-                        "{{{key}}} is given beside {{work_of_adhesion_map}}, which says it at every node: leave one of them \
+                        "{{{key}}} is given with {{work_of_adhesion_map}}, which says it at every node: leave one of them \
                          out"
                     ));
                 }
                 Some(value) if law.of_grid && key == "range" => format!(
-                    "{value}, but {{law}} {name} is the limit of no range, as short as the grid can resolve: leave it out, or \
-                     choose a law with a range, as {{law}} exponential"
+                    "{value}, but {{law}} {name} is the limit of zero range, as short as the grid can resolve: leave it out, or \
+                     choose a law with a range, such as {{law}} exponential"
                 ),
                 Some(value) if !law.needs.contains(&key) => {
                     format!("{value}, but {{law}} {name} has no use for it: leave it out")
@@ -179,7 +180,7 @@ impl Adhesion {
         }
         if let (Some(_), Some(_)) = (self.hardness, &self.hardness_map) {
             let reason = "which says it at every node: leave one of them out";
-            return Err(format!("{{hardness}} is given beside {{hardness_map}}, {reason}"));
+            return Err(format!("{{hardness}} is given with {{hardness_map}}, {reason}"));
         }
         if wall != Wall::Hard {
             self.check_elastic(&format!("{{wall}} {wall} does not yield"))

@@ -6,12 +6,12 @@ use crate::key::{
 };
 
 keys! {
-    /// The findings beside a solution.
+    /// The findings after a solution.
     FindingsKeys {
         "Output" {
             /// Find out whether the solution is stable, and write its softest mode to mode.npy
             stability: Kind::switch().excludes(&["nested"]),
-            /// Go on from an equilibrium that is unstable to one that is not, and say how far the energy falls; implies
+            /// Continue from an unstable equilibrium to one that is not, and say how far the energy falls; implies
             /// {stability}
             leave: Kind::switch().excludes(&["nested"]),
             /// Find the contact stiffness: how much the mean pressure grows with the approach, pressure per length
@@ -32,11 +32,11 @@ keys! {
 }
 
 keys! {
-    /// The conductors, of which the contact stiffness tells the conductance.
+    /// The conductors, whose conductance follows from the contact stiffness.
     ConductorKeys {
         "Output" {
-            /// Electrical resistivities of both half-spaces: with {stiffness} the electrical conductance of the contact per
-            /// area, by Barber's identity, and its relative error, that of the grid included
+            /// Electrical resistivities of both half-spaces: with {stiffness} these give the electrical conductance of
+            /// the contact per area, by Barber's identity, and its relative error, including that of the grid
             resistivities: Kind::quantity(RESISTIVITY, Range::NON_NEGATIVE, &["R1", "R2"]).each()
                 .excludes(&["conductivities"]),
             /// Thermal conductivities of both half-spaces: the same for heat
@@ -59,9 +59,9 @@ keys! {
     /// The leakage after a solve, or in each row of a table.
     LeakageKeys {
         "Output" {
-            /// Enclose the transmissivity of the gap along x and y under each load between two bounds, as asperity leak, in
-            /// a table in columns transmissivity_x_lower and so on, as close as a share of the upper one [default: 1e-3 if
-            /// {leakage} stands alone]
+            /// Enclose the transmissivity of the gap along x and y under each load between two bounds, like asperity
+            /// leak; in a table the columns are transmissivity_x_lower and so on. The value is the distance of the
+            /// bounds as a share of the upper one [default: 1e-3 if {leakage} has no value]
             leakage: Kind::number(Range::SHARE, &["T"]).alone("1e-3"),
         }
     }

@@ -10,7 +10,7 @@ keys! {
     /// The grids of a solve.
     NestedKeys {
         "Solver" {
-            /// Solve on coarser grids first, where these resolve the adhesion; the default where that is faster
+            /// Solve on coarser grids first, if these resolve the adhesion; the default if that is faster
             nested: Kind::switch().excludes(&["initial_gap"]).replaces("no_nested"),
             /// Solve on the grid of the heights alone
             no_nested: Kind::switch().replaces("nested"),
@@ -26,12 +26,12 @@ keys! {
             steps: Kind::whole(&["N"]).or("50"),
             /// Step to which jumps are located, as a share of the way from one turning point to the next
             smallest_step: Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
-            /// Imbalance of energy that a step may have, as a share of how much the energy has changed, and of twenty times
-            /// what jumps have dissipated so far: jumps that are smaller are not located one by one
+            /// Imbalance of energy that a step may have, as a share of the change of the energy so far and of twenty
+            /// times what jumps have dissipated; smaller jumps are not located one by one
             imbalance: Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
         }
         "Adhesion" {
-            /// Do not smooth a law whose traction jumps: the grid then holds the edge of the adhesive zone back
+            /// Do not smooth a law whose traction jumps: the grid then pins the edge of the adhesive zone
             sharp: Kind::switch(),
         }
     }
@@ -132,7 +132,7 @@ impl Asked {
 
     /// Refuses what is known of elastic contact alone where the surface yields.
     fn check_hardness(&self, adhesion: &Adhesion, method: Method) -> Result<(), String> {
-        let elastic = "a surface that yields does not come back, as its test and its tangent take for granted";
+        let elastic = "a surface that yields does not come back, which its test and its tangent assume";
         let (key, reason) = match self {
             _ if !adhesion.yields() => return Ok(()),
             _ if method == Method::Rey2017 => ("{method=rey2017}", "it has no form for a surface that yields"),

@@ -9,9 +9,9 @@ use crate::key::choice;
 choice! {
     /// The boundary of the elastic body, by the surroundings of the map.
     Boundary {
-        /// the same again: a piece of a surface that goes on
+        /// copies of the map: it is a piece of a larger surface
         Periodic = "periodic",
-        /// nothing: a tip, an indenter, a chip; the half-space is free of load there
+        /// nothing: the map is a tip, an indenter or a chip, and the half-space carries no load there
         Free = "free",
     }
 }

@@ -23,40 +23,41 @@ keys! {
             /// Contact modulus E*, a pressure: E/(1 - nu^2), with Young's modulus E and Poisson's ratio nu of the body that
             /// deforms
             modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]).or("1"),
-            /// What is beyond the map
+            /// Surroundings of the map
             boundary: Kind::word(Boundary::words, &["BOUNDARY"]).or("periodic"),
-            /// Take missing points of the file for absent nodes, at which nothing faces the half-space, as around a punch or
-            /// in a hole; in the files of results their gap is NaN and their pressures 0
+            /// Treat missing points of the file as absent nodes, where nothing faces the half-space, such as around a punch or
+            /// in a hole; in the files of results their gap is NaN and their pressures are 0
             absent_missing: Kind::switch(),
         }
         "Body" {
-            /// Thickness of an elastic layer on a rigid base, in the place of a half-space; needs {poisson}
+            /// Thickness of an elastic layer on a rigid base, instead of a half-space; needs {poisson}
             layer: Kind::quantity(LENGTH, Range::POSITIVE, &["T"]).excludes(&["coating"]),
             /// Hold of the base on the layer: bonded, or sliding without friction [default: bonded]
             base: Kind::word(|| Word::all(&["bonded", "sliding"]), &["BASE"]),
-            /// Thickness of an elastic coating on the half-space, of which {modulus} is that of the substrate; needs
+            /// Thickness of an elastic coating on the half-space; {modulus} is then that of the substrate; needs
             /// {coating_modulus}, {coating_poisson} and {poisson}
             coating: Kind::quantity(LENGTH, Range::POSITIVE, &["T"]),
             /// Contact modulus E/(1 - nu^2) of the coating, a pressure
             coating_modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
             /// Poisson's ratio of the coating
             coating_poisson: Kind::number(Range::POISSON, &["NU"]),
-            /// Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space, of which {modulus} is that under it
+            /// Bending stiffness D = E t^3/(12 (1 - nu^2)) of a plate on the half-space; {modulus} is then that of the
+            /// half-space
             plate: Kind::quantity(ENERGY, Range::POSITIVE, &["D"]).excludes(&["layer", "coating"]),
             /// Poisson's ratio of the layer, or of the substrate under a coating
             poisson: Kind::number(Range::POISSON, &["NU"]),
         }
         "Surface" {
-            /// Heights of the surface on the other side, peaks up as they were measured, of as many nodes and the same
-            /// sides; it is turned over about the y axis as it faces the other one
+            /// Heights of the second surface, measured with its peaks up, with the same number of nodes and the same
+            /// sides; the program turns it over about the y axis, so that it faces the first one
             against: Kind::file(),
-            /// Contact modulus E/(1 - nu^2) of the body on the other side, an elastic half-space [default: it is rigid]
+            /// Contact modulus E/(1 - nu^2) of the second body, an elastic half-space [default: it is rigid]
             against_modulus: Kind::quantity(PRESSURE, Range::POSITIVE, &["E"]),
-            /// Shift of the surface on the other side along x and y, any part of a node [default: 0 0]; negative ones with a
-            /// unit are written --shift=-1um,0um
+            /// Shift of the second surface along x and y, also by parts of a node [default: 0 0]; write negative ones
+            /// with a unit as --shift=-1um,0um
             shift: Kind::quantity(LENGTH, Range::FINITE, &["X", "Y"]).from(1).commas().needs(&["against"]),
-            /// Results on all nodes of a map that asperity prepare has mirrored: without it, fields, pictures, contact and
-            /// force are those of the original
+            /// Give results on all nodes of a map that asperity prepare has mirrored; without it, fields, pictures,
+            /// contact and force are those of the original
             whole: Kind::switch(),
         }
     }
@@ -242,7 +243,7 @@ impl Elastic {
             });
         };
         if let Some(missing) = kind.needs.iter().find(|key| self.own().all(|(given, _)| given != **key)) {
-            return Err(format!("{{{}}} needs {{{missing}}} beside it: give both", kind.key));
+            return Err(format!("{{{}}} needs {{{missing}}} as well: give both", kind.key));
         }
         let foreign = |key: &str| key != kind.key && !kind.needs.contains(&key) && !kind.takes.contains(&key);
         if let Some((key, value)) = self.own().find(|(key, _)| foreign(key)) {
@@ -250,7 +251,7 @@ impl Elastic {
         }
         if self.boundary == Boundary::Free {
             return Err(format!(
-                "{{{}}} has no free boundary, as only waves that repeat have its stiffness: leave out {{boundary}}, or \
+                "{{{}}} has no free boundary, since only waves that repeat have its stiffness: leave out {{boundary}}, or \
                  make the map so large that its images do not matter",
                 kind.key
             ));

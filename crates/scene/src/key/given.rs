@@ -13,7 +13,7 @@ use crate::key::{Key, Quantity, Skin, Values, worded};
 /// A value that was read: as data, and its numbers with what is known of their units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Read {
-    /// The value as data, in the SI if it was typed with a unit.
+    /// The value as data, in SI units if it was typed with a unit.
     pub value: Value,
     /// Its numbers.
     pub numbers: Vec<Quantity>,
@@ -284,7 +284,7 @@ impl Quantities {
         Self(parts.into_iter().flat_map(|part| part.0).collect())
     }
 
-    /// Whether quantities have units; then all numbers are in the SI.
+    /// Whether quantities have units; then all numbers are in SI units.
     pub fn is_si(&self) -> bool {
         self.0.iter().any(|given| given.has_unit)
     }

@@ -76,7 +76,7 @@ pub static LAWS: [Law; 9] = [
     },
     Law {
         name: "lennard-jones",
-        formula: "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; beside a wall, x = RHO/(RHO + g)",
+        formula: "traction 8W/(3 RHO) (x^3 - x^9), x = RHO/g; with a wall, x = RHO/(RHO + g)",
         needs: &[WORK, "range"],
         remark: ", the equilibrium separation",
         source: "Greenwood, Proc. R. Soc. A 453 (1997); Yu and Polycarpou, J. Tribol. 126 (2004)",

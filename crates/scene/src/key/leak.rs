@@ -8,10 +8,10 @@ keys! {
     /// The leakage through a gap.
     LeakKeys {
         "" {
-            /// What is beyond the map: of a free one each axis is fed at one side and drained at the other [default: that
-            /// of the folder, or periodic]
+            /// Surroundings of the map: with a free boundary the fluid enters at one side and leaves at the other
+            /// [default: that of the folder, or periodic]
             boundary: Kind::word(Boundary::words, &["BOUNDARY"]),
-            /// Gap of absent nodes, where the file has no number; without it they are closed
+            /// Gap of absent nodes, at which the file has no number; without it they are closed
             absent_gap: Kind::quantity(LENGTH, Range::POSITIVE, &["G"]),
             /// Dynamic viscosity of the fluid, for the flow per pressure
             viscosity: Kind::quantity(VISCOSITY, Range::POSITIVE, &["ETA"]),

@@ -36,7 +36,7 @@ pub fn parsed(text: &str, number: &dyn Fn(&str) -> Result<Quantity, String>) -> 
             let quantity = number(text).map_err(|error| match ends_of(text, number) {
                 Some((from, to)) => {
                     format!(
-                        "'{text}' is two numbers: a range is FROM:TO:COUNT, as {from}:{to}:10 or {from}:{to}:10:log"
+                        "'{text}' is two numbers: a range is FROM:TO:COUNT, such as {from}:{to}:10 or {from}:{to}:10:log"
                     )
                 }
                 None => format!("'{text}': {error}"),

@@ -14,20 +14,21 @@ keys! {
             mean_pressure: Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
             /// Normal force that is held, compression positive: the mean pressure times the area of the map
             normal_force: Kind::quantity(FORCE, Range::FINITE, &["F"]),
-            /// Approach that is held, with a free boundary: how far the bodies have moved towards each other since they
-            /// would first touch undeformed; negative before
+            /// Approach that is held, with a free boundary: how far the bodies have moved towards each other from the
+            /// position of first touch without deformation; negative before it
             approach: Kind::quantity(LENGTH, Range::FINITE, &["D"]),
-            /// Stiffness of a spring in series, as of a machine or a cantilever, force per length; needs {spring_position}
+            /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
+            /// {spring_position}
             spring_stiffness:
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_position"]),
-            /// Position of the spring's far end: with a free boundary the approach D at which the spring is relaxed, F = K
-            /// (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z)
+            /// Position Z of the spring's far end, at which the spring is relaxed: with a free boundary an approach, F = K (Z
+            /// - D); with a periodic one a mean gap, F = K (G - Z)
             spring_position: Kind::quantity(LENGTH, Range::FINITE, &["Z"]).needs(&["spring_stiffness"]),
             /// Mean pressure that is held, over the contact modulus and the rms slope of the surface: p/(E* h'rms)
             reduced_pressure: Kind::number(Range::FINITE, &["R"]),
-            /// Share of the nodes that is to be in contact, to one node or 1 %: the mean pressure for it is searched for by
-            /// some solves, with adhesion the mean gap, with a free boundary and adhesion the approach. If the contact jumps
-            /// past it, the nearer side of the jump is written, and the exit code is 2
+            /// Share of the nodes in contact to search for, to one node or 1 %. Without adhesion the search varies the
+            /// mean pressure, with adhesion the mean gap, and with adhesion and a free boundary the approach. If the
+            /// contact jumps past the share, the nearer side of the jump is written, and the exit code is 2
             contact_fraction: Kind::number(Range::SHARE, &["A"]).excludes(&["accuracy", "nested"]),
         }
     }
@@ -37,26 +38,27 @@ keys! {
     /// The loads of a table, a list of one kind.
     LoadsKeys {
         "Loads" {
-            /// Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log, with
-            /// commas between
+            /// Mean gaps, lengths, with a periodic boundary: numbers and ranges FROM:TO:COUNT or FROM:TO:COUNT:log,
+            /// separated by commas
             mean_gaps: Kind::quantities(LENGTH, Range::NON_NEGATIVE),
-            /// Mean external pressures over the area of the map, compression positive: a list as for the gaps
+            /// Mean external pressures over the area of the map, compression positive: a list like that of the gaps
             mean_pressures: Kind::quantities(PRESSURE, Range::FINITE),
-            /// Normal forces, compression positive: a list as for the gaps
+            /// Normal forces, compression positive: a list like that of the gaps
             normal_forces: Kind::quantities(FORCE, Range::FINITE),
-            /// Approaches, with a free boundary: how far the bodies have moved towards each other since they would first
-            /// touch undeformed, negative before; a list as for the gaps. A list that grows from a negative one begins with
-            /// the bodies apart
+            /// Approaches, with a free boundary: how far the bodies have moved towards each other from the position of
+            /// first touch without deformation, negative before it; a list like that of the gaps. A list that grows
+            /// from a negative value begins with the bodies apart
             approaches: Kind::quantities(LENGTH, Range::FINITE),
-            /// Stiffness of a spring in series, as of a machine or a cantilever, force per length; needs {spring_positions}
+            /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
+            /// {spring_positions}
             spring_stiffness:
                 Kind::quantity(FORCE_PER_LENGTH, Range::POSITIVE, &["K"]).needs(&["spring_positions"]),
-            /// Positions Z of the spring's far end: with a free boundary the approach D at which the spring is relaxed, F =
-            /// K (Z - D); with a periodic one the mean gap G at which it is, F = K (G - Z); a list as for the gaps. With a
-            /// free boundary a list that grows from a negative one begins with the bodies apart
+            /// Positions Z of the spring's far end, at which the spring is relaxed: with a free boundary approaches, F
+            /// = K (Z - D); with a periodic one mean gaps, F = K (G - Z); a list like that of the gaps. With a free
+            /// boundary a list that grows from a negative value begins with the bodies apart
             spring_positions: Kind::quantities(LENGTH, Range::FINITE).needs(&["spring_stiffness"]),
-            /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list as for the
-            /// gaps
+            /// Mean pressures over the contact modulus and the rms slope of the surface, p/(E* h'rms): a list like that
+            /// of the gaps
             reduced_pressures: Kind::numbers(Range::FINITE),
         }
     }
@@ -66,8 +68,9 @@ keys! {
     /// The contact fractions of a table.
     FractionsKeys {
         "Loads" {
-            /// Shares of the nodes that are to be in contact: a list as for the gaps. The load of each is searched for as by
-            /// asperity solve --contact-fraction, and the columns wanted_contact_fraction and reached are added
+            /// Shares of the nodes in contact to search for: a list like that of the gaps. The load of each is found
+            /// like that of asperity solve --contact-fraction, and the table has two more columns,
+            /// wanted_contact_fraction and reached
             contact_fractions: Kind::numbers(Range::SHARE),
         }
     }
@@ -126,7 +129,7 @@ impl Given {
     pub fn loads(&self) -> Result<Vec<Load>, String> {
         let found = self.loads_by(|kind| kind.many)?;
         if found.is_empty() {
-            return Err("there are no loads: give a list, as {mean_pressures}".to_owned());
+            return Err("there are no loads: give a list, such as {mean_pressures}".to_owned());
         }
         Ok(found)
     }

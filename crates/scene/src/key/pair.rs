@@ -47,7 +47,7 @@ pub fn between(
     let (missing, has_infinite) = (second.missing(), second.heights.iter().any(|h| h.is_infinite()));
     if missing > 0 && (has_infinite || !absent_missing) {
         return Err(format!(
-            "{{against}}: {missing} of {} points are missing: fill them by {{prepare:fill}}, or take those that are NaN for \
+            "{{against}}: {missing} of {} points are missing: fill them by {{prepare:fill}}, or treat those that are NaN as \
              absent nodes by {{absent_missing=}}",
             second.heights.len()
         ));
@@ -64,7 +64,7 @@ pub fn between(
         (Boundary::Free, ..) | (_, None, None) => shift,
         (_, Some(_), Some(_)) if shifted => {
             return Err(format!(
-                "{told}, but as a mirrored map moves its original leaves its place: make both maps periodic by \
+                "{told}, but when a mirrored map moves, its original leaves its place: make both maps periodic by \
                  {{prepare:window}}, without mirror images"
             ));
         }

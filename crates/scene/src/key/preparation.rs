@@ -65,7 +65,7 @@ pub struct Preparation {
 }
 
 impl Given {
-    /// The steps of a preparation of a map of a shape, whose numbers are in the SI or not, and which may have a unit.
+    /// The steps of a preparation of a map of a shape, whose numbers are in SI units or not, and which may have a unit.
     ///
     /// # Errors
     /// Those of [`Preparation::set_lengths`] and [`Preparation::set_cut_off_wavelength`].
@@ -152,7 +152,7 @@ impl Preparation {
     fn unit_of_lengths(&self, has: &str, of_map: Option<&str>) -> std::result::Result<(String, i32), String> {
         let unit = self.unit.as_deref().or(of_map).unwrap_or(LENGTH.si);
         let power = power_of_length(unit).ok_or_else(|| {
-            format!("{has} a unit, but the map is in {unit}, which is none of length: give {{unit}}, as nm")
+            format!("{has} a unit, but the map is in {unit}, which is no unit of length: give {{unit}}, such as nm")
         })?;
         Ok((unit.to_owned(), power))
     }
@@ -212,7 +212,7 @@ impl Preparation {
             let limit = quantity(scars.limit, &map);
             map = map.without(&scars)?;
             let beyond =
-                |scars: &str, them| format!("{scars} along {axis} beyond {limit} from the lines beside {them}");
+                |scars: &str, them| format!("{scars} along {axis} beyond {limit} from the lines next to {them}");
             let what = match count {
                 0 => beyond("no scars", "them"),
                 1 => beyond("1 scar", "it") + &format!(", {points} of {nodes} points replaced"),

@@ -11,7 +11,7 @@ use crate::key::Range;
 pub struct Quantity {
     /// The number.
     pub value: f64,
-    /// Whether it had a unit, and is in the SI.
+    /// Whether it had a unit, and is in SI units.
     pub has_unit: bool,
     /// Whether it is a share or a ratio, which needs none.
     is_number: bool,
@@ -63,34 +63,34 @@ const fn dimension(what: &'static str, si: &'static str, force: i32, length: i32
 }
 
 /// A length.
-pub const LENGTH: Dimension = dimension("length, as 20um", "m", 0, 1);
+pub const LENGTH: Dimension = dimension("length, such as 20um", "m", 0, 1);
 /// An area.
 pub const AREA: Dimension = dimension("area", "m²", 0, 2);
 /// A wave number.
-pub const PER_LENGTH: Dimension = dimension("wave number, as 2/um", "1/m", 0, -1);
+pub const PER_LENGTH: Dimension = dimension("wave number, such as 2/um", "1/m", 0, -1);
 /// A pressure.
-pub const PRESSURE: Dimension = dimension("pressure, as 70GPa", "Pa", 1, -2);
+pub const PRESSURE: Dimension = dimension("pressure, such as 70GPa", "Pa", 1, -2);
 /// A density over the pressure.
-pub const PER_PRESSURE: Dimension = dimension("density over the pressure, as 2/GPa", "1/Pa", -1, 2);
+pub const PER_PRESSURE: Dimension = dimension("density over the pressure, such as 2/GPa", "1/Pa", -1, 2);
 /// A pressure per length.
-pub const PRESSURE_PER_LENGTH: Dimension = dimension("pressure per length, as 1GPa/um", "Pa/m", 1, -3);
+pub const PRESSURE_PER_LENGTH: Dimension = dimension("pressure per length, such as 1GPa/um", "Pa/m", 1, -3);
 /// A force.
-pub const FORCE: Dimension = dimension("force, as 5nN", "N", 1, 0);
+pub const FORCE: Dimension = dimension("force, such as 5nN", "N", 1, 0);
 /// A force per length.
-pub const FORCE_PER_LENGTH: Dimension = dimension("force per length, as 40N/m", "N/m", 1, -1);
+pub const FORCE_PER_LENGTH: Dimension = dimension("force per length, such as 40N/m", "N/m", 1, -1);
 /// An energy.
-pub const ENERGY: Dimension = dimension("energy, as 60zJ", "J", 1, 1);
+pub const ENERGY: Dimension = dimension("energy, such as 60zJ", "J", 1, 1);
 /// An energy per area.
-pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, as 50mJ/m2", "J/m²", 1, -1);
+pub const ENERGY_PER_AREA: Dimension = dimension("energy per area, such as 50mJ/m2", "J/m²", 1, -1);
 
 /// A dynamic viscosity.
-pub const VISCOSITY: Dimension = Dimension { what: "viscosity, as 1mPas", si: "Pa·s", powers: [1, -2, 1, 0, 0] };
+pub const VISCOSITY: Dimension = Dimension { what: "viscosity, such as 1mPas", si: "Pa·s", powers: [1, -2, 1, 0, 0] };
 /// An electrical resistivity.
 pub const RESISTIVITY: Dimension =
-    Dimension { what: "resistivity, as 17nOhm·m", si: "Ω·m", powers: [1, 2, -1, -2, 0] };
+    Dimension { what: "resistivity, such as 17nOhm·m", si: "Ω·m", powers: [1, 2, -1, -2, 0] };
 /// A thermal conductivity.
 pub const CONDUCTIVITY: Dimension =
-    Dimension { what: "thermal conductivity, as 400W/mK", si: "W/(m·K)", powers: [1, 0, -1, 0, -1] };
+    Dimension { what: "thermal conductivity, such as 400W/mK", si: "W/(m·K)", powers: [1, 0, -1, 0, -1] };
 /// An electrical conductance per area.
 pub const ELECTRICAL_CONDUCTANCE: Dimension =
     Dimension { what: "electrical conductance per area", si: "S/m²", powers: [-1, -3, 1, 2, 0] };
@@ -174,7 +174,7 @@ pub fn times_ten_to(power: i32, value: f64) -> f64 {
     if power < 0 { value / ten } else { value * ten }
 }
 
-/// A unit: its powers, and how much it is in the SI.
+/// A unit: its powers, and how much it is in SI units.
 #[derive(Clone, Copy, Debug)]
 struct Unit {
     /// The powers of force, length, time, electric current and temperature.

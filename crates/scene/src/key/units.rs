@@ -105,7 +105,7 @@ impl Units {
         })
     }
 
-    /// A number of a dimension for people, with its unit as far as that is known, and with a prefix in the SI.
+    /// A number of a dimension for people, with its unit as far as that is known, and with a prefix in SI units.
     pub fn number(&self, value: f64, dimension: Dimension) -> String {
         match self.of(dimension) {
             Some(unit) if unit == dimension.si && ![PER_LENGTH, AREA, TRANSMISSIVITY].contains(&dimension) => {

@@ -163,7 +163,7 @@ impl<T: Scalar> Session<T> {
         Ok(Some((found, row)))
     }
 
-    /// Appends the row of a state, and goes on from there, unless its solve was stopped.
+    /// Appends the row of a state, and continues from there, unless its solve was stopped.
     ///
     /// # Errors
     /// Files that cannot be written, or were changed meanwhile.

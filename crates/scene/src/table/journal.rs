@@ -1,4 +1,4 @@
-//! The journal of a table: rows are appended to its file as they come, and an interrupted run goes on from there.
+//! The journal of a table: rows are appended to its file as they come, and an interrupted run continues from there.
 //!
 //! Beside the file stands its state: the place from which the next row follows, the identity of the run, and the length
 //! and hash of the file. A row is written to the disk before the state is replaced, in one go. So

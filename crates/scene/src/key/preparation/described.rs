@@ -27,7 +27,7 @@ pub fn beside(map: &Topography) -> String {
     let names = &map.unread[..map.unread.len().min(MOST_NAMES)];
     match map.unread.len() {
         0 => String::new(),
-        all => format!("; beside it {}{}", names.join(", "), if all > MOST_NAMES { ", ..." } else { "" }),
+        all => format!("; also in the file {}{}", names.join(", "), if all > MOST_NAMES { ", ..." } else { "" }),
     }
 }
 

@@ -12,9 +12,9 @@ keys! {
         "" {
             /// Value that stands for missing points, in the unit of the heights as they are read; may be repeated
             missing: Kind::number(Range::FINITE, &["CODE"]).commas(),
-            /// Multiply the heights, as by 1e-9 for nm where the side lengths are in m
+            /// Factor by which to multiply the heights, for example 1e-9 for heights in nm and side lengths in m
             scale: Kind::number(Range::POSITIVE, &["F"]),
-            /// Unit of side lengths and heights as they are after that, instead of the file's; solve has it in tables and
+            /// Unit of side lengths and heights after this factor, instead of the file's; solve uses it in tables and
             /// pictures
             unit: Kind::text(is_unit, &["UNIT"]),
             /// Keep NX x NY nodes from index [X, Y] on
@@ -26,25 +26,26 @@ keys! {
             align_rows: Kind::text(|text| RowAlignment::from_str(text).map(drop), &["METHOD"]),
             /// Direction of the scan lines of {align_rows} and {remove_scars} [default: x]
             scan_axis: Kind::word(|| Word::all(&ScanAxis::NAMES), &["SCAN_AXIS"]).needs(&["scan_lines"]),
-            /// Replace scars, by the heights around them: pieces of one to four scan lines, of 16 nodes and more, that are
-            /// all higher, or all lower, than both lines beside them, by more than this many rms differences of
-            /// neighbouring lines [default: 0.667 if {remove_scars} stands alone]
+            /// Replace scars by the heights around them. Scars are pieces of one to four scan lines, at least 16 nodes
+            /// long, that are everywhere higher, or everywhere lower, than both neighbouring lines, by more than this
+            /// many rms differences of neighbouring lines [default: 0.667 if {remove_scars} has no value]
             remove_scars: Kind::number(Range::POSITIVE, &["THRESHOLD"]).alone("0.667"),
             /// Give spikes the median of the 5 x 5 nodes around them, if they are farther from it than this many robust
-            /// standard deviations of all nodes [default: 10 if {despike} stands alone]
+            /// standard deviations of all nodes [default: 10 if {despike} has no value]
             despike: Kind::number(Range::POSITIVE, &["THRESHOLD"]).alone("10"),
             /// Subtract the sphere or the circular cylinder that fits all measured points best
             remove_form: Kind::word(|| Word::all(&Form::NAMES), &["FORM"]),
-            /// Subtract the least-squares fit to all measured points: mean, plane, quadric (as of a sphere or a cylinder),
-            /// or a polynomial of this order, up to 12
+            /// Subtract the least-squares fit to all measured points: mean, plane, quadric (such as a sphere or a
+            /// cylinder), or a polynomial of this order, up to 12
             detrend: Kind::text(|text| Trend::from_str(text).map(drop), &["TREND"]),
             /// Fill missing points smoothly from their surroundings, by Laplace's equation
             fill: Kind::switch(),
-            /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up to
-            /// 0.5. Fit for spectra; under load the flat frame may come into contact, where {mirror} keeps all heights
+            /// Make the map periodic: taper heights towards their mean within this share of the sides at each edge, up
+            /// to 0.5. Good for spectra; under load the flat frame may come into contact, while {mirror} keeps all
+            /// heights
             window: Kind::number(Range::FINITE, &["F"]).excludes(&["mirror"]),
             /// Make the map periodic: continue it by its mirror images, to twice the size along both sides. A .npz
-            /// remembers its original, of which solve has results then
+            /// remembers its original, and solve then gives the results of the original
             mirror: Kind::switch(),
             /// Interpolate on NX x NY nodes by Fourier series, finer or coarser; the map should be periodic by then
             resample: Kind::nodes(&["NX", "NY"]).each(),
@@ -56,8 +57,8 @@ keys! {
     /// The side lengths that a preparation gives a map.
     NewLengthsKeys {
         "" {
-            /// Side lengths, instead of the file's; LX alone means square cells. With a unit, as 20um, the result is in the
-            /// {unit} or the file's, or else in m
+            /// Side lengths, instead of the file's; LX alone means square cells. With a unit, such as 20um, the result
+            /// is in the unit of {unit} or of the file, or else in m
             lengths: Kind::quantity(LENGTH, Range::POSITIVE, &["LX", "LY"]).from(1),
         }
     }
@@ -67,8 +68,8 @@ keys! {
     /// The waves that a preparation leaves out.
     CutOffKeys {
         "" {
-            /// Leave out the waves shorter than this, as where they are noise: stats has the wavelength of the knee of the
-            /// spectrum, from which on it is flat. The map should be periodic by then
+            /// Remove the waves shorter than this, for example where they are noise: stats prints the wavelength of the
+            /// knee of the spectrum, beyond which it is flat. The map should be periodic by then
             cut_off_wavelength: Kind::quantity(LENGTH, Range::POSITIVE, &["LENGTH"]),
         }
     }

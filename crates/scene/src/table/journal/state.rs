@@ -55,7 +55,7 @@ impl State {
                 Err("was begun by an earlier version of asperity, which alone continues it".to_owned())
             }
             Err(e) if e.kind() == io::ErrorKind::NotFound => {
-                Err(format!("exists, but its state to go on from, {}, does not", path.display()))
+                Err(format!("exists, but its state to continue from, {}, does not", path.display()))
             }
             Err(e) => Err(format!("cannot be continued, {} cannot be read ({e})", path.display())),
         }
