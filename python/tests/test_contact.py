@@ -194,7 +194,7 @@ def test_a_page_is_that_of_the_program(rough, tmp_path, tool):
     asperity.sweep(rough, modulus=1.0, mean_pressures=[0.005, 0.01], out=tmp_path / "sweep.csv").run()
     asperity.report(tmp_path / "sweep.csv", tmp_path / "sweep.html")
     assert "contact fraction" in (tmp_path / "sweep.html").read_text()
-    with pytest.raises(ValueError, match="name the folder of a solve"):
+    with pytest.raises(ValueError, match="name a folder of results"):
         asperity.report(tmp_path, tmp_path / "none.html")
 
 

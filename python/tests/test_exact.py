@@ -160,7 +160,6 @@ def test_the_area_of_greenwood_and_williamson_is_that_of_spheres_by_hertz(isotro
 @pytest.mark.filterwarnings("ignore:ends")
 def test_rigid_bodies_of_simple_shapes():
     shapes = runpy.run_path(str(pathlib.Path(__file__).resolve().parents[1] / "benches" / "shapes.py"))
-    assert len(shapes["BODIES"]) == 10
     for body, _, found, exact_number, _ in shapes["BODIES"]:
         coarse, fine = (found(*shapes["centres"](nodes)) for nodes in (128, 256))
         # what is left is the outline of curved punches in nodes, of 1e-3
