@@ -7,9 +7,14 @@ from typing import TYPE_CHECKING, Any
 from . import _plot
 from ._columns import Rows
 from ._solution import Solution
+from ._warnings import AccuracyWarning, warn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+#: The imbalance of energy, as a share of the greatest work, from which a cycle is warned of, as by the program.
+_MOST_IMBALANCE = 0.05
 
 
 class Step:
@@ -56,7 +61,21 @@ class Cycle(Rows[Step]):
     """The states of a cycle, each found when it is asked for, and the columns of their numbers."""
 
     def __next__(self) -> Step:
-        return Step(self._solve(), self.rows[-1])
+        has_ended = self._ended
+        try:
+            return Step(self._solve(), self.rows[-1])
+        except StopIteration:
+            if not has_ended:
+                self._look_at_balance()
+            raise
+
+    def _look_at_balance(self) -> None:
+        """Warns of a balance of energy that misses much of the work."""
+        most = max((abs(row["work"]) for row in self.rows), default=0.0)
+        missed = abs(self.rows[-1]["imbalance"]) if self.rows else 0.0
+        if most > 0.0 and missed > _MOST_IMBALANCE * most:
+            share = f"{100 * missed / most:.1f} % of the work"
+            warn(f"the balance of energy misses {share}: take more steps, or a smaller imbalance", AccuracyWarning)
 
     @property
     def events(self) -> list[dict[str, Any]]:

@@ -59,6 +59,9 @@ def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
     last = table.iloc[-1]
     assert last.dissipated > 0 and abs(last.imbalance) < 0.05 * last.dissipated
     assert np.isclose(last.dissipated, sum(event["energy_drop"] or 0.0 for event in cycle.events))
+    # jumps that are not looked for are in no energy
+    with pytest.warns(asperity.AccuracyWarning, match=r"misses \d+\.\d % of the work: take more steps"):
+        asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=3, imbalance=1.0).run()
 
 
 def test_loads_that_are_refused(rough):
