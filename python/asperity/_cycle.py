@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _plot
+from . import _asperity, _plot
 from ._columns import Rows
 from ._solution import Solution
 from ._warnings import AccuracyWarning, warn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-
-#: The imbalance of energy, as a share of the greatest work, from which a cycle is warned of, as by the program.
-_MOST_IMBALANCE = 0.05
 
 
 class Step:
@@ -72,10 +68,9 @@ class Cycle(Rows[Step]):
     def _look_at_balance(self) -> None:
         """Warns of a balance of energy that misses much of the work."""
         most = max((abs(row["work"]) for row in self.rows), default=0.0)
-        missed = abs(self.rows[-1]["imbalance"]) if self.rows else 0.0
-        if most > 0.0 and missed > _MOST_IMBALANCE * most:
-            share = f"{100 * missed / most:.1f} % of the work"
-            warn(f"the balance of energy misses {share}: take more steps, or a smaller imbalance", AccuracyWarning)
+        text = _asperity.unbalanced(most, self.rows[-1]["imbalance"]) if most > 0.0 else None
+        if text is not None:
+            warn(text, AccuracyWarning)
 
     @property
     def events(self) -> list[dict[str, Any]]:

@@ -58,11 +58,16 @@ def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_uni
     return image
 
 
+def _one(ax: Axes | None, height: float) -> Axes:
+    """Axes that are given, or new ones."""
+    if ax is None:
+        ax = _pyplot().subplots(figsize=(4.6, height), layout="constrained")[1]
+    return ax
+
+
 def heights(field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, ax: Axes | None) -> Axes:
     """The heights of a map."""
-    plt = _pyplot()
-    if ax is None:
-        _, ax = plt.subplots(figsize=(4.6, 3.8), layout="constrained")
+    ax = _one(ax, 3.8)
     factor, unit = _scaled(field, length_unit)
     if field.ndim == 1:
         _profile(ax, factor * field, lengths[0], length_unit, color="0.2")
@@ -197,8 +202,7 @@ def sweep(
     pressure_unit: str | None,
 ) -> Axes:
     """Contact fraction or mean gap over mean pressure, with theories that have it."""
-    if ax is None:
-        _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
+    ax = _one(ax, 3.4)
     pressure, found = columns["mean_pressure"], columns[name]
     across, unit = _scaled(pressure, pressure_unit)
     up, up_unit = (1.0, "") if name == "contact_fraction" else _scaled(found, length_unit)
@@ -226,8 +230,7 @@ def sweep(
 
 def over_time(columns: dict[str, NDArray[Any]], name: str, ax: Axes | None, unit: str | None) -> Axes:
     """A column over the time."""
-    if ax is None:
-        _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
+    ax = _one(ax, 3.4)
     factor, unit = _scaled(columns[name], unit)
     ax.plot(columns["time"], factor * columns[name], "o-", markersize=3.5)
     ax.set_xlabel("time")
@@ -247,8 +250,7 @@ def cycle(
     if (length_unit, pressure_unit) == ("m", "Pa"):
         force_unit = force_unit or "N"
     x, y = ("approach", "normal_force") if free else ("mean_gap", "mean_pressure")
-    if ax is None:
-        _, ax = _pyplot().subplots(figsize=(4.6, 3.4), layout="constrained")
+    ax = _one(ax, 3.4)
     across_factor, across_unit = _scaled(columns[x], length_unit)
     up_factor, up_unit = _scaled(columns[y], force_unit if free else pressure_unit)
     across, up = across_factor * columns[x], up_factor * columns[y]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +26,9 @@ _ENERGY = 0.45
 _erf = np.vectorize(math.erf, otypes=[float])
 
 
+T = TypeVar("T", bound="_Theory")
+
+
 class _Theory(Formula):
     """A theory of a rough surface, over the mean pressure, with its title in figures."""
 
@@ -37,6 +40,30 @@ class _Theory(Formula):
             value = getattr(self, name)
             if not 0 < value < math.inf:
                 raise ValueError(f"{name} is {value:g}: it must be positive and finite")
+
+    @classmethod
+    def of(
+        cls: type[T],
+        heights: Heights,
+        lengths: Lengths | None = None,
+        *,
+        modulus: Quantity,
+        axes: AxisOrder | None = None,
+    ) -> T:
+        """The theory of a surface, by its `asperity.surface.statistics` and its spectrum.
+
+        Parameters
+        ----------
+        heights, lengths, axes
+            Those of `asperity.surface.statistics`; the side lengths are needed, unless the heights bring them.
+        modulus : float
+            Contact modulus E*, a pressure.
+        """
+        return cls._of(_surface_of(heights, lengths, axes, modulus), modulus)
+
+    @classmethod
+    def _of(cls: type[T], surface: Topography, modulus: Quantity) -> T:
+        raise NotImplementedError
 
     def _pressures(self, mean_pressure: ArrayLike) -> NDArray[np.float64]:
         pressures = np.asarray(self._read("mean_pressure", mean_pressure), dtype=np.float64)
@@ -86,22 +113,9 @@ class Persson(_Theory):
         "by the elastic energy U of the spectrum, Yang and Persson (2008)"
     )
 
-    @staticmethod
-    def of(
-        heights: Heights, lengths: Lengths | None = None, *, modulus: Quantity, axes: AxisOrder | None = None
-    ) -> Persson:
-        """The theory of a surface, with its rms slope and its spectrum.
-
-        Parameters
-        ----------
-        heights, lengths, axes
-            Those of `asperity.surface.statistics`; the side lengths are needed, unless the heights bring them.
-        modulus : float
-            Contact modulus E*, a pressure.
-        """
-        surface = _surface_of(heights, lengths, axes, modulus)
-        spectrum = _surface.spectrum(surface)
-        return Persson(_surface.statistics(surface).rms_slope, modulus, spectrum)
+    @classmethod
+    def _of(cls, surface: Topography, modulus: Quantity) -> Persson:
+        return cls(_surface.statistics(surface).rms_slope, modulus, _surface.spectrum(surface))
 
     def contact_fraction(self, mean_pressure: ArrayLike) -> Any:
         """Contact fraction at mean pressures p̄ ≥ 0."""
@@ -193,22 +207,11 @@ class GreenwoodWilliamson(_Theory):
                 "0.8968, and of a random surface it is 1.5 at least"
             )
 
-    @staticmethod
-    def of(
-        heights: Heights, lengths: Lengths | None = None, *, modulus: Quantity, axes: AxisOrder | None = None
-    ) -> GreenwoodWilliamson:
-        """The theory of a surface, with the parameters of its `asperity.surface.statistics`.
-
-        Parameters
-        ----------
-        heights, lengths, axes
-            Those of `asperity.surface.statistics`; the side lengths are needed, unless the heights bring them.
-        modulus : float
-            Contact modulus E*, a pressure.
-        """
-        found = _surface.statistics(_surface_of(heights, lengths, axes, modulus))
+    @classmethod
+    def _of(cls, surface: Topography, modulus: Quantity) -> GreenwoodWilliamson:
+        found = _surface.statistics(surface)
         unit = "m" if isinstance(modulus, str) else None
-        return GreenwoodWilliamson(
+        return cls(
             f"{found.rms_height:.8g}m" if unit else found.rms_height,
             found.rms_slope,
             f"{found.rms_curvature:.8g}m-1" if unit else found.rms_curvature,

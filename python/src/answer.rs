@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use asperity::Solution;
 use asperity_maps::Topography;
 use asperity_scene::outcome::Outcome;
-use asperity_scene::{Account, Found, Sight, Skin, rows, shortfalls};
+use asperity_scene::{self as scene, Account, Found, Sight, Skin, rows, shortfalls};
 use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
@@ -102,4 +102,10 @@ impl<T: Scalar> Seen<T> {
             self.at(py, |sight, account, [_, pressure, _]| sight.displacements(&account.inputs.elastic, pressure));
         found?.map(|both| both.map(|field| field.into_pyarray(py))).into_py_any(py)
     }
+}
+
+/// The warning of a cycle whose balance of energy misses much of the work, if it does.
+#[pyfunction]
+pub fn unbalanced(greatest_work: f64, imbalance: f64) -> Option<String> {
+    scene::unbalanced(greatest_work, imbalance, Skin::Keywords)
 }

@@ -29,6 +29,7 @@ mod _asperity {
 
     #[pymodule_export]
     use crate::{
+        answer::unbalanced,
         command::{command, figures_of, page},
         contact::{clusters, contact_tables, load_scale, palette, pressure_distribution},
         exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, MaugisDugdale, WaveContact, WavyLine, closing_pressure_2d},

@@ -109,27 +109,33 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     Ok(true)
 }
 
+/// The rows of one of the tables in a folder of this command; none if it has none.
+fn rows<const N: usize>(folder: &Path, name: &str) -> Outcome<Vec<[f64; N]>> {
+    let path = folder.join(format!("{name}.csv"));
+    let text = fs::read_to_string(&path).unwrap_or_default();
+    let row = |line: &str| {
+        let cells: Option<Vec<f64>> = line.split(',').map(|cell| cell.parse().ok()).collect();
+        cells.and_then(|cells| cells.try_into().ok())
+    };
+    let found = text.lines().skip(1).map(row).collect::<Option<_>>();
+    Ok(found.ok_or_else(|| Error::file(&path, format!("has rows of other than {N} numbers: write the folder anew")))?)
+}
+
 /// The contents of a folder of this command, with its report.
 pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
     let (figures, units): (ContactFigures, _) = (serde_json::from_value(report.clone())?, units_of(report));
     let (shape, lengths) = serde_json::from_value(json!([report["shape"], report["lengths"]]))?;
-    // a table that there is none of has no rows
-    let rows = |name: &str| {
-        let text = fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap_or_default();
-        let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
-        text.lines().skip(1).map(row).collect::<Vec<Vec<f64>>>()
-    };
     let density = |name: &str, exponent| {
-        let rows = rows(name);
+        let rows = rows::<3>(folder, name)?;
         let edges = rows.iter().map(|row| row[0]).chain(rows.last().map(|row| row[1])).collect();
-        Density { edges, density: rows.iter().map(|row| row[2]).collect(), exponent }
+        Outcome::Ok(Density { edges, density: rows.iter().map(|row| row[2]).collect(), exponent })
     };
-    let spot = |row: &Vec<f64>| Spot { nodes: row[0] as usize, area: row[1], perimeter: row[2], force: row[3] };
+    let spot = |row: &[f64; 4]| Spot { nodes: row[0] as usize, area: row[1], perimeter: row[2], force: row[3] };
     let tables = ContactTables {
-        gap: density("gap", figures.gap_exponent),
-        pressure: density("pressure", figures.pressure_exponent),
-        autocorrelation: rows("autocorrelation").iter().map(|row| (row[0], row[1])).collect(),
-        spots: rows("clusters").iter().map(spot).collect(),
+        gap: density("gap", figures.gap_exponent)?,
+        pressure: density("pressure", figures.pressure_exponent)?,
+        autocorrelation: rows::<2>(folder, "autocorrelation")?.iter().map(|row| (row[0], row[1])).collect(),
+        spots: rows(folder, "clusters")?.iter().map(spot).collect(),
         mean_contact_pressure: figures.mean_contact_pressure,
     };
     let found = Found { tables: &tables, grid: Grid::new(shape, lengths)?, units: &units, dpi };

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use asperity_scene::{AdhesionKeys, Chosen, Load, LoadsKeys, PathKeys, SolverKeys, SurfaceKeys, UnitKeys, Way};
+use asperity_scene::{
+    AdhesionKeys, Chosen, Load, LoadsKeys, PathKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys, Way, unbalanced,
+};
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
 
@@ -70,9 +72,6 @@ const EXAMPLES: &str = "\
 /// The number of events that are printed at the end.
 const MOST_EVENTS: usize = 8;
 
-/// The imbalance of energy, in per cent of the greatest work, from which a cycle is warned of.
-const MOST_IMBALANCE: f64 = 5.0;
-
 /// Runs the command; whether all rows converged.
 pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outcome<bool> {
     let Options { out, fields, plot, manner, .. } = options;
@@ -116,7 +115,7 @@ impl Options {
         events.sort_by(|&a, &b| drop(b).total_cmp(&drop(a)));
         // of the greatest work, as it is that of the jumps alone at the end
         let most = rows.iter().map(|row| number(row, "work").abs()).fold(f64::MIN_POSITIVE, f64::max);
-        let share = rows.last().map_or(0.0, |last| 100.0 * (number(last, "imbalance") / most).abs());
+        let imbalance = rows.last().map_or(0.0, |last| number(last, "imbalance"));
         let free = table.is_free();
         let (x, y) = if free { ("approach", "normal_force") } else { ("mean_gap", "mean_pressure") };
         self.manner.printing.report(|| {
@@ -170,14 +169,12 @@ impl Options {
                     say(&format!("dissipated by yielding  {}", told(last, "plastic_energy")));
                 }
                 say(&format!("work done by the load   {}", told(last, "work")));
+                let share = 100.0 * (imbalance / most).abs();
                 say(&format!("imbalance of energy     {}, {share:.1} % of the work", told(last, "imbalance")));
             }
         }
-        if share > MOST_IMBALANCE {
-            warn(format!(
-                "{}: the balance of energy misses {share:.1} % of the work: take more --steps, or a smaller --imbalance",
-                printing::name(&self.out)
-            ));
+        if let Some(text) = unbalanced(most, imbalance, Skin::Options) {
+            warn(format!("{}: {text}", printing::name(&self.out)));
         }
         let Some(plot) = &self.plot else { return Ok(()) };
         table.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.resolution.dpi)?))

@@ -1,5 +1,7 @@
 //! The contact of a solve in tables and charts, end to end.
 
+use std::fs;
+
 use crate::bench::Bench;
 
 /// The numbers of a table, column by column, and its header.
@@ -61,6 +63,9 @@ fn the_tables_are_those_of_the_contact() {
     assert_eq!(again["clusters"], report["clusters"]);
     bench.refused_with("contact pressed --out contact", &["exists: use --force"]);
     bench.refused_with("contact contact", &["contact", "another command"]);
+    // tables that somebody has changed have no page
+    fs::write(bench.path("contact/gap.csv"), "from,to,density\n1\n").unwrap();
+    bench.refused_with("report contact", &["gap.csv", "rows of other than 3 numbers"]);
     bench.refused_with("contact heights.npz", &["heights.npz", "no report.json"]);
 }
 

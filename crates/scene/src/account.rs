@@ -35,7 +35,7 @@ pub(crate) use self::row::INPUTS;
 pub use self::row::Row;
 pub use self::rows::{corrected, rows};
 pub(crate) use self::sentences::estimate;
-pub use self::sentences::shortfalls;
+pub use self::sentences::{shortfalls, unbalanced};
 pub use self::slopes::Slopes;
 pub(crate) use self::warnings::warnings_of_input;
 use crate::key::{

@@ -8,6 +8,9 @@ use crate::account::{Account, GridErrors, Reached, Search};
 use crate::key::{Boundary, GIB, Goal, Precision, Skin, worded};
 use crate::numbers::percent;
 
+/// The imbalance of energy, as a share of the greatest work, from which a cycle is warned of.
+const MOST_IMBALANCE: f64 = 0.05;
+
 /// The shortfalls of an answer with their remedies, in the words of a skin: each with what was not reached, which is
 /// `"convergence"`, `"contact fraction"`, `"accuracy"` or `"stability"`.
 pub fn shortfalls(account: &Account, skin: Skin) -> Vec<(&'static str, String)> {
@@ -147,4 +150,16 @@ pub(crate) fn estimate(account: &Account) -> String {
     // rounded down: 3.96 nodes are not the 4.0 that are needed
     let has = (10.0 * account.nodes_per_wave).floor() / 10.0;
     format!("unknown: the shortest wave has {has:.1} nodes and needs {least}: refine the map ({{accuracy}})")
+}
+
+/// The warning of a cycle whose imbalance of energy is more than 5 % of the greatest work, if it is.
+pub fn unbalanced(greatest_work: f64, imbalance: f64, skin: Skin) -> Option<String> {
+    let share = (imbalance / greatest_work).abs();
+    let text = || {
+        let missed = 100.0 * share;
+        format!(
+            "the balance of energy misses {missed:.1} % of the work: take more {{steps}}, or a smaller {{imbalance}}"
+        )
+    };
+    (share > MOST_IMBALANCE).then(|| worded(&text(), skin))
 }
