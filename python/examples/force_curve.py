@@ -20,40 +20,38 @@ warnings.filterwarnings("ignore", "hardness", asperity.InputWarning)
 # The tip has a radius of 60 nm and a roughness of 0.3 nm. In place of this map take that of your tip, by `asperity.read`.
 
 # %%
-side, radius = 60e-9, 60e-9
-sphere = asperity.surface.sphere(64, side, radius=radius)
-rough = asperity.surface.self_affine(64, side, rms_height=0.3e-9, k_l=2, k_s=16, seed=4)
-tip = asperity.Topography(sphere.heights + rough.heights, sphere.lengths)
+sphere = asperity.surface.sphere(64, "60nm", radius="60nm")
+rough = asperity.surface.self_affine(64, "60nm", rms_height="0.3nm", k_l=2, k_s=16, seed=4)
+tip = asperity.Topography(sphere.heights + rough.heights, sphere.lengths, unit="m")
 
 # %% [markdown]
 # In place of a measurement: solves of a body of 2 GPa with a work of adhesion of 50 mJ/m², which the tip approaches and
 # leaves on a cantilever of 10 N/m, with noise, in a file with German decimal commas.
 
 # %%
-stiffness = 10.0
-z = np.linspace(-4e-9, 4e-9, 150)
-z = np.concatenate([z, z[::-1]])
-law = asperity.Exponential(work_of_adhesion=0.05, range=0.5e-9)
-springs = [(stiffness, position) for position in z]
-force = asperity.sweep(tip, modulus=2e9, law=law, boundary="free", springs=springs).columns["normal_force"]
-force += np.random.default_rng(1).normal(scale=0.15e-9, size=force.size)
+z = np.concatenate([np.linspace(-4, 4, 150), np.linspace(4, -4, 150)])
+springs = [("10N/m", f"{position}nm") for position in z]
+law = asperity.Exponential("50mJ/m2", "0.5nm")
+force = asperity.sweep(tip, modulus="2GPa", law=law, boundary="free", springs=springs).columns["normal_force"]
+force = 1e9 * force + np.random.default_rng(1).normal(scale=0.15, size=force.size)
 with open("force_curve.csv", "w") as file:
     file.write("Höhe (nm);Kraft (nN)\n")
-    file.writelines(f"{1e9 * x:.4f};{1e9 * y:.4f}\n".replace(".", ",") for x, y in zip(z, force))
+    file.writelines(f"{x:.4f};{y:.4f}\n".replace(".", ",") for x, y in zip(z, force))
 
 # %% [markdown]
-# The table goes from 5 nm before contact to 4 nm behind it, and to the ratio w/E* of 60 mJ/m² over 1 GPa. Its range is
-# that of the law.
+# The table reaches from 5 nm before contact to 4 nm behind it, and to the ratio w/E* of 60 mJ/m² over 1 GPa. Its range
+# is that of the law.
 
 # %%
 table = asperity.TipTable(
-    tip, approaches=(-5e-9, 4e-9), modulus=1e9, law=asperity.Exponential(work_of_adhesion=0.06, range=0.5e-9)
+    tip, approaches=("-5nm", "4nm"), modulus="1GPa", law=asperity.Exponential("60mJ/m2", "0.5nm")
 )
 print(table)
 
 # %%
 curve = asperity.read_curve("force_curve.csv")
-fit = asperity.fit_curve(*curve, tip=table, spring_stiffness=stiffness)
+units = {"spring_stiffness": "10N/m", "length_unit": "m", "force_unit": "N"}
+fit = asperity.fit_curve(*curve, tip=table, **units)
 print(fit)
 assert abs(fit.modulus.value / 2e9 - 1) < 0.03 and abs(fit.work_of_adhesion.value / 0.05 - 1) < 0.02
 
@@ -64,12 +62,12 @@ assert abs(fit.modulus.value / 2e9 - 1) < 0.03 and abs(fit.work_of_adhesion.valu
 # %%
 with warnings.catch_warnings(record=True) as told:
     warnings.simplefilter("always")
-    smooth = asperity.fit_curve(*curve, radius=radius, spring_stiffness=stiffness)
+    smooth = asperity.fit_curve(*curve, radius="60nm", **units)
 print(f"smooth: {1e3 * smooth.work_of_adhesion.value:.0f} mJ/m2, {told[0].message}")
 assert smooth.work_of_adhesion.upper < 0.045
 
 # %%
-upper, lower = fit.plot(length_unit="m", force_unit="N")
+upper, lower = fit.plot()
 upper.plot(1e9 * smooth.z, 1e9 * smooth.fitted, "k:", linewidth=1, label="smooth tip")
 lower.plot(1e9 * smooth.z, 1e12 * smooth.residuals, "k:", linewidth=0.6)
 upper.legend(frameon=False)

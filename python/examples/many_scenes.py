@@ -1,8 +1,8 @@
 # %% [markdown]
 # # 200 scenes over processes, one table
 #
-# Fifty surfaces of four Hurst exponents, pressed alike: how much does the contact of one surface differ from that of
-# another?
+# Fifty surfaces of four Hurst exponents, ten micrometres wide, are pressed on a polymer of E* = 1 GPa by 5 MPa: how much
+# does the contact of one surface differ from that of another?
 
 # %%
 import itertools
@@ -17,8 +17,8 @@ import asperity
 def contact(scene):
     """A row of the table. One thread each: the processes share the cores."""
     hurst, seed = scene
-    rough = asperity.surface.self_affine(128, 1.0, rms_slope=0.1, hurst=hurst, k_l=4, k_s=20, seed=seed)
-    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.005, threads=1)
+    rough = asperity.surface.self_affine(128, "10um", rms_slope=0.1, hurst=hurst, k_l=4, k_s=20, seed=seed)
+    solution = asperity.solve(rough, modulus="1GPa", mean_pressure="5MPa", threads=1)
     return {"hurst": hurst, "seed": seed, **solution.report}
 
 
