@@ -32,7 +32,7 @@ nb_execution_in_temp = True
 nb_ipywidgets_js = {}
 # pages show no progress
 os.environ["TQDM_DISABLE"] = "1"
-exclude_patterns = ["conf.py", "elsewhere.py"]
+exclude_patterns = ["conf.py", "elsewhere.py", "pictures.py"]
 
 napoleon_use_ivar = True
 autodoc_typehints = "none"
