@@ -93,7 +93,9 @@ impl Chart {
         let all = self.series.iter().flat_map(|series| &series.points).map(coordinate);
         let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         if self.logarithmic {
-            return (low / 1.15, high * 1.15);
+            // labels begin at a power of ten
+            let power = 10_f64.powf(low.log10().floor());
+            return (if 10.0 * power > high { power } else { low } / 1.15, high * 1.15);
         }
         let margin = 0.04 * (high - low);
         (low - margin, high + margin)
@@ -136,7 +138,9 @@ impl Chart {
                 None => drawn.legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], line)),
             };
         }
-        legend(&mut chart, self.labels.clone())?;
+        if self.series.iter().any(|series| !series.name.is_empty()) {
+            legend(&mut chart, self.labels.clone())?;
+        }
         Ok(())
     }
 }
@@ -146,7 +150,11 @@ fn plain(value: &f64) -> String {
     ((1e6 * value).round() / 1e6 + 0.0).to_string()
 }
 
-/// A number of a logarithmic axis, far from one as a power of ten.
+/// A number of a logarithmic axis, far from one as a power of ten; of a decade those of 1, 2 and 5.
 fn power(value: &f64) -> String {
-    if (1e-3..1e4).contains(value) { plain(value) } else { format!("{value:.0e}") }
+    let scientific = format!("{value:.0e}");
+    if !scientific.starts_with(['1', '2', '5']) {
+        return String::new();
+    }
+    if (1e-3..1e4).contains(value) { plain(value) } else { scientific }
 }

@@ -22,15 +22,21 @@ const COLOURS: [RGBColor; 5] = [
 /// (below) over the tolerance, over the time, and over the work: applications times nodes, those in `f32`, of half the
 /// bytes, by half.
 pub fn draw(path: &Path, scene: &Scene, grids: &[OnGrid]) -> Outcome<()> {
-    let root = SVGBackend::new(path, (1500, 900)).into_drawing_area();
+    let root = SVGBackend::new(path, (1080, 760)).into_drawing_area();
     root.fill(&WHITE)?;
-    let panels = root.titled(scene.name, ("sans-serif", 20))?.split_evenly((2, 3));
+    let (head, panels) = root.split_vertically(36);
+    head.draw(&Text::new(scene.name, (20, 10), ("sans-serif", 19)))?;
+    for (x, (family, colour)) in (180..).step_by(180).zip(FAMILIES.into_iter().zip(COLOURS)) {
+        head.draw(&Circle::new((x, 18), 4, colour.filled()))?;
+        head.draw(&Text::new(family.0, (x + 12, 12), ("sans-serif", 15)))?;
+    }
+    let panels = panels.split_evenly((2, 3));
     let costs = |grid: &OnGrid, row: &Row| {
         let share = if row.family.2 { 0.5 } else { 1.0 };
         [row.tolerance, row.seconds, 1e-6 * share * row.applications * (grid.n * grid.n) as f64]
     };
-    let names = ["tolerance", "time / s", "work / applications of 10⁶ nodes in f64"];
-    let parts = [(0, "error of the displacement, energy norm"), (2, "error of the contact area")];
+    let names = ["tolerance", "time (s)", "work (applications × 10⁶ nodes)"];
+    let parts = [(0, "displacement, energy norm"), (2, "contact area")];
     for ((part, name), panels) in parts.into_iter().zip(panels.chunks(3)) {
         for (k, (across, panel)) in names.into_iter().zip(panels).enumerate() {
             let series = FAMILIES.into_iter().zip(COLOURS).map(|(family, colour)| {
@@ -38,10 +44,10 @@ pub fn draw(path: &Path, scene: &Scene, grids: &[OnGrid]) -> Outcome<()> {
                 let well = rows.filter(|(_, row)| row.converged && row.family == family);
                 let error = |grid: &OnGrid, row: &Row| grid.discretisation[part] + row.solver[part];
                 let points = well.map(|(grid, row)| (costs(grid, row)[k], error(grid, row))).collect();
-                Series { name: family.0.to_owned(), colour, style: Style::Dots, points }
+                Series { name: String::new(), colour, style: Style::Dots, points }
             });
-            let (axes, labels) = ([across, name], SeriesLabelPosition::UpperRight);
-            Chart { title: String::new(), axes, logarithmic: true, labels, series: series.collect() }.draw(panel)?;
+            let (axes, labels) = ([across, "relative error"], SeriesLabelPosition::UpperRight);
+            Chart { title: name.to_owned(), axes, logarithmic: true, labels, series: series.collect() }.draw(panel)?;
         }
     }
     root.present()?;
