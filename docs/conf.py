@@ -29,6 +29,7 @@ nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 nb_execution_in_temp = True
+nb_merge_streams = True
 nb_ipywidgets_js = {}
 # pages show no progress
 os.environ["TQDM_DISABLE"] = "1"

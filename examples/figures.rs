@@ -222,10 +222,10 @@ fn profiles(path: &Path, title: &str, run: &Run, name: &str, other: (&str, Profi
     let (computed, exact) = (profile_computed(run), profile_among_images(&run.exact)?);
     let end = 1.5 * run.exact.contact().adhesion_radius();
     let far = if floor < 0.0 { 2.0 * end } else { 0.5 };
-    let root = SVGBackend::new(path, (1240, 560)).into_drawing_area();
+    let root = SVGBackend::new(path, (1000, 460)).into_drawing_area();
     root.fill(&WHITE)?;
     let root = root.titled(title, ("sans-serif", 18))?;
-    let (left, right) = root.split_horizontally(620);
+    let (left, right) = root.split_horizontally(500);
     let names = [name, other.0, "computed"];
     // where the curves leave room
     use SeriesLabelPosition::{LowerLeft, LowerRight, UpperRight};

@@ -31,9 +31,9 @@ fn main() -> Outcome<()> {
     hertz::table(4 * size)?;
     let charts = [rough_sphere::chart(2 * size)?, wavy_sphere::chart(size)?, pull_off::chart(size)?];
     let path = out.join("free.svg");
-    let root = SVGBackend::new(&path, (900, 1150)).into_drawing_area();
+    let root = SVGBackend::new(&path, (1200, 460)).into_drawing_area();
     root.fill(&WHITE)?;
-    for (chart, area) in charts.iter().zip(root.split_evenly((2, 2))) {
+    for (chart, area) in charts.iter().zip(root.split_evenly((1, 3))) {
         chart.draw(&area)?;
     }
     root.present()?;

@@ -31,7 +31,7 @@ fn formula(x: f64) -> f64 {
 
 pub fn chart(n: usize) -> Outcome<Chart> {
     let hertz = Hertz::new(RADIUS, 1.0)?;
-    println!("\nrough sphere, {n}², mean of {SEEDS}: A p_rms/F beside the formula and one asperity, over F/(A₀ p_rms)");
+    println!("\nrough sphere, {n}², mean of {SEEDS}: A p_rms/F, the formula and one asperity, over F/(A₀ p_rms)");
     let ratio = (RADII.1 / RADII.0).powf(1.0 / (LOADS - 1) as f64);
     let radii = (0..LOADS).map(|i| RADII.0 * ratio.powi(i as i32));
     let loads =
@@ -60,14 +60,15 @@ pub fn chart(n: usize) -> Outcome<Chart> {
         }
         light.retain(|point| point.1 > 0.7);
         series.push(Series { name: format!("h' = {slope}"), colour, style: Style::Dots, points });
-        series.push(Series { name: format!("one asperity, h' = {slope}"), colour, style: Style::Thin, points: light });
+        let name = if slope == SLOPES[0] { "one asperity" } else { "" }.to_owned();
+        series.push(Series { name, colour, style: Style::Thin, points: light });
     }
     let ratio = (range.1 / range.0).powf(0.01);
     let points = (0..=100).map(|i| range.0 * ratio.powi(i)).map(|x| (x, formula(x))).collect();
     let name = "Pastewka and Robbins".to_owned();
     series.push(Series { name, colour: BLACK, style: Style::Thin, points });
     Ok(Chart {
-        title: format!("Rough sphere, {n}²: contact area over force"),
+        title: format!("Rough sphere, {n}²: area over force"),
         axes: ["F / (A₀ pᵣₘₛ)", "A pᵣₘₛ / F"],
         logarithmic: true,
         labels: SeriesLabelPosition::LowerLeft,

@@ -64,7 +64,7 @@ pub fn chart(n: usize) -> Outcome<Chart> {
     let curve = (1..=800).map(|i| LARGEST * f64::from(i) / 800.0).map(|a| (exact.approach(a), exact.load(a))).collect();
     let [together, apart] = ways;
     Ok(Chart {
-        title: format!("Wavy sphere, {n}²: jumps under given approach"),
+        title: format!("Wavy sphere, {n}²: jumps"),
         axes: ["approach / λ", "force / E*λ²"],
         logarithmic: false,
         labels: SeriesLabelPosition::UpperLeft,

@@ -507,7 +507,7 @@ class Solution:
         )
         picture = _picture.data_uri(self.contact)
         return (
-            "<div style='display:flex;gap:2em;align-items:center'>"
+            "<div style='display:flex;flex-wrap:wrap;gap:2em;align-items:center'>"
             f"<table>{rows}</table><figure style='margin:0'><img src='{picture}' alt='contact map' "
             "style='width:320px;image-rendering:pixelated;border:1px solid #888'>"
             "<figcaption>contact, x to the right, y up</figcaption></figure></div>"
