@@ -13,11 +13,13 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Iteration, Observer, Solution, Solved, Solver, Start, Status, check_hardness, check_wall, refuse_springs,
+    Begin, Criterion, Iteration, Observer, Solution, Solved, Solver, Start, Status, check_hardness, check_wall,
+    refuse_springs,
 };
 use crate::stability::Watch;
 
 mod account;
+mod bracket;
 mod course;
 mod event;
 mod figures;
@@ -49,8 +51,9 @@ pub use step::PathStep;
 ///
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
 /// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
-/// taken back and halved, down to [`PathSettings::smallest_step`]. There the missing energy is what the jump
-/// dissipates, if it is more than the step could do at either end's load; the step is taken, with an [`Event`].
+/// taken back and halved, until the work of the load in it is known to a tenth of the energy that it dissipates, and
+/// the tension before it to a hundredth of the largest one, or down to the [`smallest step`](PathSettings::smallest_step), if one is given. The step is then
+/// taken, with an [`Event`], and the jump is where the mean of the loads at its ends does the work.
 ///
 /// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
 /// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path and its reports are
@@ -125,6 +128,12 @@ pub struct Path<T> {
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
+/// The tolerance of a solve as a share of the root of the imbalance, if none is given: an energy is wrong by its square.
+const SHARE: f64 = 0.01;
+
+/// The largest such tolerance: less accurate states jump too early.
+const LOOSEST: f64 = 1e-4;
+
 /// The roundings that the sums of the energy may have.
 const ROUNDINGS: f64 = 8.0;
 
@@ -145,8 +154,8 @@ impl<T: Real> Path<T> {
             return Err(Error::Value { name: "number of steps", value: 0.0, requirement: "at least 1" });
         }
         Error::positive("imbalance", settings.imbalance)?;
-        if !(settings.smallest_step > 0.0 && settings.smallest_step < 1.0) {
-            let (name, value) = ("smallest step", settings.smallest_step);
+        if let Some(value) = settings.smallest_step.filter(|share| !(*share > 0.0 && *share < 1.0)) {
+            let name = "smallest step";
             return Err(Error::Value { name, value, requirement: "positive and below 1" });
         }
         Ok(Self {
@@ -300,7 +309,15 @@ impl<T: Real> Path<T> {
             Some(smoothed) => smoothed,
             None => &sharp,
         };
-        bench.solver.run(ProblemMut { law, ..parts }, control, begin, &mut *bench.observe)
+        let given = bench.solver.settings;
+        if given.tolerance.is_none() && given.criterion == Criterion::EnergyNorm {
+            let least = given.tolerance_in::<T>();
+            let tolerance = (SHARE * self.settings.imbalance.sqrt()).clamp(least, LOOSEST.max(least));
+            bench.solver.settings.tolerance = Some(tolerance);
+        }
+        let solved = bench.solver.run(ProblemMut { law, ..parts }, control, begin, &mut *bench.observe);
+        bench.solver.settings = given;
+        solved
     }
 
     /// One step; `None` if it has to be taken back and halved.
@@ -332,10 +349,11 @@ impl<T: Real> Path<T> {
         let scale = (self.settings.imbalance, 1e-3 * w);
         let mut trial = self.course.judge(target, report, scale, noise);
         let good = trial.balanced && settled;
-        let saddle = if settled && (good || smallest) { self.saddle(bench, &solved.solution)? } else { None };
+        let jumped = settled && !good && trial.located && self.settings.smallest_step.is_none();
+        let saddle = if settled && (good || smallest || jumped) { self.saddle(bench, &solved.solution)? } else { None };
         let lost = good && saddle.is_some() && !self.course.on_saddle;
-        if (!good || lost) && !smallest {
-            self.course.halve(&self.settings);
+        if (!good && !jumped || lost) && !smallest {
+            self.course.halve(report, trial, &self.settings);
             return Ok(None);
         }
         let detached = report.status == Status::Detached;
@@ -388,7 +406,7 @@ impl<T: Real> Path<T> {
     }
 
     fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {
-        let Account { work, dissipated, imbalance, .. } = self.course.account;
-        PathStep { solution, leg: self.course.leg, work, dissipated, imbalance, event }
+        let Account { work, dissipated, imbalance, variance, .. } = self.course.account;
+        PathStep { solution, leg: self.course.leg, work, dissipated, imbalance, work_error: variance.sqrt(), event }
     }
 }

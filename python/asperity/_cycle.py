@@ -31,6 +31,8 @@ class Step:
     imbalance : float
         Change of the energy plus the dissipated energy less the work: zero up to the errors of quadrature and
         tolerance.
+    work_error : float
+        Standard error of the work, and over a closed cycle of the energy dissipated.
     event : str or None
         Event before this state: ``"jump-in"``, ``"jump-out"``, ``"pull-off"``, ``"bifurcation"``, ``"limit-point"``.
     energy_drop : float or None
@@ -44,6 +46,7 @@ class Step:
         self.work: float = found["work"]
         self.dissipated: float = found["dissipated"]
         self.imbalance: float = found["imbalance"]
+        self.work_error: float = found["work_error"]
         self.event: str | None = found["event"]
         self.energy_drop: float | None = found["energy_drop"]
 

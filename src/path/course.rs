@@ -1,6 +1,7 @@
 //! The state of a path: its leg, its last places, the length of the next step, and the account of energy.
 
 use super::account::{Account, Balance};
+use super::bracket::Bracket;
 use super::figures::{Figures, Mode};
 use super::quadrature::integral;
 use super::{Event, Jump, PathSettings};
@@ -43,6 +44,7 @@ pub(super) struct Course {
     places: Vec<Figures>,
     /// the states of which the gaps are kept
     pub(super) at: Vec<Figures>,
+    bracket: Option<Bracket>,
 }
 
 const GROWTH: f64 = 2.0;
@@ -53,6 +55,15 @@ const LANDING: f64 = 1e-3;
 /// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
 /// beside all before are not located one by one.
 const MANY: f64 = 20.0;
+
+/// The step after a jump, as a share of that before it.
+const REGAINED: f64 = 0.25;
+
+/// The smallest step as a share of the leg, if none is given.
+const SMALLEST: f64 = 1e-4;
+
+/// The share of the largest tension by which that before a jump may be larger than that of the last state.
+const PEAK: f64 = 0.01;
 
 /// The largest number of states in the quadrature.
 const PLACES: usize = 4;
@@ -146,6 +157,7 @@ impl Course {
         self.at.iter_mut().for_each(|place| *place = place.held_by(mode));
         self.mode = mode;
         self.span = (here.slope(mode).0, end);
+        self.bracket = None;
         // nothing is known of the branch in that direction
         self.places = vec![here];
         self.step = (self.length() / settings.steps as f64 / 16.0).max(self.smallest(settings));
@@ -156,12 +168,12 @@ impl Course {
     }
 
     fn smallest(&self, settings: &PathSettings) -> f64 {
-        settings.smallest_step * self.length()
+        settings.smallest_step.unwrap_or(SMALLEST) * self.length()
     }
 
     /// The value of the held quantity in the next step, and whether the step cannot be halved.
     pub(super) fn next_target(&self, settings: &PathSettings) -> (f64, bool) {
-        let (from, end) = (self.here().slope(self.mode).0, self.span.1);
+        let (from, end) = (self.here().slope(self.mode).0, self.bracket.map_or(self.span.1, |bracket| bracket.target));
         let left = (end - from).abs();
         let smallest = self.smallest(settings);
         // no tiny step at the end
@@ -178,9 +190,13 @@ impl Course {
         (target, step <= smallest)
     }
 
-    pub(super) fn halve(&mut self, settings: &PathSettings) {
+    /// Takes a step back, of which the end and the balance are given.
+    pub(super) fn halve(&mut self, report: &Report, balance: Balance, settings: &PathSettings) {
         let (target, _) = self.next_target(settings);
         let tried = (target - self.here().slope(self.mode).0).abs();
+        let (_, slope) = Figures::of(report).held_by(self.mode).slope(self.mode);
+        let stride = self.bracket.map_or(tried, |bracket| bracket.stride);
+        self.bracket = Some(Bracket { target, slope, excess: balance.excess, drop: balance.drop, stride });
         self.step = (0.5 * tried).max(self.smallest(settings));
     }
 
@@ -216,13 +232,29 @@ impl Course {
         let order = 1.0 + (points.len() - first) as f64;
         let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
         let energy = next.energy - here.energy;
-        Balance {
+        let product = step * (after - before);
+        let drop = 0.5 * (before + after) * step - change;
+        let balance = Balance {
             balanced: excess.abs() <= allowed,
-            jumped: -excess > allowed.max((step * (after - before)).abs()),
+            jumped: -excess > allowed.max(product.abs()),
+            located: false,
+            allowed,
             work: energy - excess,
             excess,
+            drop,
             growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
-        }
+        };
+        let located = balance.locates(product) && !self.peaks(step, next.pressure);
+        Balance { located: balance.jumped && drop > allowed.max(product.abs()) && located, ..balance }
+    }
+
+    /// Whether the tension may have grown along the branch, until the end of a step in which it jumps, beyond the
+    /// largest one so far.
+    fn peaks(&self, step: f64, after: f64) -> bool {
+        let ([.., last, here], Mode::Gap | Mode::Spring(_)) = (&self.places[..], self.mode) else { return false };
+        let [(x0, p0), (x1, p1)] = [last, here].map(|place| place.slope(self.mode));
+        let reached = p1 + (p1 - p0) / (x1 - x0) * step;
+        reached > (1.0 + PEAK) * self.account.tension.max(-after)
     }
 
     /// Goes on at given mean gaps, from a limit point or before a bifurcation: between the gap at which the surfaces
@@ -282,8 +314,9 @@ impl Course {
             Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
-        let Account { work, dissipated, imbalance, range } = &mut self.account;
+        let Account { work, dissipated, imbalance, variance, range, tension } = &mut self.account;
         *range = (range.0.min(next.energy), range.1.max(next.energy));
+        *tension = tension.max(-next.pressure);
         let mut event =
             self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
         let mut jump = Jump {
@@ -295,18 +328,16 @@ impl Course {
         };
         let jumped = way.jumped;
         if jumped {
-            // the load before the jump does the work of the step; a spring yields on the way
-            let pressure = match self.mode {
-                Mode::Spring(_) => 0.5 * (here.pressure + next.pressure),
-                _ => here.pressure,
-            };
-            let done = -pressure * (next.position - here.position);
+            // the jump is anywhere in the step, each place as likely as another
+            let done = -0.5 * (here.pressure + next.pressure) * (next.position - here.position);
+            *variance += ((next.pressure - here.pressure) * (next.position - here.position)).powi(2) / 12.0;
             jump.energy_drop = done - (next.energy - here.energy);
             *work += done;
             *dissipated += jump.energy_drop;
         } else {
             *work += trial.work;
             *imbalance += trial.excess;
+            *variance += trial.excess.powi(2);
         }
         if let Some(eigenvalue) = way.bifurcation {
             event = Some(Event::Bifurcation { eigenvalue, jump });
@@ -320,7 +351,16 @@ impl Course {
         let taken = (target - here.slope(self.mode).0).abs();
         let largest = self.length() / settings.steps as f64;
         // a short last step says nothing about the next one
-        let next_step = if way.is_new() { taken } else { (taken * trial.growth).max(self.step.min(taken)) };
+        let grown = (taken * trial.growth).max(self.step.min(taken));
+        let next_step = match self.bracket.take() {
+            Some(bracket) if way.is_new() => taken.max(REGAINED * bracket.stride),
+            None if way.is_new() => taken,
+            Some(bracket) if bracket.target != target => {
+                self.bracket = Some(bracket);
+                bracket.next_step(next.slope(self.mode), trial)
+            }
+            _ => grown,
+        };
         self.step = next_step.clamp(self.smallest(settings).min(largest), largest);
         if self.places.len() == PLACES - 1 {
             self.places.remove(0);

@@ -19,6 +19,9 @@ pub struct PathStep<T: Real> {
     /// The imbalance of energy: its change, plus the dissipated energy, less the work. It comes from quadrature,
     /// tolerance, and jumps below the imbalance that a step may have.
     pub imbalance: f64,
+    /// The standard error of the work, and over a closed cycle of the energy dissipated: a jump is anywhere in its step,
+    /// and what a step is out of balance may be work. Jumps that a longer step takes too early are not in it.
+    pub work_error: f64,
     /// The event between the previous state and this one.
     pub event: Option<Event>,
 }

@@ -93,9 +93,9 @@ fn energy_is_balanced_over_a_cycle() {
         assert!((step.work - step.dissipated - change).abs() <= 1e-6 * largest);
         assert!((step.work - step.dissipated - change + step.imbalance).abs() <= 1e-12 * largest);
     }
-    // back where it began, and what the load has done is lost
+    // back where it began, and what the load has done is lost, but for the imbalances of hundreds of steps
     assert!((energy(last) - energy(first)).abs() <= 1e-9 * largest);
-    assert!((last.work / last.dissipated - 1.0).abs() < 1e-6 && last.dissipated > 0.0);
+    assert!((last.work / last.dissipated - 1.0).abs() < 5e-6 && last.dissipated > 0.0);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn the_share_of_the_way_grows_from_nothing_to_all() {
 #[test]
 fn a_pressure_leads_to_limit_points_and_the_gap_past_them() {
     let mut problem = wave(128, 2e-3);
-    let settings = PathSettings::default();
+    let settings = PathSettings::default().smallest_step(1e-4);
     let given_gap = follow(&mut problem, gaps(&[0.012, 0.03]), settings, 1e-6);
     let least = |steps: &[PathStep<f64>]| {
         steps.iter().map(|step| step.solution.report.mean_pressure).fold(f64::INFINITY, f64::min)
@@ -129,7 +129,7 @@ fn a_pressure_leads_to_limit_points_and_the_gap_past_them() {
     // the steps by the gap pass the limit point at a distance of theirs, on a curve that the grid ripples
     assert!((least(&steps) / least(&given_gap) - 1.0).abs() < 5e-3);
     let Some(Event::LimitPoint { mean_pressure, .. }) = steps.iter().find_map(|step| step.event) else { panic!() };
-    assert!((mean_pressure - least(&steps)).abs() <= 3.0 * settings.smallest_step * 0.106);
+    assert!((mean_pressure - least(&steps)).abs() <= 3.0 * 1e-4 * 0.106);
     let last = &steps[steps.len() - 1].solution.report;
     assert!(last.contact_nodes == 0 && last.mean_pressure.abs() < 1e-3 * mean_pressure.abs());
 
@@ -143,7 +143,7 @@ fn a_pressure_leads_to_limit_points_and_the_gap_past_them() {
 #[test]
 fn stability_is_lost_at_a_limit_point() {
     let mut problem = wave(128, 2e-3);
-    let steps = follow(&mut problem, gaps(&[0.021, 0.026]), PathSettings::default(), 1e-6);
+    let steps = follow(&mut problem, gaps(&[0.021, 0.026]), PathSettings::default().smallest_step(1e-4), 1e-6);
     let least = steps.iter().map(|step| step.solution.report.mean_pressure).fold(f64::INFINITY, f64::min);
     let turn = steps.iter().position(|step| step.solution.report.mean_pressure == least).unwrap();
     let pull_off = steps.iter().position(|step| step.event.is_some()).unwrap();
@@ -199,7 +199,7 @@ fn are_the_same(found: &[Jump], expected: &[Jump], width: f64, node: f64) {
 fn two_equal_waves_come_into_contact_one_after_the_other() {
     for n in [128, 64] {
         let follow = |asymmetry, steps| {
-            let settings = PathSettings::default().steps(steps);
+            let settings = PathSettings::default().steps(steps).smallest_step(1e-4);
             follow(&mut two_waves(n, asymmetry), gaps(&[0.03, 0.008, 0.03]), settings, 1e-6)
         };
         let w = 1.5e-4;
@@ -264,7 +264,7 @@ fn a_mirrored_map_comes_into_contact_on_one_side_first() {
         };
         let (surface, law) = (Surface::from_fn(grid, height).unwrap(), Exponential::new(4e-4, 4e-3).unwrap());
         let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
-        let settings = PathSettings::default().steps(steps);
+        let settings = PathSettings::default().steps(steps).smallest_step(1e-4);
         follow(&mut problem, gaps(&[0.05, 0.005]), settings, 1e-6)
     };
     let expected = drops(&follow(1e-6, 50), 4e-7);

@@ -443,7 +443,8 @@ fn paths_are_shared(world: &World) -> Result<()> {
     assert_eq!(of_all.len(), of_one.len());
     for (step, expected) in of_all.iter().zip(&of_one) {
         same_solutions("path", &shared, &step.solution, &expected.solution);
-        let figures = |s: &path::PathStep<f64>| (s.leg, [s.work, s.dissipated, s.imbalance].map(f64::to_bits));
+        let figures =
+            |s: &path::PathStep<f64>| (s.leg, [s.work, s.dissipated, s.imbalance, s.work_error].map(f64::to_bits));
         assert_eq!(figures(step), figures(expected));
         assert_eq!(step.event, expected.event);
     }

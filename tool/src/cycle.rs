@@ -138,6 +138,7 @@ impl Options {
                 "dissipated": last["dissipated"],
                 "plastic_energy": last["plastic_energy"],
                 "imbalance": last["imbalance"],
+                "work_error": last["work_error"],
                 "last": last,
             });
             table.report(found)
@@ -168,7 +169,7 @@ impl Options {
                 if last["plastic_energy"].is_number() {
                     say(&format!("dissipated by yielding  {}", told(last, "plastic_energy")));
                 }
-                say(&format!("work done by the load   {}", told(last, "work")));
+                say(&format!("work done by the load   {} ± {}", told(last, "work"), told(last, "work_error")));
                 let share = 100.0 * (imbalance / most).abs();
                 say(&format!("imbalance of energy     {}, {share:.1} % of the work", told(last, "imbalance")));
             }

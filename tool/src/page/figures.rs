@@ -25,8 +25,8 @@ pub const GROUPS: [(&str, &str); 8] = [
     ("Pressures", "hardness mean_contact_pressure min_pressure max_pressure peak_traction edge_traction"),
     (
         "Energies",
-        "elastic_energy adhesive_energy plastic_energy work dissipated imbalance event energy_drop stability departures \
-         other_branch",
+        "elastic_energy adhesive_energy plastic_energy work dissipated imbalance work_error event energy_drop \
+         stability departures other_branch",
     ),
     ("Error", "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved"),
     ("Cost", "iterations operator_applications equivalent_applications seconds"),

@@ -14,7 +14,7 @@ const COLUMNS: [(&str, Dimension); 12] = [
     ("gap_density", PER_LENGTH),
     ("area", AREA),
     ("density pressure_density", PER_PRESSURE),
-    ("work dissipated imbalance energy_drop", ENERGY_PER_AREA),
+    ("work dissipated imbalance work_error energy_drop", ENERGY_PER_AREA),
     ("electrical_conductance", ELECTRICAL_CONDUCTANCE),
     ("thermal_conductance", THERMAL_CONDUCTANCE),
     ("transmissivity_x_lower transmissivity_x_upper transmissivity_y_lower transmissivity_y_upper", TRANSMISSIVITY),

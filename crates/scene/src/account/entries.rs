@@ -184,6 +184,8 @@ record! {
         dissipated: f64 = found.dissipated,
         /// The imbalance of energy.
         imbalance: f64 = found.imbalance,
+        /// The standard error of the work.
+        work_error: f64 = found.work_error,
         /// The event before the state.
         event: Option<&'static str> = found.event.as_ref().map(Event::name),
         /// The energy that its jump dissipates, per area.

@@ -61,7 +61,7 @@ const STATE: &str = "control control_value mean_pressure mean_contact_pressure m
                      repulsive_fraction attractive_fraction elastic_energy adhesive_energy min_gap";
 const OUTCOME: &str = "relative_error load_error iterations operator_applications status";
 pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
-const BALANCE: &str = "work dissipated imbalance event energy_drop";
+const BALANCE: &str = "work dissipated imbalance work_error event energy_drop";
 /// What a search for the pull-off found, before the last state that holds; its operator applications are of all solves.
 const PULL_OFF: &str = "pull_off_pressure pull_off_force limit_pressure limit_force limit_error lost_pressure reached \
                         branch solves";

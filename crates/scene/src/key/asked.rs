@@ -24,8 +24,9 @@ keys! {
         "Loads" {
             /// Least number of steps from one turning point to the next
             steps: Kind::whole(&["N"]).or("50"),
-            /// Step to which jumps are located, as a share of the way from one turning point to the next
-            smallest_step: Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
+            /// Step to which jumps are located, as a share of the way from one turning point to the next [default: until
+            /// the work of the step is known to a tenth of the energy that the jump dissipates]
+            smallest_step: Kind::number(Range::POSITIVE, &["SHARE"]),
             /// Imbalance of energy that a step may have, as a share of the change of the energy so far and of twenty
             /// times what jumps have dissipated; smaller jumps are not located one by one
             imbalance: Kind::number(Range::POSITIVE, &["SHARE"]).or("1e-4"),
@@ -61,7 +62,7 @@ impl Given {
         let usual = PathSettings::default();
         usual
             .steps(self.number("steps").map_or(usual.steps, |steps| steps as usize))
-            .smallest_step(self.number("smallest_step").unwrap_or(usual.smallest_step))
+            .smallest_step(self.number("smallest_step"))
             .imbalance(self.number("imbalance").unwrap_or(usual.imbalance))
             .smooth(!self.switch("sharp"))
     }

@@ -66,7 +66,7 @@ keys! {
         "Solver" {
             /// Preconditioned conjugate gradients, or the algorithm of Rey et al. (2017)
             method: Kind::word(|| Word::all(&["default", "rey2017"]), &["METHOD"]).or("default"),
-            /// Certified relative error at which to stop [default: 1e-6, in f32 1e-4]
+            /// Certified relative error at which to stop [default: 1e-6, in f32 and in cycles 1e-4]
             tolerance: Kind::number(Range::POSITIVE, &["T"]),
             /// Iterations after which to give up [default: 2000, with rey2017 20000]
             max_iterations: Kind::whole(&["N"]),

@@ -134,7 +134,7 @@ impl<T: Scalar> Course<T> {
     /// Those of [`Session::seconds_of_application`].
     pub fn expect(&mut self, session: &Session<T>) -> Result<()> {
         let Some(pace) = &mut self.pace else { return Ok(()) };
-        pace.expect(session.seconds_of_application()?);
+        pace.expect(session.seconds_of_application()?, session.adheres());
         Ok(())
     }
 
@@ -216,7 +216,7 @@ impl<T: Scalar> Course<T> {
                 "control": kind(loads),
                 "loads": listed(&values(loads)),
                 "steps": steps.to_string(),
-                "smallest_step": smallest_step.to_string(),
+                "smallest_step": smallest_step.map(|step| step.to_string()),
                 "imbalance": imbalance.to_string(),
                 "sharp": (!smooth).to_string(),
             }),

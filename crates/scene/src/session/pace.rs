@@ -4,26 +4,21 @@ use asperity::path::PathSettings;
 
 use crate::session::fall::time;
 
-/// The time of a state without a jump, over that of an operator application. Rough surfaces and a sphere of 64² to 256²
-/// nodes take from 40 to 120 for each state that is asked for, steps that are taken back and halved included.
-const STATE: f64 = 60.0;
+/// The time of a state without adhesion, over that of an operator application.
+const STATE: f64 = 30.0;
 
-/// The further time of a jump for each halving of its step, over that of an operator application. The same surfaces
-/// take from 400 to 1600: across a jump the start of a solve is far from the solution.
-const HALVING: f64 = 800.0;
-
-/// The share of the way from which on it tells the time that is left; before, the least number of states does.
-const ENOUGH: f64 = 0.05;
+/// The time of a leg with adhesion, over that of an operator application: the balance of energy chooses the states, not
+/// the number of steps that is asked for. Legs on ten rough, smooth and measured surfaces take from 1000 to 5500
+/// applications, a line or a sphere as many as a rough square.
+const LEG: f64 = 4000.0;
 
 /// The pace of a cycle, of which the number of states is not known before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
     /// The number of legs, and the least number of steps in each.
     asked: (usize, usize),
-    /// The halvings of a step that locate a jump.
-    halvings: usize,
-    /// The seconds of an operator application, once they are known.
-    application: Option<f64>,
+    /// The seconds that all is likely to take, once those of an operator application are known.
+    expected: Option<f64>,
     /// The number of states.
     states: usize,
     /// The number of events: jumps, bifurcations and limit points.
@@ -38,10 +33,8 @@ pub struct Pace {
 impl Pace {
     /// The pace of a cycle of as many legs, from its beginning.
     pub fn new(legs: usize, settings: &PathSettings) -> Self {
-        let steps = settings.steps.max(1);
-        let halvings = (steps as f64 * settings.smallest_step).recip().log2().ceil().max(1.0) as usize;
-        let asked = (legs, steps);
-        Self { asked, halvings, application: None, states: 0, events: 0, share: 0.0, before: (0, 0.0), seconds: 0.0 }
+        let asked = (legs, settings.steps.max(1));
+        Self { asked, expected: None, states: 0, events: 0, share: 0.0, before: (0, 0.0), seconds: 0.0 }
     }
 
     /// The pace behind as many states with as many events.
@@ -49,9 +42,10 @@ impl Pace {
         Self { states, events, before: (states, 0.0), ..self }
     }
 
-    /// Takes the time of an operator application in seconds, from which the time before the first state follows.
-    pub fn expect(&mut self, application: f64) {
-        self.application = Some(application);
+    /// Takes the time of an operator application in seconds, from which that of a cycle with or without adhesion follows.
+    pub fn expect(&mut self, application: f64, adhesive: bool) {
+        let applications = if adhesive { LEG * self.asked.0 as f64 } else { STATE * self.least() as f64 };
+        self.expected = Some(application * applications);
     }
 
     /// The least number of states at the end: the start, and the steps of all legs.
@@ -79,16 +73,16 @@ impl Pace {
         self.share
     }
 
-    /// The seconds that are left: before the first state of this run those that the least number of states is expected
-    /// to take, then those of the same number at the speed so far, and after a twentieth of the way those of the rest.
+    /// The seconds that are left: at first by what all is likely to take, and the farther the way the more by the speed
+    /// so far.
     pub fn seconds_left(&self) -> Option<f64> {
-        let (states, gone) = (self.states - self.before.0, self.share - self.before.1);
-        let rest = self.least().saturating_sub(self.states).max(1) as f64;
-        match states {
-            0 => self.application.map(|application| STATE * application * rest),
-            _ if gone < ENOUGH => Some(self.seconds / states as f64 * rest),
-            _ => Some(self.seconds * (1.0 - self.share) / gone),
-        }
+        let gone = self.share - self.before.1;
+        let by_speed = (gone >= ENOUGH).then(|| self.seconds / gone);
+        let all = match (self.expected, by_speed) {
+            (Some(expected), Some(by_speed)) => (1.0 - self.share) * expected + self.share * by_speed,
+            (expected, by_speed) => by_speed.or(expected)?,
+        };
+        Some((1.0 - self.share) * all)
     }
 
     /// The pace in words.
@@ -98,24 +92,13 @@ impl Pace {
         format!("{}, {}, {way}{left}", count(self.states, "state"), count(self.events, "event"))
     }
 
-    /// What is asked for and what that is likely to take, before the first state of all; with adhesion also what each
-    /// jump adds.
-    pub fn asked(&self, adhesive: bool) -> Option<String> {
-        let application = self.application.filter(|_| self.states == 0)?;
-        let ((legs, steps), least) = (self.asked, self.least());
-        let mut text = format!(
-            "{} or more, {} of {}: about {}",
-            count(least, "state"),
-            count(legs, "leg"),
-            count(steps, "step"),
-            time(STATE * application * least as f64)
-        );
-        if adhesive {
-            let (few, many) = (self.halvings, 2 * self.halvings);
-            let seconds = time(HALVING * application * self.halvings as f64);
-            text += &format!("; each jump takes {few} to {many} more, and about {seconds}");
-        }
-        Some(text)
+    /// What is asked for and what that is likely to take, before the first state of all.
+    pub fn asked(&self) -> Option<String> {
+        let expected = self.expected.filter(|_| self.states == 0)?;
+        let (legs, steps) = self.asked;
+        let [least, legs, steps] =
+            [(self.least(), "state"), (legs, "leg"), (steps, "step")].map(|(n, name)| count(n, name));
+        Some(format!("{least} or more, {legs} of {steps}: about {}", time(expected)))
     }
 }
 
