@@ -13,12 +13,14 @@ from ._topography import Topography
 __all__ = [
     "AdhesiveWavyLine",
     "Contact",
+    "GreenwoodWilliamson",
     "Hertz",
     "Iteration",
     "Jkr",
     "Keywords",
     "Law",
     "MaugisDugdale",
+    "Persson",
     "Problem",
     "VERSION",
     "WaveContact",
@@ -120,6 +122,8 @@ class Problem:
         symbol: tuple[Callable[..., Any], str, bool] | None,
         is_kept: bool,
     ) -> Problem: ...
+    @property
+    def beyond_theory(self) -> str | None: ...
     def solve(
         self, keywords: dict[str, Any], start: str | _Field | None, observe: Callable[[Iteration], object] | None
     ) -> dict[str, Any]: ...
@@ -278,6 +282,23 @@ class AdhesiveWavyLine:
     def at_mean_gap(self, mean_gap: ArrayLike) -> WaveContact: ...
     def pull_off(self) -> WaveContact: ...
     def jump_to_full_contact(self) -> WaveContact: ...
+
+@final
+class Persson:
+    def __new__(
+        cls, rms_slope: float, modulus: float, spectrum: tuple[_Field, _Field, NDArray[np.int64], float] | None
+    ) -> Persson: ...
+    def contact_fraction(self, mean_pressure: ArrayLike) -> Any: ...
+    def mean_gap(self, mean_pressure: ArrayLike) -> Any: ...
+
+@final
+class GreenwoodWilliamson:
+    def __new__(
+        cls, rms_height: float, rms_slope: float, rms_curvature: float, modulus: float
+    ) -> GreenwoodWilliamson: ...
+    @property
+    def asperities(self) -> tuple[float, float, float]: ...
+    def contact_fraction(self, mean_pressure: ArrayLike) -> Any: ...
 
 def closing_pressure_2d(amplitude: ArrayLike, wavelength: float, modulus: float) -> Any: ...
 def command(arguments: list[str]) -> int: ...

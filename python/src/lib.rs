@@ -32,7 +32,10 @@ mod _asperity {
         answer::unbalanced,
         command::{command, figures_of, page},
         contact::{clusters, contact_tables, load_scale, palette, pressure_distribution},
-        exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, MaugisDugdale, WaveContact, WavyLine, closing_pressure_2d},
+        exact::{
+            AdhesiveWavyLine, Contact, GreenwoodWilliamson, Hertz, Jkr, MaugisDugdale, Persson, WaveContact, WavyLine,
+            closing_pressure_2d,
+        },
         flow::{conductance, leakage, percolation},
         inputs::{has_dimension, quantity},
         interface::interface_files,
