@@ -17,7 +17,7 @@ from ._body import symbol
 from ._columns import Rows
 from ._cycle import Cycle
 from ._interface import Interface
-from ._keys import KEYS
+from ._keys import AdhesionKeywords
 from ._keywords import (
     ContactKeywords,
     CycleAll,
@@ -55,10 +55,11 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound=Rows[Any])
 
 #: The parameters of laws, which are no keywords next to an object that has its own.
-_OF_LAWS = tuple(key for key in KEYS["Adhesion"] if key not in ("law", "wall", "wall_stiffness", "hardness"))
+_OF_LAWS = tuple(key for key in names(AdhesionKeywords) if key not in ("law", "wall", "wall_stiffness", "hardness"))
 
 #: Keywords that the law of an interface does not have, per area of a periodic cell.
 _NOT_OF_INTERFACE = ("boundary", "hardness", "normal_forces", "approaches", "spring_stiffness", "spring_positions")
+
 
 def _refuse_beside(name: str, own: Any, keys: dict[str, Any]) -> None:
     """Refuses keys given with an object that has them."""

@@ -31,7 +31,7 @@ mod _asperity {
     use crate::{
         answer::unbalanced,
         command::{command, figures_of, page},
-        contact::{clusters, contact_tables, load_scale, palette, pressure_distribution},
+        contact::{clusters, contact_picture, contact_tables, load_scale, palette, pressure_distribution},
         exact::{
             AdhesiveWavyLine, Contact, GreenwoodWilliamson, Hertz, Jkr, MaugisDugdale, Persson, WaveContact, WavyLine,
             closing_pressure_2d,
@@ -39,7 +39,7 @@ mod _asperity {
         flow::{conductance, leakage, percolation},
         inputs::{has_dimension, quantity},
         interface::interface_files,
-        keywords::Keywords,
+        keywords::{Keywords, meanings},
         law::{Law, check_law, cut_off, law, read_law, tabulated, varied},
         pair::{between, contact_modulus},
         problem::Problem,
