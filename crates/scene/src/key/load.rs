@@ -178,6 +178,11 @@ impl Load {
         KINDS.iter().map(|kind| if kind.one == "spring_position" { "spring_stiffness" } else { kind.one })
     }
 
+    /// The key of one load, by that of a list of them.
+    pub fn one_of(many: &str) -> Option<&'static str> {
+        KINDS.iter().find(|kind| kind.many == many).map(|kind| kind.one)
+    }
+
     /// The keys of which one is given for a list of loads that are held.
     pub fn many() -> impl Iterator<Item = &'static str> {
         let held = KINDS.iter().filter(|kind| kind.one != "contact_fraction");
