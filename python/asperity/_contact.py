@@ -17,7 +17,7 @@ from ._body import symbol
 from ._columns import Rows
 from ._cycle import Cycle
 from ._interface import Interface
-from ._keys import KEYS
+from ._keys import AdhesionKeywords
 from ._keywords import (
     ContactKeywords,
     CycleAll,
@@ -55,19 +55,10 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound=Rows[Any])
 
 #: The parameters of laws, which are no keywords next to an object that has its own.
-_OF_LAWS = tuple(key for key in KEYS["Adhesion"] if key not in ("law", "wall", "wall_stiffness", "hardness"))
+_OF_LAWS = tuple(key for key in names(AdhesionKeywords) if key not in ("law", "wall", "wall_stiffness", "hardness"))
 
 #: Keywords that the law of an interface does not have, per area of a periodic cell.
 _NOT_OF_INTERFACE = ("boundary", "hardness", "normal_forces", "approaches", "spring_stiffness", "spring_positions")
-
-#: What theories of rough half-spaces have, by keywords that may say something else.
-_OF_THEORIES = {
-    "law": "none",
-    "wall": "hard",
-    "boundary": "periodic",
-    "absent_missing": False,
-    **dict.fromkeys(("body", "layer", "coating", "plate", "hardness")),
-}
 
 
 def _refuse_beside(name: str, own: Any, keys: dict[str, Any]) -> None:
@@ -608,10 +599,6 @@ class Contact:
         if "modulus" not in keys:
             raise TypeError("modulus is missing: give the contact modulus E*, a pressure, as modulus=1.0 or '70GPa'")
         self.whole, self.branch = keys.get("whole", False), keys.get("branch")
-        #: the keywords that say more than theories know of
-        self.beyond_theory = [
-            key for key, plain in _OF_THEORIES.items() if key in keys and not (np.ndim(keys[key]) == 0 and keys[key] == plain)
-        ]
         against, body = keys.pop("against", None), keys.pop("body", None)
         law = keys.pop("law") if not isinstance(keys.get("law"), str | None) else None
         #: the law as an object
@@ -667,6 +654,8 @@ class Contact:
         }
         self._is_kept = is_kept
         self.problem = _asperity.Problem(self._map, self._given, symbol(body), is_kept)
+        #: why theories do not know of it
+        self.beyond_theory = self.problem.beyond_theory
         moduli = [self._given.numbers(key) for key in ("modulus", "against_modulus")]
         #: the contact modulus of both bodies
         self.modulus = 1 / sum(1 / modulus[0] for modulus in moduli if modulus is not None)

@@ -16,7 +16,10 @@ class Formula:
 
     #: What it is of, its formula, and its source.
     about: ClassVar[str]
+    #: Its class of the compiled core.
+    _core: ClassVar[Any]
 
+    _of: Any
     _texts: dict[str, str]
 
     def __post_init__(self) -> None:
@@ -28,6 +31,11 @@ class Formula:
             object.__setattr__(self, name, number(name, in_si(name, found) if isinstance(found, str) else found))
         quantities.are_si()
         object.__setattr__(self, "_texts", {name: text for name, text in given.items() if isinstance(text, str)})
+        object.__setattr__(self, "_of", self._core(*(getattr(self, field.name) for field in fields(self))))  # type: ignore[arg-type]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        given = (self._texts.get(field.name, getattr(self, field.name)) for field in fields(self))  # type: ignore[arg-type]
+        return type(self), tuple(given)
 
     def __repr__(self) -> str:
         return f"{self._called()}\n  {self.about}"

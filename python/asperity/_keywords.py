@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from os import PathLike
 from typing import Any, TypedDict, TypeVar
 
-from . import _keys
+from . import _asperity
 from ._asperity import Iteration
 from ._body import Body
 from ._keys import (
@@ -133,8 +133,9 @@ class ViscoelasticAll(ContactKeywords, ViscoelasticKeywords, total=False):
     """Those of a contact and its viscoelastic body."""
 
 
-#: The defaults and meanings of the keys, of one that several lists have those of the first.
-_MEANINGS = {name: known for keys in reversed(_keys.KEYS.values()) for name, known in keys.items()}
+#: The defaults and meanings of the keys, by their lists, and of one that several lists have those of the first.
+_LISTS = _asperity.meanings()
+_MEANINGS = {name: known for keys in reversed(_LISTS) for name, known in keys.items()}
 
 #: The defaults of the keywords that Python alone has, which docstrings explain.
 _OTHERS: dict[str, tuple[object, str]] = {
@@ -158,7 +159,7 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
         known = [name for name in names(kind) if name not in without]
         meanings = {**_MEANINGS, **_OTHERS}
         # a list that the function has in full says more than one that shares a key with it
-        for keys in reversed(_keys.KEYS.values()):
+        for keys in reversed(_LISTS):
             if keys.keys() <= set(known):
                 meanings.update(keys)
         more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=meanings[name][0]) for name in known]

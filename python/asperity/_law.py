@@ -13,7 +13,7 @@ from ._laws import CutOff, Tabulated, Varying
 
 def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:
     """Gaps and tractions and the works of adhesion of a law, and whether it may differ from others of its name."""
-    law, works = _unwrapped(law)
+    law, works = unwrapped(law)
     table = np.column_stack([law.gaps, law.tractions]) if isinstance(law, Tabulated) else None
     own = law is not None and not isinstance(law, Law)
     if works is None:
@@ -22,7 +22,7 @@ def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | 
     return table, np.atleast_2d(works), own or getattr(law, "work_of_adhesion", None) != np.max(works)
 
 
-def _unwrapped(law: Any) -> tuple[Any, Any]:
+def unwrapped(law: Any) -> tuple[Any, Any]:
     """The law of which a law that ends or varies is made, and its works of adhesion."""
     works = None
     while isinstance(law, (CutOff, Varying)):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _asperity, _picture, _plot
+from . import _asperity, _plot
 from ._accuracy import Plan
 from ._summary import summary
 from ._topography import Topography, field_of
@@ -499,18 +499,19 @@ class Solution:
         return "\n".join(f"{name:<{width}}  {value}" for name, value in rows)
 
     def _repr_html_(self) -> str:
+        import base64
         import html
 
         rows = "".join(
             f"<tr><td style='text-align:left'>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>"
             for name, value in self._looked[2]
         )
-        picture = _picture.data_uri(self.contact)
+        contact = self.contact.reshape(self.contact.shape[0], -1)
+        picture = _asperity.contact_picture(contact, self.lengths, self._told["length_unit"])
+        source = f"data:image/svg+xml;base64,{base64.b64encode(picture.encode()).decode()}"
         return (
             "<div style='display:flex;flex-wrap:wrap;gap:2em;align-items:center'>"
-            f"<table>{rows}</table><figure style='margin:0'><img src='{picture}' alt='contact map' "
-            "style='width:320px;image-rendering:pixelated;border:1px solid #888'>"
-            "<figcaption>contact, x to the right, y up</figcaption></figure></div>"
+            f"<table>{rows}</table><img src='{source}' alt='contact map' style='max-width:100%'></div>"
         )
 
     def plot(

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from . import _asperity, _plot
 from ._body import Symbol
 from ._columns import Rows
-from ._laws import JKR, CutOff, Varying
+from ._law import unwrapped
+from ._laws import JKR
 from ._solution import Solution, Start
 from ._topography import field_of, mirrored
 from ._units import number
@@ -273,9 +274,7 @@ def _listed(name: str, values: Any) -> list[Any]:
 
 def _refuse(contact: Contact) -> None:
     """Refuses what does not relax as the half-space does."""
-    law = contact.own_law
-    while isinstance(law, (CutOff, Varying)):
-        law = law.law
+    law, _ = unwrapped(contact.own_law)
     if isinstance(law, JKR) or contact.law == "jkr":
         raise ValueError(
             "law is jkr, whose range is that of the grid: the speed of an edge depends on the range: give a law that has one, "

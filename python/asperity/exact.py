@@ -48,6 +48,7 @@ __all__ = [
     "closing_pressure_2d",
 ]
 
+
 class _States:
     """States of a solution, with their numbers as properties."""
 
@@ -138,22 +139,11 @@ class WaveContact(_States):
     _told = ("half_width", "mean_pressure", "mean_gap")
 
 
+@dataclass(frozen=True, repr=False)
+class _Sphere(Formula):
+    radius: Quantity
+    modulus: Quantity
 
-class _Solution(Formula):
-    """A solution that the compiled core has, by its class there."""
-
-    _core: ClassVar[Any]
-    _of: Any
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        object.__setattr__(self, "_of", self._core(*(getattr(self, name) for name in self._names())))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), tuple(self._texts.get(name, getattr(self, name)) for name in self._names())
-
-
-class _Sphere(_Solution):
     def at_load(self, load: ArrayLike) -> Contact:
         """Stable contacts at loads P, compression positive."""
         return Contact(self, self._of.at_load(self._read("load", load)))
@@ -171,7 +161,6 @@ class _Sphere(_Solution):
         return Contact(self, self._of.pull_off())
 
 
-@dataclass(frozen=True, repr=False)
 class Hertz(_Sphere):
     """Hertz' contact of a sphere, without adhesion: P = 4E*a³/(3R), δ = a²/R.
 
@@ -189,9 +178,6 @@ class Hertz(_Sphere):
     '3.73e-08 N'
     """
 
-    radius: Quantity
-    modulus: Quantity
-
     about = "sphere without adhesion: P = 4E*a³/(3R), δ = a²/R; Hertz (1881)"
     _core = _asperity.Hertz
 
@@ -202,10 +188,8 @@ class Jkr(_Sphere):
 
     Parameters
     ----------
-    radius : float
-        Radius of curvature R, a length.
-    modulus : float
-        Contact modulus E*, a pressure.
+    radius, modulus
+        Those of `Hertz`.
     work_of_adhesion : float
         Work of adhesion w, an energy per area.
 
@@ -216,8 +200,6 @@ class Jkr(_Sphere):
     '4.71e-09 N'
     """
 
-    radius: Quantity
-    modulus: Quantity
     work_of_adhesion: Quantity
 
     about = (
@@ -233,12 +215,8 @@ class MaugisDugdale(_Sphere):
 
     Parameters
     ----------
-    radius : float
-        Radius of curvature R, a length.
-    modulus : float
-        Contact modulus E*, a pressure.
-    work_of_adhesion : float
-        Work of adhesion w, an energy per area.
+    radius, modulus, work_of_adhesion
+        Those of `Jkr`.
     range : float
         Range ρ, a length.
 
@@ -249,8 +227,6 @@ class MaugisDugdale(_Sphere):
     '0.77'
     """
 
-    radius: Quantity
-    modulus: Quantity
     work_of_adhesion: Quantity
     range: Quantity
 
@@ -266,7 +242,12 @@ class MaugisDugdale(_Sphere):
         return float(self._of.tabor_parameter)
 
 
-class _Wave(_Solution):
+@dataclass(frozen=True, repr=False)
+class _Wave(Formula):
+    amplitude: Quantity
+    wavelength: Quantity
+    modulus: Quantity
+
     @property
     def closing_pressure(self) -> float:
         """Mean pressure at which the contact closes without adhesion."""
@@ -285,7 +266,6 @@ class _Wave(_Solution):
         return WaveContact(self, self._of.at_mean_gap(self._read("mean_gap", mean_gap)))
 
 
-@dataclass(frozen=True, repr=False)
 class WavyLine(_Wave):
     """Westergaard's contact of a wave on a line, without adhesion.
 
@@ -304,10 +284,6 @@ class WavyLine(_Wave):
     '2.5e-07 m'
     """
 
-    amplitude: Quantity
-    wavelength: Quantity
-    modulus: Quantity
-
     about = (
         "wave on a line without adhesion: with s = sin²(πa/λ) p̄ = πE*h₀/λ s, ḡ = h₀ (1 − s + s ln s); "
         "Westergaard (1939)"
@@ -321,10 +297,8 @@ class AdhesiveWavyLine(_Wave):
 
     Parameters
     ----------
-    amplitude, wavelength : float
-        Amplitude h₀ and wavelength λ, lengths.
-    modulus : float
-        Contact modulus E*, a pressure.
+    amplitude, wavelength, modulus
+        Those of `WavyLine`.
     work_of_adhesion : float
         Work of adhesion w, an energy per area.
 
@@ -335,9 +309,6 @@ class AdhesiveWavyLine(_Wave):
     '0.14'
     """
 
-    amplitude: Quantity
-    wavelength: Quantity
-    modulus: Quantity
     work_of_adhesion: Quantity
 
     about = (

@@ -2,7 +2,7 @@
 
 use asperity::Grid;
 use asperity::contact::{Clusters, PressureDistribution};
-use asperity_plot::{Colouring, LoadScale};
+use asperity_plot::{Colouring, DPI, LoadScale, Map};
 use asperity_scene::Boundary;
 use asperity_scene::contact::ContactTables;
 use numpy::ndarray::Array2;
@@ -37,6 +37,19 @@ pub fn palette<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray2
         _ => return Err(PyValueError::new_err(format!("there is no palette {name:?}"))),
     };
     Ok(Array2::from(colouring.steps()).into_pyarray(py))
+}
+
+/// The picture of a contact map, as the text of an SVG file.
+#[pyfunction]
+pub fn contact_picture(
+    contact: PyReadonlyArray2<'_, bool>,
+    lengths: (f64, f64),
+    unit: Option<&str>,
+) -> PyResult<String> {
+    let values = contact.as_array().mapv(f64::from);
+    let grid = Grid::new(values.dim(), lengths).map_err(refusal)?;
+    let map = Map { length_unit: unit, ..Map::new(values.view(), grid, Colouring::Contact) };
+    map.draw(DPI).and_then(|picture| picture.svg()).map_err(refusal)
 }
 
 /// The end of the scale of the positive pressures, the greatest of them, and the share of their load beyond the end.

@@ -1,6 +1,7 @@
-//! Exact solutions at many loads at once.
+//! Exact solutions and theories at many loads at once; what users see, with its words, is in `asperity/exact.py`.
 
 use asperity::exact::{self, Sphere};
+use asperity_scene::theories;
 use numpy::ndarray::{ArrayD, IxDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -45,22 +46,6 @@ macro_rules! states {
 states! {
     /// Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found
     /// at.
-    ///
-    /// Attributes
-    /// ----------
-    /// contact_radius, adhesion_radius : float or ndarray
-    ///     Radii up to which the surfaces touch, and attract each other.
-    /// load : float or ndarray
-    ///     Load P, compression positive.
-    /// approach : float or ndarray
-    ///     Approach δ of the half-space at infinity.
-    /// radius_of_curvature, second_moment : float or ndarray
-    ///     Radius R, and the integral of r²p.
-    ///
-    /// Notes
-    /// -----
-    /// pressure(r), gap(r), displacement(r), which is u = h + g, and deflection(r), which is u + δ, are fields at the
-    /// distances r ≥ 0 from the axis: the shape of the contacts, then that of r.
     Contact(exact::Contact) {
         contact_radius, adhesion_radius, load, approach, radius_of_curvature, second_moment,
     } { pressure(r), gap(r), displacement(r), deflection(r), }
@@ -68,18 +53,6 @@ states! {
 
 states! {
     /// Contacts of a wave h₀ cos(2πx/λ) with a half-space; numbers have the shape of what they were found at.
-    ///
-    /// Attributes
-    /// ----------
-    /// half_width : float or ndarray
-    ///     Half-width a of the contact about each crest.
-    /// mean_pressure, mean_gap : float or ndarray
-    ///     Mean pressure p̄ and mean gap.
-    ///
-    /// Notes
-    /// -----
-    /// pressure(x), gap(x) and displacement(x) are fields at the distances x from a crest: the shape of the contacts,
-    /// then that of x.
     WaveContact(exact::WaveContact) { half_width, mean_pressure, mean_gap, } {
         pressure(x), gap(x), displacement(x),
     }
@@ -146,41 +119,14 @@ macro_rules! sphere {
 
 sphere! {
     /// Hertz' contact of a sphere, without adhesion: P = 4E*a³/(3R), δ = a²/R.
-    ///
-    /// Parameters
-    /// ----------
-    /// radius : float
-    ///     Radius of curvature R, a length.
-    /// modulus : float
-    ///     Contact modulus E*, a pressure.
     Hertz as "Hertz" (radius, modulus);
 }
 sphere! {
     /// The contact of Johnson, Kendall and Roberts, with adhesion of no range.
-    ///
-    /// Parameters
-    /// ----------
-    /// radius : float
-    ///     Radius of curvature R, a length.
-    /// modulus : float
-    ///     Contact modulus E*, a pressure.
-    /// work_of_adhesion : float
-    ///     Work of adhesion w, an energy per area.
     Jkr as "Jkr" (radius, modulus, work_of_adhesion);
 }
 sphere! {
     /// Maugis' contact of a sphere, with a constant traction w/ρ up to a gap ρ.
-    ///
-    /// Parameters
-    /// ----------
-    /// radius : float
-    ///     Radius of curvature R, a length.
-    /// modulus : float
-    ///     Contact modulus E*, a pressure.
-    /// work_of_adhesion : float
-    ///     Work of adhesion w, an energy per area.
-    /// range : float
-    ///     Range ρ, a length.
     MaugisDugdale as "MaugisDugdale" (radius, modulus, work_of_adhesion, range);
     /// Tabor parameter: large for JKR, small for DMT.
     tabor_parameter;
@@ -212,26 +158,10 @@ macro_rules! wave {
 
 wave! {
     /// Westergaard's contact of a wave on a line, without adhesion.
-    ///
-    /// Parameters
-    /// ----------
-    /// amplitude, wavelength : float
-    ///     Amplitude h₀ and wavelength λ, lengths.
-    /// modulus : float
-    ///     Contact modulus E*, a pressure.
     WavyLine as "WavyLine" (amplitude, wavelength, modulus); {}
 }
 wave! {
     /// Johnson's contact of a wave on a line, with adhesion of no range.
-    ///
-    /// Parameters
-    /// ----------
-    /// amplitude, wavelength : float
-    ///     Amplitude h₀ and wavelength λ, lengths.
-    /// modulus : float
-    ///     Contact modulus E*, a pressure.
-    /// work_of_adhesion : float
-    ///     Work of adhesion w, an energy per area.
     AdhesiveWavyLine as "AdhesiveWavyLine" (amplitude, wavelength, modulus, work_of_adhesion);
     {
         /// Partial contact of least mean pressure, from which it opens.
@@ -244,15 +174,6 @@ wave! {
 }
 
 /// The mean pressure √2πE*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion.
-///
-/// Parameters
-/// ----------
-/// amplitude : float or array_like
-///     Amplitudes h₀, lengths.
-/// wavelength : float
-///     Wavelength λ, a length.
-/// modulus : float
-///     Contact modulus E*, a pressure.
 #[pyfunction]
 pub fn closing_pressure_2d<'py>(
     py: Python<'py>,
@@ -262,4 +183,53 @@ pub fn closing_pressure_2d<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let unit = exact::closing_pressure_2d(1.0, wavelength, modulus).map_err(refusal)?;
     mapped(py, &amplitude, |amplitude| amplitude * unit)
+}
+
+/// The wave numbers, densities, numbers of waves and area of a wave of a spectrum.
+type Spectrum<'py> = (Numbers<'py>, Numbers<'py>, Numbers<'py>, f64);
+
+/// Persson's theory.
+#[pyclass(frozen, module = "asperity.exact")]
+pub struct Persson(theories::Persson);
+
+#[pymethods]
+impl Persson {
+    #[new]
+    fn new(rms_slope: f64, modulus: f64, spectrum: Option<Spectrum<'_>>) -> PyResult<Self> {
+        let parts = spectrum.iter().flat_map(|(wave_numbers, densities, waves, cell)| {
+            let parts = densities.as_array().into_iter().zip(waves.as_array()).map(move |(d, waves)| d * waves * cell);
+            wave_numbers.as_array().into_iter().copied().zip(parts)
+        });
+        theories::Persson::new(rms_slope, modulus, parts).map(Self).map_err(refusal)
+    }
+
+    fn contact_fraction<'py>(&self, py: Python<'py>, mean_pressure: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        returned(py, tried(mean_pressure.as_array(), |pressure| self.0.contact_fraction(pressure))?)
+    }
+
+    fn mean_gap<'py>(&self, py: Python<'py>, mean_pressure: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        returned(py, tried(mean_pressure.as_array(), |pressure| self.0.mean_gap(pressure))?)
+    }
+}
+
+/// The theory of Greenwood and Williamson.
+#[pyclass(frozen, module = "asperity.exact")]
+pub struct GreenwoodWilliamson(theories::GreenwoodWilliamson);
+
+#[pymethods]
+impl GreenwoodWilliamson {
+    #[new]
+    fn new(rms_height: f64, rms_slope: f64, rms_curvature: f64, modulus: f64) -> PyResult<Self> {
+        theories::GreenwoodWilliamson::new(rms_height, rms_slope, rms_curvature, modulus).map(Self).map_err(refusal)
+    }
+
+    /// The number of asperities per area, the radius of their curvature, and the rms of their heights.
+    #[getter]
+    fn asperities(&self) -> (f64, f64, f64) {
+        (self.0.density, self.0.radius, self.0.height)
+    }
+
+    fn contact_fraction<'py>(&self, py: Python<'py>, mean_pressure: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        returned(py, tried(mean_pressure.as_array(), |pressure| self.0.contact_fraction(pressure))?)
+    }
 }

@@ -31,12 +31,15 @@ mod _asperity {
     use crate::{
         answer::unbalanced,
         command::{command, figures_of, page},
-        contact::{clusters, contact_tables, load_scale, palette, pressure_distribution},
-        exact::{AdhesiveWavyLine, Contact, Hertz, Jkr, MaugisDugdale, WaveContact, WavyLine, closing_pressure_2d},
+        contact::{clusters, contact_picture, contact_tables, load_scale, palette, pressure_distribution},
+        exact::{
+            AdhesiveWavyLine, Contact, GreenwoodWilliamson, Hertz, Jkr, MaugisDugdale, Persson, WaveContact, WavyLine,
+            closing_pressure_2d,
+        },
         flow::{conductance, leakage, percolation},
         inputs::{has_dimension, quantity},
         interface::interface_files,
-        keywords::Keywords,
+        keywords::{Keywords, meanings},
         law::{Law, check_law, cut_off, law, read_law, tabulated, varied},
         pair::{between, contact_modulus},
         problem::Problem,

@@ -6,9 +6,10 @@ use asperity::Surface;
 use asperity::contact::Original;
 use asperity_scene::processes::Processes;
 use asperity_scene::quantity::PRESSURE;
+use asperity_scene::theories::Theories;
 use asperity_scene::{
     Adhesion, After, AnySession, Boundary, Either, Given, Input, Inputs, Load, Precision, Quantities, Scene, Session,
-    Skin, Way, either,
+    Skin, Way, either, worded,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -33,6 +34,9 @@ pub struct Problem {
     /// The surface, if further solves are to follow the first
     surface: Option<Arc<Surface>>,
     is_used: bool,
+    /// Why theories do not know of it
+    #[pyo3(get)]
+    beyond_theory: Option<String>,
 }
 
 impl Problem {
@@ -135,6 +139,7 @@ impl Problem {
         };
         let surface = Arc::new(surface);
         let kept = is_kept.then(|| surface.clone());
+        let beyond_theory = Theories::check(&surface, &scene).err().map(|reason| worded(&reason, Skin::Keywords));
         let input = Input {
             surface,
             formula,
@@ -149,7 +154,7 @@ impl Problem {
             Precision::F64 => Either::F64(session(&at, &scene, input, inputs)?),
             Precision::F32 => Either::F32(session(&at, &scene, input, inputs)?),
         };
-        Ok(Self { session: Mutex::new(session), given, quantities, surface: kept, is_used: false })
+        Ok(Self { session: Mutex::new(session), given, quantities, surface: kept, is_used: false, beyond_theory })
     }
 
     /// The equilibrium at a load.

@@ -81,7 +81,7 @@ def test_numbers_have_units_or_none():
         ("load is 1nN, with a unit, but Hertz(radius=2, modulus=1) has", lambda: exact.Hertz(2.0, 1.0).at_load("1nN")),
         ("rms_slope is 1nm: it must be a number, which has no unit", lambda: exact.Persson("1nm", "1GPa")),
         ("rms_slope is 0: it must be positive", lambda: exact.Persson(0.0, 1.0)),
-        ("mean_pressure is -1: without adhesion it must be", lambda: exact.Persson(0.1, 1.0).contact_fraction(-1)),
+        ("mean_pressure is -1: it must be zero", lambda: exact.Persson(0.1, 1.0).contact_fraction(-1)),
         ("needs the spectrum of the surface: give spectrum", lambda: exact.Persson(0.1, 1.0).mean_gap(0.1)),
         ("is 0.06: it must be more than 0.8968", lambda: exact.GreenwoodWilliamson(1e-3, 0.1, 1.0, 1.0)),
     ],

@@ -254,7 +254,7 @@ def test_the_table_and_the_html_say_how_it_ended(rough, law):
     assert told.startswith("side lengths") and told.endswith("converged") and "mu_rho" in told and "net pressure" in told
     assert "least pressure " in told and "greatest pressure " in told
     html = solution._repr_html_()
-    assert "data:image/png;base64," in html and "converged" in html
+    assert "data:image/svg+xml;base64," in html and "converged" in html
     metres = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6), "m")
     told = repr(asperity.solve(metres, modulus=1e9, mean_pressure=1e7, stability=True))
     assert "1 µm x 1 µm" in told and re.search(r"mean gap +[0-9.]+ [np]m\n", told) and "its lower bound" in told

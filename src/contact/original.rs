@@ -7,6 +7,7 @@ use crate::adhesion::AdhesionLaw;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
+use crate::problem::Control;
 use crate::real::Real;
 use crate::solver::{Report, Solution};
 
@@ -83,6 +84,11 @@ impl Original {
         self.grid.nodes() as f64 / self.whole.nodes() as f64
     }
 
+    /// The load on the whole that is a load on the original: a force, or a spring, acts on each image too.
+    pub fn load(&self, control: Control) -> Control {
+        control.of_share(1.0 / self.share())
+    }
+
     /// A field of the whole on the original.
     ///
     /// # Errors
@@ -119,7 +125,7 @@ impl Original {
         self.of(contact_map(gap, pressure).view())
     }
 
-    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force. Means,
+    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force and of the load. Means,
     /// fractions, extremes and energies stay those of the whole.
     ///
     /// # Errors
@@ -133,6 +139,7 @@ impl Original {
             contact_nodes,
             absent_nodes: gap.iter().filter(|gap| !gap.is_finite()).count(),
             normal_force: self.share() * solution.report.normal_force,
+            control: solution.report.control.of_share(self.share()),
             ..solution.report.clone()
         };
         let plastic_depth = solution.plastic_depth.as_ref().map(|depth| self.of(depth.view())).transpose()?;

@@ -64,6 +64,15 @@ impl Control {
             Self::Spring { rest, .. } => rest,
         }
     }
+
+    /// The control that holds a share of the area, or several of it, as this one holds all: of their force.
+    pub(crate) fn of_share(self, share: f64) -> Self {
+        match self {
+            Self::Force(force) => Self::Force(share * force),
+            Self::Spring { stiffness, rest } => Self::Spring { stiffness: share * stiffness, rest },
+            other => other,
+        }
+    }
 }
 
 /// The control on the operator's grid: what its mean gap m, over all nodes, is held by.

@@ -3,13 +3,12 @@
 use std::borrow::Cow;
 
 use asperity::contact::Original;
-use asperity::{Control, Grid, Real, Result, Solution, elastic};
-use asperity_scene::{Boundary, Load};
+use asperity::{Grid, Real, Result, Solution, elastic};
+use asperity_scene::Boundary;
 use ndarray::Array2;
 
 use crate::heights::Origin;
 use crate::outcome::Outcome;
-use crate::printing::in_options;
 
 /// The part of a map on its grid.
 #[derive(Clone, Copy)]
@@ -71,13 +70,6 @@ impl Part {
     /// The nodes that are solved, if results are of fewer.
     pub fn solved(&self) -> Option<(usize, usize)> {
         self.wanted().map(|_| self.whole.shape())
-    }
-
-    /// Refuses a force, which would be on the images as well.
-    pub fn check(&self, control: Control) -> Outcome<()> {
-        // a part of a mirrored map is one of a periodic surface
-        let check = |_| in_options(Load::Held(control).check(Boundary::Periodic, true, true));
-        self.wanted().map_or(Ok(()), check)
     }
 
     /// Whether opposite sides of the part meet: those of an original do not.

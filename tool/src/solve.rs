@@ -133,7 +133,6 @@ pub fn run(options: &Options, scene: &SceneFile, processes: &Processes) -> Outco
     let given = problem.read(scene.is_si(), processes)?;
     let full = problem.full_pressure(&given.surface, &[load])?;
     let asked = in_options(problem.given.asked(load, full))?;
-    given.part.check(asked.control)?;
     let (part, pictures) = (given.part, !options.no_pictures && results.is_some());
     let job = Job { options, problem, scene, results, processes, asked, part, pictures };
     match problem.scene.precision {

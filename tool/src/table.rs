@@ -117,7 +117,6 @@ impl<'a> TableOptions<'a> {
         let grid = *given.surface.grid();
         let way = by.way(loads, problem.full_pressure(&given.surface, loads)?)?;
         let control = way.control(&problem.scene);
-        given.part.check(control)?;
         let theories = by.theories(&given.surface, &problem.scene)?;
         if grid.is_shared() && grid.nodes() > WHOLE {
             processes.alone("a table of more than 4096 x 4096 nodes")?;

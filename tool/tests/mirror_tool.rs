@@ -2,6 +2,7 @@
 
 use asperity_maps::io::{read_field, read_topography};
 use ndarray::{Array2, Axis, Slice};
+use serde_json::Value;
 
 use crate::bench::Bench;
 
@@ -47,11 +48,27 @@ fn results_are_of_the_original_unless_the_whole_is_asked_for() {
     assert!(bench.bytes("from-part/gap.npy") == bench.bytes("from-whole/gap.npy"));
     assert!(bench.report("from-part")["iterations"].as_u64() < part["iterations"].as_u64());
 
-    // a force would be on all images
-    let force = "solve --heights map.npz --normal-force 0.01 --no-pictures";
-    bench.refused_with(&format!("{force} --out force"), &["normal force", "--whole", "pressure"]);
-    let report = bench.reported(&format!("{force} --whole --out force"));
-    assert!((report["normal_force"].as_f64().unwrap() / 0.01 - 1.0).abs() < 1e-6);
+    // a force is that on the original, as the normal force of the report
+    let loaded =
+        |load: &str| bench.reported(&format!("solve --heights map.npz {load} --no-pictures --force --out loaded"));
+    let force = part["normal_force"].as_f64().unwrap();
+    let again = loaded(&format!("--normal-force {force}"));
+    assert_eq!(again["control_value"], force);
+    let near =
+        |report: &Value, key: &str| assert!((number(report, key) / number(&part, key) - 1.0).abs() < 1e-6, "{key}");
+    for key in ["normal_force", "mean_pressure", "contact_nodes", "mean_gap"] {
+        near(&again, key);
+    }
+    near(&loaded(&format!("--normal-force {} --whole", 4.0 * force)), "mean_pressure");
+    // and so is that of a spring
+    let (stiffness, gap) = (0.3, number(&part, "mean_gap"));
+    let sprung = loaded(&format!("--spring-stiffness {stiffness} --spring-position {}", gap - force / stiffness));
+    assert_eq!(sprung["spring_stiffness"], stiffness);
+    near(&sprung, "normal_force");
+}
+
+fn number(report: &Value, key: &str) -> f64 {
+    report[key].as_f64().unwrap()
 }
 
 #[test]
@@ -79,6 +96,11 @@ fn tables_say_of_which_part_and_seed_their_rows_are() {
     );
     let fractions = row("sweep --heights map.npz --contact-fractions 0.1 --force --out table.csv");
     assert_eq!(fractions["part"], "original");
+    let forces = row("sweep --heights map.npz --normal-forces 0.002,0.004 --force --out table.csv");
+    assert!((forces["normal_force"].parse::<f64>().unwrap() / 0.004 - 1.0).abs() < 1e-6);
+    assert_eq!(forces["control_value"], "0.004");
+    let forces = row("cycle --heights map.npz --normal-forces 0.002,0.004 --steps 4 --force --out table.csv");
+    assert!((forces["normal_force"].parse::<f64>().unwrap() / 0.004 - 1.0).abs() < 1e-6);
     let cycle = "cycle --heights map.npz --mean-pressures 0.01,0.02 --steps 4 --fields kept --force --out table.csv";
     assert_eq!(row(cycle)["part"], "original");
     let last = bench.names("kept").into_iter().rfind(|name| name.starts_with("gap-")).unwrap();

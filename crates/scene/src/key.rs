@@ -14,6 +14,7 @@ mod boundary;
 mod elastic;
 mod formula;
 mod given;
+mod keywords;
 mod kind;
 mod laws;
 mod leak;
@@ -45,6 +46,7 @@ pub use self::boundary::Boundary;
 pub use self::elastic::{Elastic, LengthsKeys, SurfaceKeys};
 pub use self::formula::{AnyLaw, Formula, tabulated};
 pub use self::given::{Given, Measured, Quantities, Typed};
+pub use self::keywords::KEYWORDS;
 pub use self::kind::{Kind, Values, Word};
 pub use self::laws::{LAWS, Law};
 pub use self::leak::{LeakAsked, LeakKeys};
@@ -123,23 +125,9 @@ pub fn without_files<L: Lists>() -> impl Iterator<Item = &'static Key> {
     L::keys().filter(|key| !matches!(key.kind.values, Values::File))
 }
 
-/// All lists of keys.
-static LISTS: [&[Key]; 22] = [
-    SurfaceKeys::KEYS,
-    LoadKeys::KEYS,
-    LoadsKeys::KEYS,
-    FractionsKeys::KEYS,
-    AdhesionKeys::KEYS,
-    SolverKeys::KEYS,
-    NestedKeys::KEYS,
-    AccuracyKeys::KEYS,
-    PullOffKeys::KEYS,
-    PathKeys::KEYS,
-    FindingsKeys::KEYS,
-    StiffnessKeys::KEYS,
-    ConductorKeys::KEYS,
+/// The lists of keys that are no keywords of solves.
+static OTHERS: [&[Key]; 8] = [
     PercolationKeys::KEYS,
-    LeakageKeys::KEYS,
     UnitKeys::KEYS,
     LeakKeys::KEYS,
     GridKeys::KEYS,
@@ -152,7 +140,7 @@ static LISTS: [&[Key]; 22] = [
 impl Key {
     /// All keys.
     pub fn all() -> impl Iterator<Item = &'static Self> {
-        LISTS.iter().copied().flatten()
+        KEYWORDS.iter().map(|(.., list)| *list).chain(OTHERS).flatten()
     }
 
     /// The key of a name.

@@ -194,7 +194,8 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// Those of the solvers of the library, a solve that ran away, and warnings, if they are errors.
     pub fn solve(&mut self, asked: &Asked, start: Option<Array2<T>>, observe: Observe<'_>) -> Outcome<Solved<T>> {
-        let found = self.find(asked, start, observe)?;
+        let asked = Asked { control: self.on_whole(asked.control), ..*asked };
+        let found = self.find(&asked, start, observe)?;
         self.solved("solve", found)
     }
 

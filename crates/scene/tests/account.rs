@@ -346,18 +346,18 @@ fn the_rows_of_solves_have_units_where_they_are_known_and_are_left_out_where_the
 }
 
 #[test]
-fn theories_are_those_of_python() {
+fn theories_have_numbers_that_are_known() {
     let rough =
         SelfAffine::default().k_l(2.0).k_r(2.0).k_s(16.0).seed(1).surface(Grid::square(64, 1.0).unwrap()).unwrap();
     let elastic = Elastic { modulus: 2.0, ..Elastic::default() };
     let theories = Theories::of(&rough, &Scene { elastic, ..Scene::default() }).unwrap();
-    // asperity.exact.Persson and GreenwoodWilliamson of this surface, whose integrals are others, at three loads
+    // at three loads
     let expected = [
         (1e-3, 0.00797871263, 0.00747258970, 0.00994659216),
         (1e-2, 0.07965567455, 0.00411622230, 0.07885719492),
         (1e-1, 0.68268949214, 0.00021609249, 0.47855570016),
     ];
-    let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+    let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
     let areas = theories.curves(("mean_pressure", "contact_fraction"), 1e-3, 0.1);
     let forces = theories.curves(("normal_force", "contact_fraction"), 1e-3, 0.1);
     let gaps = theories.curves(("mean_gap", "mean_pressure"), 1e-3, 0.1);
@@ -365,10 +365,7 @@ fn theories_are_those_of_python() {
         near(areas[0].1[k].0, pressure);
         near(areas[0].1[k].1, area);
         near(gaps[0].1[k].0, gap);
-        let after =
-            areas[1].1.iter().position(|(p, _)| *p > pressure).map_or(areas[1].1.len() - 1, |after| after.max(1));
-        let [(p, a), (q, b)] = [after - 1, after].map(|k| areas[1].1[k]);
-        near(a * (b / a).powf((pressure / p).ln() / (q / p).ln()), light);
+        near(areas[1].1[k].1, light);
     }
     // on an area of one
     assert_eq!(areas[0].1, forces[0].1);

@@ -4,44 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity_scene::{
-    AccuracyKeys, AdhesionKeys, ConductorKeys, FindingsKeys, FractionsKeys, Key, Keys, LeakageKeys, LoadKeys,
-    LoadsKeys, NestedKeys, PathKeys, PullOffKeys, Skin, SolverKeys, StiffnessKeys, SurfaceKeys, Values, worded,
-};
-
-/// A list of keys: its name, what it is of, and the keys.
-type List = (&'static str, &'static str, &'static [Key]);
-
-/// The lists of solves, in their order.
-const LISTS: [List; 13] = [
-    ("Surface", "The surface, the bodies, and the boundary", SurfaceKeys::KEYS),
-    ("Adhesion", "The adhesion between the surfaces, the wall, and the hardness", AdhesionKeys::KEYS),
-    ("Solver", "The method and the accuracy of a solve", SolverKeys::KEYS),
-    ("Load", "The load of a solve, of which one is given", LoadKeys::KEYS),
-    ("Loads", "The loads of a table, a list of one kind", LoadsKeys::KEYS),
-    ("Fractions", "The contact fractions of a table", FractionsKeys::KEYS),
-    ("Nested", "The grids of a solve", NestedKeys::KEYS),
-    ("Findings", "The findings after a solution", FindingsKeys::KEYS),
-    ("Stiffness", "The contact stiffness of each row of a table", StiffnessKeys::KEYS),
-    ("Conductor", "The conductors, of which the contact stiffness tells the conductance", ConductorKeys::KEYS),
-    ("Leakage", "The leakage of a table", LeakageKeys::KEYS),
-    ("Accuracy", "The accuracy that is asked for", AccuracyKeys::KEYS),
-    ("Path", "The steps of a cycle", PathKeys::KEYS),
-];
-
-/// That of a pull-off, whose accuracy has a meaning of its own.
-const PULL_OFF: List = ("PullOff", "The pull-off that is asked for", PullOffKeys::KEYS);
-
-fn lists() -> impl Iterator<Item = List> {
-    LISTS.into_iter().chain([PULL_OFF])
-}
-
-/// The keys that are keywords of Python: those of files are arrays and objects there, side lengths stand beside the
-/// heights, and a switch that denies another one is its value False.
-fn keywords(list: &'static [Key]) -> impl Iterator<Item = &'static Key> {
-    let others = ["lengths", "no_nested", "sharp"];
-    list.iter().filter(move |key| !matches!(key.kind.values, Values::File) && !others.contains(&key.name))
-}
+use asperity_scene::{KEYWORDS, Key, Skin, Values, worded};
 
 /// The type of a keyword.
 fn annotation(key: &Key) -> String {
@@ -75,23 +38,6 @@ fn annotation(key: &Key) -> String {
     format!("{values}{object} | None")
 }
 
-/// The default of a keyword in Python.
-fn default(key: &Key) -> String {
-    match (key.kind.values, key.kind.default) {
-        (Values::Switch, _) if key.name != "nested" => "False".to_owned(),
-        // a modulus has to be given
-        (_, Some(_)) if key.name == "modulus" => "None".to_owned(),
-        (_, Some("none")) => "None".to_owned(),
-        (Values::Number(_) | Values::Whole(..), Some(default)) => default.to_owned(),
-        (_, Some(default)) => format!("{default:?}"),
-        (_, None) => "None".to_owned(),
-    }
-}
-
-fn told(key: &Key) -> String {
-    worded(key.help.trim(), Skin::Keywords).replace("\\", "\\\\").replace('"', "'")
-}
-
 fn python() -> String {
     let mut text = String::from(
         "\"\"\"The keywords of solves, by the keys of scenes. Written by `UPDATE=1 cargo test -p asperity-scene --test keys`.\"\"\"\n\n\
@@ -99,21 +45,13 @@ fn python() -> String {
          if TYPE_CHECKING:\n    from collections.abc import Iterable\n\n    from numpy.typing import ArrayLike\n\n    \
          from ._types import OwnLaw, Quantity\n    from ._wall import Penalty, Uzawa\n",
     );
-    for (name, about, list) in lists() {
+    for (name, about, list) in KEYWORDS {
         let _ = write!(text, "\n\nclass {name}Keywords(TypedDict, total=False):\n    \"\"\"{about}.\"\"\"\n\n");
-        keywords(list).for_each(|key| {
+        for key in list.iter().filter(|key| key.is_keyword()) {
             let _ = writeln!(text, "    {}: {}", key.name, annotation(key));
-        });
+        }
     }
-    text += "\n\n#: The defaults of keywords, and their meanings, by the lists of keys.\nKEYS: dict[str, dict[str, tuple[object, str]]] = {\n";
-    for (name, _, list) in lists() {
-        let _ = writeln!(text, "    \"{name}\": {{");
-        keywords(list).for_each(|key| {
-            let _ = writeln!(text, "        \"{}\": ({}, \"{}\"),", key.name, default(key), told(key));
-        });
-        text += "    },\n";
-    }
-    text + "}\n"
+    text
 }
 
 fn document() -> String {
@@ -122,7 +60,7 @@ fn document() -> String {
          hyphens in options. Quantities are numbers in consistent units, or all have units. The table is made from the \
          lists of keys in `crates/scene`.\n",
     );
-    for (_, about, list) in lists() {
+    for (_, about, list) in KEYWORDS {
         let _ = write!(text, "\n## {about}\n\n| Key | Unit | Default | Meaning |\n|---|---|---|---|\n");
         for key in list {
             let unit = key.kind.dimension().map_or("", |dimension| dimension.si);

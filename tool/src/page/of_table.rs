@@ -7,8 +7,8 @@ use std::path::Path;
 use asperity::Error;
 use asperity_plot::Picture;
 use asperity_plot::page::escaped;
-use asperity_scene::dimension_of_key;
 use asperity_scene::legs::{abscissa, value, varied};
+use asperity_scene::{Load, dimension_of_key};
 use serde_json::Value;
 use toml::Table;
 
@@ -107,7 +107,8 @@ pub fn page(table: &Path) -> Outcome<String> {
 fn left_of(rows: &[Value], scene: &str) -> Option<String> {
     let scene: Table = scene.parse().ok()?;
     let (name, list) = scene.get("loads")?.as_table()?.iter().find(|(name, _)| *name != "spring-stiffness")?;
-    let dimension = dimension_of_key(&name.replace('-', "_"));
+    let key = name.replace('-', "_");
+    let dimension = dimension_of_key(&key);
     let number = |text: &str| match dimension {
         Some(dimension) => dimension.within(Range::FINITE)(text),
         None => text.parse().map(Quantity::number).map_err(|_| String::new()),
@@ -117,7 +118,10 @@ fn left_of(rows: &[Value], scene: &str) -> Option<String> {
     match last["leg"].as_u64() {
         None => (rows.len() < count).then(|| format!("it has {} of {count} rows", rows.len())),
         Some(leg) => {
-            let is_there = dimension.is_none() || (value(last, "control_value") - to).abs() <= 1e-6 * to.abs();
+            // a force is held by a mean pressure, and the position of a spring has no column of its own
+            let found = value(last, Load::one_of(&key).unwrap_or_default());
+            let found = if found.is_nan() { value(last, "control_value") } else { found };
+            let is_there = dimension.is_none() || (found - to).abs() <= 1e-6 * to.abs();
             // a withdrawal ends where the surfaces are apart
             let shares = ["contact_fraction", "attractive_fraction"].map(|share| value(last, share));
             let is_apart = last["direction"] == "withdrawal" && shares == [0.0; 2];

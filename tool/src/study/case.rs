@@ -54,7 +54,7 @@ impl Run<'_> {
     fn rows<T: Scalar>(&self, mut given: Problem, loads: &[Load], after: After, warn: Warn<'_>) -> Outcome<()> {
         let Self { problem, scene, out, .. } = self;
         let full = problem.full_pressure(&given.surface, loads)?;
-        let (part, start, law_table) = (given.part, given.start.take(), given.adhesion.table.take());
+        let (start, law_table) = (given.start.take(), given.adhesion.table.take());
         let works = given.adhesion.works.take();
         let mut session = session::<T>(problem, given, scene, self.strictness, self.processes)?;
         // rows that have not converged are counted in the table
@@ -68,7 +68,6 @@ impl Run<'_> {
                 "cycle" => Way::cycle(loads, full, problem.given.path())?,
                 _ => Way::sweep(loads, full),
             };
-            part.check(way.control(&problem.scene))?;
             let (out, format, force) = (out.clone(), Some(self.format), self.force);
             let file = TableFile { out, format, force, is_case: true, law_table, works, ..TableFile::default() };
             session.begin(way, after, false, start, Some(file))?;
@@ -86,7 +85,6 @@ impl Run<'_> {
             Some(&load) => {
                 let asked = in_options(problem.given.asked(load, full))?;
                 in_options(asked.check(&problem.scene.adhesion, problem.scene.method, start.is_some()))?;
-                part.check(asked.control)?;
                 (session.solve(&asked, start, &mut observe)?, None)
             }
             None => {

@@ -8,12 +8,14 @@ use super::blocks::{Block, read_blocks};
 use super::channels::{Channel, chosen, others};
 use super::heading::{Heading, Sizes};
 use super::units::{in_one_unit, is_length};
-use super::xyz::{is_grid, map_of_points};
+use super::xyz::{Gridded, map_of_points};
 use super::{Parsed, Reading, Refusal, quoted, refuse};
 use crate::Topography;
 
 /// The fewest points of which a text is known for one of points by its numbers.
 const FEWEST_POINTS: usize = 9;
+/// The most nodes of a grid for each of the points of such a text.
+const MOST_NODES: f64 = 1.1;
 
 /// The blocks of numbers of a text, and the numbers of all.
 pub(super) struct Text {
@@ -46,13 +48,13 @@ impl Text {
 
     /// The channels, if it has several.
     pub fn several(&self) -> Parsed<Vec<Channel>> {
-        if self.blocks.len() == 1 || self.is_of_points() { Ok(Vec::new()) } else { self.channels() }
+        if self.blocks.len() == 1 || self.gridded().is_some() { Ok(Vec::new()) } else { self.channels() }
     }
 
     /// The map of its points, or of one of its blocks.
     pub fn map(self, reading: &Reading) -> Parsed<Topography> {
-        if reading.channel.is_none() && self.is_of_points() {
-            return self.points();
+        if let (None, Some(gridded)) = (&reading.channel, self.gridded()) {
+            return self.map_of_grid(gridded);
         }
         let channels = self.channels()?;
         let place = chosen(&channels, reading.channel.as_deref()).map_err(|refusal| match refusal {
@@ -113,28 +115,37 @@ impl Text {
         Ok(map)
     }
 
-    /// Whether three columns are named x, y and z, or the first two are of a whole grid.
-    fn is_of_points(&self) -> bool {
-        let has_three = self.blocks.iter().all(|block| block.columns == 3);
+    /// The grid of its points, if three columns are named x, y and z, or the first two are of nearly all nodes of
+    /// several lines.
+    fn gridded(&self) -> Option<Parsed<Gridded>> {
         let (points, _) = self.values.as_chunks();
-        has_three && (self.blocks[0].heading.has_columns() || points.len() >= FEWEST_POINTS && is_grid(points))
+        let is_named = self.blocks[0].heading.has_columns();
+        if !(is_named || points.len() >= FEWEST_POINTS) || self.blocks.iter().any(|block| block.columns != 3) {
+            return None;
+        }
+        let is_full = |(heights, _): &Gridded| {
+            !heights.shape().contains(&1) && heights.len() as f64 <= MOST_NODES * points.len() as f64
+        };
+        Some(map_of_points(points)).filter(|found| is_named || found.as_ref().is_ok_and(is_full))
     }
 
     /// The map of its points.
-    pub fn points(mut self) -> Parsed<Topography> {
-        let mut heading = Heading::default();
-        for block in &mut self.blocks {
-            if block.columns != 3 {
-                return refuse(format!(
-                    "has a row of {} numbers, expected x, y and z: end its name otherwise if it is a matrix",
-                    block.columns
-                ));
-            }
-            heading.append(std::mem::take(&mut block.heading));
+    pub fn points(self) -> Parsed<Topography> {
+        if let Some(block) = self.blocks.iter().find(|block| block.columns != 3) {
+            return refuse(format!(
+                "has a row of {} numbers, expected x, y and z: end its name otherwise if it is a matrix",
+                block.columns
+            ));
         }
+        let gridded = map_of_points(self.values.as_chunks().0);
+        self.map_of_grid(gridded)
+    }
+
+    fn map_of_grid(mut self, gridded: Parsed<Gridded>) -> Parsed<Topography> {
+        let mut heading = Heading::default();
+        self.blocks.iter_mut().for_each(|block| heading.append(std::mem::take(&mut block.heading)));
         heading.check_words(heading.has_columns())?;
-        let (points, _) = self.values.as_chunks();
-        let (heights, lengths) = map_of_points(points)?;
+        let (heights, lengths) = gridded?;
         let (nx, ny) = heights.dim();
         let Sizes { units: [x, y, z], sides, unread, .. } = heading.sizes((ny, nx))?;
         let [x, y, z] = [x, y, z].map(Option::unwrap_or_default);

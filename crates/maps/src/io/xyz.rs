@@ -9,28 +9,11 @@ const SLACK: f64 = 0.1;
 /// The most nodes of a grid for each of its points: a bound on the memory that a small file can ask for.
 const SPARSEST: f64 = 4.0;
 
-/// The most nodes of a grid for each of the points that are known for such by their numbers alone.
-const FULL: f64 = 1.1;
-
-/// Whether points are those of a regular grid of several lines, each once, and nearly all of them.
-pub(super) fn is_grid(points: &[[f64; 3]]) -> bool {
-    let axis = |k: usize| {
-        let is_finite = points.iter().all(|point| point[k].is_finite());
-        if is_finite { Axis::new(points.iter().map(|point| point[k]).collect()) } else { None }
-    };
-    let (Some(x), Some(y)) = (axis(0), axis(1)) else { return false };
-    if x.nodes.min(y.nodes) == 1 || x.nodes as f64 * y.nodes as f64 > FULL * points.len() as f64 {
-        return false;
-    }
-    let mut taken = vec![false; x.nodes * y.nodes];
-    points.iter().all(|point| {
-        let node = x.index(point[0]) * y.nodes + y.index(point[1]);
-        !std::mem::replace(&mut taken[node], true)
-    })
-}
+/// The heights of points, and the side lengths.
+pub(super) type Gridded = (Array2<f64>, (f64, f64));
 
 /// The heights of points x y z of a regular grid, in any order, and the side lengths; points that are not there are missing.
-pub(super) fn map_of_points(points: &[[f64; 3]]) -> Parsed<(Array2<f64>, (f64, f64))> {
+pub(super) fn map_of_points(points: &[[f64; 3]]) -> Parsed<Gridded> {
     if let Some([x, y, _]) = points.iter().find(|[x, y, _]| !(x.is_finite() && y.is_finite())) {
         return refuse(format!("has a point with the coordinates {x} and {y}, expected finite numbers"));
     }

@@ -178,6 +178,11 @@ impl Load {
         KINDS.iter().map(|kind| if kind.one == "spring_position" { "spring_stiffness" } else { kind.one })
     }
 
+    /// The key of one load, by that of a list of them.
+    pub fn one_of(many: &str) -> Option<&'static str> {
+        KINDS.iter().find(|kind| kind.many == many).map(|kind| kind.one)
+    }
+
     /// The keys of which one is given for a list of loads that are held.
     pub fn many() -> impl Iterator<Item = &'static str> {
         let held = KINDS.iter().filter(|kind| kind.one != "contact_fraction");
@@ -199,12 +204,11 @@ impl Load {
         if let Self::Fraction(fraction) = self { Some(fraction) } else { None }
     }
 
-    /// Refuses a load that a boundary does not have, one that would act on the images of a `mirrored` map as well, and a
-    /// tension between surfaces that do not adhere.
+    /// Refuses a load that a boundary does not have, and a tension between surfaces that do not adhere.
     ///
     /// # Errors
     /// The reason and the remedy, for [`worded`](crate::worded).
-    pub fn check(self, boundary: Boundary, mirrored: bool, adheres: bool) -> Result<(), String> {
+    pub fn check(self, boundary: Boundary, adheres: bool) -> Result<(), String> {
         let control = match self {
             Self::Held(control) => control,
             Self::Reduced(pressure) => Control::MeanPressure(pressure),
@@ -218,13 +222,6 @@ impl Load {
             (Boundary::Free, Control::MeanGap(_)) => {
                 "a mean gap needs {boundary=periodic}: a free half-space has none to be held, give an approach, a \
                  force, a pressure or a spring"
-            }
-            (_, Control::Force(_) | Control::Spring { .. }) if mirrored => {
-                let name = control.name().replace('-', " ");
-                return Err(format!(
-                    "a {name} would act on the mirror images of the map as well: give a pressure or a mean gap, or \
-                     {{whole=}} for the force on all of them"
-                ));
             }
             (_, Control::MeanPressure(load) | Control::Force(load)) if load < 0.0 && !adheres => {
                 "a negative load pulls, and nothing holds surfaces without adhesion together: press them, or give a {law}"

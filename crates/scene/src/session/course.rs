@@ -93,16 +93,18 @@ impl<T: Real> Place<T> {
 }
 
 impl<T: Scalar> Course<T> {
-    /// A course from its beginning, with the findings that are asked for after each state, and with the table of an
-    /// interface, if the mean gap of first touch is given.
+    /// A course from its beginning, with the findings that are asked for after each state, with the table of an
+    /// interface, if the mean gap of first touch is given, and with the loads on the whole map.
     ///
     /// # Errors
     /// Those of [`Path::new`].
-    pub fn new(way: Way, after: After, touch: Option<f64>) -> Result<Self> {
+    pub fn new(way: Way, after: After, touch: Option<f64>, on_whole: impl Fn(Control) -> Control) -> Result<Self> {
         let strategy = match &way {
             Way::Sweep(_) => Strategy::Sweep(Sweep::default()),
             Way::Search(_) => Strategy::Search(ContactSearch::default()),
-            Way::Cycle(loads, settings) => Strategy::Cycle(Box::new(Path::new(loads.iter().copied(), *settings)?)),
+            Way::Cycle(loads, settings) => {
+                Strategy::Cycle(Box::new(Path::new(loads.iter().copied().map(on_whole), *settings)?))
+            }
         };
         let place = Place { strategy, states: 0, events: 0, branch: None };
         let pace = match &way {
@@ -254,15 +256,16 @@ impl<T: Scalar> Course<T> {
         }
         let (clock, boundary) = (Instant::now(), session.scene().elastic.boundary);
         let yields = session.scene().adhesion.yields();
-        let (solver, problem) = session.parts()?;
         let Place { strategy, states, events, .. } = &mut self.place;
+        let load = self.way.loads().get(*states).map(|load| session.on_whole(*load));
+        let (solver, problem) = session.parts()?;
         if yields && *states == 0 {
             // another course, or a state that was not kept, may have flattened it
             problem.flatten(Array2::zeros(problem.grid().field_shape()).view())?;
         }
         let (solution, search, step) = match (strategy, &self.way) {
-            (Strategy::Sweep(sweep), way) => {
-                let Some(&load) = way.loads().get(*states) else { return Ok(None) };
+            (Strategy::Sweep(sweep), _) => {
+                let Some(load) = load else { return Ok(None) };
                 (sweep.next_observed(solver, problem, load, observe)?, None, None)
             }
             (Strategy::Search(search), Way::Search(fractions)) => {

@@ -78,7 +78,7 @@ impl<T: Scalar> Session<T> {
         }
         let afar = if start.is_none() { self.start_afar(loads) } else { None };
         let touch = if is_interface { Some(touch(&*self.surface()?)) } else { None };
-        let mut course = Course::new(way, after, touch)?;
+        let mut course = Course::new(way, after, touch, |load| self.on_whole(load))?;
         course.expect(self)?;
         let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;
         course.check(self)?;

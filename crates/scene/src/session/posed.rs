@@ -67,6 +67,11 @@ impl<T: Scalar> Session<T> {
         !self.law.hints().zero
     }
 
+    /// The load on the whole map that is a load on the part of it that results are of.
+    pub(super) fn on_whole(&self, load: Control) -> Control {
+        self.original.map_or(load, |original| original.load(load))
+    }
+
     /// The seconds that an operator application takes here and now, before the first solve.
     ///
     /// # Errors
@@ -81,7 +86,7 @@ impl<T: Scalar> Session<T> {
     /// Those of [`Load::check`] and [`Elastic::full_pressure`](crate::Elastic::full_pressure).
     pub fn full_pressure(&self, loads: &[Load]) -> Outcome<f64> {
         let elastic = &self.scene.elastic;
-        let check = |load: &Load| load.check(elastic.boundary, self.original.is_some(), self.adheres());
+        let check = |load: &Load| load.check(elastic.boundary, self.adheres());
         self.worded(loads.iter().try_for_each(check))?;
         let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
         if reduced { self.worded(elastic.full_pressure(&*self.surface()?)) } else { Ok(1.0) }
@@ -113,7 +118,7 @@ impl<T: Scalar> Session<T> {
     pub fn plan(&self, control: Control, goal: Goal) -> Result<(Plan, f64)> {
         let surface = self.surface()?;
         let mut operator = self.scene.elastic.operator::<T>(*surface.grid())?;
-        let plan = goal.wanted(false).plan(&self.solver, &surface, &mut operator, &self.law, control)?;
+        let plan = goal.wanted(false).plan(&self.solver, &surface, &mut operator, &self.law, self.on_whole(control))?;
         Ok((plan, plan.applications * seconds_of(&mut operator)?))
     }
 
@@ -177,6 +182,7 @@ impl<T: Scalar> Session<T> {
     /// # Errors
     /// Those of [`StabilityTest::of_gap`].
     pub fn stability(&mut self, control: Control, gap: &Array2<T>, error: f64) -> Result<(Steadiness, Array2<T>)> {
+        let control = self.on_whole(control);
         let (solver, problem) = self.parts()?;
         let found = StabilityTest::default().of_gap(problem, &solver.constraint, control, gap, error)?;
         Ok((Steadiness::of(&found), found.mode))
