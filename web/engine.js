@@ -183,6 +183,15 @@ export class Engine {
     return this.call("follow", [JSON.stringify(scene)], { onstate, onprogress });
   }
 
+  /* The gap of the last solution, and of another engine on the same surface, which starts its first solve from there. */
+  gap() {
+    return this.call("gap", []);
+  }
+
+  startFrom(gap) {
+    return this.call("startFrom", [gap]);
+  }
+
   /* The lines that give the same answer: of a `shell` one by one, and of `python`. */
   lines() {
     return this.call("lines", []);

@@ -48,6 +48,8 @@ const calls = {
     }
     return { ...begun, count, status: "complete", warnings: last.warnings, shortfalls: [...shortfalls] };
   },
+  gap: () => engine.gap(),
+  startFrom: gap => engine.start_from(gap),
   file: name => engine.file(name),
   lines: () => parsed(engine.lines()),
 };

@@ -11,6 +11,7 @@ use asperity_scene::{
     Body, CutOffKeys, FormKeys, Given, GridKeys, Log, NewLengthsKeys, Roughness, RoughnessKeys, Skin, StepKeys,
     statistics, without_files,
 };
+use ndarray::Array2;
 use serde_json::{Value, json};
 
 use crate::given::{read, reason};
@@ -29,6 +30,8 @@ pub struct Engine {
     origin: Origin,
     /// The last problem, with its solutions.
     problem: Option<Problem>,
+    /// The gap from which the first problem starts, of another engine.
+    start: Option<Array2<f64>>,
 }
 
 impl Engine {
@@ -202,6 +205,23 @@ impl Engine {
         self.pose(&given, from_last)?.solve(&given, from_last, observe)
     }
 
+    /// The gap of the last solution, for [`Engine::start_from`] of another engine with the same surface.
+    ///
+    /// # Errors
+    /// As of [`Engine::problem`].
+    pub fn gap(&self) -> Outcome<Vec<f64>> {
+        Ok(self.problem()?.gap().ok_or("nothing is solved yet: solve first")?.into_iter().collect())
+    }
+
+    /// Starts the first solve from a gap.
+    ///
+    /// # Errors
+    /// Without a surface of as many nodes.
+    pub fn start_from(&mut self, gap: Vec<f64>) -> Outcome<()> {
+        self.start = Some(Array2::from_shape_vec(self.surface()?.heights.dim(), gap)?);
+        Ok(())
+    }
+
     /// Begins a cycle along loads.
     ///
     /// # Errors
@@ -214,7 +234,8 @@ impl Engine {
     /// The problem that keys pose; the one before stays where they are refused.
     fn pose(&mut self, given: &Given, goes_on: bool) -> Outcome<&mut Problem> {
         let mut before = self.problem.take();
-        let problem = Problem::of(given, self.surface()?, self.origin.name(), &mut before, goes_on);
+        let start = self.start.take();
+        let problem = Problem::of(given, self.surface()?, self.origin.name(), &mut before, start, goes_on);
         self.problem = before;
         Ok(self.problem.insert(problem?))
     }

@@ -361,6 +361,41 @@ def check_area(page):
     page.told(page.browser.value("document.getElementById('persson').hidden"), "has a theory of what yields")
 
 
+# counts threads that run from now on
+COUNTED = """(() => {
+  globalThis.Whole = Worker;
+  globalThis.threads = new Set();
+  Worker = class extends Whole {
+    constructor(...given) { super(...given); threads.add(this); }
+    terminate() { threads.delete(this); super.terminate(); }
+  };
+})()"""
+
+
+def check_path(page):
+    """With adhesion the curve of the area is filled in from the state that is shown, and not after a change."""
+    page.set(**{**PLAIN, **SCENES["adhesive"], "size": "64", "k_s": "12"})
+    page.browser.value("document.getElementById('forget').click()")
+    page.browser.value(COUNTED)
+    page.set(value="1MPa")
+    # of the loads a ninth of which is above 1 MPa, and that state
+    path = "[...document.querySelectorAll('#area svg path[stroke=\"#d6601e\"]')]"
+    dots = f"Math.max(0, ...{path}.map(path => path.getAttribute('d').split('M').length - 1))"
+    named = "document.getElementById('area').textContent.includes('under more load')"
+    page.told(page.comes_true(f"{dots} === 10"), f"fills in {page.browser.value(dots)} loads")
+    page.told(page.browser.value(named), "does not name the path of loading")
+    page.browser.picture(PICTURES / "path.png")
+    page.told(page.comes_true("!threads.size"), "keeps the thread of a path that is complete")
+    # a change while the next path is followed
+    page.set(value="2MPa")
+    page.told(page.comes_true("threads.size"), "follows no path from another state")
+    page.drag(0.6)
+    page.told(page.browser.value("!threads.size"), "follows a path after a change")
+    page.told(not page.browser.value(named) or page.comes_true(f"!{named}"), "shows the path of a state before")
+    page.told(page.comes_true(named), "follows no path after a change")
+    page.browser.value("Worker = Whole; 0")
+
+
 def check_words(page):
     """Words tell their lines, and lead to headings that the guide has."""
     words = page.browser.value("""[...document.querySelectorAll("#words dt")].map(word => {
@@ -612,6 +647,7 @@ def main():
             ("link", check_link, []),
             ("play", check_play, []),
             ("area", check_area, []),
+            ("path", check_path, []),
             ("words", check_words, []),
             ("profile", check_profile, []),
             ("measured", check_measured, []),

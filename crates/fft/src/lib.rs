@@ -7,8 +7,8 @@
 
 use std::sync::Arc;
 
-pub use rustfft::{Fft, num_complex};
 use rustfft::FftNum;
+pub use rustfft::{Fft, num_complex};
 
 /// The forward and the inverse transform of a length, both unnormalised.
 #[derive(Clone)]
