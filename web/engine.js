@@ -12,7 +12,7 @@ import init, { about, chart } from "./asperity_web.js";
 
 const MADE = ["open", "make", "prepare"];
 
-/* A file beside this one. */
+/* A file next to this one. */
 async function fetched(name) {
   const answer = await fetch(new URL(name, import.meta.url)).catch(({ message }) => ({ status: message }));
   if (!answer.ok) throw new Error(`${name} has not come from the server (${answer.status})`);
@@ -177,7 +177,7 @@ export class Engine {
     return this.call("solve", [JSON.stringify(scene), { start, fields, histograms }], { onprogress });
   }
 
-  /* Follows loads by the keys of `asperity cycle`; `onstate` gets the row of each state as it is found, and beside it the
+  /* Follows loads by the keys of `asperity cycle`; `onstate` gets the row of each state as it is found, and with it the
      share of the way. */
   follow(scene, { onstate, onprogress }) {
     return this.call("follow", [JSON.stringify(scene)], { onstate, onprogress });

@@ -20,7 +20,7 @@ import { figure, folded, list, table } from "./words.js";
 const at = id => document.getElementById(id);
 const status = text => (at("status").textContent = text);
 
-/* The rows of a summary that stand beside the maps. */
+/* The rows of a summary that stand next to the maps. */
 const FIGURES =
   "contact, corrected for its edge, mean pressure, mean gap, normal force, approach, certified error, time".split(", ");
 const GRID_ERROR = "error of the grid";
@@ -290,7 +290,7 @@ class Page {
     this.wanted.add("rest");
   }
 
-  /* The figures beside the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
+  /* The figures at the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
   figures(rows, started) {
     const known = [...FIGURES, GRID_ERROR].flatMap(name => rows.filter(row => row[0] === name));
     const entries = known.map(([name, text]) => figure(name, own(text)));

@@ -57,7 +57,7 @@ impl Engine {
     /// Those of [`Reading::read_bytes`].
     pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>) -> Outcome<Value> {
         let read = Reading { channel: channel.clone(), ..Reading::default() }.read_bytes(name, bytes);
-        // what has one map alone has nothing beside it
+        // what has one map alone has nothing else
         let is_one = read.as_ref().is_ok_and(|map| map.unread.is_empty());
         let channels = if is_one { Vec::new() } else { channels(name, bytes)? };
         let told: Vec<_> = channels.iter().map(|found| format!("{}: {}", found.number, found.title)).collect();

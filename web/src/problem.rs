@@ -38,8 +38,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// The problem that keys pose on a map of a name: that of `before`, if it is the same one and solves go on from its
-    /// last; or another one, whose solves go on from there, or from `start`.
+    /// The problem that keys pose on a map of a name: that of `before`, if it is the same one and solves continue from
+    /// its last; or another one, whose solves continue from there, or from `start`.
     ///
     /// # Errors
     /// The key and the remedy, and those of the surface, the law and the body.

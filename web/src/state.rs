@@ -48,7 +48,7 @@ struct Last<T: Scalar> {
 }
 
 impl<T: Scalar> State<T> {
-    /// The problem of a scene on a surface; solves go on from a gap of `before`.
+    /// The problem of a scene on a surface; solves continue from a gap of `before`.
     pub fn new(
         scene: &Scene,
         input: Input,

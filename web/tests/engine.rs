@@ -60,7 +60,7 @@ fn a_drag_comes_to_the_equilibrium_of_a_solve_from_the_default() {
 }
 
 #[test]
-fn another_engine_goes_on_from_the_gap_of_an_adhesive_solution() {
+fn another_engine_continues_from_the_gap_of_an_adhesive_solution() {
     for precision in ["f32", "f64"] {
         let scene = |pressure: &str| {
             json!({

@@ -207,7 +207,7 @@ def check_wrong(page, folder):
         page.told(invalid == [name], f"{name} = {wrong}: marks {invalid}")
         if name != "value":
             page.drag(0.4)
-            state = page.idle(f"a drag beside {given}")
+            state = page.idle(f"a drag with {given}")
             page.told(state["stale"] and len(state["errors"]) == 1, f"{name} = {wrong} is forgotten under another load")
         state = page.set(**{name: right})
         page.told(not state["stale"] and not state["errors"], f"{name} = {right}: {state['errors']}")
@@ -345,7 +345,7 @@ def check_play(page):
 
 
 def check_area(page):
-    """The curve of the area fills in by itself, beside the theory, which is that of the error function."""
+    """The curve of the area fills in by itself, next to the theory, which is that of the error function."""
     page.set(**{**PLAIN, "size": "64", "k_s": "12"})
     page.browser.value("document.getElementById('forget').click()")
     page.set(value="1MPa")
@@ -420,7 +420,7 @@ def check_words(page):
     known = next(told for word, told, _ in words if word == "contact")
     page.told(known in page.browser.value(line), "tells no line of a word that is clicked")
     page.browser.value("document.body.click()")
-    page.told(page.browser.value("document.getElementById('line').hidden"), "goes on telling a line")
+    page.told(page.browser.value("document.getElementById('line').hidden"), "continues to tell a line")
 
 
 def check_profile(page):

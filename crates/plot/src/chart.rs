@@ -119,7 +119,7 @@ impl Chart<'_> {
         self.draw_plot(dpi, (0.5 * width).max(LEAST), |left| (width - left - 3.0 * MARGIN).max(LEAST))
     }
 
-    /// Draws on an area of a height, and of the width that `across` has beside what is at its left.
+    /// Draws on an area of a height, and of the width that `across` has besides what is at its left.
     fn draw_plot(&self, dpi: f64, height: f64, across: impl Fn(f64) -> f64) -> Result<Picture> {
         let x = self.range(|point| point.0, self.x_log, self.x_unit);
         let y = self.range(|point| point.1, self.y_log, self.y_unit);

@@ -29,7 +29,7 @@ pub enum Colouring {
     Sequential,
     /// Zero in light grey, positive values (compression) in red, negative ones (attraction) in blue.
     ///
-    /// Each sign has a scale and a colour bar of its own, so that a tension of 50 MPa is seen beside a compression of
+    /// Each sign has a scale and a colour bar of its own, so that a tension of 50 MPa is seen next to a compression of
     /// 5 GPa; [`Map::signs`](crate::Map::signs) has the names of the two. Only a
     /// sign that nowhere reaches 1e-6 of the other, mere rounding, is drawn as zero.
     ///

@@ -129,7 +129,7 @@ impl Part {
         if self.logarithmic { (value.ln() - from.ln()) / (to.ln() - from.ln()) } else { (value - from) / (to - from) }
     }
 
-    /// Round numbers on the range, each with its text, or none beside one that has. There is room for `most` steps; at
+    /// Round numbers on the range, each with its text, or none next to one that has. There is room for `most` steps; at
     /// least three numbers are there, or two where there is no room for more.
     fn ticks(&self, most: i32) -> Vec<(f64, String)> {
         let least = if most < 3 { 2 } else { 3 };

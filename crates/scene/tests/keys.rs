@@ -36,7 +36,7 @@ fn lists() -> impl Iterator<Item = List> {
     LISTS.into_iter().chain([PULL_OFF])
 }
 
-/// The keys that are keywords of Python: those of files are arrays and objects there, side lengths stand beside the
+/// The keys that are keywords of Python: those of files are arrays and objects there, side lengths stand next to the
 /// heights, and a switch that denies another one is its value False.
 fn keywords(list: &'static [Key]) -> impl Iterator<Item = &'static Key> {
     let others = ["lengths", "no_nested", "sharp"];

@@ -25,10 +25,10 @@ pub(crate) fn is_unit(text: &str) -> Result<(), String> {
 }
 
 impl Given {
-    /// The units of numbers beside a file with a unit of length, or none; `si` says that they were given with units.
+    /// The units of numbers next to a file with a unit of length, or none; `si` says that they were given with units.
     ///
     /// # Errors
-    /// A unit beside one that is known, and the remedy, for [`worded`](crate::worded).
+    /// A unit next to one that is known, and the remedy, for [`worded`](crate::worded).
     pub fn units(&self, file: Option<&str>, si: bool) -> Result<Units, String> {
         let chosen = |key: &str, known: Option<&str>| match (self.word(key), known) {
             (Some(unit), Some(known)) if unit != known => {
