@@ -24,7 +24,7 @@ mod places;
 
 pub use area::ContactArea;
 pub use clusters::Clusters;
-pub use distribution::PressureDistribution;
+pub use distribution::{PressureDistribution, bulk};
 pub use original::Original;
 pub use patch::Patch;
 

@@ -66,8 +66,8 @@ export class Curves {
 }
 
 /* The distribution of a quantity over the nodes, as shares of those that have it. */
-export function distribution(points, x_label, x_unit, y_label) {
-  return { x_label, x_unit, y_label, y_unit: "%", curves: [["", points]] };
+export function distribution({ curve, beyond }, x_label, x_unit, y_label) {
+  return { caption: beyond, x_label, x_unit, y_label, y_unit: "%", curves: [["", curve]] };
 }
 
 /* The power spectral density of a surface, averaged over directions; its wave numbers in 1/µm rather than 1/m. */

@@ -144,8 +144,9 @@ export class Engine {
   }
 
   /* Opens a map. The answer has `name`, `shape`, `lengths`, `unit`, `original`, `missing`, `unread`, `channels`, `heights`
-     (f32, about their `mean`), `lowest`, `highest`, and `warnings` of `code` and `message`. Of a file whose channel has to
-     be chosen `heights` is null: call again with the number in front of one of its `channels`. */
+     (f32, about their `mean`), `lowest`, `highest`, the `limits` of the colours, and `warnings` of `code` and `message`.
+     Of a file whose channel has to be chosen `heights` is null: call again with the number in front of one of its
+     `channels`. */
   open(name, bytes, { channel } = {}) {
     return this.call("open", [name, bytes, channel]);
   }

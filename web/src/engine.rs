@@ -1,10 +1,10 @@
 //! The engine: a map, the surface that is made of it, and the solves on that.
 
 use asperity::Grid;
+use asperity::contact::bulk;
 use asperity_maps::io::{Reading, channels, check_memory, map_as_npz};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_plot::distribution;
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use crate::given::{read, reason};
 use crate::lines::{Origin, Source};
 use crate::problem::{Observe, Problem, of_problem};
-use crate::state::extremes;
+use crate::state::{extremes, histogram};
 
 /// A map, the surface that is made of it, and the solves on that.
 #[derive(Default)]
@@ -154,6 +154,7 @@ impl Engine {
             "mean": map.mean(),
             "lowest": low,
             "highest": high,
+            "limits": bulk(map.heights.iter().copied()).unwrap_or_default(),
             "warnings": warnings,
             "log": lines,
         })
@@ -176,7 +177,7 @@ impl Engine {
     pub fn statistics(&self) -> Outcome<Value> {
         let map = self.surface()?;
         check_memory("the statistics of a map", map.heights.dim(), 40)?;
-        let histogram = distribution(map.heights.iter().copied(), 60);
+        let histogram = histogram(map.heights.iter().copied(), 60, map.unit.as_deref());
         let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
         let found = match &surface {
             Some(surface) => Some((surface.statistics(), knee_wavelength(surface))),

@@ -273,6 +273,9 @@ def check_colours(page, folder):
     page.told("→" in pressure[1] and "% of the load above" in pressure[-1], f"says {pressure} of a scarred map")
     report = float(state["rows"]["greatest pressure"].split()[0])
     page.told(pressure[1].split()[-2] == f"{report:.3g}", f"{pressure[1]} leads to {report}")
+    told = page.browser.value("document.getElementById('heights').textContent")
+    page.told("above" in told and "up to" in told, "says of no spike in the distribution of the heights")
+    page.browser.picture(PICTURES / "scarred.png")
     shades = page.browser.value("""(() => {
       const { width, height } = document.querySelector("#picture canvas");
       const { data } = document.querySelector("#picture canvas").getContext("2d").getImageData(0, 0, width, height);

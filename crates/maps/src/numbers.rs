@@ -30,8 +30,8 @@ pub fn rounded(value: f64, digits: usize, most: f64) -> String {
     trimmed(format!("{value:.*}", decimals as usize))
 }
 
-/// A number to four digits with its unit in the SI, and the prefix that makes it readable; one that is too large for any
-/// prefix has a power of ten, and one that is too small is zero.
+/// A number to four digits with its SI unit, and the prefix that makes it readable; one that is too large for any prefix
+/// has a power of ten, and one that is too small is zero.
 pub fn si(value: f64, unit: &str) -> String {
     // Rounded first, so that 999.96 n is 1 µ.
     let text = format!("{value:.3e}");
@@ -45,8 +45,8 @@ pub fn si(value: f64, unit: &str) -> String {
     format!("{} {unit}", trimmed(format!("{value:.*}", decimals as usize)))
 }
 
-/// The power of ten by which a number with a unit in the SI is readable, and the unit with the prefix for it, which m³ and
-/// 1/m have in their powers; none without such a prefix.
+/// The power of ten by which a number with a SI unit is readable, and the unit with the prefix for it, which m³ and 1/m
+/// have in their powers; none without such a prefix.
 pub fn scale(value: f64, unit: &str) -> Option<(i32, String)> {
     const PREFIXES: [&str; 12] = ["z", "a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
     let decade = if value == 0.0 { 0 } else { (value.abs().log10() + 1e-9).floor() as i32 };

@@ -243,7 +243,7 @@ fn widened(low: f64, high: f64) -> (f64, f64) {
 }
 
 /// A share in per cent, to two digits or a tenth.
-fn percent(share: f64) -> String {
+pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         share if share < 0.1 => "less than 0.1 %".to_owned(),
         share if share < 10.0 => format!("{share:.1} %"),
