@@ -1,4 +1,4 @@
-//! One operator application, forward and inverse transform with the product, beside a copy of the field.
+//! One operator application, forward and inverse transform with the product, compared with a copy of the field.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench operator`
 

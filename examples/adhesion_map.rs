@@ -1,5 +1,5 @@
 //! Greenwood's adhesion map of a sphere by Lennard-Jones: the pull-off force over Tabor's parameter, on a free
-//! half-space and without a wall, beside Maugis–Dugdale, JKR and DMT.
+//! half-space and without a wall, next to Maugis–Dugdale, JKR and DMT.
 //!
 //! `cargo run --release -p asperity-examples --example adhesion_map`
 //!

@@ -83,7 +83,7 @@ fn measure(
     println!("{name}:");
     let names = [
         "seconds of a solve",
-        "% beside applications",
+        "% besides applications",
         "an application in f32 / f64",
         "an iteration in f32 / f64",
         "in f32, then on / a solve",

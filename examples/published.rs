@@ -1,10 +1,10 @@
-//! Published runs by another method, theirs beside ours: a half-space and a bonded layer on one rough surface of 2048²
+//! Published runs by another method, theirs next to ours: a half-space and a bonded layer on one rough surface of 2048²
 //! nodes, from 0.6 % to 87 % contact.
 //!
 //! Green's function molecular dynamics took 4 to 45 hours for each on one core: Sukhomlinov and Müser, *Phys. Rev.
 //! Lett.* 131, 156201 (2023), data and source doi:10.5281/zenodo.12726265 (MIT). The wall there is made of springs, of 0.9
-//! times the stiffness of the shortest wave. Beside it stands the hard wall that these stand for, with the mean gap that
-//! the publication extrapolates for it.
+//! times the stiffness of the shortest wave. Next to it stands the hard wall that these stand for, with the mean gap
+//! that the publication extrapolates for it.
 //!
 //! `cargo run --release -p asperity-examples --example published -- --rows 0:22` makes the whole table.
 

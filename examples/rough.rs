@@ -4,7 +4,7 @@
 //!
 //! The surface is the paper's, H = 0.8 and k from 4 to 64 periods a side, but of rms slope 0.1: with the paper's 0.001
 //! the load of Figures 6 and 7 presses it flat. The range of adhesion is one that the grid resolves; the paper's own is
-//! shown beside. Two loads are told apart: the external mean pressure p̄, which is the one that is given, and the mean
+//! shown too. Two loads are told apart: the external mean pressure p̄, which is the one that is given, and the mean
 //! contact pressure ⟨λ⟩ = p̄ + ⟨φ'⟩, which exceeds it by the adhesive traction.
 
 use std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! The contact stiffness of rough surfaces over the mean pressure, beside the proportionality K = p̄/(γ h_rms).
+//! The contact stiffness of rough surfaces over the mean pressure, next to the proportionality K = p̄/(γ h_rms).
 //!
 //! Pastewka, Prodanov, Lorenz, Müser, Robbins and Jackson, *Phys. Rev. E* 87, 062809 (2013): on self-affine surfaces
 //! the stiffness is proportional to the pressure; at light loads the few asperities of a finite surface make it larger,

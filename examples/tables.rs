@@ -1,4 +1,4 @@
-//! Tables 1 to 4 of Rey, Anciaux and Molinari (2017), the paper's values beside ours; and waves and limits that have
+//! Tables 1 to 4 of Rey, Anciaux and Molinari (2017), the paper's values next to ours; and waves and limits that have
 //! exact solutions.
 //!
 //! `cargo run --release -p asperity-examples --example tables`

@@ -1,6 +1,6 @@
 //! The accuracy of a solve: the error of the grid, and a solve that refines the grid until this error is small enough.
 //!
-//! [`GridError`] estimates the error of the grid, beside that of the solver; [`Accuracy`] chooses grid and tolerance.
+//! [`GridError`] estimates the error of the grid, next to that of the solver; [`Accuracy`] chooses grid and tolerance.
 
 use crate::contact::ContactArea;
 use crate::elastic::Boundary;

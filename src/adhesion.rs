@@ -46,7 +46,7 @@ const NOTICEABLE: f64 = 0.01;
 /// A law is three functions of one gap `g ≥ 0`: the energy φ(g) ≤ 0, the adhesive traction φ'(g), positive where the
 /// surfaces attract each other, and its slope φ''(g); all else has a default. The energy falls to zero, or to any
 /// constant, at large gaps. Negative gaps are asked only of a law that repels by itself ([`Hints::rest`]); where a
-/// [`ContactConstraint`](crate::ContactConstraint) lets surfaces interpenetrate, it says how the law goes on.
+/// [`ContactConstraint`](crate::ContactConstraint) lets surfaces interpenetrate, it says how the law continues.
 ///
 /// [`check_law`] holds a law to this contract; the page [`own_law`](crate::guide::own_law) has one in a solve. A law
 /// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate), [`on_nodes`](Self::on_nodes) and
@@ -72,7 +72,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// The adhesive traction φ'(g), force per area; positive attracts.
     fn traction(&self, gap: T) -> T;
 
-    /// The slope of the traction φ''(g), traction per length; where the traction jumps, that beside the jump.
+    /// The slope of the traction φ''(g), traction per length; where the traction jumps, that next to the jump.
     fn slope(&self, gap: T) -> T;
 
     /// Work of adhesion, range, and whatever else a solve may know beforehand; by default [`Hints::of`] the functions.

@@ -28,7 +28,7 @@ pub use uzawa::Uzawa;
 /// node that resists negative gaps ([`Penalty`]), perhaps with multipliers that are updated between solves ([`Uzawa`]).
 /// A wall of a given [`Hardness`] yields. A law that repels close by needs no wall ([`NoWall`]).
 ///
-/// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0, and goes on at negative gaps as its tangent, φ(0) +
+/// An [`AdhesionLaw`](crate::AdhesionLaw) is defined for g ≥ 0, and continues at negative gaps as its tangent, φ(0) +
 /// φ'(0)g: springs of any stiffness then bound the energy below, which an exponential would outrun.
 ///
 /// ```
@@ -69,7 +69,7 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
     }
 
     /// The relative error, in the energy norm, to which the present round has to be solved, where that is above the
-    /// tolerance of the solve: a round that only leads to the next one may end early. The solve goes on to its own
+    /// tolerance of the solve: a round that only leads to the next one may end early. The solve continues to its own
     /// tolerance once [`update`](Self::update) has returned [`Update::Done`], and asks again.
     fn round_tolerance(&self) -> f64 {
         0.0

@@ -24,7 +24,7 @@ mod places;
 
 pub use area::ContactArea;
 pub use clusters::Clusters;
-pub use distribution::PressureDistribution;
+pub use distribution::{PressureDistribution, bulk};
 pub use original::Original;
 pub use patch::Patch;
 
@@ -138,7 +138,7 @@ fn whole<'a, T: Real>(
 /// along the polygon, at the angle θ to the axes, with the number χ of contacts less that of holes in them. The
 /// correction for askew edges was measured on plane waves in ten directions, that for curved ones fitted to Hertz
 /// contacts. For Δx ≠ Δy length and area are taken with the spacings as units; on a line each end is β inside the
-/// contour. Nodes at the end of a surface, beside absent ones or the end of a window, are counted as a whole, and so
+/// contour. Nodes at the end of a surface, next to absent ones or the end of a window, are counted as a whole, and so
 /// is full contact. Where a wall gives, as that of [`Penalty`](crate::Penalty), the gap in contact counts as well, and
 /// β falls with the cube of the share of the pressure in κλΔ − E\*g. Where [the law alone repels](crate::NoWall) the
 /// edge is the nearer to the middle between the nodes the more contact nodes are apart. Without a positive modulus the

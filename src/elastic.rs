@@ -213,7 +213,7 @@ impl Foundation<'_> {
     }
 }
 
-/// The products of the preconditioner beside M r, all of them means over the nodes.
+/// The products of the preconditioner besides M r, all of them means over the nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Preconditioned {
     /// r·Kr without the mean of r, of K itself, as it bounds the error ([`Report::relative_error`](crate::Report))

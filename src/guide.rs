@@ -1,4 +1,4 @@
-//! The guide: the physics beside the code, how-tos, and the construction of the crate.
+//! The guide: the physics next to the code, how-tos, and the construction of the crate.
 //!
 //! | page | contents |
 //! |---|---|

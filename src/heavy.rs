@@ -1,8 +1,8 @@
 //! The functions that take long to compile, by name: they are compiled once for each precision, with this crate.
 //!
 //! Generic functions are compiled with each crate that calls them. A function of this table is called as one of the
-//! scalar, `T::solve(…)`, and calls the one beside it here: for `f32` and `f64` alike, or for each its own. As a table of
-//! contents it names functions of all floors.
+//! scalar, `T::solve(…)`, and calls the one next to it here: for `f32` and `f64` alike, or for each its own. As a table
+//! of contents it names functions of all floors.
 
 use asperity_fft::num_complex::Complex;
 use asperity_fft::{Transform, double, single};

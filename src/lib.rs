@@ -75,7 +75,7 @@
 //! |---|---|
 //! | `parallel` (default) | threads, with the same results bit for bit |
 //! | `mpi` | processes, with the same results bit for bit: the type `World` |
-//! | `serde` | settings, controls, reports and statistics as data, with the names of the reports; sweeps, searches and paths, which go on bit for bit |
+//! | `serde` | settings, controls, reports and statistics as data, with the names of the reports; sweeps, searches and paths, which continue bit for bit |
 //!
 //! Without any of them the library depends on libm, ndarray, num-traits, pulp and rustfft alone.
 #![doc = include_str!("pages.html")]

@@ -62,14 +62,14 @@ pub use step::PathStep;
 ///
 /// # Limit points
 ///
-/// Under a given pressure a branch ends where dp̄/dḡ = 0. The path does not take the jump there, but goes on at given
+/// Under a given pressure a branch ends where dp̄/dḡ = 0. The path does not take the jump there, but continues at given
 /// mean gaps in the same direction, until the pressure comes to where the leg ends, or the surfaces to full contact or
 /// out of each other's reach. At limit points under a given mean gap it jumps.
 ///
 /// # Bifurcations
 ///
-/// A branch may go on through saddles: of two equal asperities one alone can jump into contact earlier than both, and
-/// every mirrored or periodic surface is of that kind. With adhesion, therefore, the smallest eigenvalue of the
+/// A branch may continue through saddles: of two equal asperities one alone can jump into contact earlier than both,
+/// and every mirrored or periodic surface is of that kind. With adhesion, therefore, the smallest eigenvalue of the
 /// energy's second derivative is watched, as in a [`StabilityTest`](crate::stability::StabilityTest) at the given mean
 /// gap; that takes some five operator applications a state, unless the softest stiffness and the least φ'' prove it
 /// positive. A step to a saddle is taken back and halved; at [`PathSettings::smallest_step`] the state is moved along
@@ -77,7 +77,7 @@ pub use step::PathStep;
 /// the mode is largest, and minimised to a state that is no saddle.
 ///
 /// Where the branch came to that place along the mode itself, as at a limit point, the [`Event`] is a jump, and
-/// otherwise a bifurcation. Under a given pressure the path goes on from it at given mean gaps. A stretch of saddles
+/// otherwise a bifurcation. Under a given pressure the path continues from it at given mean gaps. A stretch of saddles
 /// shorter than a step may be passed unnoticed: more [`steps`](PathSettings::steps) find shorter ones. A saddle from
 /// which no minimum was found is followed, and left at the next state from which there is one. The first state is left
 /// without an event if it is a saddle.
@@ -92,7 +92,7 @@ pub use step::PathStep;
 /// # Going on
 ///
 /// Solver and problem are given with each step. A path is its own checkpoint: a copy, or with the feature `serde` one
-/// that was kept and read again, goes on bit for bit, also at a problem that is made anew. The page
+/// that was kept and read again, continues bit for bit, also at a problem that is made anew. The page
 /// [`branches`](crate::guide::branches) has a cycle with jumps.
 ///
 /// ```

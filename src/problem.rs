@@ -31,7 +31,8 @@ const SMOOTHING: f64 = 5.0;
 /// A contact problem: a rough surface, an elastic operator and an adhesion law.
 ///
 /// Only the pressure K⁻¹h that would press the surface flat is kept of it. A problem can be solved many times, under
-/// any [`Control`]. Memory per node: one scalar beside those of the operator; [`Problem::new`] needs less than a solve.
+/// any [`Control`]. Memory per node: one scalar besides those of the operator; [`Problem::new`] needs less than a
+/// solve.
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Problem, Solver, Surface, Westergaard};

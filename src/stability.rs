@@ -67,7 +67,7 @@ names!(Verdict { Stable = "stable", Unstable = "unstable", Undecided = "undecide
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|
-/// | `tolerance` | 3e-3 | the norm of the residual of the mode, over the larger of its eigenvalue and the softest stiffness; the eigenvalue is right to about its square. Where it is nearly zero, the iteration goes on until its sign is sure | positive |
+/// | `tolerance` | 3e-3 | the norm of the residual of the mode, over the larger of its eigenvalue and the softest stiffness; the eigenvalue is right to about its square. Where it is nearly zero, the iteration continues until its sign is sure | positive |
 /// | `max_iterations` | 500 | iterations for the mode, and again for the bound, after which the verdict is open | any |
 /// | `bound` | true | whether to look for a lower bound; without one only the simple bound can show stability | |
 /// | `control` | `None`: that of the solution | the control that holds the equilibrium | |

@@ -15,13 +15,13 @@ use crate::solver::{
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
 ///
 /// Solver and problem are those of each load. With the feature `serde` a sweep is its own checkpoint: kept and read
-/// again, it goes on bit for bit, also at a problem that is made anew.
+/// again, it continues bit for bit, also at a problem that is made anew.
 ///
 /// The first load starts from the default start, or from [`Sweep::starting_from`]; the others
 ///
 /// - without adhesion, from the last two gaps, extrapolated in mean gap, approach or the rest of a spring, or in the
 ///   logarithm of pressure or force, and clipped to g ≥ 0;
-/// - with adhesion, in the same way as long as the load goes on in one direction and the two gaps before the last one
+/// - with adhesion, in the same way as long as the load continues in one direction and the two gaps before the last one
 ///   had led to it, which they do not across a jump;
 /// - otherwise, and where loads are not of one kind, from the last gap.
 ///
@@ -34,8 +34,8 @@ use crate::solver::{
 ///
 /// A mean gap that is given scales the start, as in [`Start::From`], or is the start where no gap is left to scale.
 /// Fine steps save a third of the work without adhesion and almost half of it with adhesion; steps by half the load or
-/// more save little. The page [`performance`](crate::guide::performance#sweeps) has figures. Memory, beside problem and
-/// solver: a gap on the grid of the operator during a solve, and two with adhesion; a plastic depth.
+/// more save little. The page [`performance`](crate::guide::performance#sweeps) has figures. Memory, besides problem
+/// and solver: a gap on the grid of the operator during a solve, and two with adhesion; a plastic depth.
 ///
 /// A solve that does not converge is no error; the next load starts from where it ended.
 ///
@@ -175,7 +175,7 @@ impl<T: Real> Sweep<T> {
     }
 }
 
-/// The gap under a load, extrapolated from two; with adhesion only if the load goes on in the same direction.
+/// The gap under a load, extrapolated from two; with adhesion only if the load continues in the same direction.
 fn ahead<T: Real>(
     problem: &Problem<T>,
     least: Least<T>,

@@ -12,18 +12,22 @@ function erf(x) {
 /* Persson's contact fraction under a pressure, in rms slopes times the contact modulus. */
 export const persson = pressure => erf(Math.SQRT2 * pressure);
 
+/* A state as a point of the curve of the area. */
+const point = ({ mean_pressure: pressure, contact_fraction: fraction }) => [pressure, 100 * fraction];
+
 /* So many loads from the lightest to the heaviest, evenly on a logarithmic axis. */
 export const loads = ([low, high], count) =>
   Array.from({ length: count }, (_, k) => low * (high / low) ** (k / (count - 1)));
 
-/* The contact area over the loads that have been solved: a curve of the settings as they are, and one of those before. */
+/* The contact area over the loads that have been solved: a curve of the settings as they are, the path of loading from the
+   last of their states, and a curve of the settings before. */
 export class Curves {
   constructor() {
     this.forget();
   }
 
   forget() {
-    [this.now, this.before] = [new Map(), new Map()];
+    [this.now, this.path, this.before] = [new Map(), new Map(), new Map()];
   }
 
   /* Begins another curve, of settings of this name; `theory` is the rms slope times the contact modulus where Persson's
@@ -36,9 +40,15 @@ export class Curves {
   }
 
   /* Adds a state. */
-  add({ mean_pressure: pressure, contact_fraction: fraction, pressure_unit: unit }) {
-    this.unit = unit;
-    this.now.set(pressure, 100 * fraction);
+  add(state) {
+    this.unit = state.pressure_unit;
+    this.now.set(...point(state));
+    this.path.clear();
+  }
+
+  /* Adds a state to the path of loading from another one. */
+  follow(...states) {
+    states.forEach(state => this.path.set(...point(state)));
   }
 
   chart() {
@@ -46,6 +56,7 @@ export class Curves {
     const curves = [
       ["as set", sorted(this.now)],
       ["as set before", sorted(this.before)],
+      ["under more load", sorted(this.path)],
     ].filter(([, points]) => points.length);
     if (curves.length === 1) curves[0][0] = "";
     const x_log = curves.every(([, points]) => points[0][0] > 0);
@@ -55,8 +66,8 @@ export class Curves {
 }
 
 /* The distribution of a quantity over the nodes, as shares of those that have it. */
-export function distribution(points, x_label, x_unit, y_label) {
-  return { x_label, x_unit, y_label, y_unit: "%", curves: [["", points]] };
+export function distribution({ curve, beyond }, x_label, x_unit, y_label) {
+  return { caption: beyond, x_label, x_unit, y_label, y_unit: "%", curves: [["", curve]] };
 }
 
 /* The power spectral density of a surface, averaged over directions; its wave numbers in 1/µm rather than 1/m. */

@@ -12,7 +12,7 @@ import init, { about, chart } from "./asperity_web.js";
 
 const MADE = ["open", "make", "prepare"];
 
-/* A file beside this one. */
+/* A file next to this one. */
 async function fetched(name) {
   const answer = await fetch(new URL(name, import.meta.url)).catch(({ message }) => ({ status: message }));
   if (!answer.ok) throw new Error(`${name} has not come from the server (${answer.status})`);
@@ -144,8 +144,9 @@ export class Engine {
   }
 
   /* Opens a map. The answer has `name`, `shape`, `lengths`, `unit`, `original`, `missing`, `unread`, `channels`, `heights`
-     (f32, about their `mean`), `lowest`, `highest`, and `warnings` of `code` and `message`. Of a file whose channel has to
-     be chosen `heights` is null: call again with the number in front of one of its `channels`. */
+     (f32, about their `mean`), `lowest`, `highest`, the `limits` of the colours, and `warnings` of `code` and `message`.
+     Of a file whose channel has to be chosen `heights` is null: call again with the number in front of one of its
+     `channels`. */
   open(name, bytes, { channel } = {}) {
     return this.call("open", [name, bytes, channel]);
   }
@@ -177,10 +178,19 @@ export class Engine {
     return this.call("solve", [JSON.stringify(scene), { start, fields, histograms }], { onprogress });
   }
 
-  /* Follows loads by the keys of `asperity cycle`; `onstate` gets the row of each state as it is found, and beside it the
+  /* Follows loads by the keys of `asperity cycle`; `onstate` gets the row of each state as it is found, and with it the
      share of the way. */
   follow(scene, { onstate, onprogress }) {
     return this.call("follow", [JSON.stringify(scene)], { onstate, onprogress });
+  }
+
+  /* The gap of the last solution, and of another engine on the same surface, which starts its first solve from there. */
+  gap() {
+    return this.call("gap", []);
+  }
+
+  startFrom(gap) {
+    return this.call("startFrom", [gap]);
   }
 
   /* The lines that give the same answer: of a `shell` one by one, and of `python`. */

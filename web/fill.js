@@ -13,18 +13,21 @@ export class Fill {
     this.twin?.cancel();
   }
 
-  /* Solves scenes one after the other once the page rests; `onfound(account)` hears of each. */
-  start(scenes, onfound) {
+  /* Solves scenes one after the other once the page rests, or the path of a state with this `gap`, which ends where one
+     does not converge; `onfound(account)` hears of each. */
+  start(scenes, onfound, gap) {
     this.stop();
-    this.timer = setTimeout(() => this.run(scenes, onfound), WAIT);
+    this.timer = setTimeout(() => this.run(scenes, onfound, gap), WAIT);
   }
 
-  async run(scenes, onfound) {
+  async run(scenes, onfound, gap) {
     const twin = (this.twin = this.engine.twin());
     try {
+      if (gap) await twin.startFrom(gap);
       for (const scene of scenes) {
         const { account } = await twin.solve(scene, { start: "last", fields: [] });
         if (account.status === "converged") onfound(account);
+        else if (gap) break;
       }
     } catch {
       // the page itself says what is wrong with a scene

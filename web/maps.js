@@ -3,7 +3,7 @@
 import { FieldMap, colouring } from "./map.js";
 import { Profile } from "./profile.js";
 import { read } from "./quantity.js";
-import { ends, loadBeyond, told } from "./scale.js";
+import { loadBeyond, told } from "./scale.js";
 
 /* The classes of contact, by their numbers. */
 const CLASSES = ["apart", "contact", "nothing there", "attractive", "yielded"];
@@ -32,10 +32,9 @@ export class Maps {
   }
 
   /* Shows the heights of a surface. */
-  showSurface({ heights, shape, lengths, unit, lowest, highest, mean }) {
+  showSurface({ heights, shape, lengths, unit, lowest, highest, limits, mean }) {
     const length = unit ?? "";
-    const extremes = [lowest - mean, highest - mean],
-      range = ends(heights, extremes);
+    const [extremes, range] = [[lowest, highest], limits].map(ends => ends.map(height => height - mean));
     const colours = colouring.sequential(this.colours, range, told(range, extremes, length));
     this.heights.show({ values: heights, shape, lengths: lengths ?? shape, unit: length, colours });
     this.surface = { heights, shape, lengths: lengths ?? shape, length };
@@ -44,7 +43,7 @@ export class Maps {
   /* Shows a solution, with lengths and pressures in these units. */
   showSolution({ shape, lengths, fields, limits, extremes }, length, pressure) {
     // the least gap is that of the contact
-    this.limits = [...limits.pressure, extremes.gap[0], ends(fields.gap, extremes.gap)[1]];
+    this.limits = [...limits.pressure, extremes.gap[0], limits.gap[1]];
     this.solution = { shape, lengths, length, pressure, fields, extremes };
     this.paint();
     this.profile.show();

@@ -20,7 +20,7 @@ import { figure, folded, list, table } from "./words.js";
 const at = id => document.getElementById(id);
 const status = text => (at("status").textContent = text);
 
-/* The rows of a summary that stand beside the maps. */
+/* The rows of a summary that stand next to the maps. */
 const FIGURES =
   "contact, corrected for its edge, mean pressure, mean gap, normal force, approach, certified error, time".split(", ");
 const GRID_ERROR = "error of the grid";
@@ -106,6 +106,7 @@ class Page {
 
   /* Asks for something: at once, or when what runs has ended, and then as it is by then; returns when all is done. */
   want(what) {
+    this.fill.stop();
     this.wanted.add(what);
     // a surface that was refused may not be passed over
     if (this.due) this.wanted.add(this.due);
@@ -113,7 +114,6 @@ class Page {
   }
 
   async doAll() {
-    this.fill.stop();
     document.body.classList.add("busy");
     at("cancel").disabled = false;
     while (this.wanted.size) await this.doNext();
@@ -290,7 +290,7 @@ class Page {
     this.wanted.add("rest");
   }
 
-  /* The figures beside the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
+  /* The figures at the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
   figures(rows, started) {
     const known = [...FIGURES, GRID_ERROR].flatMap(name => rows.filter(row => row[0] === name));
     const entries = known.map(([name, text]) => figure(name, own(text)));
@@ -326,7 +326,7 @@ class Page {
     [at("command").textContent, at("python").textContent] = [shell.map(folded).join("\n"), python];
     this.offer("start.npz", shell.join().includes("start.npz"));
     this.keep();
-    if (!this.player.isOn) this.fillArea();
+    if (!this.player.isOn) await this.fillArea();
   }
 
   /* Keeps what is on the page once it rests: in the address, and for the way back. */
@@ -340,21 +340,27 @@ class Page {
     }, RESTING);
   }
 
-  /* Fills in the curve of the area while the page rests; with adhesion the area depends on the way to a load. */
-  fillArea() {
-    const { settings, map, load } = this;
+  /* Fills in the curve of the area while the page rests: with adhesion, where the area depends on the way to a load, by
+     the path of loading from the state that is shown. */
+  async fillArea() {
+    const { settings, map, load, curves } = this;
     const [nx, ny] = map.shape;
-    if (settings.value("law") !== "none" || nx * ny > MOST_FILLED) return;
-    const known = [...this.curves.now.keys()];
+    if (nx * ny > MOST_FILLED) return;
+    const adheres = settings.value("law") !== "none";
+    const known = adheres ? [load.found.mean_pressure] : [...curves.now.keys()];
     const pressures = loads(load.ranges.mean_pressure.log, FILLED).filter(
-      value => !known.some(pressure => Math.abs(pressure / value - 1) < 0.1),
+      value => !known.some(pressure => Math.abs(pressure / value - 1) < 0.1 || (adheres && value < pressure)),
     );
     const scene = settings.scene(),
       scenes = pressures.map(value => ({ ...scene, mean_pressure: `${value}${load.units.mean_pressure}` }));
-    this.fill.start(scenes, account => {
-      this.curves.add(account);
-      this.chart("area", this.curves.chart());
-    });
+    const gap = adheres ? await this.engine.gap() : null;
+    if (this.wanted.size) return;
+    const onfound = account => {
+      if (adheres) curves.follow(load.found, account);
+      else curves.add(account);
+      this.chart("area", curves.chart());
+    };
+    this.fill.start(scenes, onfound, gap);
   }
 
   /* Turns to large type on the full screen, where there is one, or back. */

@@ -2,27 +2,8 @@
 
 import { read } from "./quantity.js";
 
-/* The share of the values at either end that may be those of scars and spikes, and the distance from the others, in
-   their range, from which they are left out. */
-const OUTLIERS = 0.002,
-  SLACK = 0.5;
-
-/* The most values of which the quantiles are taken. */
-const MOST = 20_000;
-
 /* Whether a value is beyond an end, by more than the rounding of either. */
 const isBeyond = (value, end) => value - end > 1e-5 * Math.abs(end);
-
-/* The ends of a scale of heights or gaps: the extremes, or where these are far from all other values the quantiles. */
-export function ends(values, [least, greatest]) {
-  // the odd step avoids always the same columns
-  const step = Math.floor(values.length / MOST) | 1;
-  const some = values.filter((value, k) => k % step === 0 && Number.isFinite(value)).sort();
-  const out = Math.floor(OUTLIERS * some.length),
-    [low, high] = [some[out], some[some.length - 1 - out]];
-  const most = SLACK * (high - low);
-  return most > 0 ? [low - least > most ? low : least, greatest - high > most ? high : greatest] : [least, greatest];
-}
 
 /* The ends of a scale in words; an arrow leads to an extreme value beyond. */
 export const told = ([low, high], [least, greatest], unit) => [

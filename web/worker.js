@@ -4,7 +4,7 @@
    worker -> page  { id, found }              its answer
                    { id, error }              the message of its error
                    { id, seen }               what an observer sees meanwhile
-   The first message is { module }, the compiled module. What is thrown beside an answer, the page hears as an error of
+   The first message is { module }, the compiled module. What is thrown besides an answer, the page hears as an error of
    the thread.
 
    The page puts this text behind that of `asperity_web.js`, whose `initSync` and `Engine` it uses. */
@@ -48,11 +48,13 @@ const calls = {
     }
     return { ...begun, count, status: "complete", warnings: last.warnings, shortfalls: [...shortfalls] };
   },
+  gap: () => engine.gap(),
+  startFrom: gap => engine.start_from(gap),
   file: name => engine.file(name),
   lines: () => parsed(engine.lines()),
 };
 
-/* The memory of what an answer has beside its figures goes to the page, and is not copied. */
+/* The memory of what an answer has besides its figures goes to the page, and is not copied. */
 function buffers(found) {
   const arrays = ArrayBuffer.isView(found) ? [found] : [found?.heights, ...Object.values(found?.fields ?? {})];
   return arrays.filter(ArrayBuffer.isView).map(array => array.buffer);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The package Adhesion beside asperity on a rough surface with the law of Morse and no wall: the same state, to what digit?
+"""The package Adhesion and asperity on a rough surface with the law of Morse and no wall: the same state, to what
+digit?
 
     python benches/peers/adhesion.py [NODES] [ASPERITY]
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""asperity beside FFTW, SciPy, aspher, Tamaas and ContactMechanics, on the same heights, in one run; prints Markdown tables.
+"""asperity against FFTW, SciPy, aspher, Tamaas and ContactMechanics, on the same heights, in one run; prints Markdown
+tables.
 
     benches/peers/setup.sh                       (once)
     benches/peers/compare.py [--quick] [--rows application,wall,adhesion,free] [--csv FILE]

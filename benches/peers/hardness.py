@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A rough surface with a cap on the contact pressure: asperity beside Tamaas and ContactMechanics, at equal error.
+"""A rough surface with a cap on the contact pressure: asperity against Tamaas and ContactMechanics, at equal error.
 
     python benches/peers/hardness.py [NODES] [--slowest SECONDS]
 
 asperity, Tamaas (`KatoSaturated`) and ContactMechanics (`PlasticTopography`) find the same pressures. Each runs at the
 loosest tolerance, in steps of ten, at which its pressures are within 1e-3 of the solution, in the root of the mean square
-beside that of the pressures; the solution is asperity's to a certified 1e-10. Times are medians of three, from heights
-in memory to pressures in memory, of one thread; one run counts where it took longer than ten seconds.
+compared with that of the pressures; the solution is asperity's to a certified 1e-10. Times are medians of three, from
+heights in memory to pressures in memory, of one thread; one run counts where it took longer than ten seconds.
 """
 
 import argparse

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""asperity leak beside reynoldsflow on the same gaps near percolation; prints a Markdown table.
+"""asperity leak against reynoldsflow on the same gaps near percolation; prints a Markdown table.
 
     benches/peers/setup.sh                       (once)
     benches/peers/leakage.py [--sizes 512 1024] [--limit 300] [--memory 12]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the time of a solve to a certified 1e-6 against the nodes, from the tables of the README beside this file.
+"""Draws the time of a solve to a certified 1e-6 against the nodes, from the tables of the README next to this file.
 
     benches/peers/picture.py [OUT.png]        (default: examples/pictures/peers.png; needs matplotlib)
     benches/peers/picture.py --table          prints the time of the other programs over that of asperity

@@ -1,4 +1,4 @@
-//! A sphere by force on a free half-space beside one in a periodic cell of the same window: accuracy and cost.
+//! A sphere by force on a free half-space and one in a periodic cell of the same window: accuracy and cost.
 
 use std::time::Instant;
 
@@ -30,7 +30,7 @@ fn solve(surface: &Surface, operator: impl ElasticOperator<f64> + 'static) -> Re
 /// Prints the error of the approach, the applications, and the time over that of the periodic solve.
 pub fn table(largest: usize) -> Result<()> {
     let exact = Hertz::new(RADIUS, 1.0)?.at_load(FORCE)?;
-    println!("sphere by force, beside Hertz and the periodic solve of the same window");
+    println!("sphere by force, against Hertz and the periodic solve of the same window");
     println!("{:>5} {:>12} {:>12} {:>10} {:>10} {:>6}", "n", "approach", "error", "free", "periodic", "time");
     for n in [64, 128, 256, 512, 1024].into_iter().filter(|&n| n <= largest) {
         let grid = Grid::square(n, SIDE)?;

@@ -1,4 +1,4 @@
-//! A free half-space beside what is known of it: a sphere by force, a rough sphere, a sphere with waves, and the
+//! A free half-space against what is known of it: a sphere by force, a rough sphere, a sphere with waves, and the
 //! pull-off.
 //!
 //! `cargo run --release -p asperity-examples --example free`

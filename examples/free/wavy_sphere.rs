@@ -1,4 +1,4 @@
-//! A sphere with concentric waves, together and apart under given approach: its jumps beside those of Guduru (2007).
+//! A sphere with concentric waves, together and apart under given approach: its jumps next to those of Guduru (2007).
 
 use asperity::exact::WavySphere;
 use asperity::path::{Event, Path, PathSettings};

@@ -158,7 +158,8 @@ fn brackets(found: &[Found<'_>]) {
     }
 }
 
-/// The estimated errors beside the true ones, where the shortest wave has four nodes on the coarsest grid that is asked.
+/// The estimated errors next to the true ones, where the shortest wave has four nodes on the coarsest grid that is
+/// asked.
 fn estimates(found: &[Found<'_>]) {
     head(
         "What is reported on n and 2n, its error by two grids and by one: errors in %, the median and nine in ten; shares \

@@ -2,11 +2,11 @@
 //!
 //! `cargo run --release -p asperity-examples --example jkr -- TABLE`
 //!
-//! The law [`Jkr`](asperity::Jkr) has the range of the grid. The tables `sphere` and `wave` have it beside the exact
+//! The law [`Jkr`](asperity::Jkr) has the range of the grid. The tables `sphere` and `wave` have it next to the exact
 //! solutions of Johnson, Kendall and Roberts (1971) and Johnson (1995); `shapes`, laws of other shapes and steepness;
 //! `rough`, self-affine surfaces on grids from coarse to fine; and `errors`, random scenes, with what a grid and one of
-//! half as many nodes along the sides say of the limit, beside what grids two and four times as fine say. `picture` draws
-//! the pull-off over the nodes, with its error.
+//! half as many nodes along the sides say of the limit, next to what grids two and four times as fine say. `picture`
+//! draws the pull-off over the nodes, with its error.
 //! The table `held` has the laws with a range: with which work of adhesion they act where the grid holds the edges of
 //! contacts.
 //!
@@ -33,9 +33,9 @@ use rayon::ThreadPoolBuilder;
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Table {
-    /// A sphere on a free half-space, beside that of Johnson, Kendall and Roberts.
+    /// A sphere on a free half-space, next to that of Johnson, Kendall and Roberts.
     Sphere,
-    /// A wave on a line and on a grid, beside that of Johnson.
+    /// A wave on a line and on a grid, next to that of Johnson.
     Wave,
     /// Other shapes of the law, and other steepest slopes.
     Shapes,

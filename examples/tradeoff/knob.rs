@@ -92,7 +92,7 @@ fn work(levels: &[Level]) -> f64 {
     1e-6 * levels.iter().map(of).sum::<f64>()
 }
 
-/// Prints what becomes of an accuracy of the area that is asked for, beside what the same grids cost by hand.
+/// Prints what becomes of an accuracy of the area that is asked for, next to what the same grids cost by hand.
 pub fn measure(quick: bool) -> Outcome<()> {
     let scenes = scenes(quick)?;
     let finest = if quick { 256 } else { 1024 };

@@ -62,7 +62,8 @@ class PressureDistribution(NamedTuple):
     density : ndarray
         Share of the nodes in each bin over its width, per unit of pressure. Its integral is the contact fraction.
     edges : ndarray
-        Edges of the bins, from zero to the largest contact pressure: one more than there are bins.
+        Edges of the bins, from zero to the largest contact pressure: one more than there are bins. Where a few pressures,
+        as those of spikes, are far above all others, the last bin is wider than the others and has these.
     """
 
     density: NDArray[np.float64]
@@ -236,7 +237,7 @@ class Solution:
         Parameters
         ----------
         bins : int
-            Number of bins, equally wide.
+            Number of bins, equally wide but for the last one where a few pressures are far above all others.
 
         Returns
         -------

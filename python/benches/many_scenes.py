@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Many different scenes from one process of Python, beside their solves alone.
+"""Many different scenes from one process of Python, against their solves alone.
 
     python python/benches/many_scenes.py [SCENES] [NODES]
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Forces of rigid bodies of simple shapes beside exact ones; prints a Markdown table in seconds.
+"""Forces of rigid bodies of simple shapes against exact ones; prints a Markdown table in seconds.
 
     python python/benches/shapes.py [NODES]
 
 Each body is solved on NODES² nodes of a free half-space, 1024 by default, and on half as many a side. The error is mostly
 of first order in the spacing, so that twice the finer value less the coarser one is closer. Flat punches have the area of
-their nodes. K is the stiffness F/δ, and M the moment of the pressure. Layers are in a periodic cell. Those beside springs
-are ten nodes thick; the exact number is that of the limit of no thickness, and they are half as thick on the finer grid.
-The others are as thick as the contact is wide from its middle to its edge.
+their nodes. K is the stiffness F/δ, and M the moment of the pressure. Layers are in a periodic cell. Those compared
+with springs are ten nodes thick; the exact number is that of the limit of no thickness, and they are half as thick on
+the finer grid. The others are as thick as the contact is wide from its middle to its edge.
 """
 
 import sys

@@ -62,7 +62,7 @@ pub fn load_scale(pressure: Field<'_>, end: Option<f64>) -> (f64, f64, f64) {
 /// Density and edges of a distribution.
 type Density<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
-/// The distribution of a contact pressure beside its gap.
+/// The distribution of a contact pressure next to its gap.
 #[pyfunction]
 pub fn pressure_distribution<'py>(
     py: Python<'py>,

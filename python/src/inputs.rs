@@ -1,4 +1,4 @@
-//! The inputs of a problem beside its keywords.
+//! The inputs of a problem besides its keywords.
 
 use asperity::{Grid, Surface};
 use asperity_maps::surface_with_absent;

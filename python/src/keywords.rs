@@ -100,7 +100,7 @@ impl Keywords {
     fn new(keywords: &Bound<'_, PyDict>, law: Option<&Bound<'_, PyAny>>, is_si: bool) -> PyResult<Self> {
         let given = read(&known!(SurfaceKeys, AdhesionKeys, SolverKeys), keywords)?;
         let law = law.map(Law::of).transpose()?;
-        // numbers of a solution in SI units, beside texts, say nothing of units
+        // numbers of a solution in SI units, next to strings, say nothing of units
         let quantities = match is_si {
             true => Quantities::default(),
             false => Quantities::all([given.quantities(), law.as_ref().map(quantities).unwrap_or_default()]),

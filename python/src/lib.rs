@@ -1,5 +1,5 @@
 //! The compiled core of the Python package `asperity`: arrays in, arrays out. What users see is written in Python, in
-//! the folder `asperity` beside this one.
+//! the folder `asperity` next to this one.
 
 mod answer;
 mod command;

@@ -193,7 +193,7 @@ impl Problem {
         either!(session = self.session() => state::pull_off(session, &at, asked, start))
     }
 
-    /// Begins a sweep, the law of an interface or a cycle, through several lists of loads, or goes on with its table in a
+    /// Begins a sweep, the law of an interface or a cycle, through several lists of loads, or continues its table in a
     /// file. Returns the names of its columns, the rows that the table has, and the number of loads.
     fn begin<'py>(
         &mut self,

@@ -67,7 +67,7 @@ getters! {
 /// An observer as the library calls it.
 pub type Observe<'a> = &'a mut (dyn FnMut(&State) -> ControlFlow<()> + Send);
 
-/// Whether work goes on, as the library asks.
+/// Whether work continues, as the library asks.
 pub type GoesOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// The place of a solve: the interpreter, a pool, and the observer.
@@ -78,7 +78,7 @@ pub struct At<'py> {
 }
 
 /// Does `work` on the shared pool and returns its result, or the exception of a signal, as of Ctrl-C, after which the
-/// work is told not to go on.
+/// work is told not to continue.
 pub fn until_interrupted<R: Send>(py: Python<'_>, work: impl FnOnce(GoesOn<'_>) -> R + Send) -> PyResult<R> {
     let at = At { py, pool: Pool::of(None)?, observer: None };
     let (found, raised) = at.run(|_, goes_on| work(goes_on))?;

@@ -98,7 +98,7 @@ pub fn pull_off<'py, T: Scalar>(
     Ok(answer)
 }
 
-/// Begins a way through loads, or goes on with its table in a file: the names of its columns, and the rows that it has.
+/// Begins a way through loads, or continues its table in a file: the names of its columns, and the rows that it has.
 pub fn begin<'py, T: Scalar>(
     session: &mut Session<T>,
     at: &At<'py>,
@@ -135,7 +135,7 @@ pub fn next<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<
     let keep = |next: Next<T>| if goes_on { session.keep(next) } else { Ok((next.found, next.row)) };
     let found = at.py.detach(|| sought.and_then(|next| next.map(keep).transpose()));
     if session.rows() == before {
-        // for another call that goes on with it
+        // for another call that continues it
         session.release();
     }
     let Some(found) = found.transpose() else { return raised.map_or(Ok(None), Err) };

@@ -58,7 +58,7 @@ fn surface(heights: Field<'_>, lengths: (f64, f64)) -> PyResult<Surface> {
     Grid::new(heights.dim(), lengths).and_then(|grid| Surface::new(grid, heights)).map_err(refusal)
 }
 
-/// Reads a file of heights, of several channels the one of a number or title, and tells what stands beside them.
+/// Reads a file of heights, of several channels the one of a number or title, and tells what stands next to them.
 #[pyfunction]
 pub fn read(
     py: Python<'_>,

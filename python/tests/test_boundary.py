@@ -1,4 +1,4 @@
-"""The free half-space beside the periodic cell: its loads, and nodes at which nothing faces it."""
+"""The free half-space next to the periodic cell: its loads, and nodes at which nothing faces it."""
 
 import numpy as np
 import pytest

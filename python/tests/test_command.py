@@ -1,4 +1,4 @@
-"""The command of the package, beside the program that cargo builds: the same words, files and exit codes."""
+"""The command of the package, against the program that cargo builds: the same words, files and exit codes."""
 
 import os
 import pathlib

@@ -61,7 +61,7 @@ def test_numbers_have_units_or_none():
     assert tip == bare and (tip.radius, tip.modulus) == (20e-9, 2e9)
     found, same = tip.at_load(["-1nN", "5nN"]), bare.at_load([-1e-9, 5e-9])
     assert np.array_equal(found.contact_radius, same.contact_radius)
-    # numbers beside units are in the SI
+    # numbers next to units are in SI units
     assert np.array_equal(tip.at_load([-1e-9, 5e-9]).approach, same.approach)
     assert np.array_equal(found.pressure(["0nm", "1nm"]), same.pressure([0.0, 1e-9]))
     wave = exact.WavyLine(amplitude="10nm", wavelength="1um", modulus="1GPa")

@@ -422,7 +422,7 @@ def test_a_law_in_python_that_repels_keeps_the_surfaces_apart(rough, precision):
         assert found.converged and np.allclose((found.gap - shift) / RANGE, expected.gap / RANGE, **close)
         assert np.array_equal(found.contact, own.traction(found.gap) < 0) or precision == "f32"
         assert np.isclose(found.adhesive_energy, expected.adhesive_energy, rtol=1e-6 if precision == "f64" else 1e-3)
-    # beside a wall the law of Morse need not say its range either
+    # with a wall the law of Morse need not say its range either
     wall = {**options, "wall": "hard"}
     laws = (Shifted(W, RANGE, 0.0), asperity.Morse(W, RANGE))
     found, expected = (asperity.solve(rough, law=law, **wall) for law in laws)

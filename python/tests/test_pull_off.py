@@ -21,7 +21,7 @@ def test_a_cycle_has_the_same_greatest_tension(rough):
     found = asperity.pull_off(rough, modulus=1.0, law=LAW, rtol=1e-3)
     drawn = asperity.cycle(rough, modulus=1.0, law=LAW, branch="unloading", mean_gaps=[5e-4, 0.05], steps=200)
     greatest = -drawn.columns["mean_pressure"].min()
-    # a state of the cycle is beside the greatest one
+    # a state of the cycle is next to the greatest one
     assert found.pressure * (1 - 1e-3) < greatest < found.lost_pressure
     assert found.reached and found.lost_pressure - found.pressure <= 1e-3 * found.lost_pressure
     assert found.pressure == -found.solution.mean_pressure == found.force and found.solution.converged

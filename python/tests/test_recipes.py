@@ -106,7 +106,7 @@ def electroadhesion(found):
     mean = [np.mean(stress / (1 + one.gap / film) ** 2) for stress, one in zip(flat, rows[1:])]
     assert [f"{stress / 1e3:.1f}" for stress in (*mean, *flat)] == ["12.5", "61.2", "15.9", "63.7"]
     assert [one.contact_pressure.mean() - 5e3 for one in rows[1:]] == pytest.approx(mean, rel=1e-4)
-    # behind a film that is thick beside the roughness the attraction adds to the pressure
+    # behind a film that is thick compared with the roughness the attraction adds to the pressure
     law = asperity.PowerLaw(work_of_adhesion=flat[0] * 1e-3, range=1e-3, exponent=1)
     with pytest.warns(asperity.InputWarning, match="range"):
         far = asperity.solve(found["pad"], modulus=2e6, mean_pressure=5e3, law=law)

@@ -1,4 +1,4 @@
-"""Tables in files: those of the tool, which an interrupted run goes on with."""
+"""Tables in files: those of the tool, which an interrupted run continues."""
 
 import filecmp
 import os

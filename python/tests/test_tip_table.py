@@ -87,7 +87,7 @@ def test_a_cone_is_that_of_sneddon():
     assert "GPa" in repr(fit) and "5e-09 m" not in repr(table) and "-1e-09 to 6e-09 m" in repr(table)
 
 
-# a contact that is wide beside the thickness, which is at most two nodes
+# a contact that is wide compared with the thickness, which is at most two nodes
 @pytest.mark.filterwarnings("ignore:ends", "ignore:thin-body")
 @pytest.mark.parametrize(("base", "poisson"), [("bonded", 0.3), ("sliding", 0.3)])
 def test_a_sphere_on_a_thin_layer_is_one_on_springs(base, poisson):

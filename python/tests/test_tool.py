@@ -19,7 +19,7 @@ GAPS, TRACTIONS = [0.0, 4e-3, 1.6e-2], [2.5e-3, 1.5e-3, 0.0]
 WORKS = np.linspace(0.0, 1.0, 64)[:, None] * np.linspace(1.0, 0.5, 64) * WORK
 
 GIVEN = ["--work-of-adhesion", WORK, "--range", REACH]
-#: Laws and walls of the tool by its options, beside those of Python.
+#: Laws and walls of the tool by its options, next to those of Python.
 LAWS = {
     "none": ([], None, "hard"),
     "exponential": (GIVEN, asperity.Exponential(WORK, REACH), "hard"),

@@ -1,4 +1,4 @@
-"""Viscoelastic bodies beside exact solutions, and beside the elastic bodies that they are at once and in the end."""
+"""Viscoelastic bodies against exact solutions, and against the elastic bodies that they are at once and in the end."""
 
 import pickle
 

@@ -40,7 +40,7 @@ const ASKED: [[bool; 3]; 6] = [
 ///
 /// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences
 /// of the energy and the slope with those of the traction, in the precision of the law, to a hundredth of the largest
-/// value of that function. Gaps beside a jump, where the differences grow as their step shrinks, are passed over. It
+/// value of that function. Gaps next to a jump, where the differences grow as their step shrinks, are passed over. It
 /// also holds the law to its [hints](AdhesionLaw::hints), [values](AdhesionLaw::evaluate) and
 /// [adaptions](AdhesionLaw::adapted):
 ///

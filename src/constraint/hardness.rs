@@ -20,7 +20,7 @@ use crate::vector::vectors;
 /// A law that pulls with a traction t where the surfaces touch does a part of that work, and H − t of each depth is
 /// dissipated. The gap g of the surface as it was is negative where this has yielded, by the plastic depth −g. A
 /// [`Solution`](crate::Solution) has the gap to the surface as it is now, which is zero there, and the
-/// [depth](crate::Solution::plastic_depth) beside it. A solve is monotonic loading of its problem's surface;
+/// [depth](crate::Solution::plastic_depth) next to it. A solve is monotonic loading of its problem's surface;
 /// [`Problem::flatten`](crate::Problem::flatten) keeps a depth, so that unloading from there is elastic, as
 /// [`Sweep`](crate::Sweep) and [`Path`](crate::path::Path) do from load to load.
 ///

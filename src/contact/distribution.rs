@@ -42,7 +42,8 @@ const MOST_BINS: usize = 1 << 24;
 
 impl PressureDistribution {
     /// The distribution of the contact pressure over the nodes in contact, in bins from zero to the largest, or to 1
-    /// without any; its integral is the contact fraction.
+    /// without any; its integral is the contact fraction. Where some pressures are above the [`bulk`] of them, as
+    /// those of spikes, the last of several bins is wider than the others, and has these.
     ///
     /// # Errors
     /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite;
@@ -64,8 +65,8 @@ impl PressureDistribution {
         Error::shape("contact pressure", contact_pressure.dim(), gap.dim())?;
         let contact = contact_map(gap, contact_pressure);
         let counted = || contact.iter().zip(contact_pressure).filter(|(touches, _)| **touches).map(|(_, p)| p.widen());
-        let high = counted().fold(0.0, f64::max);
-        Ok(Self::count(counted(), (0.0, if high > 0.0 { high } else { 1.0 }), bins, facing(gap)))
+        let (_, high) = bulk(counted()).filter(|(_, high)| *high > 0.0).unwrap_or((0.0, 1.0));
+        Ok(Self::count(counted(), (0.0, high), bins, facing(gap)))
     }
 
     /// The distribution of the full elastic pressure over all nodes, in bins from the least, which adhesion makes
@@ -93,21 +94,60 @@ impl PressureDistribution {
         self.edges.windows(2).zip(&self.density).map(|(edges, density)| density * (edges[1] - edges[0])).sum()
     }
 
-    fn count(values: impl Iterator<Item = f64>, (low, high): (f64, f64), bins: usize, nodes: usize) -> Self {
+    /// Counts the values in bins over a range, of which the last one is wider where there are values above.
+    fn count(values: impl Iterator<Item = f64> + Clone, (low, high): (f64, f64), bins: usize, nodes: usize) -> Self {
+        let greatest = values.clone().fold(high, f64::max);
+        let (high, inner) = match greatest > high {
+            true if bins > 1 => (high, bins - 1),
+            _ => (greatest, bins),
+        };
         let mut counts = vec![0_usize; bins];
         for value in values {
-            // a value may be below the lowest edge, or above the highest, by rounding
-            let bin = (value - low) / (high - low) * bins as f64;
-            counts[(bin.max(0.0) as usize).min(bins - 1)] += 1;
+            let bin = (value - low) / (high - low) * inner as f64;
+            counts[if value > high { bins - 1 } else { (bin as usize).min(inner - 1) }] += 1;
         }
-        let edge = |k: usize| low + (high - low) * (k as f64 / bins as f64);
-        let edges: Vec<f64> = (0..=bins).map(edge).collect();
+        let edge = |k: usize| low + (high - low) * (k as f64 / inner as f64);
+        let mut edges: Vec<f64> = (0..=inner).map(edge).collect();
+        edges.resize(bins + 1, greatest);
         let density = counts
             .iter()
             .zip(edges.windows(2))
             .map(|(&count, edges)| if count == 0 { 0.0 } else { count as f64 / nodes as f64 / (edges[1] - edges[0]) });
         Self { density: density.collect(), edges }
     }
+}
+
+/// The share of the values at either end that may be those of spikes and scars, and how far from the others these are,
+/// in the range of the others.
+const OUTLIERS: f64 = 0.01;
+const SLACK: f64 = 1.0;
+
+/// The most values of which the quantiles are taken: a million tell enough of the distribution.
+const MOST: usize = 1_000_000;
+
+/// The range of values without spikes and scars: from the least to the greatest of those that are no farther from the
+/// inner 98 % than these are wide. All values count where the inner ones are equal, and where there are less than 100;
+/// those that are not finite are left out. None without values.
+///
+/// ```
+/// use asperity::contact::bulk;
+/// let mut heights: Vec<f64> = (0..1000).map(|k| f64::from(k).sin()).collect();
+/// let range = bulk(heights.iter().copied());
+/// heights.push(40.0);
+/// assert_eq!(bulk(heights.iter().copied()), range);
+/// ```
+pub fn bulk(values: impl Iterator<Item = f64> + Clone) -> Option<(f64, f64)> {
+    let values = values.filter(|value| value.is_finite());
+    // the odd step avoids always the same columns
+    let step = (values.clone().count() / MOST) | 1;
+    let mut some: Vec<_> = values.clone().step_by(step).collect();
+    let last = some.len().checked_sub(1)?;
+    let out = (OUTLIERS * some.len() as f64) as usize;
+    let mut quantile = |place| *some.select_nth_unstable_by(place, f64::total_cmp).1;
+    let (low, high) = (quantile(out), quantile(last - out));
+    let most = if out > 0 && high > low { SLACK * (high - low) } else { f64::INFINITY };
+    let near = values.filter(|value| low - value <= most && value - high <= most);
+    Some(near.fold((low, high), |(low, high), value| (low.min(value), high.max(value))))
 }
 
 fn facing<T: Real>(gap: ArrayView2<'_, T>) -> usize {

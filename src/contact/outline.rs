@@ -179,7 +179,7 @@ impl Rule {
         0.5 * p * q + kink(cuts) * (self.strip(p, q) + 0.25 * TURN)
     }
 
-    /// The area beside two nodes in contact, by the cuts of the two sides that leave them.
+    /// The area next to two nodes in contact, by the cuts of the two sides that leave them.
     fn band(&self, cuts: [Cut; 2]) -> f64 {
         let [p, q] = cuts.map(|cut| cut.place);
         0.5 * (p + q) - kink(cuts) * self.strip(1.0, p - q)

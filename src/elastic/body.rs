@@ -27,7 +27,7 @@ pub use series::Series;
 /// use asperity::elastic::{Base, Body, Layer, Material};
 /// let rubber = Material::new(2e6, 0.5)?;
 /// let layer = Layer::new(rubber, 1e-3, Base::Bonded)?;
-/// // waves that are short beside the thickness are those of the half-space
+/// // waves that are short compared with the thickness are those of the half-space
 /// assert!((layer.stiffness(1e5, 0.0) / (0.5 * 2e6 * 1e5) - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
 /// ```

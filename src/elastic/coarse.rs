@@ -98,9 +98,9 @@ impl CoarseSpace {
     /// Takes the contact map: for the first node of each block, in row-major order, the share of all nodes in contact
     /// about it, each counted for the first nodes around it by linear interpolation.
     ///
-    /// `mean_stiffness`, which must be small beside the foundation's `stiffness`, keeps the mean from being free. With
-    /// `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns `false` if the
-    /// rounded matrix is not positive.
+    /// `mean_stiffness`, which must be small compared with the foundation's `stiffness`, keeps the mean from being
+    /// free. With `held` a response has no mean over the nodes that are apart: the mean gap is given. Returns `false`
+    /// if the rounded matrix is not positive.
     pub(crate) fn renew(&mut self, contact: &[f64], stiffness: f64, mean_stiffness: f64, held: bool) -> bool {
         let Self { waves, moments, factor, workspace, apart: [load, response], vector, .. } = self;
         moments.of(contact);

@@ -123,7 +123,7 @@ pub(super) struct OnPart<T: Real> {
 }
 
 impl<T: Real> OnPart<T> {
-    /// Whether the solution leads to that of the whole: contact at the end of the part may go on beyond it, and a
+    /// Whether the solution leads to that of the whole: contact at the end of the part may continue beyond it, and a
     /// stalled solve may lead to another equilibrium, if there are several.
     pub(super) fn leads(&self, unique: bool) -> bool {
         let report = &self.solution.report;

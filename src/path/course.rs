@@ -53,7 +53,7 @@ const GROWTH: f64 = 2.0;
 const LANDING: f64 = 1e-3;
 
 /// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
-/// beside all before are not located one by one.
+/// compared with all before are not located one by one.
 const MANY: f64 = 20.0;
 
 /// The step after a jump, as a share of that before it.
@@ -268,7 +268,7 @@ impl Course {
         let here = self.here();
         let (from, to) = self.span;
         if !self.free && here.gap <= close && to > from {
-            // pressed flat, and no way to go on
+            // pressed flat, and no way to continue
             self.span = (here.pressure, here.pressure);
             return;
         }

@@ -16,7 +16,7 @@ pub enum Event {
         /// smoothly.
         jump: Jump,
     },
-    /// The mean pressure is at an extremum: from the state before this one the path goes on at given mean gaps.
+    /// The mean pressure is at an extremum: from the state before this one the path continues at given mean gaps.
     LimitPoint {
         /// The mean gap there.
         mean_gap: f64,

@@ -142,7 +142,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.measure() <= tolerance && load_error <= tolerance
     }
 
-    /// The tolerance of a state from which a minimisation of another energy goes on; none of the solution.
+    /// The tolerance of a state from which a minimisation of another energy continues; none of the solution.
     pub(super) fn start_tolerance(&self) -> Option<f64> {
         let tolerance = self.tolerance();
         let start = match self.posed.goal {

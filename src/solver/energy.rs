@@ -33,9 +33,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         ROUNDINGS * self.rounding_of_corrections() / self.posed.nodes().sqrt()
     }
 
-    /// Whether the pressure has gathered rounding of the corrections beside which the residual is no longer large. A
-    /// transform spreads that of a change c evenly over all waves: in the certificate's norm it is ε √(k⟨c, c⟩), with k
-    /// the stiffness of the shortest.
+    /// Whether the pressure has gathered rounding of the corrections compared with which the residual is no longer
+    /// large. A transform spreads that of a change c evenly over all waves: in the certificate's norm it is
+    /// ε √(k⟨c, c⟩), with k the stiffness of the shortest.
     pub(super) fn has_lost_its_pressure(&self) -> bool {
         let rounding = STALE * self.rounding_of_corrections();
         self.sums.certificate < rounding * rounding * self.posed.stiffness_range().1 * self.steps.updates

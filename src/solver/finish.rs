@@ -126,7 +126,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let given = self.sums.detached.unwrap_or(mean);
         // the mean of the displacement is no wave
         let of_mean = 0.5 * flat.boundary.mean_compliance() * net.powi(2);
-        // to the surface as it is now, beside that as it was before the solve
+        // to the surface as it is now, compared with that as it was before the solve
         let facing_mean = if flat.window.is_some() { carried.gap / facing } else { self.mean_gap() };
         let deeper = plastic.map_or(0.0, |plastic| plastic.depth_mean - flat.mean_depth() * nodes / facing);
         Report {
@@ -174,7 +174,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The share of contact that the adhesive energy tells, of a law whose range is that of the grid.
     fn adhesive_contact_fraction(&self, facing: f64, plastic: Option<Plastic>) -> Option<f64> {
         let hints = self.posed.law().hints();
-        // below a wall that gives the energy goes on
+        // below a wall that gives the energy continues
         let hard = self.posed.projects() && plastic.is_none_or(|plastic| plastic.fraction == 0.0);
         let tells = hints.of_grid && !hints.zero && hints.shape.is_none() && hard;
         tells.then(|| (0.0 - self.sums.tally.adhesive) / hints.work_of_adhesion.widen() / facing)

@@ -237,7 +237,7 @@ impl<'a, T: Real> Potential<'a, T> {
         self.evaluate(Of::Slope, first, gaps, slopes);
     }
 
-    /// Those of the law alone, which goes on to g < 0 as its tangent at g = 0.
+    /// Those of the law alone, which continues to g < 0 as its tangent at g = 0.
     pub(crate) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         if self.hints.zero {
             return out.fill(T::zero());

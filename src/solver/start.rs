@@ -141,8 +141,8 @@ pub(super) fn given_start<T: Real>(
 
 /// The gap so many steps beyond the last of two, on the operator's grid; nodes come no closer than they may in a step.
 ///
-/// Over `long` steps the power 3/4 of the gap is extrapolated at a wall. Beside a contact, whose edge moves with the load,
-/// the gap grows as the power 3/2 of the distance from the edge, and elsewhere it is smooth in the load.
+/// Over `long` steps the power 3/4 of the gap is extrapolated at a wall. Next to a contact, whose edge moves with the
+/// load, the gap grows as the power 3/2 of the distance from the edge, and elsewhere it is smooth in the load.
 pub(crate) fn extrapolated<T: Real>(
     [before, last]: [&Array2<T>; 2],
     steps: f64,
@@ -178,7 +178,7 @@ pub(crate) fn refuse_hardness<T: Real>(wall: Wall<'_, T>, reason: &'static str) 
     wall.hardness().map_or(Ok(()), |_| Err(Error::Unsuited { what: "a hardness", reason }))
 }
 
-/// Refuses a mean pressure that a wall which yields everywhere cannot bear, beside what the law pulls there.
+/// Refuses a mean pressure that a wall which yields everywhere cannot bear, besides what the law pulls there.
 pub(crate) fn check_hardness<T: Real>(
     law: &dyn AdhesionLaw<T>,
     load: Load,

@@ -157,7 +157,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(matches!(end, End::Cut(_)) || !self.is_apart())
     }
 
-    /// Looks for a state that holds more than the tensile load, to go on from under the load; `false` if it finds none.
+    /// Looks for a state that holds more than the tensile load, to continue from under the load; `false` if it finds
+    /// none.
     ///
     /// The tension at a given mean gap grows up to the pull-off and is lost beyond: a golden section looks for its
     /// largest value, about the gap at which undeformed surfaces would touch.

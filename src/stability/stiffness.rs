@@ -137,7 +137,7 @@ impl ContactStiffness {
         let least = par::within(|| least_energy(&mut hessian, start, (tolerance, at_edge)))?;
         let LeastEnergy { energy: on_grid, relative_error, tangent } = least;
         let operator_applications = hessian.applications();
-        // the mean of a free half-space gives way beside its waves
+        // the mean of a free half-space gives way besides its waves
         let series = if on_grid == 0.0 { 0.0 } else { (on_grid.recip() + flat.boundary.mean_compliance()).recip() };
         let pressure_per_length = flat.padding * series;
         let force_per_length = pressure_per_length * flat.area;

@@ -1,4 +1,4 @@
-//! Penalty and Uzawa beside projection: the same solution, at the price that each of them asks.
+//! Penalty and Uzawa against projection: the same solution, at the price that each of them asks.
 //!
 //! `cargo test --release --test library uzawa_on_random_scenes -- --ignored --nocapture` prints how Uzawa ends on 2000
 //! random scenes for stiffnesses of all sizes, and what it costs; `CASES` says on how many.
@@ -36,7 +36,7 @@ fn a_penalty_interpenetrates_by_the_pressure_over_its_stiffness() {
         let deepest = solution.contact_pressure.iter().copied().fold(0.0, f64::max);
         assert_relative_eq!(report.min_gap, -deepest / stiffness, max_relative = 1e-9);
         assert_eq!(report.contact_nodes, solution.gap.iter().filter(|&&g| g < 0.0).count());
-        // the pressure is softer than the rigid one by about the springs' compliance beside the contact's
+        // the pressure is softer than the rigid one by about the springs' compliance compared with the contact's
         let error = (report.mean_pressure / exact.mean_pressure - 1.0).abs();
         assert!(error < last && error < 20.0 / stiffness, "{error}");
         last = error;
@@ -201,7 +201,7 @@ fn an_exponential_evaluated_at_negative_gaps_diverges_and_is_not_called_converge
             assert!(!solution.report.relative_error.is_nan() && solution.gap.iter().all(|g| g.is_finite()));
         }
     }
-    // stiff springs leave a local minimum, which is found from next to it, where the law goes on as its tangent
+    // stiff springs leave a local minimum, which is found from next to it, where the law continues as its tangent
     let springs = Penalty::new(3000.0).unwrap();
     let (near, _) = with(&mut problem, springs, control, 1e-7);
     let mut solver = Solver { settings: Settings::default(), constraint: Outrun(springs, law) };

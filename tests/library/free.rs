@@ -433,7 +433,7 @@ fn single_precision_and_nested_grids_come_to_the_same_state() {
     }
 }
 
-/// All applications in units of one on the finest grid, beside those of that grid alone: with contact on a part of the
+/// All applications in units of one on the finest grid, against those of that grid alone: with contact on a part of the
 /// window, and on most of it.
 #[test]
 fn nested_grids_take_few_applications_under_every_control() {
@@ -731,7 +731,7 @@ fn an_iteration_allocates_nothing_and_a_solve_twenty_three_fields_of_the_window(
             let mut problem = Problem::new(&surface, half_space, law).unwrap();
             Solver::new(few(4)).solve(&mut problem, Control::Force(5e-3)).unwrap();
         });
-        // beside the coarse space, plans, tiles and the partial sums of a reduction
+        // besides the coarse space, plans, tiles and the partial sums of a reduction
         let coarse_space = 13.0 * 8.0 * (4.0 * surface.heights().len() as f64).powf(2.0 / 3.0);
         let fields = (solved.bytes_max as f64 - coarse_space) / field;
         assert!((22.0..23.5).contains(&fields), "{fields}");

@@ -194,7 +194,7 @@ fn a_dense_solution_is_met_on_random_scenes() {
         let found = dense_capped(&body, &flat(&heights), &flat(&caps), borne);
         let Some((pressure, gap)) = found else { continue };
         compared += 1;
-        // the certified distance in the norm of the elastic energy, beside the true one
+        // the certified distance in the norm of the elastic energy, next to the true one
         let depth = solution.plastic_depth.as_ref().unwrap();
         let difference: Vec<f64> =
             solution.gap.iter().zip(depth).zip(&gap).map(|((gap, depth), exact)| gap - depth - exact).collect();
@@ -306,7 +306,7 @@ fn the_energy_of_a_cycle_is_balanced_with_the_plastic_work() {
     let ends: Vec<_> = (1..5).map(|leg| steps.iter().rfind(|step| step.leg == leg).unwrap()).collect();
     let plastic = |k: usize| ends[k].solution.report.plastic.unwrap().energy;
     assert!(plastic(0) > 0.0);
-    // nothing yields beside the first loading
+    // nothing yields after the first loading
     for k in 1..4 {
         assert_relative_eq!(plastic(k), plastic(0), max_relative = 1e-5);
     }

@@ -313,7 +313,7 @@ fn no_symmetry_breaks_where_there_is_none() {
     assert!(!names(&steps).contains(&"bifurcation") && drops(&steps, 1.5e-7).len() == 4, "{:?}", names(&steps));
 }
 
-/// A path that is kept goes on at a problem that is made anew as it does otherwise, from every so many states.
+/// A path that is kept continues at a problem that is made anew as it does otherwise, from every so many states.
 fn resumes(
     new: impl Fn() -> Problem<f64>,
     loads: &[Control],
@@ -401,7 +401,7 @@ fn a_path_does_not_creep_where_its_states_are_at_the_floor_of_rounding() {
     // a tenth more, as rounding differs between processors
     assert!(double.0 <= 217 && double.1 == 0, "{double:?} and not (197, 0)");
     assert!(single.0 <= 141 && (1..=8).contains(&single.1), "{single:?} and not (128, 4)");
-    // beside the energy of the surface pressed flat that of the adhesion is less than a hundred roundings
+    // compared with the energy of the surface pressed flat that of the adhesion is less than a hundred roundings
     let weak = there_and_back::<f32>(128, 1e-6);
     assert!(weak.0 <= 135 && weak.1 <= 10, "{weak:?} and not (123, 5)");
 }

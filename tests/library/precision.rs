@@ -1,4 +1,4 @@
-//! f32 beside f64, and the same bits from any number of threads.
+//! f32 against f64, and the same bits from any number of threads.
 
 use approx::assert_relative_eq;
 use asperity::solver::{Criterion, Iteration};

@@ -1,4 +1,4 @@
-//! The pull-off of spheres and of rough surfaces, beside exact solutions and paths.
+//! The pull-off of spheres and of rough surfaces, against exact solutions and paths.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;

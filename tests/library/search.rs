@@ -90,7 +90,7 @@ fn a_fraction_past_which_the_contact_jumps_is_not_claimed() {
     assert!(below < 0.25 && above > 0.25 && (above - below - 2.0 / 32.0).abs() < 1e-12, "{below} {above}");
     assert!(fraction == below || fraction == above);
     assert!(found.solves <= 40, "{}", found.solves);
-    // it goes on to one that there is
+    // it continues to one that there is
     assert!(search.at(&mut solver, &mut problem, above).unwrap().reached);
 }
 

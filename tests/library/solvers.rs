@@ -409,7 +409,7 @@ fn an_iteration_allocates_nothing() {
             let mut renewed = 0;
             let info = allocation_counter::measure(|| {
                 let solution = limited(iterations, 1e-14).solve(&mut problem.borrow_mut(), Control::MeanGap(0.01));
-                // beside two applications an iteration, one each for the pressure of the gap
+                // besides two applications an iteration, one each for the pressure of the gap
                 let report = solution.unwrap().report;
                 renewed = report.operator_applications - 2 * report.iterations;
             });
@@ -433,7 +433,7 @@ fn a_solve_in_f32_allocates_its_five_fields_the_spectrum_and_one_for_the_answer(
             let solution = Solver::default().solve(&mut problem.borrow_mut(), Control::MeanGap(0.01)).unwrap();
             assert_eq!(solution.report.status, Status::Converged);
         });
-        // beside the fields, the partial sums of a reduction, 16 numbers for 256 nodes, and the coarse space with the
+        // besides the fields, the partial sums of a reduction, 16 numbers for 256 nodes, and the coarse space with the
         // workspace of its decomposition
         let fields = [info.bytes_total, info.bytes_max]
             .map(|bytes| (bytes as f64 - coarse_space(256 * 256)) / (256.0 * 256.0 * 4.0));

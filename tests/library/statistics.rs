@@ -317,6 +317,21 @@ fn full_contact_and_none_have_statistics() {
 }
 
 #[test]
+fn a_few_pressures_far_above_all_others_are_in_a_wider_bin() {
+    let gap = Array2::zeros((64, 64));
+    let mut pressure = Array2::from_shape_fn((64, 64), |(i, j)| (i * 64 + j + 1) as f64 / 4096.0);
+    let density = |pressure: &Array2<f64>, bins| PressureDistribution::of_fields(gap.view(), pressure.view(), bins);
+    let plain = density(&pressure, 8).unwrap();
+    assert_eq!(plain.edges[..3], [0.0, 0.125, 0.25]);
+    (pressure[[3, 5]], pressure[[40, 7]]) = (30.0, 100.0);
+    let spiky = density(&pressure, 9).unwrap();
+    assert!((spiky.integral() - 1.0).abs() < 1e-14);
+    assert_eq!((spiky.edges.len(), spiky.edges[8], spiky.edges[9]), (10, 1.0, 100.0));
+    assert!(plain.density.iter().zip(&spiky.density).all(|(one, other)| (one - other).abs() < 0.02 * one));
+    assert_eq!(density(&pressure, 1).unwrap().edges, [0.0, 100.0]);
+}
+
+#[test]
 fn statistics_refuse_what_does_not_fit() {
     let mut problem = sphere::<f64>(16, NoAdhesion);
     let mut solution = Solver::default().solve(&mut problem, Control::MeanGap(0.04)).unwrap();

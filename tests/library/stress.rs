@@ -1,7 +1,7 @@
 //! Random small scenes against dense matrices: every body, law, constraint, control, start and precision.
 //!
 //! `cargo test --release --test library all_scenes -- --ignored --nocapture` judges 20 000 of them, and prints how they
-//! end beside what [`ENDS`] states; `SCENES` is another number, `FIRST` the seed of the first. A scene that fails says
+//! end besides what [`ENDS`] states; `SCENES` is another number, `FIRST` the seed of the first. A scene that fails says
 //! its seed: `FIRST=seed SCENES=1` tries it alone, and prints all of it. `ENDS=Lost` lists the scenes with that [`End`].
 
 mod oracle;
@@ -405,7 +405,7 @@ fn scenes_of_more_physics_agree_with_dense_matrices() {
     assert!(wrong.is_empty() && missed.is_empty(), "{} wrong; rates missed of {missed:?}", wrong.len());
 }
 
-/// Beside the depths these mean gaps are hardly any.
+/// Compared with the depths these mean gaps are hardly any.
 #[test]
 fn walls_that_yield_are_right_at_the_least_mean_gaps() {
     for seed in [5601, 6108, 7808, 8640, 9717, 10223, 11841, 15680, 15982, 19503] {

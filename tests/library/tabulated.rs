@@ -114,7 +114,7 @@ fn functions_that_repel_keep_the_surfaces_apart() {
         let table = Tabulated::of(move |gap: f64| of(gap - rest)).unwrap();
         let hints = AdhesionLaw::<f64>::hints(&table);
         assert!(hints.rest.is_some_and(|found| (found - rest).abs() < 1e-12), "{hints:?}");
-        // beyond what is read the law goes on, and repels the more
+        // beyond what is read the law continues, and repels the more
         assert!(table.traction(-1.0) < table.traction(-0.5) && table.traction(-0.5) < -1e9 * W / RANGE);
         assert!(off(&solved(table, NoWall, control), &morses, rest) < 1e-6 * RANGE);
     }

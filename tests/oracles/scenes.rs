@@ -111,7 +111,7 @@ impl Features {
         ..Self::ALL
     };
 
-    /// What [`Features::ALL`] lacks, beside what it has.
+    /// What [`Features::ALL`] lacks, besides what it has.
     pub const MORE: Self = Self {
         constraints: &[
             Constraint::Hard,
@@ -663,7 +663,7 @@ fn law(
     let work = (power(random, -2.0, 0.5) * range).powi(2) * stiff;
     let cut = kind == Kind::CutOff || kind == Kind::Varying && random.random_bool(0.3);
     let end = range * random.random_range(4.0..10.0);
-    // all of it nowhere only beside a wall
+    // all of it nowhere only with a wall
     let least: f64 = if constraint == Constraint::None { 0.05 } else { 0.0 };
     let patches = random.random_bool(0.3);
     let mut shares = Array2::from_shape_simple_fn(shape, || {

@@ -38,7 +38,7 @@ pub fn run(options: &Options, tool: Command) -> Outcome<bool> {
     Ok(true)
 }
 
-/// An option with its values, as far as the definitions do not have them: words beside numbers, folders, and no files
+/// An option with its values, as far as the definitions do not have them: words next to numbers, folders, and no files
 /// where a number is wanted.
 fn with_values(option: Arg) -> Arg {
     let is_folder = option.get_value_names().is_some_and(|names| names == ["DIR"]);

@@ -165,8 +165,8 @@ impl Found<'_> {
         ])
     }
 
-    /// The density of a gap or a pressure, bin by bin, and its chart beside its power near the edge of the contact in the
-    /// window of its exponent, if there is one.
+    /// The density of a gap or a pressure, bin by bin, and its chart next to its power near the edge of the contact in
+    /// the window of its exponent, if there is one.
     fn density(
         &self,
         found: &Density,

@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-2;
 /// The largest number of names of arrays in a message.
 const MOST_NAMES: usize = 10;
 
-/// The entries of the file of a surface beside its heights.
+/// The entries of the file of a surface besides its heights.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
     /// The unit of length.
@@ -165,8 +165,8 @@ fn or_unit_square(path: &Path, map: &Topography, known: Option<(f64, f64)>, warn
     })
 }
 
-/// Warns of what stands beside the heights in a file, if its side lengths are unknown and may be among them; `are` says
-/// which values are taken for these.
+/// Warns of what stands next to the heights in a file, if its side lengths are unknown and may be among them; `are`
+/// says which values are taken for these.
 pub fn warn_of_unread(path: &Path, map: &Topography, are: &str, warn: Warn<'_>) {
     if map.lengths.is_none() && !map.unread.is_empty() {
         let names: Vec<_> = map.unread.iter().take(MOST_NAMES).map(|name| format!("{name:?}")).collect();

@@ -1,4 +1,4 @@
-//! Hints beside the mistakes in arguments: what may have been meant.
+//! Hints next to the mistakes in arguments: what may have been meant.
 
 use std::any::TypeId;
 use std::ffi::OsString;

@@ -4,7 +4,7 @@
 //! through the gap of a solve, and `asperity interface` makes tables for finite elements. `asperity surface` makes
 //! files of heights, `asperity prepare` makes them of measured maps, and `asperity stats` measures them. `asperity
 //! laws` lists the adhesion laws, and `asperity selftest` compares solves with theory. `asperity run` does any of these
-//! by a scene file, which every run leaves beside its results, and `asperity report` puts the results on a page for a
+//! by a scene file, which every run leaves next to its results, and `asperity report` puts the results on a page for a
 //! browser.
 
 // the report of a solve has more keys than serde_json's macro expands otherwise

@@ -30,7 +30,7 @@ pub struct ProblemOptions {
 pub struct Problem {
     pub surface: Arc<Surface>,
     pub adhesion: Adhesion,
-    /// The entries of the file of the surface beside its heights
+    /// The entries of the file of the surface besides its heights
     pub origin: Origin,
     /// The part of the surface that results are of
     pub part: Part,

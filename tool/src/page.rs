@@ -69,7 +69,7 @@ pub fn run(options: &Options) -> Outcome<bool> {
     Ok(true)
 }
 
-/// Writes the page of results into a file, or beside them; its path.
+/// Writes the page of results into a file, or next to them; its path.
 pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColours) -> Outcome<PathBuf> {
     let folder = results.is_dir();
     colours.check()?;

@@ -58,8 +58,8 @@ impl Progress {
         self.pace = pace;
     }
 
-    /// Shows the state of a solve on nested grids, each to a tolerance of its own; the bar goes on from one grid to the
-    /// next, as the error does.
+    /// Shows the state of a solve on nested grids, each to a tolerance of its own; the bar continues from one grid to
+    /// the next, as the error does.
     fn update_on(&mut self, grid: &Grid, state: &Iteration, tolerance: f64) {
         let nodes = grid.nodes() as f64;
         self.until = tolerance;

@@ -64,7 +64,7 @@ impl SceneFile {
         self.quantities.is_si()
     }
 
-    /// Refuses numbers without units beside quantities with units.
+    /// Refuses numbers without units next to quantities with units.
     pub fn check_units(&self) -> Result<(), String> {
         self.quantities.check(Skin::Options)
     }
@@ -114,7 +114,7 @@ impl SceneFile {
         }
     }
 
-    /// Refuses a `file` beside which there is the scene of another run, unless `force` replaces it, or a file that was
+    /// Refuses a `file` next to which there is the scene of another run, unless `force` replaces it, or a file that was
     /// not written as a scene.
     pub fn check_beside(&self, file: &Path, force: bool) -> Outcome<()> {
         let path = beside(file);
@@ -125,7 +125,7 @@ impl SceneFile {
         check_free(&path, force || same, "--out")
     }
 
-    /// The file FILE.scene.toml beside `file`, written but for its name.
+    /// The file FILE.scene.toml next to `file`, written but for its name.
     pub fn written_beside(&self, file: &Path) -> Outcome<OutputFile> {
         let scene = OutputFile::create(&beside(file), true)?;
         scene.write(|path| write_text(path, &self.text(folder_of(file))))?;
@@ -133,7 +133,7 @@ impl SceneFile {
     }
 }
 
-/// The path of the scene beside a file.
+/// The path of the scene next to a file.
 pub fn beside(file: &Path) -> PathBuf {
     with_suffix(file, &format!(".{NAME}"))
 }

@@ -45,7 +45,7 @@ const RADIUS: f64 = 2.0;
 /// The amplitude of the waves.
 const AMPLITUDE: f64 = 0.02;
 
-/// A value that was found beside that of theory.
+/// A value that was found next to that of theory.
 #[derive(Serialize)]
 struct Check {
     what: &'static str,

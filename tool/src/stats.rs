@@ -92,8 +92,8 @@ pub fn table(map: &Topography, found: &(SurfaceStatistics, Option<f64>)) -> Stri
     aligned(&statistics::rows(map, found, Skin::Options))
 }
 
-/// The radially averaged density of a surface as comma-separated values, beside that of a target, with the units of the
-/// columns if that of length is known.
+/// The radially averaged density of a surface as comma-separated values, next to that of a target, with the units of
+/// the columns if that of length is known.
 pub fn density_table(surface: &Surface, target: Option<&Spectrum>, unit: Option<&str>) -> String {
     let psd = surface.spectrum().radial_psd();
     let target = target.map(|target| target.radial_psd().densities);

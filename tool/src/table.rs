@@ -104,7 +104,7 @@ impl<'a> TableOptions<'a> {
         }
     }
 
-    /// Opens the table, writes the scene of the run beside it, and says the warnings so far.
+    /// Opens the table, writes the scene of the run next to it, and says the warnings so far.
     fn open<T: Scalar>(
         self,
         mut given: Problem,

@@ -45,7 +45,7 @@ fn bodies_are_swept_cycled_and_kept_apart_in_tables() {
     let bench = rough();
     let table = "--heights heights.npy --mean-gaps 0.03,0.02 --quiet --out table.csv";
     bench.said(&format!("sweep {table} --layer 0.05 --poisson 0.3"));
-    // the table of another body is not gone on with
+    // the table of another body is not continued
     bench.refused_with(&format!("sweep {table}"), &["table.csv", "poisson is 0.3, and not none"]);
     bench.refused_with(&format!("sweep {table} --layer 0.06 --poisson 0.3"), &["table.csv", "layer"]);
     let law = "--law exponential --work-of-adhesion 1e-4 --range 4e-3";

@@ -103,7 +103,7 @@ fn reduced_pressures_are_over_the_modulus_and_the_slope() {
     let report =
         bench.reported("solve --heights heights.npy --modulus 3 --reduced-pressure 0.05 --no-pictures --out reduced");
     assert!((report["mean_pressure"].as_f64().unwrap() / (0.05 * 3.0 * slope) - 1.0).abs() < 1e-12);
-    // beside units, as it has none
+    // next to units, as it has none
     bench.said(
         "sweep --heights heights.npy --lengths 1m --modulus 3GPa --reduced-pressures 0.01,0.05 --quiet --out si.csv",
     );

@@ -85,7 +85,7 @@ fn a_tip_jumps_in_and_off_and_the_cycle_ends_where_it_is_apart() {
     let last = table.last().unwrap();
     assert_eq!((cell(&table[0], "direction"), cell(&table[0], "contact_fraction")), ("start", "0.0"));
     assert_eq!((cell(last, "contact_fraction"), cell(last, "attractive_fraction")), ("0.0", "0.0"));
-    assert!(cell(last, "control_value").parse::<f64>().unwrap() > -0.2, "it went on to the end");
+    assert!(cell(last, "control_value").parse::<f64>().unwrap() > -0.2, "it continued to the end");
     // fields before and after each of two jumps: the last row is after the second
     assert_eq!(bench.names("jumps").len(), 4 * 3);
     // the same command again has nothing to do

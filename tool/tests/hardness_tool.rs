@@ -248,7 +248,7 @@ fn a_row_that_has_not_converged_leaves_no_depth() {
     assert_eq!(run("0.002,0.04,0.002", few, "whole"), Some(2));
     let [light, whole] = ["light", "whole"].map(|table| column(&bench, &format!("{table}.csv"), "plastic_depth_mean"));
     assert!(whole[0] == light[0] && whole[1] > 2.0 * whole[0]);
-    assert!((whole[2] / light[1] - 1.0).abs() < 1e-4, "{whole:?} beside {light:?}");
+    assert!((whole[2] / light[1] - 1.0).abs() < 1e-4, "{whole:?} next to {light:?}");
 }
 
 #[test]

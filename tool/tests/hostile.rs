@@ -1,6 +1,6 @@
 //! Files and arguments made to break the readers and the tool: no panic, bounded memory, one line of error.
 //!
-//! `HOSTILE_SECONDS=600 cargo test --release --test tool hostile:: -- --ignored --nocapture` goes on for ten minutes,
+//! `HOSTILE_SECONDS=600 cargo test --release --test tool hostile:: -- --ignored --nocapture` runs for ten minutes,
 //! `HOSTILE_FIRST` says from which seed on. Whatever the seed, it is tried alone with `HOSTILE_FIRST=seed
 //! HOSTILE_SECONDS=0`.
 

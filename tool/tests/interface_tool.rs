@@ -101,7 +101,7 @@ fn each_code_gets_the_table_as_it_reads_it() {
     same(at(&conducts, 0), &from_zero(&conductance));
     same(at(&conducts, 1), &from_zero(&pressure));
 
-    // it goes on, and its scene repeats it
+    // it continues, and its scene repeats it
     let more = format!("{PRESSED} {} --for abaqus,comsol,moose --out 2.law.csv", loads.replace("8MPa", "8MPa,16MPa"));
     assert!(bench.said(&more).starts_with("2.law.csv has 3 of 4 rows already"));
     bench.said("run 2.law.csv.scene.toml --quiet --out again.csv");

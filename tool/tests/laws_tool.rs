@@ -60,7 +60,7 @@ fn every_law_solves_and_is_in_report_and_scene() {
     assert!((contact - mapped["contact_fraction"].as_f64().unwrap()).abs() < 1e-15);
     let bare = bench.reported("run 7/scene.toml --law none --out bare");
     assert_eq!((&bare["law"], &bare["work_of_adhesion_map"]), (&"none".into(), &serde_json::Value::Null));
-    // without a wall a sweep goes on where it was, and another law is another sweep
+    // without a wall a sweep continues where it was, and another law is another sweep
     let sweep = "sweep --heights heights.txt --threads 1 --quiet --out sweep.csv --law lennard-jones --wall none";
     let law = "--work-of-adhesion 2e-5 --range 0.01";
     bench.said(&format!("{sweep} {law} --mean-pressures 1e-3,2e-3"));

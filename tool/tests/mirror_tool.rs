@@ -89,7 +89,7 @@ fn tables_say_of_which_part_and_seed_their_rows_are() {
         let [part, whole] = [&part, &whole].map(|row| row[name].parse::<f64>().unwrap());
         assert!(whole > 0.0 && (4.0 * part / whole - 1.0).abs() < 1e-12, "{name}: {part} of {whole}");
     }
-    // a table goes on only with rows of the same part
+    // a table continues only with rows of the same part
     bench.refused_with(
         "sweep --heights map.npz --mean-pressures 0.005,0.01,0.02 --fields fields --out table.csv",
         &["part"],

@@ -54,7 +54,7 @@ fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
 fn scars_do_not_hide_the_contact_and_clusters_have_colours() {
     let bench = bench();
     let mut heights = read_field(bench.path("heights.npy")).unwrap();
-    // high enough to press far harder than the contact beside it
+    // high enough to press far harder than the contact next to it
     (4..12).for_each(|i| heights[[i, 20]] = 0.04);
     write_npy(bench.path("scarred.npy"), &heights).unwrap();
     let solve = "solve --heights scarred.npy --mean-pressure 0.02 --pressure-unit Pa --picture-format svg";

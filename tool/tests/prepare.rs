@@ -88,7 +88,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     let stats = bench.said("stats surface.npz");
     assert!(
         stats.contains("6.1 µm x 4.5 µm")
-            && stats.lines().any(|l| l.starts_with("rms curvature") && l.ends_with(" 1/m"))
+            && stats.lines().any(|l| l.starts_with("rms curvature") && l.ends_with(" 1/µm"))
     );
 }
 

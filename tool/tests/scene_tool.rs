@@ -183,7 +183,7 @@ fn bad_scenes_are_refused_on_one_line() {
         let refused = bench.refused(arguments);
         assert!(parts.iter().all(|part| refused.contains(part)), "{arguments}: {refused}");
     }
-    // what was given beside a scene is not its fault
+    // what was given with a scene is not its fault
     bench.write("good.toml", &format!("{solve}mean-gap = 0.02\n"));
     for (options, part) in [("--modulus soft", "'soft'"), ("--colour red", "--colour"), ("--modulus=0", "'0'")] {
         let refused = bench.refused(&format!("run good.toml {options}"));

@@ -61,7 +61,7 @@ fn a_study_has_the_rows_of_the_sweeps_that_it_stands_for() {
         let expected: Vec<_> = (0..expected.len()).filter(|k| *k != surface).map(|k| expected[k]).collect();
         assert_eq!(row[1..], expected[..]);
     }
-    // nothing is left of what it takes to go on
+    // nothing is left of what it takes to continue
     let kept = bench.names("study.csv.cases");
     let of = |ending| kept.iter().filter(|name| name.ends_with(ending)).count();
     assert_eq!((kept.len(), of(".csv"), of(".csv.sum")), (8, 4, 4), "{kept:?}");

@@ -314,7 +314,7 @@ fn fields_are_kept_for_every_load() {
     assert_eq!(column(&table, "contact_fraction")[1], contact);
     bench.refuse("--mean-gaps 0.02,0.01 --fields fields --out other.csv", &["gap-0001.npy", "exists", "--force"]);
     bench.refuse("--mean-gaps 0.02,0.01 --out sweep.csv", &["another run", "fields"]);
-    // more loads go on from there
+    // more loads continue from there
     bench.sweep("--mean-gaps 0.02,0.01,0.005 --fields fields --out sweep.csv", 0);
     assert!(bench.read("sweep.csv").starts_with(&table) && bench.rows("sweep.csv") == 3);
     assert_eq!(bench.names("fields").len(), 9);
@@ -388,7 +388,7 @@ fn what_a_cycle_asks_for_is_said_before_its_first_state() {
     assert!(said.starts_with(asked), "{said}");
     assert_eq!(first(&format!("{adhesive} --out b.csv --quiet")), "");
     assert_eq!(bench.read("a.csv"), bench.read("b.csv"));
-    // a cycle that goes on says how far it was, and a report has no time
+    // a cycle that continues says how far it was, and a report has no time
     assert!(first(&format!("{adhesive} --out a.csv")).starts_with("a.csv has "));
     let report = text(&bench.cycle(&format!("{adhesive} --out c.csv --json"), 0).stdout);
     assert!(report.starts_with('{') && !report.contains("about"), "{report}");

@@ -159,7 +159,7 @@ fn tables_name_the_units_of_their_columns() {
          operator_applications,status,modulus [Pa],law,work_of_adhesion [J/m2],range [m],heights,part,seed,contact_stiffness [Pa/m],normal_stiffness [N/m]"
     );
     assert!(table.lines().nth(1).unwrap().starts_with("mean-pressure,1000000.0,1000000.0,"), "{table}");
-    // a table goes on in its own units only, which are the SI's either way
+    // a table continues in its own units only, which are the SI's either way
     let more = "--mean-pressures 1MPa:4MPa:3:log,5MPa --stiffness";
     assert!(bench.said(&format!("{sweep} {more} --plot area.svg")).contains("3 of 4 rows already"));
     assert!(bench.read("area.svg").contains(">mean pressure (MPa)<"));

@@ -239,7 +239,7 @@ fn the_page_of_a_table_has_the_warnings_of_all_its_runs() {
     bench.run("sweep --heights tilted.npy --mean-pressures 5 --out s.csv");
     let found = listed("s.csv");
     assert_eq!(first_words(&found), ["the map is", "opposite e", "the contac"], "{found:?}");
-    // a run that goes on adds what is new to what was said before
+    // a run that continues adds what is new to what was said before
     bench.run("sweep --heights clean.npy --mean-pressures 0.01 --out t.csv");
     assert!(listed("t.csv").is_empty() && !bench.names(".").contains(&"t.csv.warnings.txt".to_owned()));
     bench.run("sweep --heights clean.npy --mean-pressures 0.01,5 --out t.csv");

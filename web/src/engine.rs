@@ -1,22 +1,23 @@
 //! The engine: a map, the surface that is made of it, and the solves on that.
 
 use asperity::Grid;
+use asperity::contact::bulk;
 use asperity_maps::io::{Reading, channels, check_memory, map_as_npz};
 use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
-use asperity_plot::distribution;
 use asperity_scene::outcome::Outcome;
 use asperity_scene::units::Units;
 use asperity_scene::{
     Body, CutOffKeys, FormKeys, Given, GridKeys, Log, NewLengthsKeys, Roughness, RoughnessKeys, Skin, StepKeys,
     statistics, without_files,
 };
+use ndarray::Array2;
 use serde_json::{Value, json};
 
 use crate::given::{read, reason};
 use crate::lines::{Origin, Source};
 use crate::problem::{Observe, Problem, of_problem};
-use crate::state::extremes;
+use crate::state::{extremes, histogram};
 
 /// A map, the surface that is made of it, and the solves on that.
 #[derive(Default)]
@@ -29,6 +30,8 @@ pub struct Engine {
     origin: Origin,
     /// The last problem, with its solutions.
     problem: Option<Problem>,
+    /// The gap from which the first problem starts, of another engine.
+    start: Option<Array2<f64>>,
 }
 
 impl Engine {
@@ -54,7 +57,7 @@ impl Engine {
     /// Those of [`Reading::read_bytes`].
     pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>) -> Outcome<Value> {
         let read = Reading { channel: channel.clone(), ..Reading::default() }.read_bytes(name, bytes);
-        // what has one map alone has nothing beside it
+        // what has one map alone has nothing else
         let is_one = read.as_ref().is_ok_and(|map| map.unread.is_empty());
         let channels = if is_one { Vec::new() } else { channels(name, bytes)? };
         let told: Vec<_> = channels.iter().map(|found| format!("{}: {}", found.number, found.title)).collect();
@@ -151,6 +154,7 @@ impl Engine {
             "mean": map.mean(),
             "lowest": low,
             "highest": high,
+            "limits": bulk(map.heights.iter().copied()).unwrap_or_default(),
             "warnings": warnings,
             "log": lines,
         })
@@ -173,7 +177,7 @@ impl Engine {
     pub fn statistics(&self) -> Outcome<Value> {
         let map = self.surface()?;
         check_memory("the statistics of a map", map.heights.dim(), 40)?;
-        let histogram = distribution(map.heights.iter().copied(), 60);
+        let histogram = histogram(map.heights.iter().copied(), 60, map.unit.as_deref());
         let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
         let found = match &surface {
             Some(surface) => Some((surface.statistics(), knee_wavelength(surface))),
@@ -202,6 +206,23 @@ impl Engine {
         self.pose(&given, from_last)?.solve(&given, from_last, observe)
     }
 
+    /// The gap of the last solution, for [`Engine::start_from`] of another engine with the same surface.
+    ///
+    /// # Errors
+    /// As of [`Engine::problem`].
+    pub fn gap(&self) -> Outcome<Vec<f64>> {
+        Ok(self.problem()?.gap().ok_or("nothing is solved yet: solve first")?.into_iter().collect())
+    }
+
+    /// Starts the first solve from a gap.
+    ///
+    /// # Errors
+    /// Without a surface of as many nodes.
+    pub fn start_from(&mut self, gap: Vec<f64>) -> Outcome<()> {
+        self.start = Some(Array2::from_shape_vec(self.surface()?.heights.dim(), gap)?);
+        Ok(())
+    }
+
     /// Begins a cycle along loads.
     ///
     /// # Errors
@@ -214,7 +235,8 @@ impl Engine {
     /// The problem that keys pose; the one before stays where they are refused.
     fn pose(&mut self, given: &Given, goes_on: bool) -> Outcome<&mut Problem> {
         let mut before = self.problem.take();
-        let problem = Problem::of(given, self.surface()?, self.origin.name(), &mut before, goes_on);
+        let start = self.start.take();
+        let problem = Problem::of(given, self.surface()?, self.origin.name(), &mut before, start, goes_on);
         self.problem = before;
         Ok(self.problem.insert(problem?))
     }

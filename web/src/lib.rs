@@ -108,6 +108,16 @@ impl Page {
         observed::by(observe, |observe| told(self.0.solve(given, from_last, observe).map(|found| found.to_string())))
     }
 
+    /// See [`Engine::gap`].
+    pub fn gap(&self) -> Result<Vec<f64>, JsError> {
+        told(self.0.gap())
+    }
+
+    /// See [`Engine::start_from`].
+    pub fn start_from(&mut self, gap: Vec<f64>) -> Result<(), JsError> {
+        told(self.0.start_from(gap))
+    }
+
     /// See [`Engine::begin`].
     pub fn begin(&mut self, given: &str) -> Result<String, JsError> {
         told(self.0.begin(given).map(|found| found.to_string()))

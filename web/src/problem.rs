@@ -10,6 +10,7 @@ use asperity_scene::{
     AdhesionKeys, Boundary, Either, Given, Input, Key, LoadKeys, LoadsKeys, NestedKeys, PathKeys, Precision, Skin,
     SolverKeys, SurfaceKeys, Way, either, in_unit, without_files,
 };
+use ndarray::Array2;
 use serde_json::{Map, Value};
 
 use crate::given::reason;
@@ -37,18 +38,25 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// The problem that keys pose on a map of a name: that of `before`, if it is the same one and solves go on from its
-    /// last; or another one, whose solves go on from there.
+    /// The problem that keys pose on a map of a name: that of `before`, if it is the same one and solves continue from
+    /// its last; or another one, whose solves continue from there, or from `start`.
     ///
     /// # Errors
     /// The key and the remedy, and those of the surface, the law and the body.
-    pub fn of(given: &Given, map: &Topography, name: &str, before: &mut Option<Self>, goes_on: bool) -> Outcome<Self> {
+    pub fn of(
+        given: &Given,
+        map: &Topography,
+        name: &str,
+        before: &mut Option<Self>,
+        start: Option<Array2<f64>>,
+        goes_on: bool,
+    ) -> Outcome<Self> {
         let mut posed = given.typed();
         posed.retain(|name, _| of_one_solve().all(|key| key.name != name));
         if let Some(same) = before.take_if(|before| goes_on && before.posed == posed) {
             return Ok(same);
         }
-        let before = before.as_ref().and_then(|before| either!(state = &before.state => state.gap()));
+        let before = before.as_ref().and_then(Self::gap).or(start);
         let (lengths, absent) = (given.lengths(map.heights.dim()), given.absent_missing());
         let (scene, si) = (given.scene()?, given.quantities().is_si());
         let units = if si { Units::si() } else { Units::of_map(map.unit.as_deref()) };
@@ -117,6 +125,11 @@ impl Problem {
     /// adhesion.
     pub fn asked(&self) -> Option<(&Map<String, Value>, bool)> {
         self.asked.as_ref().map(|(typed, started)| (typed, *started))
+    }
+
+    /// The gap of the last solution on the whole grid.
+    pub fn gap(&self) -> Option<Array2<f64>> {
+        either!(state = &self.state => state.gap())
     }
 
     /// A field of the last solution.

@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use asperity::contact::{Original, Region};
+use asperity::contact::{Original, Region, bulk};
 use asperity::solver::Iteration;
 use asperity::{Grid, Solution, Surface};
 use asperity_maps::io::npz;
-use asperity_plot::{LoadScale, distribution};
+use asperity_plot::{Distribution, LoadScale};
 use asperity_scene::outcome::Outcome;
 use asperity_scene::processes::Processes;
 use asperity_scene::units::Units;
@@ -48,7 +48,7 @@ struct Last<T: Scalar> {
 }
 
 impl<T: Scalar> State<T> {
-    /// The problem of a scene on a surface; solves go on from a gap of `before`.
+    /// The problem of a scene on a surface; solves continue from a gap of `before`.
     pub fn new(
         scene: &Scene,
         input: Input,
@@ -113,6 +113,7 @@ impl<T: Scalar> State<T> {
     fn answer(&self, last: &Last<T>) -> Outcome<Value> {
         let (account, part) = (&last.account, last.found.part()?);
         let of = |field: &Array2<T>| extremes(field.iter().map(|value| value.widen()));
+        let gaps = bulk(part.gap.iter().map(|value| value.widen()).filter(|gap| *gap > 0.0)).unwrap_or_default();
         let pressure = if self.session.scene().adhesion.adheres() { &part.pressure } else { &part.contact_pressure };
         let [tension, compression] = [-1.0, 1.0].map(|sign| {
             let values: Vec<f64> = pressure.iter().map(|value| sign * value.widen()).collect();
@@ -136,7 +137,7 @@ impl<T: Scalar> State<T> {
             "unit": self.session.units().length,
             "pressure_unit": self.session.units().pressure,
             "extremes": ends,
-            "limits": { "pressure": [-tension, compression] },
+            "limits": { "pressure": [-tension, compression], "gap": gaps },
         }))
     }
 
@@ -233,10 +234,14 @@ impl<T: Scalar> State<T> {
     /// The histograms of gap and contact pressure.
     pub fn histograms(&self, bins: usize) -> Outcome<Value> {
         let part = self.last()?.found.part()?;
-        let positive = |field: &Array2<T>| {
-            distribution(field.iter().map(|value| value.widen()).filter(|value| *value > 0.0), bins)
+        let Units { length, pressure, .. } = self.session.units();
+        let positive = |field: &Array2<T>, unit: &Option<String>| {
+            histogram(field.iter().map(|value| value.widen()).filter(|value| *value > 0.0), bins, unit.as_deref())
         };
-        Ok(json!({ "gap": positive(&part.gap), "contact_pressure": positive(&part.contact_pressure) }))
+        Ok(json!({
+            "gap": positive(&part.gap, length),
+            "contact_pressure": positive(&part.contact_pressure, pressure),
+        }))
     }
 
     /// The bytes of a file to take away.
@@ -259,6 +264,12 @@ impl<T: Scalar> State<T> {
             other => Err(format!("{other} is no file of this solution").into()),
         }
     }
+}
+
+/// The distribution of values with a unit, in so many classes.
+pub fn histogram(values: impl Iterator<Item = f64> + Clone, classes: usize, unit: Option<&str>) -> Value {
+    let Distribution { curve, beyond, .. } = Distribution::of(values, classes, unit);
+    json!({ "curve": curve, "beyond": beyond })
 }
 
 /// The least and the greatest of the values that are finite; nothing of none.

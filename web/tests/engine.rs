@@ -60,6 +60,28 @@ fn a_drag_comes_to_the_equilibrium_of_a_solve_from_the_default() {
 }
 
 #[test]
+fn another_engine_continues_from_the_gap_of_an_adhesive_solution() {
+    for precision in ["f32", "f64"] {
+        let scene = |pressure: &str| {
+            json!({
+                "modulus": "1GPa", "mean_pressure": pressure, "precision": precision,
+                "law": "exponential", "work_of_adhesion": "20mJ/m2", "range": "2nm",
+            })
+        };
+        let (mut engine, mut twin) = (rough(json!({})), rough(json!({})));
+        assert!(engine.gap().unwrap_err().to_string().contains("solve first"));
+        assert!(twin.start_from(vec![0.0; 3]).is_err());
+        solve(&mut engine, scene("2MPa"), true);
+        twin.start_from(engine.gap().unwrap()).unwrap();
+        let [mine, other] = [&mut engine, &mut twin].map(|engine| solve(engine, scene("8MPa"), true));
+        for key in ["iterations", "contact_nodes", "mean_gap"] {
+            assert_eq!(mine["account"][key], other["account"][key], "{key} in {precision}");
+        }
+        assert_eq!(other["started"], "last");
+    }
+}
+
+#[test]
 fn another_scene_goes_on_from_the_last_solution_on_the_same_surface() {
     let mut engine = rough(json!({}));
     let scene = json!({ "modulus": "1GPa", "mean_pressure": "5MPa" });

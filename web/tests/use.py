@@ -207,7 +207,7 @@ def check_wrong(page, folder):
         page.told(invalid == [name], f"{name} = {wrong}: marks {invalid}")
         if name != "value":
             page.drag(0.4)
-            state = page.idle(f"a drag beside {given}")
+            state = page.idle(f"a drag with {given}")
             page.told(state["stale"] and len(state["errors"]) == 1, f"{name} = {wrong} is forgotten under another load")
         state = page.set(**{name: right})
         page.told(not state["stale"] and not state["errors"], f"{name} = {right}: {state['errors']}")
@@ -273,6 +273,9 @@ def check_colours(page, folder):
     page.told("→" in pressure[1] and "% of the load above" in pressure[-1], f"says {pressure} of a scarred map")
     report = float(state["rows"]["greatest pressure"].split()[0])
     page.told(pressure[1].split()[-2] == f"{report:.3g}", f"{pressure[1]} leads to {report}")
+    told = page.browser.value("document.getElementById('heights').textContent")
+    page.told("above" in told and "up to" in told, "says of no spike in the distribution of the heights")
+    page.browser.picture(PICTURES / "scarred.png")
     shades = page.browser.value("""(() => {
       const { width, height } = document.querySelector("#picture canvas");
       const { data } = document.querySelector("#picture canvas").getContext("2d").getImageData(0, 0, width, height);
@@ -345,7 +348,7 @@ def check_play(page):
 
 
 def check_area(page):
-    """The curve of the area fills in by itself, beside the theory, which is that of the error function."""
+    """The curve of the area fills in by itself, next to the theory, which is that of the error function."""
     page.set(**{**PLAIN, "size": "64", "k_s": "12"})
     page.browser.value("document.getElementById('forget').click()")
     page.set(value="1MPa")
@@ -359,6 +362,41 @@ def check_area(page):
         page.told(abs(found - math.erf(2**0.5 * pressure)) < 2e-7, f"has {found} at {pressure}")
     page.set(hardness="80MPa")
     page.told(page.browser.value("document.getElementById('persson').hidden"), "has a theory of what yields")
+
+
+# counts threads that run from now on
+COUNTED = """(() => {
+  globalThis.Whole = Worker;
+  globalThis.threads = new Set();
+  Worker = class extends Whole {
+    constructor(...given) { super(...given); threads.add(this); }
+    terminate() { threads.delete(this); super.terminate(); }
+  };
+})()"""
+
+
+def check_path(page):
+    """With adhesion the curve of the area is filled in from the state that is shown, and not after a change."""
+    page.set(**{**PLAIN, **SCENES["adhesive"], "size": "64", "k_s": "12"})
+    page.browser.value("document.getElementById('forget').click()")
+    page.browser.value(COUNTED)
+    page.set(value="1MPa")
+    # of the loads a ninth of which is above 1 MPa, and that state
+    path = "[...document.querySelectorAll('#area svg path[stroke=\"#d6601e\"]')]"
+    dots = f"Math.max(0, ...{path}.map(path => path.getAttribute('d').split('M').length - 1))"
+    named = "document.getElementById('area').textContent.includes('under more load')"
+    page.told(page.comes_true(f"{dots} === 10"), f"fills in {page.browser.value(dots)} loads")
+    page.told(page.browser.value(named), "does not name the path of loading")
+    page.browser.picture(PICTURES / "path.png")
+    page.told(page.comes_true("!threads.size"), "keeps the thread of a path that is complete")
+    # a change while the next path is followed
+    page.set(value="2MPa")
+    page.told(page.comes_true("threads.size"), "follows no path from another state")
+    page.drag(0.6)
+    page.told(page.browser.value("!threads.size"), "follows a path after a change")
+    page.told(not page.browser.value(named) or page.comes_true(f"!{named}"), "shows the path of a state before")
+    page.told(page.comes_true(named), "follows no path after a change")
+    page.browser.value("Worker = Whole; 0")
 
 
 def check_words(page):
@@ -385,7 +423,7 @@ def check_words(page):
     known = next(told for word, told, _ in words if word == "contact")
     page.told(known in page.browser.value(line), "tells no line of a word that is clicked")
     page.browser.value("document.body.click()")
-    page.told(page.browser.value("document.getElementById('line').hidden"), "goes on telling a line")
+    page.told(page.browser.value("document.getElementById('line').hidden"), "continues to tell a line")
 
 
 def check_profile(page):
@@ -612,6 +650,7 @@ def main():
             ("link", check_link, []),
             ("play", check_play, []),
             ("area", check_area, []),
+            ("path", check_path, []),
             ("words", check_words, []),
             ("profile", check_profile, []),
             ("measured", check_measured, []),

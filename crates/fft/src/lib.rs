@@ -7,8 +7,8 @@
 
 use std::sync::Arc;
 
+use rustfft::FftNum;
 pub use rustfft::{Fft, num_complex};
-use rustfft::{FftNum, FftPlanner};
 
 /// The forward and the inverse transform of a length, both unnormalised.
 #[derive(Clone)]
@@ -34,7 +34,11 @@ pub fn double(len: usize) -> Transform<f64> {
 }
 
 fn transform<T: FftNum>(len: usize) -> Transform<T> {
-    let mut planner = FftPlanner::new();
+    #[cfg(not(target_arch = "wasm32"))]
+    let mut planner = rustfft::FftPlanner::new();
+    // it would choose this one, and bring the portable transforms along
+    #[cfg(target_arch = "wasm32")]
+    let mut planner = rustfft::FftPlannerWasmSimd::new().expect("f32 and f64 have transforms in vectors");
     Transform { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
 }
 

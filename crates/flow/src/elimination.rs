@@ -26,7 +26,7 @@ pub(crate) struct Elimination {
 }
 
 impl Elimination {
-    /// The factorisation of a network; once it does not go on, the vertices that are left have no neighbours.
+    /// The factorisation of a network; once it ends, the vertices that are left have no neighbours.
     pub fn new(network: &Network, goes_on: &dyn Fn() -> bool) -> Self {
         let n = network.ground();
         let mut made = Self {

@@ -291,7 +291,7 @@ pub(crate) struct Enclosed {
 }
 
 impl Enclosed {
-    /// Iterates while it goes on, until the bounds are as close as the tolerance, or rounding keeps them apart.
+    /// Iterates while it continues, until the bounds are as close as the tolerance, or rounding keeps them apart.
     fn new(gap: &Gap<'_>, prepared: &Prepared, axis: Axis, settings: &Leakage, goes_on: &dyn Fn() -> bool) -> Self {
         let Leakage { tolerance, max_iterations } = *settings;
         let Prepared { network, elimination, tree } = prepared;

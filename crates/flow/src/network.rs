@@ -219,7 +219,7 @@ impl Network {
     pub fn upper(&self, pressure: &[f64], axis: Axis) -> f64 {
         let mut power = Total::default();
         self.fall(pressure, axis, |k, edge, fall| {
-            // the bound of what a driven fall may have lost to rounding, beside the relative error of all falls
+            // the bound of what a driven fall may have lost to rounding, besides the relative error of all falls
             let lost = if self.held(k, axis) == 0.0 {
                 0.0
             } else {

@@ -28,7 +28,7 @@ pub struct Constriction {
 /// (2001). The contact of self-affine surfaces closes the last channel at a contact fraction of some 0.42: B. N. J. Persson,
 /// C. Yang, J. Phys.: Condens. Matter 20, 315011 (2008); W. B. Dapp et al., Phys. Rev. Lett. 108, 244301 (2012).
 ///
-/// Memory per node: 33 bytes, beside the gap.
+/// Memory per node: 33 bytes, besides the gap.
 #[derive(Clone, Debug)]
 pub struct Percolation {
     constrictions: [Option<Constriction>; 2],

@@ -105,7 +105,7 @@ fn a_checkerboard_tends_to_the_geometric_mean() {
 fn dense(values: &Array2<f64>, (lx, ly): (f64, f64), periodic: bool, axis: Axis) -> f64 {
     let ((nx, ny), sides) = (values.dim(), [lx / values.dim().0 as f64, ly / values.dim().1 as f64]);
     let (n, number) = (nx * ny, |i: usize, j: usize| i * ny + j);
-    // from, to (none at a side), conductance, pressure that falls beside that of the nodes
+    // from, to (none at a side), conductance, pressure that falls besides that of the nodes
     let mut edges: Vec<(usize, Option<usize>, f64, f64)> = Vec::new();
     for (i, j) in (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j))) {
         for way in Axis::BOTH {
@@ -226,7 +226,7 @@ fn stripes_of_any_contrast_are_exact() {
         let values = Array2::from_shape_fn((n, n), |(_, j)| if j % 8 < 4 { 1.0 } else { narrow });
         let gap = Gap::new(values.view(), grid).unwrap();
         for gap in [gap.clone(), gap.free()] {
-            // pressures near 1 that are rounded lose 1e-32 at each of 2000 wide edges, beside 2e-18
+            // pressures near 1 that are rounded lose 1e-32 at each of 2000 wide edges, against 2e-18
             let leak = Leakage::default().tolerance(1e-10).through(&gap).unwrap();
             let cube = narrow * narrow * narrow;
             for (axis, exact) in Axis::BOTH.into_iter().zip([0.5 * (1.0 + cube), 2.0 / (1.0 + 1.0 / cube)]) {
@@ -284,7 +284,7 @@ fn contrasts_of_1e12_and_more_are_enclosed() {
         let gap = Gap::new(values.view(), grid).unwrap();
         for gap in [gap.clone(), gap.free()] {
             let [x, _] = conductances(&gap);
-            // four cells in a row, and half a wide one at either end, beside which the pools resist little
+            // four cells in a row, and half a wide one at either end, compared with which the pools resist little
             assert!((x / (narrow.powi(3) / 4.0) - 1.0).abs() < 10.0 * narrow.powi(3) + 1e-7, "{narrow}: {x}");
         }
     }

@@ -82,7 +82,7 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 /// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
 ///   either memory order. Integers beyond 2^53 are rounded.
 /// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
-///   `lengths`, two numbers, `unit`, a text, and what [`write_topography`] says of mirrors and seeds are taken beside
+///   `lengths`, two numbers, `unit`, a text, and what [`write_topography`] says of mirrors and seeds are taken next to
 ///   that; [`Topography::unread`] names all others.
 /// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length; a [`Reading`]
 ///   takes any. [`Topography::unread`] names the other channels, and a mask. Shown corrections are left where they are.

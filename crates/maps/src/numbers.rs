@@ -30,27 +30,43 @@ pub fn rounded(value: f64, digits: usize, most: f64) -> String {
     trimmed(format!("{value:.*}", decimals as usize))
 }
 
-/// A number to four digits with its unit, and the prefix that makes it readable; one that is too large for any prefix
+/// A number to four digits with its SI unit, and the prefix that makes it readable; one that is too large for any prefix
 /// has a power of ten, and one that is too small is zero.
 pub fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [&str; 12] = ["z", "a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
     // Rounded first, so that 999.96 n is 1 µ.
     let text = format!("{value:.3e}");
     let rounded: f64 = text.parse().unwrap_or(value);
-    let power = if rounded == 0.0 { 0 } else { (rounded.abs().log10() + 1e-9).floor() as i32 }.div_euclid(3);
+    let Some((power, unit)) = scale(rounded, unit) else {
+        let number = if rounded.abs() < 1.0 { "0".to_owned() } else { scientific(text) };
+        return format!("{number} {unit}");
+    };
+    let value = rounded / 10f64.powi(power);
+    let decimals = if value == 0.0 { 0.0 } else { (3.0 - (value.abs().log10() + 1e-9).floor()).max(0.0) };
+    format!("{} {unit}", trimmed(format!("{value:.*}", decimals as usize)))
+}
+
+/// The power of ten by which a number with a SI unit is readable, and the unit with the prefix for it, which m³ and 1/m
+/// have in their powers; none without such a prefix.
+pub fn scale(value: f64, unit: &str) -> Option<(i32, String)> {
+    const PREFIXES: [&str; 12] = ["z", "a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
+    let decade = if value == 0.0 { 0 } else { (value.abs().log10() + 1e-9).floor() as i32 };
     // a stiffness is said over micrometres
-    if power >= 4 && unit == "Pa/m" {
-        return si(1e-6 * value, "Pa/µm");
+    if decade >= 12 && unit == "Pa/m" {
+        return scale(1e-6 * value, "Pa/µm").map(|(power, unit)| (power + 6, unit));
     }
-    if power > 4 {
-        return format!("{} {unit}", scientific(text));
-    }
-    if power < -7 {
-        return format!("0 {unit}");
-    }
-    let value = rounded / 10f64.powi(3 * power);
-    let decimals = if value == 0.0 { 0.0 } else { (3.0 - value.abs().log10().floor()).clamp(0.0, 3.0) };
-    format!("{} {}{unit}", trimmed(format!("{value:.*}", decimals as usize)), PREFIXES[(power + 7) as usize])
+    let above = unit.split('/').next().unwrap_or(unit);
+    let power: i32 = match above {
+        "1" => -1,
+        above if above.ends_with('²') => 2,
+        above if above.ends_with('³') => 3,
+        _ => 1,
+    };
+    // of squares two decades lie below one, and of cubes three
+    let least = if power > 1 { -power } else { 0 };
+    let thousands = if value == 0.0 { 0 } else { power.signum() * (decade - least).div_euclid(3 * power.abs()) };
+    let prefix = PREFIXES.get(usize::try_from(thousands + 7).ok()?)?;
+    let unit = unit.strip_prefix("1/").map_or(format!("{prefix}{unit}"), |below| format!("1/{prefix}{below}"));
+    Some((3 * power * thousands, unit))
 }
 
 /// A number in scientific notation, without zeros at the end of its decimals.

@@ -68,7 +68,8 @@ pub struct Topography {
     pub seed: Option<u64>,
     /// The threshold of the scars that were [removed](Self::remove_scars), if that was done.
     pub scars_removed: Option<f64>,
-    /// What stands beside the heights in a file and was not taken: arrays, channels, a mask, and lines that may tell a size.
+    /// What stands next to the heights in a file and was not taken: arrays, channels, a mask, and lines that may tell a
+    /// size.
     pub unread: Vec<String>,
 }
 

@@ -218,8 +218,8 @@ impl Warning {
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
     /// is positive, [`WindowEdge`](WarningCode::WindowEdge) with a free boundary, and [`Scars`](WarningCode::Scars) or
     /// [`Noise`](WarningCode::Noise) where more than 20 % of the load of at least 100 nodes stands on lines, or 33 % on
-    /// single nodes, that press three times as hard as those beside them. The remedy for scars depends on the threshold
-    /// of those that were [removed](Topography::scars_removed) from the heights.
+    /// single nodes, that press three times as hard as those next to them. The remedy for scars depends on the
+    /// threshold of those that were [removed](Topography::scars_removed) from the heights.
     pub fn of_solution<T: Real>(solution: &Solution<T>, scars_removed: Option<f64>) -> Vec<Self> {
         let modulus = solution.report.modulus;
         let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());

@@ -162,7 +162,7 @@ fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
         let rough = SelfAffine::default().k_l(2.0).k_r(2.0).k_s(0.4 * n as f64).amplitude(Amplitude::RmsHeight(0.002));
         let tip = rough.surface(grid).unwrap().heights() + Surface::paraboloid(grid, 1.0).unwrap().heights();
         assert_eq!(codes(&Surface::new(grid, tip).unwrap()), ["ends"], "rough tip {n}");
-        // in the hole of a surface that goes on
+        // in the hole of a surface that continues
         let hole =
             grid.sample(|x, y| if x.hypot(y) > 0.6 { f64::NAN } else { 0.01 * (std::f64::consts::TAU * x).sin() });
         assert!(!codes(&surface_with_absent(grid, hole).unwrap()).contains(&"ends"), "hole {n}");

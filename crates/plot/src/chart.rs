@@ -119,7 +119,7 @@ impl Chart<'_> {
         self.draw_plot(dpi, (0.5 * width).max(LEAST), |left| (width - left - 3.0 * MARGIN).max(LEAST))
     }
 
-    /// Draws on an area of a height, and of the width that `across` has beside what is at its left.
+    /// Draws on an area of a height, and of the width that `across` has besides what is at its left.
     fn draw_plot(&self, dpi: f64, height: f64, across: impl Fn(f64) -> f64) -> Result<Picture> {
         let x = self.range(|point| point.0, self.x_log, self.x_unit);
         let y = self.range(|point| point.1, self.y_log, self.y_unit);
@@ -197,32 +197,6 @@ impl Chart<'_> {
             }
         };
         Range { low, high, logarithmic, unit }
-    }
-}
-
-/// The curve of a distribution: the middles of so many classes of equal width, from the least value to the greatest,
-/// and the share of the values in each, in per cent. Values that are not finite are left out.
-///
-/// ```
-/// use asperity_plot::distribution;
-/// assert_eq!(distribution([0.0, 1.0, 3.0, 4.0, f64::NAN].into_iter(), 2), [(1.0, 50.0), (3.0, 50.0)]);
-/// ```
-pub fn distribution(values: impl Iterator<Item = f64> + Clone, classes: usize) -> Vec<(f64, f64)> {
-    let values = values.filter(|value| value.is_finite());
-    let (low, high) =
-        values.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-    let mut counts = vec![0_usize; classes.max(1)];
-    let last = counts.len() - 1;
-    let width = (high - low) / counts.len() as f64;
-    for value in values {
-        counts[if width > 0.0 { (((value - low) / width) as usize).min(last) } else { 0 }] += 1;
-    }
-    match counts.iter().sum::<usize>() {
-        0 => Vec::new(),
-        sum => {
-            let point = |(k, count)| (low + (k as f64 + 0.5) * width, 100.0 * count as f64 / sum as f64);
-            counts.into_iter().enumerate().map(point).collect()
-        }
     }
 }
 

@@ -29,7 +29,7 @@ pub enum Colouring {
     Sequential,
     /// Zero in light grey, positive values (compression) in red, negative ones (attraction) in blue.
     ///
-    /// Each sign has a scale and a colour bar of its own, so that a tension of 50 MPa is seen beside a compression of
+    /// Each sign has a scale and a colour bar of its own, so that a tension of 50 MPa is seen next to a compression of
     /// 5 GPa; [`Map::signs`](crate::Map::signs) has the names of the two. Only a
     /// sign that nowhere reaches 1e-6 of the other, mere rounding, is drawn as zero.
     ///
@@ -243,7 +243,7 @@ fn widened(low: f64, high: f64) -> (f64, f64) {
 }
 
 /// A share in per cent, to two digits or a tenth.
-fn percent(share: f64) -> String {
+pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         share if share < 0.1 => "less than 0.1 %".to_owned(),
         share if share < 10.0 => format!("{share:.1} %"),

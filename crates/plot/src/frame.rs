@@ -24,7 +24,7 @@ const BLACK_LINE: f64 = 24.0;
 const SWATCH_SPACE: f64 = 4.0;
 const ENTRY_SPACE: f64 = 14.0;
 
-/// How much of an axis a number takes, below and beside a plot.
+/// How much of an axis a number takes, below and next to a plot.
 pub(super) const STEP_BELOW: f64 = 45.0;
 pub(super) const STEP_BESIDE: f64 = 25.0;
 
@@ -169,7 +169,7 @@ fn length(number: &str) -> f64 {
     if number.is_empty() { 0.5 * TICK } else { TICK }
 }
 
-/// The room beside a plot for the numbers and the label of an axis, in whole points.
+/// The room next to a plot for the numbers and the label of an axis, in whole points.
 pub(super) fn room(axis: &Axis) -> f64 {
     let widest = axis.ticks.iter().map(|(_, text)| font::width(text, NUMBER)).fold(0.0, f64::max);
     (TICK + MARGIN + widest + if axis.label.is_empty() { 0.0 } else { LINE }).ceil()

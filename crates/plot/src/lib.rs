@@ -5,6 +5,7 @@
 
 mod chart;
 mod colours;
+mod distribution;
 mod font;
 mod frame;
 mod load;
@@ -20,8 +21,9 @@ mod svg;
 use std::fs;
 use std::path::Path;
 
-pub use chart::{Chart, Style, distribution};
+pub use chart::{Chart, Style};
 pub use colours::Colouring;
+pub use distribution::Distribution;
 pub use load::LoadScale;
 pub use map::Map;
 

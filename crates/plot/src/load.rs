@@ -6,7 +6,7 @@ use crate::scale::drawable;
 /// pressure below which a quarter of the load is carried, and a rough contact of Gaussian heights up to some 4 times.
 const QUARTILES: f64 = 4.0;
 
-/// The greatest pressure, in ends of the scale, up to which the scale goes on to it.
+/// The greatest pressure, in ends of the scale, up to which the scale continues to it.
 const SLACK: f64 = 4.0 / 3.0;
 
 /// The most values of which the quartile is taken: a million tell enough of the distribution.

@@ -67,7 +67,7 @@ impl Scale {
 /// The symbol of a unit, which may take a prefix, and its power: of m²/s it is 2, and of 1/m it is -1.
 fn symbol(unit: &str) -> (&str, i32) {
     let (above, below) = unit.split_once('/').unwrap_or((unit, ""));
-    let powers = [('²', 2), ('³', 3)];
+    let powers = [('²', 2), ('³', 3), ('⁴', 4)];
     let raised = powers.into_iter().find_map(|(sign, power)| Some((above.strip_suffix(sign)?, power)));
     if above == "1" { (below, -1) } else { raised.unwrap_or((above, 1)) }
 }
@@ -129,7 +129,7 @@ impl Part {
         if self.logarithmic { (value.ln() - from.ln()) / (to.ln() - from.ln()) } else { (value - from) / (to - from) }
     }
 
-    /// Round numbers on the range, each with its text, or none beside one that has. There is room for `most` steps; at
+    /// Round numbers on the range, each with its text, or none next to one that has. There is room for `most` steps; at
     /// least three numbers are there, or two where there is no room for more.
     fn ticks(&self, most: i32) -> Vec<(f64, String)> {
         let least = if most < 3 { 2 } else { 3 };
@@ -284,6 +284,7 @@ mod tests {
             (1e-13, "m²", "q (µm²)"),
             (4e-15, "m²", "q (nm²)"),
             (3e-20, "m³/(Pa·s)", "q (µm³/(Pa·s))"),
+            (2e-29, "m⁴", "q (µm⁴)"),
             (2e7, "1/m", "q (1/µm)"),
             (2e-9, "1/Pa", "q (1/GPa)"),
             (1e-12, "1/um", "q (10⁻¹² 1/um)"),

@@ -288,3 +288,23 @@ fn limits_hold_for_any_field_and_arrows_say_what_is_beyond() {
     assert!(texts(&all).iter().any(|text| text == "max 4.00") && texts(&all).iter().any(|text| text == "min 0"));
     assert!(!texts(&inner).iter().any(|text| text.contains("max") || text.contains("min")));
 }
+
+#[test]
+fn a_distribution_leaves_out_spikes_and_says_so() {
+    let mut heights: Vec<_> = (0..5000).map(|k| 1e-9 * f64::from(k).sin()).collect();
+    let of = |heights: &[f64]| Distribution::of(heights.iter().copied(), 10, Some("m"));
+    let whole = of(&heights);
+    assert_eq!(whole.beyond, "");
+    (heights[11], heights[22], heights[33]) = (2e-7, 3e-8, -4e-8);
+    let spiky = of(&heights);
+    assert_eq!(
+        spiky.beyond,
+        "less than 0.1 % below −1.00 nm, down to −40.0 nm; less than 0.1 % above 1.00 nm, up to 200 nm"
+    );
+    assert!(whole.curve.iter().zip(&spiky.curve).all(|(one, other)| (one.1 - other.1).abs() < 0.2), "{spiky:?}");
+    let share: f64 = spiky.curve.iter().map(|(_, share)| share).sum();
+    assert!((share - 99.94).abs() < 1e-9, "{share}");
+    // where there are few values none is an outlier
+    assert_eq!(of(&heights[..20]).beyond, "");
+    assert_eq!(of(&[]), Distribution::default());
+}

@@ -33,7 +33,7 @@ use crate::table::{Format, Table};
 /// solve.
 pub type Observe<'a> = &'a mut (dyn FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> + Send);
 
-/// The input of a session beside its scene.
+/// The input of a session besides its scene.
 pub struct Input {
     /// The surface; of several processes each has its rows.
     pub surface: Arc<Surface>,
@@ -188,7 +188,7 @@ impl<T: Scalar> Session<T> {
         &self.units
     }
 
-    /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it, and its
+    /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it, and its
     /// account.
     ///
     /// # Errors

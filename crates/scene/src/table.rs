@@ -1,4 +1,4 @@
-//! Tables: a row for each state of a course, appended to a file as it comes, from which an interrupted run goes on.
+//! Tables: a row for each state of a course, appended to a file as it comes, from which an interrupted run continues.
 
 pub mod csv;
 pub(crate) mod fields;
@@ -55,7 +55,7 @@ pub struct Opening {
     pub force: bool,
     /// Whether it is that of a case of a study: it waits for another run that writes there, and saves its state now and then.
     pub is_case: bool,
-    /// The files that may stand beside the table and its state.
+    /// The files that may stand next to the table and its state.
     pub beside: Vec<PathBuf>,
 }
 
@@ -140,7 +140,7 @@ impl Table {
         Ok((table, Some(place)))
     }
 
-    /// Begins the table, or goes on with it, in the first process.
+    /// Begins the table, or continues it, in the first process.
     fn begin(&mut self) -> Outcome<Vec<u8>> {
         let &Opening { ref out, force, is_case, ref beside, .. } = &self.opening;
         self.kept().check(force, out)?;

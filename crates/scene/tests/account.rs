@@ -164,7 +164,7 @@ fn a_contact_fraction_is_searched_for_and_an_observer_ends_a_solve() {
     assert!(report["stability"].is_null() && report["contact_stiffness"].is_null());
 }
 
-/// The rows of a way with the findings of each state, each row found by a session that goes on with the file of the
+/// The rows of a way with the findings of each state, each row found by a session that continues the file of the
 /// one before, as cells and depths.
 fn continued(scene: &Scene, way: &Way, after: After) -> Vec<(Value, Option<Array2<f64>>)> {
     let folder = tempfile::tempdir().unwrap();
@@ -231,7 +231,7 @@ fn a_state_that_was_stopped_is_found_again_and_has_no_row() {
         assert_eq!(&json!(next(&mut session).unwrap().1.cells(&session.columns())), row);
     }
     assert!(next(&mut session).is_none());
-    // another run may go on with the file once it is released
+    // another run may continue the file once it is released
     assert!(posed().begin(way.clone(), After::default(), false, None, file()).is_err());
     session.release();
     posed().begin(way.clone(), After::default(), false, None, file()).unwrap();

@@ -8,8 +8,8 @@ use asperity_scene::legs::{Leg, abscissa, legs, logarithmic};
 use asperity_scene::list::{Loads, list};
 use asperity_scene::pace::Pace;
 use asperity_scene::quantity::{
-    CONDUCTIVITY, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
-    PRESSURE_PER_LENGTH, RESISTIVITY, power_of_length, times_ten_to,
+    AREA, CONDUCTIVITY, ENERGY, ENERGY_PER_AREA, FORCE, FORCE_PER_LENGTH, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE,
+    PRESSURE_PER_LENGTH, RESISTIVITY, THERMAL_CONDUCTANCE, TRANSMISSIVITY, power_of_length, times_ten_to,
 };
 use asperity_scene::synonyms::{SYNONYMS, is_same, meant, similar};
 use asperity_scene::units::Units;
@@ -142,6 +142,23 @@ fn numbers_and_headers_have_their_units() {
     assert_eq!(Units::si().number(9.9999e14, PRESSURE_PER_LENGTH), "1 GPa/µm");
     assert_eq!(Units::si().number(2.6170857e17, PRESSURE_PER_LENGTH), "261.7 GPa/µm");
     assert_eq!(Units::si().number(0.05, ENERGY_PER_AREA), "50 mJ/m²");
+    let powers = [
+        (1.8e-24, TRANSMISSIVITY, "1800 nm³"),
+        (9.9999e-22, TRANSMISSIVITY, "0.001 µm³"),
+        (2.5, TRANSMISSIVITY, "2.5 m³"),
+        (1e-70, TRANSMISSIVITY, "0 m³"),
+        (3.2e-13, AREA, "0.32 µm²"),
+        (3.2e-15, AREA, "3200 nm²"),
+        (2.34567e7, PER_LENGTH, "23.46 1/µm"),
+        (0.0, PER_LENGTH, "0 1/m"),
+        (3e-30, PER_LENGTH, "0 1/m"),
+        (3e-9, PER_PRESSURE, "3 1/GPa"),
+        (3e7, THERMAL_CONDUCTANCE, "30 MW/(m²·K)"),
+    ];
+    for (value, dimension, text) in powers {
+        assert_eq!(Units::si().number(value, dimension), text);
+    }
+    assert_eq!(units("um", "MPa").number(1.8e-6, TRANSMISSIVITY), "1.8e-6 um³");
     assert_eq!(units("um", "MPa").number(0.5, PRESSURE), "0.5 MPa");
     assert_eq!(Units::default().number(0.5, PRESSURE), "0.5");
     let names = ["control_value", "mean_gap", "elastic_energy", "perimeter", "status"];

@@ -39,7 +39,7 @@ impl Tabulated {
     /// [functions](Functions) do not name them. Intervals of 1/128 of an octave of the gap, from 1/256 to 2²⁰ ranges,
     /// are halved until they agree with the law. Where the traction jumps, the law has a
     /// [smoothed](crate::adhesion::Discretisation::Smooth) one. Below an equilibrium separation it is read until it
-    /// repels by 10⁹ times its greatest attraction, and goes on as its tangent, or up to where it is not defined.
+    /// repels by 10⁹ times its greatest attraction, and continues as its tangent, or up to where it is not defined.
     ///
     /// # Errors
     /// [`Error::Contract`] for functions that are not finite, too rough for a table, or not each other's derivatives

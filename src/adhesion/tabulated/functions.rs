@@ -78,7 +78,7 @@ pub(super) fn one(law: &impl Functions, order: usize, gap: f64) -> Result<f64> {
 /// A check that functions are each other's derivatives, for a test of yours, at gaps up to the largest one, by default
 /// ten ranges.
 ///
-/// It compares them as [`check_law`](crate::adhesion::check_law) does; gaps beside a jump are passed over.
+/// It compares them as [`check_law`](crate::adhesion::check_law) does; gaps next to a jump are passed over.
 ///
 /// # Errors
 /// [`Error::Contract`] with the first function and gap that break it, [`Error::Value`] for a largest gap or a range that

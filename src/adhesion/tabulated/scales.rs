@@ -10,7 +10,7 @@ use crate::error::{Breach, Error, Place, Result};
 const OCTAVES: (i32, i32) = (-50, 20);
 const GAPS: i32 = 8;
 
-/// The repulsion, in the greatest attraction, down to which a law is read, and goes on as its tangent.
+/// The repulsion, in the greatest attraction, down to which a law is read, and continues as its tangent.
 const STRONGEST: f64 = 1e9;
 
 /// The halves of octaves of the range by which it is read below its equilibrium separation.
@@ -21,7 +21,7 @@ pub(super) struct Scales {
     pub hints: Hints<f64>,
     /// The least gap at which the law is read; none if its energy has no bound at zero gap.
     pub least: Option<f64>,
-    /// Whether a law that repels goes on below the least gap.
+    /// Whether a law that repels continues below the least gap.
     pub goes_on: bool,
 }
 

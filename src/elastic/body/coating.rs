@@ -11,9 +11,9 @@ use crate::error::{Error, Result};
 /// 1/k = 2/(E₁* q) · (1 + 4ακθ − λκθ²) / (1 − (λ + κ + 4κα²)θ + λκθ²)
 /// ```
 ///
-/// Burmister, J. Appl. Phys. 16 (1945); O'Sullivan and King, J. Tribol. 110 (1988). Waves that are short beside the
-/// thickness have the stiffness of a half-space of the coating, long ones that of the substrate. On a substrate that
-/// does not yield the coating is a bonded [`Layer`](super::Layer).
+/// Burmister, J. Appl. Phys. 16 (1945); O'Sullivan and King, J. Tribol. 110 (1988). Waves that are short compared with
+/// the thickness have the stiffness of a half-space of the coating, long ones that of the substrate. On a substrate
+/// that does not yield the coating is a bonded [`Layer`](super::Layer).
 ///
 /// ```
 /// use asperity::elastic::{Body, Coating, Material};
@@ -32,7 +32,7 @@ pub struct Coating {
     far: f64,
     /// (1 − κ)(1 − λ)
     thin: f64,
-    /// 1 − 2κ + λκ, zero if the substrate is nothing beside the coating
+    /// 1 − 2κ + λκ, zero if the substrate is nothing compared with the coating
     bends: f64,
     /// 1 + 2κ + λκ, zero if the substrate is rigid and the coating incompressible
     flows: f64,

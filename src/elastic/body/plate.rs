@@ -4,9 +4,9 @@ use crate::error::{Error, Result};
 /// A plate in bending on a half-space, which it holds down and never slides on with friction.
 ///
 /// The plate has no thickness but a bending stiffness D = E t³/(12 (1 − ν²)), and bends with the surface of the
-/// half-space, k = ½E*q + D q⁴: a floor on its ground, a sheet of a crystal on a polymer. Waves that are short beside the
-/// length (2D/E*)^(1/3) bend the plate, long ones press the half-space. Hetényi, *Beams on Elastic Foundation* (1946);
-/// Selvadurai, *Elastic Analysis of Soil-Foundation Interaction* (1979).
+/// half-space, k = ½E*q + D q⁴: a floor on its ground, a sheet of a crystal on a polymer. Waves that are short compared
+/// with the length (2D/E*)^(1/3) bend the plate, long ones press the half-space. Hetényi, *Beams on Elastic Foundation*
+/// (1946); Selvadurai, *Elastic Analysis of Soil-Foundation Interaction* (1979).
 ///
 /// ```
 /// use asperity::elastic::{Body, HalfSpace, Plate};

@@ -53,9 +53,9 @@ found! {
         level: f64,
         /// Σ s²
         shares: f64,
-        /// Σ (1 − s)² (r' − level)²/κ, the certificate beside M
+        /// Σ (1 − s)² (r' − level)²/κ, the certificate besides M
         pub(in crate::solver) beside: f64,
-        /// Σ (1 − s²)(r' − level)²/(k + κ), of ⟨r', z⟩ beside the waves
+        /// Σ (1 − s²)(r' − level)²/(k + κ), of ⟨r', z⟩ besides the waves
         pub(in crate::solver) descent: f64,
     }
 }
@@ -96,7 +96,7 @@ pub(in crate::solver) fn hold<T: Real, Lo: Real>(
     Held { stiffness, level: level.widen(), shares, ..total }
 }
 
-/// Multiplies z by S, adds what is beside the waves, and puts r' back; returns Σ z.
+/// Multiplies z by S, adds what is besides the waves, and puts r' back; returns Σ z.
 pub(in crate::solver) fn release_held<T: Real, Lo: Real>(
     fields: &mut Fields<T, Lo>,
     local: &Potential<'_, T>,

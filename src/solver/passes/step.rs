@@ -110,7 +110,8 @@ fn clipped_change<T: Real>([least, most]: [T; 2], attempt: Attempt<T>, gap: T, [
     (bounded - gap, bounded != next)
 }
 
-/// The residual beyond which a node goes on from above through the corner at which it would yield is the cap over this.
+/// The residual beyond which a node continues from above through the corner at which it would yield is the cap over
+/// this.
 const PASSES: f64 = 0.3;
 
 /// The least and the greatest gap after a step at the corner where the surface yields: a node stops there from the side

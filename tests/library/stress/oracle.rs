@@ -13,7 +13,7 @@ use oracles::scenes::{Constraint, Kind, Scene};
 /// The roundings that a sum over some nodes may have.
 const ROUNDINGS: f64 = 64.0;
 
-/// A solution beside the dense matrix of its body: fields at the nodes that face it, in `f64`.
+/// A solution with the dense matrix of its body: fields at the nodes that face it, in `f64`.
 pub struct Judge<'a, T: Real> {
     scene: &'a Scene,
     report: &'a Report,
@@ -103,7 +103,7 @@ impl<'a, T: Real> Judge<'a, T> {
             // nodes that bear their own attraction may deform nothing
             true => Some(work).filter(|&work| work > (ROUNDINGS * epsilon).powi(2) * surface),
             false if scene.is_whole() => Some(work.max(surface)),
-            // of the heights as they go on where there is no surface
+            // of the heights as they continue where there is no surface
             false => None,
         };
         // where the attraction that nodes bear themselves deforms no more than rounding, it is what that would deform

@@ -2,7 +2,7 @@
 
 use asperity::Grid;
 use asperity_maps::io::read_field;
-use asperity_plot::{Chart, Colouring, Map, distribution};
+use asperity_plot::{Chart, Colouring, Distribution, Map};
 use asperity_scene::Boundary;
 use ndarray::Zip;
 
@@ -77,8 +77,9 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
         [gap, ("contact pressure", pressure_unit, &contact_pressure, "nodes in contact")]
     {
         let title = &format!("Distribution of the {x_label}");
-        let curve = distribution(field.iter().copied().filter(|value| *value > 0.0), CLASSES);
-        let axes = Chart { title, x_label, x_unit, y_label, y_unit: Some("%"), ..Chart::default() };
+        let Distribution { curve, beyond, .. } =
+            Distribution::of(field.iter().copied().filter(|value| *value > 0.0), CLASSES, x_unit);
+        let axes = Chart { title, caption: &beyond, x_label, x_unit, y_label, y_unit: Some("%"), ..Chart::default() };
         page.figure(&Chart { curves: vec![("", curve)], ..axes }.draw(FINE)?.svg()?);
     }
     Ok(())

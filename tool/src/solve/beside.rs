@@ -1,4 +1,4 @@
-//! The fields that a solve may leave beside gap and pressures: the softest mode, displacements, and the plastic depth.
+//! The fields that a solve may leave besides gap and pressures: the softest mode, displacements, and the plastic depth.
 
 use asperity::{Result, Surface};
 use asperity_scene::{Elastic, Found, Scene, gap_to_write};

@@ -1,4 +1,4 @@
-//! The solve of a case: a file with its rows, its warnings beside it, and nothing else.
+//! The solve of a case: a file with its rows, its warnings next to it, and nothing else.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;

@@ -23,7 +23,7 @@ use crate::table::format_of;
 /// The commands of which a case may be a run.
 const COMMANDS: [&str; 4] = ["sweep", "cycle", "solve", "pull-off"];
 
-/// The sections that a study has beside those of its command.
+/// The sections that a study has besides those of its command.
 pub const SECTIONS: [&str; 2] = ["make", "vary"];
 
 /// The keys that a study decides by itself, or of which a table has nothing.
@@ -200,7 +200,7 @@ impl Commands {
         self.0.iter().enumerate().flat_map(options).find(|(_, arg)| key(arg).as_deref() == Some(name))
     }
 
-    /// Refuses what is no option of theirs, or is not for a study, as files beside the rows.
+    /// Refuses what is no option of theirs, or is not for a study, as files next to the rows.
     fn check(&self, name: &str) -> Result<(), String> {
         let is_own = |arg: &Arg| {
             let (id, key) = (arg.get_id().as_str(), key(arg));
@@ -219,7 +219,7 @@ impl Commands {
         Err(format!("{name} is no option of {}: {hint}", names.join(" or ")))
     }
 
-    /// The words of both commands, of which the first makes the surface, if one does, beside the rows.
+    /// The words of both commands, of which the first makes the surface, if one does, next to the rows.
     fn words(&self, entries: &[&(String, Value)], folder: &Path, rows: &Path) -> Result<Vec<Vec<OsString>>, String> {
         let begun = |command: &Command| {
             let out = command.get_arguments().any(|arg| arg.get_id() == "out").then_some("--out=table.csv");

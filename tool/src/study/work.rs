@@ -22,18 +22,18 @@ use crate::processes::Processes;
 use crate::threads;
 use crate::{Command, parsed, surface, warnings};
 
-/// The folder of the cases, beside the table.
+/// The folder of the cases, next to the table.
 pub fn folder(table: &Path) -> PathBuf {
     with_suffix(table, ".cases")
 }
 
-/// Whether a case has all of its rows, as they were written: what it takes to go on with them is removed then.
+/// Whether a case has all of its rows, as they were written: what it takes to continue them is removed then.
 pub fn is_done(rows: &Path) -> bool {
     let sum = fs::read_to_string(sum_path(rows)).ok();
     !state_path(rows).exists() && sum.is_some() && sum == checksum(rows).ok()
 }
 
-/// The file with the checksum of rows, beside them.
+/// The file with the checksum of rows, next to them.
 fn sum_path(rows: &Path) -> PathBuf {
     with_suffix(rows, ".sum")
 }

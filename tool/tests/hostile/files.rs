@@ -153,7 +153,7 @@ fn a_second_run_on_one_file_is_refused_until_the_first_is_over_or_killed() {
         while rows() <= before + 1 && next.try_wait().unwrap().is_none() {
             sleep(Duration::from_millis(5));
         }
-        assert_eq!(next.try_wait().unwrap(), None, "{command}: it did not go on");
+        assert_eq!(next.try_wait().unwrap(), None, "{command}: it did not continue");
         next.kill().unwrap();
         next.wait().unwrap();
     }

@@ -1,4 +1,4 @@
-//! Writes the JavaScript module beside a WebAssembly one: `asperity-web-bindings IN.wasm DIR`.
+//! Writes the JavaScript module next to a WebAssembly one: `asperity-web-bindings IN.wasm DIR`.
 
 use std::env;
 use std::error::Error;

@@ -51,7 +51,7 @@ pub(super) fn chosen(channels: &[Channel], asked: Option<&str>) -> Parsed<usize>
     }
 }
 
-/// The names of the channels beside one.
+/// The names of the channels besides one.
 pub(super) fn others(channels: &[Channel], chosen: usize) -> Vec<String> {
     channels.iter().enumerate().filter(|(place, _)| *place != chosen).map(|(_, channel)| channel.name()).collect()
 }

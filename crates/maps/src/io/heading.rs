@@ -96,7 +96,7 @@ const WORDS: [(&str, Option<Kind>, &[usize]); 17] = [
     ("bit2nm", Some(Kind::Factor), &[2]),
 ];
 
-/// Words that say nothing beside others.
+/// Words that say nothing next to others.
 const OTHERS: &str = "scan image map number of in";
 
 /// What a name says, if all of its words are known; its value may say of what kind it is, and that of no axis is of all.

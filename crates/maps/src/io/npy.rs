@@ -163,7 +163,7 @@ fn read_values(reader: &mut impl Read, count: usize, (width, decode): Decoder, r
     Ok(values)
 }
 
-/// Refuses what goes on after its last value. A zip entry is checked against its checksum when its end is reached.
+/// Refuses what continues after its last value. A zip entry is checked against its checksum when its end is reached.
 fn ended(reader: &mut impl Read) -> Parsed<()> {
     if reader.read(&mut [0]).map_err(unreadable)? == 0 { Ok(()) } else { refuse(DAMAGED) }
 }

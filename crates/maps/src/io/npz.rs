@@ -20,13 +20,13 @@ use asperity::{Error, Grid, Real, Result};
 pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
 /// Deflate cannot do better than this: a zip entry that claims more is damaged.
 const MAX_COMPRESSION: u64 = 1032;
-/// Room in bytes for what an archive has beside the numbers of an array.
+/// Room in bytes for what an archive has besides the numbers of an array.
 const ENTRY: usize = 1024;
 
 /// The arrays that an archive of a map may have.
 const ARRAYS: [&str; 6] = ["heights", "lengths", "unit", "original", "seed", "scars_removed"];
 
-/// Reads the array `heights`, or the only one, of an archive of `size` bytes; beside it what else a map has.
+/// Reads the array `heights`, or the only one, of an archive of `size` bytes; and with it what else a map has.
 pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topography> {
     check_counts(&mut reader, size).map_err(unreadable)?;
     let mut archive = ZipArchive::new(reader).map_err(damaged)?;

@@ -62,7 +62,7 @@ impl OutputFolder {
     /// does not write them itself; other files in the folder are left alone.
     ///
     /// If there are several names, the first one stands for the run: its file goes before any other one changes, and
-    /// comes after all of them. So a file of this name is never beside those of two runs, even if the process is
+    /// comes after all of them. So a file of this name is never next to those of two runs, even if the process is
     /// killed.
     ///
     /// # Errors
@@ -139,8 +139,8 @@ impl OutputFolder {
         self.temporary.path().join("files")
     }
 
-    /// Removes the temporary folders of all that this process has not committed, before it ends by a signal. What goes
-    /// on with them fails. As long as the value that is returned lives, no thread makes another one.
+    /// Removes the temporary folders of all that this process has not committed, before it ends by a signal. What
+    /// still uses them fails. As long as the value that is returned lives, no thread makes another one.
     ///
     /// ```
     /// use asperity_maps::io::OutputFolder;

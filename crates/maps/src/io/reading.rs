@@ -24,7 +24,7 @@ pub struct Reading {
     pub channel: Option<String>,
     /// The number of lines at the start of a text that are left out.
     pub skip_lines: usize,
-    /// Words of a text that stand for missing points, beside those that are known.
+    /// Words of a text that stand for missing points, besides those that are known.
     pub missing: Vec<String>,
     /// Whether the points under the mask of a `.gwy` file are missing.
     pub masked: bool,

@@ -34,7 +34,7 @@ impl Topography {
     /// of these is taken.
     ///
     /// Neighbours count in pairs on opposite sides, so that a slope at the edge of the map is no spike. Where there are
-    /// less than two pairs, as in a corner or beside a hole, all neighbours count, and a spike is also farther from
+    /// less than two pairs, as in a corner or next to a hole, all neighbours count, and a spike is also farther from
     /// their median than their highest is from their lowest.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl Topography {
         Ok(self)
     }
 
-    /// For each node in row-major order the median around it, NaN if nothing is, and what a spike has to exceed beside
+    /// For each node in row-major order the median around it, NaN if nothing is, and what a spike has to exceed besides
     /// the limit: the range of the neighbours if they are not in pairs.
     fn neighbourhoods(&self) -> Vec<(f64, f64)> {
         let (mut found, mut values) = (Vec::with_capacity(self.heights.len()), Vec::new());

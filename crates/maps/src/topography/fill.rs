@@ -186,7 +186,7 @@ impl Level {
         near.map(|(near, link)| link * of(x[*near])).sum()
     }
 
-    /// By differences: weak links keep their digits beside strong ones.
+    /// By differences: weak links keep their digits next to strong ones.
     fn apply(&self, x: &[f64], y: &mut [f64]) {
         y.iter_mut().enumerate().for_each(|(k, y)| *y = self.known[k] * x[k] + self.pull(x, k, |near| x[k] - near));
     }
@@ -270,7 +270,7 @@ mod tests {
 
     #[test]
     fn holes_in_cells_of_any_shape_keep_their_digits() {
-        // a strip across the map, which hangs by its two sides, beside single points among rough heights
+        // a strip across the map, which hangs by its two sides, next to single points among rough heights
         let heights = |along: usize, across: usize| match across {
             0..20 if (along * along + 5 * across).is_multiple_of(7) => f64::NAN,
             0..20 => ((along * 31 + across * across * 17) as f64).sin(),

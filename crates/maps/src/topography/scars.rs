@@ -1,4 +1,4 @@
-//! Scars of a height map: pieces of scan lines that are higher or lower than the lines beside them.
+//! Scars of a height map: pieces of scan lines that are higher or lower than the lines next to them.
 
 use ndarray::{Array2, ArrayView2};
 
@@ -22,22 +22,22 @@ pub struct Scars {
     pub map: Array2<bool>,
     /// The threshold, in rms differences of neighbouring lines.
     pub threshold: f64,
-    /// The same in height: that beyond the lines beside it from which a piece of a line is a scar.
+    /// The same in height: that beyond the lines next to it from which a piece of a line is a scar.
     pub limit: f64,
 }
 
 impl Topography {
     /// The scars along the scan lines of a map: pieces of one to four lines, of 16 nodes and more, all of which are
-    /// higher, or all lower, than both lines beside the piece, each node by more than `threshold` rms differences of
+    /// higher, or all lower, than both lines next to the piece, each node by more than `threshold` rms differences of
     /// neighbouring lines.
     ///
-    /// On average the piece stands out by more than the two lines beside it differ from the next, taken together: a wave
-    /// along the scan lines is steeper beside its crest.
+    /// On average the piece stands out by more than the two lines next to it differ from the next, taken together: a
+    /// wave along the scan lines is steeper next to its crest.
     ///
     /// The tip of a microscope makes them where it sticks, or loses the surface, within a line. The rms is that by the
     /// median of the magnitudes, 1.4826 median \|Δh\| about the median of Δh, which no scar carries. Rough surfaces,
     /// even rounded ones, have no such pieces at a threshold of ⅔, which is Gwyddion's: a crest that follows a scan
-    /// line is less steep across it than the surface is. The first and the last line have no two beside them, and
+    /// line is less steep across it than the surface is. The first and the last line have no two next to them, and
     /// missing points are on no scar and end it.
     ///
     /// # Errors
@@ -61,7 +61,7 @@ impl Topography {
         Ok(Scars { count, map, threshold, limit })
     }
 
-    /// Gives the nodes on [`scars`](Self::scars) the heights of a membrane between those beside them, as
+    /// Gives the nodes on [`scars`](Self::scars) the heights of a membrane between those next to them, as
     /// [`fill`](Self::fill) does; all other heights stay as they are.
     ///
     /// Offsets between whole lines are scars, too, as far as they are of one to four lines:
@@ -85,7 +85,8 @@ impl Topography {
         self.without(&scars)
     }
 
-    /// The map with the heights on scars from those beside them, which [remembers](Self::scars_removed) their threshold.
+    /// The map with the heights on scars from those next to them, which [remembers](Self::scars_removed) their
+    /// threshold.
     ///
     /// # Errors
     /// [`Error::Shape`] if the scars are of another map, [`Error::Value`] if all heights are missing or on scars.
@@ -111,7 +112,7 @@ fn mark(on_scar: &mut Array2<bool>, lines: ArrayView2<'_, f64>, (width, sign): (
     let (nodes, count) = lines.dim();
     for first in 1..count.saturating_sub(width) {
         let (before, after) = (first - 1, first + width);
-        // how far the lowest of the lines is above both beside them; not a number where one is missing
+        // how far the lowest of the lines is above both next to them; not a number where one is missing
         let above = |i: usize| {
             let height = |j: usize| sign * lines[[i, j]];
             if !(before..=after).all(|j| lines[[i, j]].is_finite()) {

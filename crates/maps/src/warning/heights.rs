@@ -43,7 +43,7 @@ const FALLS: f64 = 0.5;
 /// and is 7 on 16; that of a cone, which has an apex inside, is 4 on 32.
 const CREASE: f64 = 4.0;
 
-/// The contact modulus in Pa below which lengths in metres have another unit of pressure beside them: that of soft
+/// The contact modulus in Pa below which lengths in metres have another unit of pressure next to them: that of soft
 /// gels.
 const SOFTEST: f64 = 1e3;
 
@@ -51,7 +51,7 @@ const SOFTEST: f64 = 1e3;
 const METRES: f64 = 1e-7;
 
 /// The rms slope below which heights and lengths are in different units: the best mirrors have some 5e-8, and heights
-/// in metres beside lengths in nanometres 1e-9 at most.
+/// in metres next to lengths in nanometres 1e-9 at most.
 const SMOOTH: f64 = 1e-8;
 
 /// The share of the points of a map that may be spikes, above which they are features of its surface.
@@ -152,7 +152,7 @@ pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warnin
 
 impl Warning {
     /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
-    /// [`Modulus`](WarningCode::Modulus): below 1 kPa beside lengths in metres. These are in metres if their `unit` is
+    /// [`Modulus`](WarningCode::Modulus): below 1 kPa with lengths in metres. These are in metres if their `unit` is
     /// m, and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
     ///
     /// ```

@@ -5,7 +5,7 @@ use asperity::{Real, Solution};
 use super::part::Part::{Figure, Pressure, Word};
 use super::{Warning, WarningCode};
 
-/// How many times harder a node presses than both nodes beside it, along an axis, to stand alone: pressures change
+/// How many times harder a node presses than both nodes next to it, along an axis, to stand alone: pressures change
 /// little from node to node in a contact that the nodes resolve, but for its edge, where one side is harder.
 const ALONE: f64 = 3.0;
 /// The least number of nodes of a piece of a line, all of which are alone across it: contacts of a rough surface are

@@ -17,7 +17,7 @@ pub struct Side {
     pub mean_edge: f64,
     /// The greatest difference of mean heights between neighbouring lines inside.
     pub greatest_mean_step: f64,
-    /// The fall of mean height to the first line and to the last, from the lines beside them.
+    /// The fall of mean height to the first line and to the last, from the lines next to them.
     pub falls: [f64; 2],
     /// The greatest difference between the mean steps before and after a step inside: the edge, across which the falls
     /// meet, is such a place.

@@ -52,7 +52,7 @@ impl Spikes {
     }
 }
 
-/// Whether any node is above both nodes beside it along x, or below both, by more than this height.
+/// Whether any node is above both nodes next to it along x, or below both, by more than this height.
 fn any_stands_out(heights: &Array2<f64>, by: f64) -> bool {
     heights.axis_windows(Axis(0), 3).into_iter().any(|rows| {
         let out = |out: bool, before: &f64, own: &f64, after: &f64| {

@@ -30,7 +30,7 @@ record! {
     }
 }
 
-/// The findings after a solve, beside the contact stiffness.
+/// The findings after a solve, besides the contact stiffness.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     /// The relative error of the contact stiffness, the estimated one of the grid included; none where that is unknown.
@@ -63,7 +63,7 @@ impl Findings {
 }
 
 impl<T: Real> Found<T> {
-    /// The findings that are asked for after the solve, beside the contact stiffness; none if it was stopped, or has
+    /// The findings that are asked for after the solve, besides the contact stiffness; none if it was stopped, or has
     /// run away.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! The findings of a solve: the solution, and all that was asked for beside it.
+//! The findings of a solve: the solution, and all that was asked for with it.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::clock::Instant;
 use crate::key::{Told, record};
 
 record! {
-    /// The solution of a contact problem, with all that was asked for beside it.
+    /// The solution of a contact problem, with all that was asked for with it.
     Found<T: Real> of (solution: Solution<T>, sight: Sight<T>, seconds: f64) {
         /// The solution, on all nodes that were solved.
         solution: Solution<T> = solution,
@@ -52,7 +52,7 @@ record! {
     }
 }
 
-/// The sight of a solution: all that a look at its fields needs beside them.
+/// The sight of a solution: all that a look at its fields needs besides them.
 pub struct Sight<T: Real> {
     pub(crate) law: Arc<dyn AdhesionLaw<T>>,
     pub(crate) original: Option<Original>,

@@ -4,8 +4,8 @@ use asperity::Result;
 use asperity_flow::{Axis, Bounds, Constriction, Flow, Gap, Leak};
 use serde::{Deserialize, Serialize};
 
-use crate::key::{Boundary, LENGTH, LeakAsked, Skin, Units, VISCOSITY, record, times_ten_to, worded};
-use crate::numbers::{percent, plain};
+use crate::key::{Boundary, LENGTH, LeakAsked, Skin, TRANSMISSIVITY, Units, VISCOSITY, record, times_ten_to, worded};
+use crate::numbers::{percent, plain, scale};
 
 record! {
     /// The leakage through a gap, as its report has it.
@@ -154,25 +154,29 @@ impl Leaked {
     /// The rows of its summary.
     pub fn rows(&self, units: &Units) -> Vec<(String, String)> {
         let mut rows = Vec::new();
-        let unit = |text: Option<String>| text.map(|unit| format!(" {unit}")).unwrap_or_default();
-        // rounded outwards, so that the bounds hold as they are printed
-        let between = |lower: f64, upper: f64, unit: &str| match upper > 0.0 {
-            true => format!("{} to {}{unit}", plain(outwards(lower, f64::floor)), plain(outwards(upper, f64::ceil))),
-            false => "0".to_owned(),
+        let between = |lower: f64, upper: f64, unit: Option<String>| {
+            if upper <= 0.0 {
+                return "0".to_owned();
+            }
+            let unit = unit.unwrap_or_default();
+            let is_si = units.length.as_deref() == Some(LENGTH.si);
+            let (power, unit) = scale(upper, &unit).filter(|_| is_si).unwrap_or((0, unit));
+            // rounded outwards, so that the bounds hold as they are printed
+            let number = |bound, round: fn(f64) -> f64| plain(times_ten_to(-power, outwards(bound, round)));
+            format!("{} to {} {unit}", number(lower, f64::floor), number(upper, f64::ceil)).trim_end().to_owned()
         };
-        let volume = unit(units.length.as_ref().map(|unit| format!("{unit}³")));
         for axis in Axis::BOTH {
             let constriction = Narrowest::in_words(self.constriction.along(axis).as_ref(), units);
             rows.push((format!("along {}", axis.name()), constriction));
             let Transmissivity { lower, upper, grid_error, .. } = *self.transmissivity.along(axis);
-            rows.push(("  transmissivity".to_owned(), between(lower, upper, &volume)));
+            rows.push(("  transmissivity".to_owned(), between(lower, upper, units.of(TRANSMISSIVITY))));
             if let Some(error) = grid_error {
                 rows.push(("  error of the grid".to_owned(), format!("{} %", percent(error))));
             }
             if let Some(Enclosed { lower, upper }) = *self.flow_per_pressure.along(axis) {
                 let viscous = units.of(VISCOSITY).zip(units.length.as_ref());
-                let volume = unit(viscous.map(|(viscosity, length)| format!("{length}³/({viscosity})")));
-                rows.push(("  flow per pressure".to_owned(), between(lower, upper, &volume)));
+                let volume = viscous.map(|(viscosity, length)| format!("{length}³/({viscosity})"));
+                rows.push(("  flow per pressure".to_owned(), between(lower, upper, volume)));
             }
         }
         rows

@@ -10,7 +10,7 @@ use crate::key::{FORCE, Goal, LENGTH, PRESSURE, Skin, Units, record, worded};
 use crate::numbers::percent;
 
 record! {
-    /// The pull-off of a problem, as its report has it beside the account of the last state that holds.
+    /// The pull-off of a problem, as its report has it next to the account of the last state that holds.
     #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
     PulledOff of <T: Real>(
         asked: PullOff,

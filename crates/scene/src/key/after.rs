@@ -195,13 +195,13 @@ impl After {
         all.into_iter().find_map(|(asked, name)| asked.then_some(name))
     }
 
-    /// The columns of a table for what is asked for, beside those of the stiffness.
+    /// The columns of a table for what is asked for, besides those of the stiffness.
     pub fn columns(&self) -> Vec<&'static str> {
         let conductance = self.conductors.into_iter().flat_map(|conductors| [conductors.column(), ERROR]);
         conductance.chain(self.leakage.into_iter().flat_map(|_| LEAKAGE)).collect()
     }
 
-    /// The inputs on which these columns depend, beside the stiffness.
+    /// The inputs on which these columns depend, besides the stiffness.
     pub(crate) fn identity(&self) -> Vec<(&'static str, String)> {
         let conductors = self.conductors.map(|conductors| {
             let (key, (first, second)) = conductors.given();

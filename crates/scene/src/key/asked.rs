@@ -81,7 +81,7 @@ pub struct Asked {
     pub other_branch: bool,
     /// Whether to test the stability of the solution.
     pub stability: bool,
-    /// Whether to go on from an unstable solution.
+    /// Whether to continue from an unstable solution.
     pub leave: bool,
     /// The findings that are asked for after it.
     pub after: After,
@@ -90,7 +90,7 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// The solution under a load, without anything beside it.
+    /// The solution under a load, and nothing else.
     pub fn under(control: Control) -> Self {
         let (fraction, nested, after, goal) = (None, None, After::default(), None);
         Self { control, fraction, nested, other_branch: false, stability: false, leave: false, after, goal }

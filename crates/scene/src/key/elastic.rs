@@ -113,7 +113,7 @@ impl Default for Elastic {
 struct BodyKind {
     /// The key that chooses it, its thickness.
     key: &'static str,
-    /// The keys that it needs beside.
+    /// The keys that it needs besides.
     needs: &'static [&'static str],
     /// The keys that it may have.
     takes: &'static [&'static str],
@@ -123,7 +123,7 @@ struct BodyKind {
     told: fn(&Elastic, &Units) -> String,
 }
 
-/// The kinds of elastic bodies beside the half-space.
+/// The kinds of elastic bodies besides the half-space.
 static BODIES: [BodyKind; 4] = [
     BodyKind {
         key: "layer",

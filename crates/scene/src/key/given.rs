@@ -289,7 +289,7 @@ impl Quantities {
         self.0.iter().any(|given| given.has_unit)
     }
 
-    /// Refuses numbers without units beside quantities with units, in the words of a skin.
+    /// Refuses numbers without units next to quantities with units, in the words of a skin.
     ///
     /// # Errors
     /// Two of them, and the remedy.

@@ -16,7 +16,7 @@ pub struct Kind {
     pub default: Option<&'static str>,
     /// The value if the key stands alone.
     pub alone: Option<&'static str>,
-    /// The keys beside which it may not stand.
+    /// The keys with which it may not stand.
     pub excludes: &'static [&'static str],
     /// The keys without which it may not stand.
     pub needs: &'static [&'static str],
@@ -153,7 +153,7 @@ impl Kind {
         Self { alone: Some(value), count: (0, 1), ..self }
     }
 
-    /// The keys beside which it may not stand.
+    /// The keys with which it may not stand.
     pub(crate) const fn excludes(self, excludes: &'static [&'static str]) -> Self {
         Self { excludes, ..self }
     }

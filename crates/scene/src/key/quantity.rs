@@ -181,7 +181,7 @@ struct Unit {
     powers: [i32; 5],
     /// The power of ten,
     ten: i32,
-    /// and what is left beside it.
+    /// and what is left besides it.
     factor: f64,
 }
 

@@ -2,7 +2,7 @@
 
 use asperity_maps::warning::Warning;
 
-use crate::key::{AREA, Dimension, FORCE, Given, Kind, LENGTH, PER_LENGTH, PRESSURE, TRANSMISSIVITY, Told, keys, unit};
+use crate::key::{Dimension, FORCE, Given, Kind, LENGTH, PRESSURE, Told, keys, unit};
 use crate::numbers::{plain, si};
 
 keys! {
@@ -25,10 +25,10 @@ pub(crate) fn is_unit(text: &str) -> Result<(), String> {
 }
 
 impl Given {
-    /// The units of numbers beside a file with a unit of length, or none; `si` says that they were given with units.
+    /// The units of numbers next to a file with a unit of length, or none; `si` says that they were given with units.
     ///
     /// # Errors
-    /// A unit beside one that is known, and the remedy, for [`worded`](crate::worded).
+    /// A unit next to one that is known, and the remedy, for [`worded`](crate::worded).
     pub fn units(&self, file: Option<&str>, si: bool) -> Result<Units, String> {
         let chosen = |key: &str, known: Option<&str>| match (self.word(key), known) {
             (Some(unit), Some(known)) if unit != known => {
@@ -108,9 +108,7 @@ impl Units {
     /// A number of a dimension for people, with its unit as far as that is known, and with a prefix in SI units.
     pub fn number(&self, value: f64, dimension: Dimension) -> String {
         match self.of(dimension) {
-            Some(unit) if unit == dimension.si && ![PER_LENGTH, AREA, TRANSMISSIVITY].contains(&dimension) => {
-                si(value, &unit)
-            }
+            Some(unit) if unit == dimension.si => si(value, &unit),
             Some(unit) => format!("{} {unit}", plain(value)),
             None => plain(value),
         }

@@ -38,7 +38,7 @@ pub(crate) struct Course<T> {
     pace: Option<Pace>,
 }
 
-/// The place on a course from which the next state follows. As data it goes on bit for bit.
+/// The place on a course from which the next state follows. As data it continues bit for bit.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Place<T> {
     strategy: Strategy<T>,
@@ -211,7 +211,7 @@ impl<T: Scalar> Course<T> {
         }
     }
 
-    /// The inputs on which the rows depend, beside those of the problem and the loads that are known before.
+    /// The inputs on which the rows depend, besides those of the problem and the loads that are known before.
     pub(crate) fn identity(&self) -> Identity {
         let entries = match &self.way {
             Way::Cycle(loads, PathSettings { steps, smallest_step, imbalance, smooth, .. }) => json!({

@@ -55,8 +55,8 @@ pub struct Next<T: Scalar> {
 const NOT_BEGUN: &str = "there are no loads to follow: begin first";
 
 impl<T: Scalar> Session<T> {
-    /// Begins a way through loads, from a gap or the default start, with what is asked for after each state, or goes on
-    /// with its table in a file; that of an interface, if it is one.
+    /// Begins a way through loads, from a gap or the default start, with what is asked for after each state, or
+    /// continues its table in a file; that of an interface, if it is one.
     ///
     /// # Errors
     /// A way that the problem does not have, a table of another run, or one that was changed or is being written, and files
@@ -133,7 +133,7 @@ impl<T: Scalar> Session<T> {
         self.course.as_ref().map_or("", Course::command)
     }
 
-    /// Finds the next state of the way that was begun last; none at its end. The way goes on from it once it is
+    /// Finds the next state of the way that was begun last; none at its end. The way continues from it once it is
     /// [kept](Self::keep): a state that was stopped, or ran away, is looked for again.
     ///
     /// # Errors

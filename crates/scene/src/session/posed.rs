@@ -127,7 +127,7 @@ impl<T: Scalar> Session<T> {
         Ok(*self.parts()?.1.operator().grid())
     }
 
-    /// The equilibrium under a load, from a gap or the default start, with all that is asked for beside it.
+    /// The equilibrium under a load, from a gap or the default start, with all that is asked for with it.
     ///
     /// # Errors
     /// Those of the solvers of the library.

@@ -8,7 +8,7 @@ use crate::account::{Inputs, Slopes};
 use crate::hash::Hash;
 use crate::key::Adhesion;
 
-/// The inputs by name: all those of a report but for what does not change rows. A run goes on only with equal ones;
+/// The inputs by name: all those of a report but for what does not change rows. A run continues only with equal ones;
 /// numbers come as text, which can be compared exactly.
 pub type Identity = Map<String, Value>;
 
@@ -29,8 +29,8 @@ pub struct Fields<'a> {
     pub law_differs: bool,
 }
 
-/// The identity of a problem with a law on a branch: all that its solutions depend on beside the loads, and the units of
-/// a table.
+/// The identity of a problem with a law on a branch: all that its solutions depend on besides the loads, and the units
+/// of a table.
 pub(crate) fn identity<T: Real>(
     inputs: &Inputs,
     branch: Option<Branch>,

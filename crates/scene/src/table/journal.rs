@@ -1,7 +1,7 @@
 //! The journal of a table: rows are appended to its file as they come, and an interrupted run continues from there.
 //!
-//! Beside the file stands its state: the place from which the next row follows, the identity of the run, and the length
-//! and hash of the file. A row is written to the disk before the state is replaced, in one go. So
+//! Next to the file stands its state: the place from which the next row follows, the identity of the run, and the
+//! length and hash of the file. A row is written to the disk before the state is replaced, in one go. So
 //! the state is never ahead of the file, and the file is ahead of the state by at most one row, whole or not; this row
 //! is cut off and computed again. The file is locked as long as the journal is open.
 //!
@@ -26,7 +26,7 @@ use crate::hash::Hash;
 use crate::outcome::Outcome;
 use crate::table::identity::Identity;
 
-/// The rows of a table on disk, and how to go on with them.
+/// The rows of a table on disk, and how to continue them.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -56,7 +56,7 @@ pub struct Row<'a> {
 const REMEDY: &str = "choose another --out, or --force to start over";
 
 impl Journal {
-    /// Opens the file of a table, new or to go on with; with `force` it is new in any case. The rows are those of
+    /// Opens the file of a table, new or to continue; with `force` it is new in any case. The rows are those of
     /// `loads`, where these are known before. While another run writes there, the file is refused, but for a case of a
     /// study, which waits.
     pub fn open(
@@ -154,7 +154,7 @@ impl Journal {
     }
 }
 
-/// Whether a case of a study could go on with a table: all rows of the state are as they were written, and so is the
+/// Whether a case of a study could continue a table: all rows of the state are as they were written, and so is the
 /// state.
 pub fn is_whole(path: &Path) -> bool {
     let (Ok(state), Ok(content)) = (State::read(path), fs::read(path)) else { return false };
@@ -162,7 +162,7 @@ pub fn is_whole(path: &Path) -> bool {
     kept.is_some_and(|kept| Hash::NEW.of(kept) == state.written.content)
 }
 
-/// The state from which the run goes on, with the part of the file that is kept.
+/// The state from which the run continues, with the part of the file that is kept.
 fn resume(
     path: &Path,
     content: &[u8],
@@ -215,7 +215,7 @@ fn changed() -> io::Error {
     io::Error::other("it was changed by another program meanwhile")
 }
 
-/// The error of a table with which a run cannot go on.
+/// The error of a table that a run cannot continue.
 pub fn refused(path: &Path, reason: String) -> Error {
     Error::file(path, format!("{reason}: {REMEDY}"))
 }

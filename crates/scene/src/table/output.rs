@@ -99,7 +99,7 @@ impl OutputFile {
     }
 
     /// Puts `files` in their places, and then this one, which stands for all of them: one of its name goes before, so
-    /// that it is never beside those of another run.
+    /// that it is never next to those of another run.
     pub fn commit_after(self, files: impl IntoIterator<Item = Self>) -> asperity::Result<()> {
         let place = self.parent.join(&self.name);
         match fs::remove_file(&place) {
@@ -129,7 +129,7 @@ pub fn at_destination(error: Error, folder: &Path) -> Error {
     }
 }
 
-/// The path of a file beside another, whose name it continues.
+/// The path of a file next to another, whose name it continues.
 pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     let mut name = OsString::from(path);
     name.push(suffix);

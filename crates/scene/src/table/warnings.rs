@@ -1,4 +1,4 @@
-//! The warnings of a run, of which the worst of each code is kept, also beside a table.
+//! The warnings of a run, of which the worst of each code is kept, also next to a table.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -9,7 +9,7 @@ use crate::key::Told;
 use crate::outcome::Outcome;
 use crate::table::output::{OutputFile, check_free, with_suffix, write_text};
 
-/// The file with the warnings of a table, beside it, a line for each; there is none without warnings.
+/// The file with the warnings of a table, next to it, a line for each; there is none without warnings.
 pub fn beside(table: &Path) -> PathBuf {
     with_suffix(table, ".warnings.txt")
 }
@@ -22,7 +22,7 @@ pub fn check_beside(table: &Path, force: bool) -> Outcome<()> {
     check_free(&beside(table), force, "--out")
 }
 
-/// The warnings beside a table.
+/// The warnings next to a table.
 ///
 /// # Errors
 /// [`Error::File`] if they cannot be read.
@@ -35,7 +35,7 @@ pub fn read_beside(table: &Path) -> Outcome<Vec<Told>> {
     }
 }
 
-/// Replaces the warnings beside a table.
+/// Replaces the warnings next to a table.
 ///
 /// # Errors
 /// [`Error::File`] if they cannot be written.
@@ -61,7 +61,7 @@ pub struct Warnings {
     found: Vec<Told>,
     told: usize,
     is_strict: bool,
-    /// The table that keeps them beside itself
+    /// The table that keeps them next to itself
     table: Option<PathBuf>,
 }
 
@@ -87,7 +87,7 @@ impl Warnings {
         Ok(of_state)
     }
 
-    /// Keeps the warnings beside a table from here on, after those of the rows that it has already.
+    /// Keeps the warnings next to a table from here on, after those of the rows that it has already.
     ///
     /// # Errors
     /// Those of [`read_beside`] and [`write_beside`].

@@ -54,7 +54,7 @@ fn differences_of_lines_keep_a_large_feature_that_medians_flatten() {
     let plateau = |i: f64, j: f64| if j > 12.0 && i + 2.0 * (j - 12.0) > 40.0 { 5.0 } else { 0.0 };
     let offset = |j: f64| 20.0 * (2.0 * j).cos();
     let map = map((40, 30), (1.0, 1.0), |i, j| plateau(i, j) + offset(j) + 0.1 * (3.0 * i + 7.0 * j).sin());
-    // beside the plateau, the last lines above the first: 0 but for the noise, or its height below
+    // next to the plateau, the last lines above the first: 0 but for the noise, or its height below
     let beside = |alignment| {
         let heights = map.clone().align_rows(alignment, ScanAxis::X).unwrap().heights;
         let mean = |lines| {
@@ -71,7 +71,7 @@ fn spikes_are_found_and_replaced_and_nothing_else() {
     let clean = pierced(rough((80, 60), 8.0), |i, j| (i + 3 * j).is_multiple_of(37) || i < 6 && j < 20);
     assert_eq!(clean.spikes(10.0).unwrap().worst, None);
     assert!(clean.clone().despike(10.0).unwrap().heights.iter().zip(&clean.heights).all(|(a, b)| a == b || b.is_nan()));
-    // in a corner, beside a hole, down, and three nodes together
+    // in a corner, next to a hole, down, and three nodes together
     let spikes = [((79, 59), 50.0), ((6, 9), -80.0), ((40, 30), 60.0), ((40, 31), 61.0), ((41, 31), 62.0)];
     let mut dirty = clean.clone();
     spikes.iter().for_each(|(node, height)| dirty.heights[*node] = *height);
@@ -89,7 +89,7 @@ fn spikes_are_found_and_replaced_and_nothing_else() {
             "{after} at {node:?}"
         );
     }
-    // slopes at edges, in corners and beside holes are no spikes
+    // slopes at edges, in corners and next to holes are no spikes
     let tilted = |i: f64, j: f64| 50.0 * i - 20.0 * j + 0.1 * (i * i + 3.0 * j).sin();
     let tilted =
         pierced(map((40, 30), (1.0, 1.0), tilted), |i, j| (10..20).contains(&i) && j < 12 || i == 30 && j != 4);

@@ -22,7 +22,7 @@ pub fn described_form(fit: &FormFit, map: &Topography) -> String {
     }
 }
 
-/// What its file has beside a map.
+/// What its file has besides a map.
 pub fn beside(map: &Topography) -> String {
     let names = &map.unread[..map.unread.len().min(MOST_NAMES)];
     match map.unread.len() {

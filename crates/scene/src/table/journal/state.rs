@@ -1,4 +1,4 @@
-//! The state of a journal, from which an interrupted run goes on: a file beside the table.
+//! The state of a journal, from which an interrupted run continues: a file next to the table.
 //!
 //! Its first line is a hash of the rest, the second one as JSON the identity of the run and what it has written, and the
 //! place from which the next row follows comes behind them as bytes.
@@ -46,7 +46,7 @@ pub struct State {
 }
 
 impl State {
-    /// Reads the state of a table, or says why there is none to go on from.
+    /// Reads the state of a table, or says why there is none to continue from.
     pub fn read(table: &Path) -> Result<Self, String> {
         let path = state_path(table);
         match fs::read(&path) {
