@@ -12,6 +12,9 @@ const STATE: f64 = 30.0;
 /// applications, a line or a sphere as many as a rough square.
 const LEG: f64 = 4000.0;
 
+/// The share of the way from which on the speed so far says something.
+const ENOUGH: f64 = 0.05;
+
 /// The pace of a cycle, of which the number of states is not known before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
