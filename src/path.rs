@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Criterion, Iteration, Observer, Solution, Solved, Solver, Start, Status, check_hardness, check_wall,
+    Begin, Criterion, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_hardness, check_wall,
     refuse_springs,
 };
 use crate::stability::Watch;
@@ -30,7 +30,7 @@ mod settings;
 mod sharp;
 mod step;
 
-use account::Account;
+use account::{Account, Balance};
 use course::{Course, Way};
 pub use event::{Event, Jump};
 use figures::Mode;
@@ -343,17 +343,22 @@ impl<T: Real> Path<T> {
         let flat = bench.problem.flat.work * bench.problem.flat.padding;
         // where surfaces hardly touch, the energy is the small difference of sums as large as that of flat surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
-        // the tolerance's share in the energy of surfaces that are apart: only adhesion makes them jump
-        let left = if hints.zero { report.tolerance.powi(2) * flat } else { 0.0 };
+        // the tolerance's share in it
+        let left = report.tolerance.powi(2) * flat;
         let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
-        let mut trial = self.course.judge(target, report, scale, noise);
+        let judge = |course: &Course, report: &Report| {
+            let trial = course.judge(target, report, scale, noise);
+            // only adhesion makes surfaces jump
+            if hints.zero { Balance { jumped: false, located: false, ..trial } } else { trial }
+        };
+        let mut trial = judge(&self.course, report);
         let good = trial.balanced && settled;
         let jumped = settled && !good && trial.located && self.settings.smallest_step.is_none();
         let saddle = if settled && (good || smallest || jumped) { self.saddle(bench, &solved.solution)? } else { None };
         let lost = good && saddle.is_some() && !self.course.on_saddle;
         if (!good && !jumped || lost) && !smallest {
-            self.course.halve(report, trial, &self.settings);
+            self.course.halve(report, &self.settings);
             return Ok(None);
         }
         let detached = report.status == Status::Detached;
@@ -372,7 +377,7 @@ impl<T: Real> Path<T> {
             }
             if let Some(left) = left {
                 (solved, on_saddle) = (left, false);
-                trial = self.course.judge(target, &solved.solution.report, scale, noise);
+                trial = judge(&self.course, &solved.solution.report);
                 way.jumped |= trial.jumped && !trial.balanced;
                 way.bifurcation = (good && !drawn).then_some(saddle.eigenvalue);
             }

@@ -2,30 +2,29 @@
 
 use super::account::Balance;
 
-/// The share of the imbalance of a step that was taken back, below which its first half has none.
-const AHEAD: f64 = 0.125;
+/// The share of the product of a step and the change of the load, to which the trapezoid rule is right where the load
+/// is a parabola.
+const SMOOTH: f64 = 1.0 / 6.0;
 
 /// The end of the shortest step that was taken back: what it jumped over, or bent too much in, is on the way there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Bracket {
-    /// the held quantity there
-    pub(super) target: f64,
-    /// the derivative of the potential by it
-    pub(super) slope: f64,
-    pub(super) excess: f64,
-    pub(super) drop: f64,
+    /// the held quantity there, and the derivative of the potential by it
+    pub(super) end: (f64, f64),
+    pub(super) potential: f64,
     /// the length of the first step that was taken back
     pub(super) stride: f64,
 }
 
 impl Bracket {
-    /// The length of the next step from a state on the way, with the balance of the step to it: half the way where the
-    /// jump is ahead and not located, so that no state behind it is solved twice.
-    pub(super) fn next_step(&self, (at, slope): (f64, f64), balance: Balance) -> f64 {
-        let left = (self.target - at).abs();
-        let is_ahead = balance.excess.abs() < AHEAD * self.excess.abs();
-        let is_located = Balance { drop: self.drop, ..balance }.locates(left * (self.slope - slope));
-        if is_ahead && !is_located { 0.5 * left } else { left }
+    /// The length of the next step from a state on the way, with the balance of the step to it: half the way if a jump
+    /// is ahead that the whole would not locate, so that no state behind it is solved twice.
+    pub(super) fn next_step(&self, (at, slope): (f64, f64), potential: f64, balance: Balance) -> f64 {
+        let left = self.end.0 - at;
+        let product = left * (self.end.1 - slope);
+        let drop = 0.5 * (slope + self.end.1) * left - (self.potential - potential);
+        let is_smooth = drop.abs() <= balance.allowed.max(SMOOTH * product.abs());
+        if is_smooth || (Balance { drop, ..balance }).locates(product) { left.abs() } else { 0.5 * left.abs() }
     }
 }

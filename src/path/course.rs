@@ -173,7 +173,7 @@ impl Course {
 
     /// The value of the held quantity in the next step, and whether the step cannot be halved.
     pub(super) fn next_target(&self, settings: &PathSettings) -> (f64, bool) {
-        let (from, end) = (self.here().slope(self.mode).0, self.bracket.map_or(self.span.1, |bracket| bracket.target));
+        let (from, end) = (self.here().slope(self.mode).0, self.bracket.map_or(self.span.1, |bracket| bracket.end.0));
         let left = (end - from).abs();
         let smallest = self.smallest(settings);
         // no tiny step at the end
@@ -190,13 +190,14 @@ impl Course {
         (target, step <= smallest)
     }
 
-    /// Takes a step back, of which the end and the balance are given.
-    pub(super) fn halve(&mut self, report: &Report, balance: Balance, settings: &PathSettings) {
+    /// Takes a step back, to the state of a report.
+    pub(super) fn halve(&mut self, report: &Report, settings: &PathSettings) {
         let (target, _) = self.next_target(settings);
         let tried = (target - self.here().slope(self.mode).0).abs();
-        let (_, slope) = Figures::of(report).held_by(self.mode).slope(self.mode);
+        let there = Figures::of(report).held_by(self.mode);
         let stride = self.bracket.map_or(tried, |bracket| bracket.stride);
-        self.bracket = Some(Bracket { target, slope, excess: balance.excess, drop: balance.drop, stride });
+        let (end, potential) = ((target, there.slope(self.mode).1), there.potential(self.mode));
+        self.bracket = Some(Bracket { end, potential, stride });
         self.step = (0.5 * tried).max(self.smallest(settings));
     }
 
@@ -355,9 +356,9 @@ impl Course {
         let next_step = match self.bracket.take() {
             Some(bracket) if way.is_new() => taken.max(REGAINED * bracket.stride),
             None if way.is_new() => taken,
-            Some(bracket) if bracket.target != target => {
+            Some(bracket) if bracket.end.0 != target => {
                 self.bracket = Some(bracket);
-                bracket.next_step(next.slope(self.mode), trial)
+                bracket.next_step(next.slope(self.mode), next.potential(self.mode), trial)
             }
             _ => grown,
         };
