@@ -74,6 +74,8 @@ fn symbol(unit: &str) -> (&str, i32) {
 
 /// A value to three digits on its own scale, with its unit.
 pub(super) fn three_digits(value: f64, unit: Option<&str>) -> String {
+    // rounded first, so that 999.9 p is 1 n
+    let value = format!("{value:.2e}").parse().unwrap_or(value);
     let scale = Scale::new(value.abs(), unit);
     let number = value / scale.factor;
     if number == 0.0 {
@@ -284,7 +286,7 @@ mod tests {
             (1e-13, "m²", "q (µm²)"),
             (4e-15, "m²", "q (nm²)"),
             (3e-20, "m³/(Pa·s)", "q (µm³/(Pa·s))"),
-            (2e-29, "m⁴", "q (µm⁴)"),
+            (2e-33, "m⁴", "q (nm⁴)"),
             (2e7, "1/m", "q (1/µm)"),
             (2e-9, "1/Pa", "q (1/GPa)"),
             (1e-12, "1/um", "q (10⁻¹² 1/um)"),
@@ -303,6 +305,7 @@ mod tests {
         assert_eq!(texts(0.0, 2e-4, None, 2), ("0 1 2".into(), "q (10⁻⁴)".into()));
         assert_eq!(three_digits(-3.2e10, Some("Pa")), "−32.0 GPa");
         assert_eq!(three_digits(4.567e-5, None), "4.57·10⁻⁵");
+        assert_eq!(three_digits(9.999e-10, Some("m")), "1.00 nm");
     }
 
     #[test]
