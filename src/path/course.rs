@@ -331,7 +331,8 @@ impl Course {
         if jumped {
             // the jump is anywhere in the step, each place as likely as another
             let done = -0.5 * (here.pressure + next.pressure) * (next.position - here.position);
-            *variance += ((next.pressure - here.pressure) * (next.position - here.position)).powi(2) / 12.0;
+            let [(from, before), (_, after)] = [here, next].map(|place| place.slope(self.mode));
+            *variance += ((target - from) * (after - before)).powi(2) / 12.0;
             jump.energy_drop = done - (next.energy - here.energy);
             *work += done;
             *dissipated += jump.energy_drop;

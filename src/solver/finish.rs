@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::field::{Field, Minimum, Sums, found, read, write};
 use crate::grid::Grid;
 use crate::par::Parts;
-use crate::problem::{Load, Window};
+use crate::problem::{Load, PressedFlat, Window};
 use crate::real::Real;
 use crate::vector::sums;
 
@@ -65,7 +65,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             solution.gap.mapv_inplace(|gap| gap.max(T::zero()));
         }
         if flat.boundary != Boundary::Periodic {
-            solution.watch_edge(on_grid);
+            solution.watch_edge(on_grid, flat);
         }
         Ok(Solved { solution, whole: gap.map(|gap| (grid, gap)), at_floor })
     }
@@ -203,7 +203,7 @@ impl<T: Real> Solution<T> {
     }
 
     /// Notes the traction at the edge of the window, and whether the contact reaches it.
-    fn watch_edge(&mut self, law: &dyn AdhesionLaw<T>) {
+    fn watch_edge(&mut self, law: &dyn AdhesionLaw<T>, flat: &PressedFlat<T>) {
         let (grid, report) = (self.grid, &mut self.report);
         let tractions = [largest(edge(&self.pressure, &grid)), largest(self.pressure.iter().copied())];
         let [at_edge, largest] = tractions.map(|own| grid.each(own).into_iter().fold(0.0, f64::max));
@@ -211,8 +211,11 @@ impl<T: Real> Solution<T> {
         // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
         let attract = !law.hints().zero && largest > noticeable(law);
         let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
+        // what the tolerance leaves of the pressures
+        let noise = report.tolerance * flat.stiffness * flat.rms_height;
         let touches = grid.each(edge(&self.gap, &grid).any(|gap| gap <= T::zero())).contains(&true);
-        (report.edge_traction, report.reaches_edge) = (Some(share), !apart && (share > EDGE || touches));
+        (report.edge_traction, report.reaches_edge) =
+            (Some(share), !apart && (share > EDGE && at_edge > noise || touches));
     }
 }
 
