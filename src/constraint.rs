@@ -81,6 +81,12 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         false
     }
 
+    /// Takes over the contact pressures that a rigid wall bears, found to a relative error, from where the rounds then go
+    /// on; `false`, the default, if the pressure of the springs is that of their gap. Zero at absent nodes.
+    fn bear(&mut self, _pressures: ArrayView2<'_, T>, _error: f64) -> bool {
+        false
+    }
+
     /// Updates the springs when a solve with them has converged, and tells whether to solve again. The gap is infinite at
     /// [absent](crate::Surface::with_absent) nodes. `work` is the scale of the square of relative errors, Σ u·p over
     /// the nodes.
@@ -101,6 +107,9 @@ impl<T: Real, C: ContactConstraint<T> + ?Sized> ContactConstraint<T> for Box<C> 
     }
     fn ends_rigid(&self) -> bool {
         (**self).ends_rigid()
+    }
+    fn bear(&mut self, pressures: ArrayView2<'_, T>, error: f64) -> bool {
+        (**self).bear(pressures, error)
     }
     fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
         (**self).update(gap, work)

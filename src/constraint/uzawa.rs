@@ -138,6 +138,11 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     fn ends_rigid(&self) -> bool {
         true
     }
+    fn bear(&mut self, pressures: ArrayView2<'_, T>, error: f64) -> bool {
+        (self.multipliers, self.present) = (Field::of(pressures), NEXT * error);
+        self.rounds += 1;
+        true
+    }
     fn update(&mut self, gap: ArrayView2<'_, T>, work: f64) -> Update {
         let stiffness = self.stiffness;
         let nodes = ordered(gap);

@@ -104,14 +104,18 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         goal: Goal::Solution,
         // a given start is on a branch, which ends where the surfaces come apart
         holds: if begin.is_default() && !from_afar { Hold::ALL.iter() } else { [].iter() },
+        by_wall: false,
         leads_on: true,
         from_full_contact: begin.is_default() && branch == Some(Branch::Unloading),
     };
     let is_torn = posed.is_torn();
-    let smooths = posed.smoothed.is_some() && !is_torn;
-    let phases = [from_afar.then_some(Goal::Wall), smooths.then_some(Goal::Start)];
+    posed.by_wall = posed.holds.len() > 0 && preconditioned && !is_torn && posed.nearly_rigid();
+    let starts = posed.by_wall || posed.smoothed.is_some() && !is_torn;
+    let phases = [from_afar.then_some(Goal::Wall), starts.then_some(Goal::Start)];
     if from_afar {
         posed.leave_adhesion();
+    } else if posed.by_wall {
+        posed.goal = Goal::Start;
     }
     let mut state = State::new(posed, begin)?;
     for phase in phases.into_iter().flatten() {

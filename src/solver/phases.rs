@@ -2,11 +2,14 @@
 
 use super::coarse::Coarse;
 use super::minimisation::{Goal, Nearness, Progress};
+use super::passes::Fields;
 use super::start::uniform_start;
 use super::state::State;
 use crate::adhesion::Values;
 use crate::constraint::{Update, Wall};
 use crate::error::{Error, Result};
+use crate::field::{CHUNK, Field, read, write};
+use crate::par::Parts;
 use crate::problem::{Control, Load};
 use crate::real::Real;
 
@@ -31,7 +34,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
 
     /// Goes over from a phase to the law itself.
     pub(super) fn leave(&mut self, phase: Goal) -> Result<()> {
-        if phase == Goal::Wall { self.leave_wall() } else { self.sharpen() }
+        if phase == Goal::Wall {
+            return self.leave_wall();
+        }
+        if self.posed.by_wall {
+            self.soften()?;
+        }
+        self.sharpen()
     }
 
     pub(super) fn check_start(&self) -> Result<()> {
@@ -84,6 +93,35 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.check_start()
     }
 
+    /// Goes on with springs from the state of a rigid wall: they take over its contact pressures, or yield to them.
+    fn soften(&mut self) -> Result<()> {
+        let (shift, below) = (T::lit(self.external_pressure() - self.sums.drift), self.posed.pressed());
+        let local = self.posed.potential();
+        let Fields { reducer, gap, pressure, .. } = &mut self.fields;
+        let mut contact = Field::zeros(gap.dim());
+        let fields = read(gap).zip(read(pressure)).zip(write(&mut contact));
+        local.run(reducer, fields, |local, first, ((gap, pressure), contact)| {
+            let mut borne = [T::zero(); CHUNK];
+            borne.iter_mut().zip(pressure).for_each(|(borne, &p)| *borne = p + shift);
+            local.contact_pressures(first, gap, &borne[..gap.len()], contact);
+        });
+        (self.posed.by_wall, self.posed.goal) = (false, Goal::Solution);
+        let pressures = self.posed.on_surface(&contact, T::zero());
+        if !self.posed.constraint.bear(pressures.view(), self.relative_error()) {
+            let local = self.posed.potential();
+            let Wall::Springs(springs) = self.posed.constraint.wall() else { return Ok(()) };
+            let Fields { reducer, gap, .. } = &mut self.fields;
+            local.run(reducer, write(gap).zip(read(&contact)), |_, first, (gap, contact)| {
+                let nodes = gap.iter_mut().zip(contact).zip(first..).filter(|((_, pressure), _)| **pressure > T::zero());
+                for ((gap, &pressure), node) in nodes {
+                    *gap = -(pressure + springs.traction(node, T::zero())) / springs.slope(node, below);
+                }
+            });
+        }
+        self.count();
+        self.refresh()
+    }
+
     /// Goes on with the law itself after the smoothed one. A given start is on a branch, which ends where the smoothed
     /// law lets go.
     fn sharpen(&mut self) -> Result<()> {
@@ -101,11 +139,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     pub(super) fn update_constraint(&mut self) -> Update {
-        // no gap where no surface faces the half-space
-        let whole = || match &self.posed.flat.window {
-            Some(window) => window.held().whole_of(window.cut(&self.fields.gap, T::infinity()).into_array()),
-            None => self.posed.operators.state().grid().whole(&*self.fields.gap),
-        };
+        let whole = || self.posed.on_surface(&self.fields.gap, T::infinity());
         let gap = matches!(self.posed.constraint.wall(), Wall::Springs(_)).then(whole);
         let work = self.error_scale().0 * self.posed.nodes();
         let outer = gap.map_or(Update::Done, |gap| self.posed.constraint.update(gap.view(), work));

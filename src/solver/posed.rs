@@ -2,6 +2,8 @@
 
 use std::slice;
 
+use ndarray::{CowArray, Ix2};
+
 use super::minimisation::Goal;
 use super::operators::Operators;
 use super::potential::Potential;
@@ -10,12 +12,16 @@ use super::{Branch, Method, Settings, rey2017};
 use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::Result;
+use crate::field::Field;
 use crate::problem::{Control, Load, PressedFlat, Window};
 use crate::real::Real;
 
 /// The mean pressure, over the rms pressure that presses the surface flat, up to which undeformed surfaces that touch
 /// are the better start without adhesion on a periodic grid.
 const HARDLY_PRESSED: f64 = 1e-3;
+
+/// The stiffness of springs, over that of the stiffest wave, above which a solve with them starts from a rigid wall.
+const STIFF: f64 = 8.0;
 
 /// The energy to be minimised, and how well. A phase may change load and goal, and with the goal law and wall.
 pub(super) struct Posed<'a, T: Real, Lo> {
@@ -35,6 +41,8 @@ pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) goal: Goal,
     /// the states that may hold a load where surfaces come apart, which were not tried
     pub(super) holds: slice::Iter<'static, Hold>,
+    /// whether a rigid wall stands for springs on the way to the solution
+    pub(super) by_wall: bool,
     /// whether the present round of the constraint may lead to another one
     pub(super) leads_on: bool,
     /// whether full contact may have thrown the surfaces apart
@@ -78,7 +86,24 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
     }
 
     fn present(&self) -> &dyn ContactConstraint<T> {
-        if self.goal == Goal::Wall && self.separation().is_some() { &Projection } else { &*self.constraint }
+        let rigid = match self.goal {
+            Goal::Wall => self.by_wall || self.separation().is_some(),
+            Goal::Start => self.by_wall,
+            _ => false,
+        };
+        if rigid { &Projection } else { &*self.constraint }
+    }
+
+    /// Whether springs end at a rigid wall, or are so stiff that its gap is near theirs.
+    pub(super) fn nearly_rigid(&self) -> bool {
+        let Wall::Springs(springs) = self.constraint.wall() else { return false };
+        let stiffness = springs.slope(0, self.pressed()).widen();
+        self.constraint.ends_rigid() || stiffness > STIFF * self.stiffness_range().1
+    }
+
+    /// A gap of hardly any interpenetration.
+    pub(super) fn pressed(&self) -> T {
+        T::lit(-self.flat.rms_height) * T::epsilon()
     }
 
     /// The gap at which a wall stands for the repulsion of a law.
@@ -106,6 +131,14 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
 
     pub(super) fn projects(&self) -> bool {
         self.wall().projects()
+    }
+
+    /// All of a field on the surface's grid, with a value where no surface faces the half-space.
+    pub(super) fn on_surface<'f>(&self, field: &'f Field<T>, absent: T) -> CowArray<'f, T, Ix2> {
+        match &self.flat.window {
+            Some(window) => window.held().whole_of(window.cut(field, absent).into_array()),
+            None => self.operators.state().grid().whole(&**field),
+        }
     }
 
     /// Whether nothing but the law keeps the surfaces apart.

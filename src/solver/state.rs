@@ -273,7 +273,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             mean_gap: self.mean_gap(),
             contact_nodes: self.sums.tally.contact as usize,
             round: self.counters.rounds,
-            smoothed: self.posed.goal == Goal::Start,
+            smoothed: self.posed.goal == Goal::Start && self.posed.smoothed.is_some(),
         }
     }
 }
