@@ -20,7 +20,7 @@ const SLOW: f64 = 0.25;
 /// The largest stiffness of the first springs over that of the shortest wave: stiffer ones only cost iterations.
 const STIFFEST: f64 = 10.0;
 
-/// The relative error to which the first round is solved.
+/// The relative error to which the first round with springs is solved from a given start.
 const FIRST: f64 = 1e-2;
 
 /// The share of the error of a round to which the next one is solved: rounds leave more than it.
@@ -32,7 +32,8 @@ const NEXT: f64 = 0.1;
 /// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node, and after a round the gap has the error s = (λ − ⟨λ − kg⟩₊)/k. If
 /// more than a quarter of this error is left, the next springs are four times as stiff. The given stiffness, at most ten
 /// times that of the shortest wave, therefore hardly matters. A round is solved as closely as the error of the one
-/// before it is worth, and the last one to the tolerance of the solve.
+/// before it is worth, and the last one to the tolerance of the solve. Without a given start the first round is that of a
+/// rigid wall, whose contact pressures are the first multipliers.
 ///
 /// The rounds end when the error of the pressure p in the energy norm is at most the tolerance. With κ the stiffness of
 /// the shortest wave, Δλ the change of λ, u the displacement, N the number of nodes and bars for means, the criterion is

@@ -8,7 +8,7 @@ use super::work::Work;
 pub(super) enum Goal {
     /// The gap that the wall alone leaves, without adhesion: a start on the branch of loading.
     Wall,
-    /// A start for the law itself, from the law with its jumps smoothed.
+    /// A start for the law itself, from the law with its jumps smoothed, or for springs, from a rigid wall.
     Start,
     /// A state at a given mean gap that holds a tensile load: a start under that load.
     Hold,

@@ -121,7 +121,7 @@ fn table_2_in_squares_with_all_three_at_the_mean_gap_of_the_load() {
         etas: [6.068e-7, 3.022e-5, 6.068e-7],
         thetas: [1.285e-4, 1.297e-4, 1.285e-4],
         interpenetration: -4.27e-6,
-        rounds: 7,
+        rounds: 5,
         wrong: [4.46, 8.92],
     };
     table_2_in_squares(256, &expected);
