@@ -15,6 +15,10 @@ use crate::solver::{Begin, Branch, Iteration, Method, Observer, Solution, Solved
 /// The relative error of the contact fraction at which a search ends.
 const TOLERANCE: f64 = 0.01;
 
+/// The error to which a state is solved that is this many times the tolerance from the wanted one.
+const ROUGHLY: f64 = 1e-3;
+const FAR: f64 = 2.0;
+
 /// The most solves of a search; a bracket is halved at least with every other one.
 const MOST: usize = 60;
 
@@ -261,22 +265,33 @@ impl<T: Real> ContactSearch<T> {
             None => branch.map(|branch| branch == Branch::Loading),
         };
         let mut nearest: Option<(Point, Solved<T>)> = None;
-        let (mut solves, mut applications) = (0, 0);
+        let (mut solves, mut applications, mut stopped) = (0, 0, false);
+        let rigid = solver.constraint.wall().is_rigid();
         let reached = loop {
             let begin = match (&self.start, &self.gap) {
                 (Some(gap), _) => Begin::At(Start::From(gap)),
                 (None, Some(gap)) if !anew => Begin::Found(gap.clone()),
                 (None, _) => branch.map_or(Begin::At(Start::Default), Begin::On),
             };
-            let solved = solver.run(problem.parts(), axis.control(x), begin, &mut *observe)?;
+            let distance = |nodes: usize| (nodes as f64 - wanted).abs();
+            // the phases before a solution have another law, or wall
+            let of_solution = rigid && (!adhesion || !begin.is_default());
+            let mut is_far = false;
+            let mut watch = |state: &Iteration| {
+                let next = observe(state);
+                let roughly = state.relative_error.max(state.load_error) <= ROUGHLY && !state.smoothed;
+                is_far = roughly && of_solution && distance(state.contact_nodes) > FAR * allowed && next.is_continue();
+                if is_far { ControlFlow::Break(()) } else { next }
+            };
+            let solved = solver.run(problem.parts(), axis.control(x), begin, &mut watch)?;
             let report = &solved.solution.report;
             solves += 1;
             applications += report.operator_applications;
-            let (count, converged) = (report.contact_nodes, report.status == Status::Converged);
+            let (count, converged) = (report.contact_nodes, is_far || report.status == Status::Converged);
             let point = Point { x, level: level(count as f64 / facing), nodes: count };
-            let distance = |nodes: usize| (nodes as f64 - wanted).abs();
             let hit = converged && count > 0 && (count as f64) < facing && distance(count) <= allowed;
             if hit || !converged {
+                stopped = report.status == Status::Stopped;
                 nearest = Some((point, solved));
                 break hit;
             }
@@ -295,10 +310,16 @@ impl<T: Real> ContactSearch<T> {
                 break false;
             }
         };
-        let Some((point, solved)) = nearest else {
+        let Some((point, mut solved)) = nearest else {
             // the loop ends with a solution
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement: "found by a solve" });
         };
+        if solved.solution.report.status == Status::Stopped && !stopped {
+            let begin = Begin::Found(solved.gap().clone());
+            solved = solver.run(problem.parts(), axis.control(point.x), begin, &mut *observe)?;
+            solves += 1;
+            applications += solved.solution.report.operator_applications;
+        }
         self.remember(point);
         let (mut solution, gap) = solved.with_gap();
         solution.report.branch = branch;

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, check_hardness, extrapolated,
+    Begin, Branch, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, check_hardness, extrapolated,
 };
 
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
@@ -23,7 +23,8 @@ use crate::solver::{
 ///   logarithm of pressure or force, and clipped to g ≥ 0;
 /// - with adhesion, in the same way as long as the load continues in one direction and the two gaps before the last one
 ///   had led to it, which they do not across a jump;
-/// - otherwise, and where loads are not of one kind, from the last gap.
+/// - otherwise, and where loads are not of one kind, from the last gap, or by the default start of the branch of loading
+///   if the last load was of one and this one presses by more than four times as much.
 ///
 /// A sweep with adhesion follows its branch of equilibria up to the instability at which it jumps, and surfaces that
 /// were pulled apart ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
@@ -61,10 +62,15 @@ pub struct Sweep<T> {
     history: Vec<(Control, Array2<T>)>,
     /// the plastic depth after the last load, on the grid of the operator
     depth: Option<Array2<T>>,
+    /// whether the last load, from a default start, was on the branch of loading
+    loads: bool,
 }
 
 /// The farthest extrapolation of the last step, in steps.
 pub(crate) const MOST_STEPS: f64 = 2.0;
+
+/// The ratio of two loads above which the second one starts anew on the branch of loading.
+const FAR: f64 = 4.0;
 
 /// The distance of a gap from that which the two before it foretold, over that from the one before it, from which on it
 /// may have jumped.
@@ -72,7 +78,7 @@ const FORETOLD: f64 = 0.5;
 
 impl<T> Default for Sweep<T> {
     fn default() -> Self {
-        Self { start: None, history: Vec::new(), depth: None }
+        Self { start: None, history: Vec::new(), depth: None, loads: false }
     }
 }
 
@@ -142,6 +148,7 @@ impl<T: Real> Sweep<T> {
     fn keep(&mut self, problem: &mut Problem<T>, load: Control, solved: Solved<T>) -> Result<Solution<T>> {
         let stays = solved.is_settled();
         let (solution, mut gap) = solved.with_gap();
+        self.loads = solution.report.branch == Some(Branch::Loading);
         if let Some(depth) = &solution.plastic_depth {
             problem.lower(depth.view(), stays, &mut gap)?;
             self.history.clear();
@@ -155,7 +162,7 @@ impl<T: Real> Sweep<T> {
     fn next_start(&mut self, problem: &Problem<T>, least: Least<T>, load: Control) -> Option<Begin<'static, T>> {
         let adheres = !problem.law_on_grid().hints().zero;
         let ahead = |two, load| ahead(problem, least, two, load);
-        let (_, last) = self.history.last()?;
+        let (before, last) = self.history.last()?;
         let ahead = match &self.history[..] {
             [.., earlier, before, last] if adheres => {
                 let foretold = ahead([earlier, before], last.0);
@@ -168,7 +175,11 @@ impl<T: Real> Sweep<T> {
             [.., before, last] if !adheres => ahead([before, last], load),
             _ => None,
         };
-        let start = ahead.map_or_else(|| Begin::Found(last.clone()), Begin::Ahead);
+        let start = match ahead {
+            Some(gap) => Begin::Ahead(gap),
+            None if self.loads && is_far(*before, load) => Begin::On(Branch::Loading),
+            None => Begin::Found(last.clone()),
+        };
         let kept = if adheres { 2 } else { 1 };
         self.history.drain(..self.history.len().saturating_sub(kept));
         Some(start)
@@ -204,6 +215,16 @@ fn ahead<T: Real>(
     }
     let on = (problem.flat.window.as_ref(), *problem.operator.grid());
     Some(extrapolated([&before.1, &last.1], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
+}
+
+/// Whether a load presses by so much more than the one before that its gap says little.
+fn is_far(before: Control, load: Control) -> bool {
+    match (before, load) {
+        (Control::MeanPressure(a), Control::MeanPressure(b)) | (Control::Force(a), Control::Force(b)) => {
+            a >= 0.0 && b > FAR * a
+        }
+        _ => false,
+    }
 }
 
 /// Whether a gap was foretold, without a jump: it is closer to the one that was than the one before.

@@ -112,7 +112,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let Wall::Springs(springs) = self.posed.constraint.wall() else { return Ok(()) };
             let Fields { reducer, gap, .. } = &mut self.fields;
             local.run(reducer, write(gap).zip(read(&contact)), |_, first, (gap, contact)| {
-                let nodes = gap.iter_mut().zip(contact).zip(first..).filter(|((_, pressure), _)| **pressure > T::zero());
+                let nodes =
+                    gap.iter_mut().zip(contact).zip(first..).filter(|((_, pressure), _)| **pressure > T::zero());
                 for ((gap, &pressure), node) in nodes {
                     *gap = -(pressure + springs.traction(node, T::zero())) / springs.slope(node, below);
                 }

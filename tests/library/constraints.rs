@@ -64,7 +64,9 @@ fn stiff_springs_take_hardly_more_applications_than_a_wall() {
     let mut problem = rough::<f64>(128, 32, NoAdhesion);
     let stiffest = problem.operator().stiffness_range().1;
     let mut counted = Vec::new();
-    for (control, law) in [(Control::MeanPressure(0.02), false), (Control::MeanGap(0.02), false), (Control::MeanGap(0.02), true)] {
+    for (control, law) in
+        [(Control::MeanPressure(0.02), false), (Control::MeanGap(0.02), false), (Control::MeanGap(0.02), true)]
+    {
         if law {
             problem = rough(128, 32, Exponential::new(2e-4, 2e-3).unwrap());
         }
