@@ -16,8 +16,11 @@ use crate::solver::{Begin, Branch, Iteration, Method, Observer, Solution, Solved
 const TOLERANCE: f64 = 0.01;
 
 /// The error to which a state is solved that is this many times the tolerance from the wanted one.
-const ROUGHLY: f64 = 1e-3;
+const ROUGHLY: f64 = 3e-3;
 const FAR: f64 = 2.0;
+
+/// The growth of the logarithm of the load above which a solve without adhesion starts anew.
+const LONG: f64 = 0.7;
 
 /// The most solves of a search; a bracket is halved at least with every other one.
 const MOST: usize = 60;
@@ -270,7 +273,7 @@ impl<T: Real> ContactSearch<T> {
         let reached = loop {
             let begin = match (&self.start, &self.gap) {
                 (Some(gap), _) => Begin::At(Start::From(gap)),
-                (None, Some(gap)) if !anew => Begin::Found(gap.clone()),
+                (None, Some(gap)) if !anew && !self.is_long_way(x, adhesion) => Begin::Found(gap.clone()),
                 (None, _) => branch.map_or(Begin::At(Start::Default), Begin::On),
             };
             let distance = |nodes: usize| (nodes as f64 - wanted).abs();
@@ -342,6 +345,11 @@ impl<T: Real> ContactSearch<T> {
         let begins = self.points.is_empty() && self.start.is_none() && self.gap.is_none();
         let usual = settings.method != Method::Rey2017 && constraint.wall().is_rigid();
         settings.branch.or(usual.then_some(Branch::Loading)).filter(|_| begins)
+    }
+
+    /// Whether a load without adhesion presses so much more than the last one that its gap says little.
+    fn is_long_way(&self, x: f64, adhesion: bool) -> bool {
+        !adhesion && self.points.last().is_some_and(|last| x - last.x > LONG)
     }
 
     fn remember(&mut self, point: Point) {

@@ -23,8 +23,9 @@ use crate::solver::{
 ///   logarithm of pressure or force, and clipped to g ≥ 0;
 /// - with adhesion, in the same way as long as the load continues in one direction and the two gaps before the last one
 ///   had led to it, which they do not across a jump;
-/// - otherwise, and where loads are not of one kind, from the last gap, or by the default start of the branch of loading
-///   if the last load was of one and this one presses by more than four times as much.
+/// - otherwise, and where loads are not of one kind, from the last gap;
+/// - from the default start under a pressure or force of more than four times the last one, which says little of it; with
+///   adhesion only if the last load had started so on the branch of loading.
 ///
 /// A sweep with adhesion follows its branch of equilibria up to the instability at which it jumps, and surfaces that
 /// were pulled apart ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
@@ -69,7 +70,7 @@ pub struct Sweep<T> {
 /// The farthest extrapolation of the last step, in steps.
 pub(crate) const MOST_STEPS: f64 = 2.0;
 
-/// The ratio of two loads above which the second one starts anew on the branch of loading.
+/// The ratio of two loads above which the second one starts anew.
 const FAR: f64 = 4.0;
 
 /// The distance of a gap from that which the two before it foretold, over that from the one before it, from which on it
@@ -163,7 +164,9 @@ impl<T: Real> Sweep<T> {
         let adheres = !problem.law_on_grid().hints().zero;
         let ahead = |two, load| ahead(problem, least, two, load);
         let (before, last) = self.history.last()?;
+        let anew = (self.loads || !adheres) && self.depth.is_none() && is_far(*before, load);
         let ahead = match &self.history[..] {
+            _ if anew => None,
             [.., earlier, before, last] if adheres => {
                 let foretold = ahead([earlier, before], last.0);
                 if foretold.is_some_and(|gap| foretells(problem, &gap, [before, last])) {
@@ -177,7 +180,7 @@ impl<T: Real> Sweep<T> {
         };
         let start = match ahead {
             Some(gap) => Begin::Ahead(gap),
-            None if self.loads && is_far(*before, load) => Begin::On(Branch::Loading),
+            None if anew => Begin::At(Start::Default),
             None => Begin::Found(last.clone()),
         };
         let kept = if adheres { 2 } else { 1 };
@@ -198,9 +201,9 @@ fn ahead<T: Real>(
         | (Control::Approach(a), Control::Approach(b), Control::Approach(c)) => (c - b) / (b - a),
         (Control::MeanPressure(a), Control::MeanPressure(b), Control::MeanPressure(c))
         | (Control::Force(a), Control::Force(b), Control::Force(c)) => {
-            // linear across a pressure of zero, where no logarithm is
+            // linear from and across a pressure of zero, where no logarithm is
             let of_logarithms = (c / b).ln() / (b / a).ln();
-            if of_logarithms.is_nan() { (c - b) / (b - a) } else { of_logarithms }
+            if a == 0.0 || of_logarithms.is_nan() { (c - b) / (b - a) } else { of_logarithms }
         }
         (
             Control::Spring { stiffness: k, rest: a },

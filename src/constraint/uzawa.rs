@@ -33,7 +33,7 @@ const NEXT: f64 = 0.1;
 /// more than a quarter of this error is left, the next springs are four times as stiff. The given stiffness, at most ten
 /// times that of the shortest wave, therefore hardly matters. A round is solved as closely as the error of the one
 /// before it is worth, and the last one to the tolerance of the solve. Without a given start the first round is that of a
-/// rigid wall, whose contact pressures are the first multipliers.
+/// rigid wall, whose contact pressures are the first multipliers, of springs with ten times the stiffness of that wave.
 ///
 /// The rounds end when the error of the pressure p in the energy norm is at most the tolerance. With κ the stiffness of
 /// the shortest wave, Δλ the change of λ, u the displacement, N the number of nodes and bars for means, the criterion is
@@ -141,6 +141,9 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
     }
     fn bear(&mut self, pressures: ArrayView2<'_, T>, error: f64) -> bool {
         (self.multipliers, self.present) = (Field::of(pressures), NEXT * error);
+        if self.stiffest > 0.0 {
+            self.stiffness = T::lit(STIFFEST * self.stiffest);
+        }
         self.rounds += 1;
         true
     }
