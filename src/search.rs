@@ -16,7 +16,7 @@ use crate::solver::{Begin, Branch, Iteration, Method, Observer, Solution, Solved
 const TOLERANCE: f64 = 0.01;
 
 /// The error to which a state is solved that is this many times the tolerance from the wanted one.
-const ROUGHLY: f64 = 3e-3;
+const ROUGHLY: f64 = 1e-3;
 const FAR: f64 = 2.0;
 
 /// The growth of the logarithm of the load above which a solve without adhesion starts anew.

@@ -61,28 +61,31 @@ fn uzawa_removes_the_interpenetration_whatever_its_stiffness() {
 
 #[test]
 fn stiff_springs_take_hardly_more_applications_than_a_wall() {
-    let mut problem = rough::<f64>(128, 32, NoAdhesion);
-    let stiffest = problem.operator().stiffness_range().1;
-    let mut counted = Vec::new();
-    for (control, law) in
-        [(Control::MeanPressure(0.02), false), (Control::MeanGap(0.02), false), (Control::MeanGap(0.02), true)]
-    {
-        if law {
-            problem = rough(128, 32, Exponential::new(2e-4, 2e-3).unwrap());
-        }
-        counted.push(solve(&mut problem, control, 1e-6).report.operator_applications);
-        for over in [10.0, 1000.0] {
-            let found = with(&mut problem, Penalty::new(over * stiffest).unwrap(), control, 1e-6).0.report;
-            assert_eq!(found.status, Status::Converged);
-            counted.push(found.operator_applications);
-        }
-        for over in [0.1, 1.0] {
-            let found = with(&mut problem, Uzawa::new(over * stiffest).unwrap(), control, 1e-6).0.report;
-            assert_eq!(found.status, Status::Converged);
-            counted.push(found.operator_applications);
-        }
+    let law = || Exponential::new(2e-4, 2e-3).unwrap();
+    for (mut problem, control, counted) in [
+        (rough::<f64>(128, 32, NoAdhesion), Control::MeanPressure(0.02), [29, 45, 33, 38, 38]),
+        (rough(128, 32, NoAdhesion), Control::MeanGap(0.02), [27, 45, 41, 30, 30]),
+        (rough(128, 32, law()), Control::MeanGap(0.02), [35, 51, 63, 42, 42]),
+    ] {
+        let stiffest = problem.operator().stiffness_range().1;
+        let walls: [Box<dyn ContactConstraint<f64>>; 5] = [
+            Box::new(Projection),
+            Box::new(Penalty::new(10.0 * stiffest).unwrap()),
+            Box::new(Penalty::new(1000.0 * stiffest).unwrap()),
+            Box::new(Uzawa::new(0.1 * stiffest).unwrap()),
+            Box::new(Uzawa::new(stiffest).unwrap()),
+        ];
+        let taken = walls.map(|wall| {
+            let report = with(&mut problem, wall, control, 1e-6).0.report;
+            assert_eq!(report.status, Status::Converged);
+            report.operator_applications
+        });
+        // rounding, which differs between processors, may add a few iterations
+        assert!(
+            taken.iter().zip(counted).all(|(&taken, counted)| taken <= counted + 6),
+            "{taken:?} and not {counted:?}"
+        );
     }
-    assert_eq!(counted, [0; 15]);
 }
 
 #[test]
