@@ -51,8 +51,9 @@ const CLOSEST: f64 = 0.01;
 ///
 /// The fraction is reached within one node or 1 %. Where the contact jumps past it, the state on the nearer side is
 /// returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
-/// [`above`](FoundContact::above) are the ends of the jump. A search continues from where the last one ended; with the
-/// feature `serde` it is its own checkpoint.
+/// [`above`](FoundContact::above) are the ends of the jump. At a rigid wall a state that is 2 % off or more, once its
+/// error is 1e-3, is not solved further. A search continues from where the last one ended; with the feature `serde` it is
+/// its own checkpoint.
 ///
 /// Memory: four fields besides that of a solve, on a free half-space five, of which two are on the grid of the
 /// operator.
