@@ -81,8 +81,8 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         false
     }
 
-    /// Takes over the contact pressures that a rigid wall bears, found to a relative error, from where the rounds then go
-    /// on; `false`, the default, if the pressure of the springs is that of their gap. Zero at absent nodes.
+    /// Takes over the contact pressures that a rigid wall bears, found to a relative error, from which the rounds then
+    /// continue; `false`, the default, if the pressure of the springs is that of their gap. Zero at absent nodes.
     fn bear(&mut self, _pressures: ArrayView2<'_, T>, _error: f64) -> bool {
         false
     }
