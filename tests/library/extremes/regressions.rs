@@ -101,7 +101,8 @@ fn springs<T: Real, C: ContactConstraint<T> + 'static>(constraint: C) {
         let mut problem = problem::<T>((16, 16), (1.0, 1.0), wave, bare());
         let report = solve_from(&mut solver, &mut problem, Control::MeanGap(0.0), start.as_ref()).report;
         assert_eq!(report.status, Status::Converged);
-        assert!(report.mean_gap.abs() < 8.0 * T::epsilon().widen() * 0.02 && report.min_gap < 0.0);
+        // multipliers that a rigid wall has found leave no gap at all
+        assert!(report.mean_gap.abs() < 8.0 * T::epsilon().widen() * 0.02 && report.min_gap <= 0.0);
         let lost = solve_from(&mut solver, &mut problem, Control::MeanPressure(-1e-3), None).report;
         assert_eq!((lost.status, lost.contact_nodes), (Status::Detached, 0));
     }
