@@ -426,7 +426,7 @@ fn paths_are_shared(world: &World) -> Result<()> {
     use path::{Path, PathSettings};
     let law = Exponential::new(1e-3, 4e-3)?;
     let legs = [0.03, 0.012].map(Control::MeanGap);
-    let settings = PathSettings::default().steps(4).smallest_step(0.1);
+    let settings = PathSettings::default().steps(4).smallest_step(0.02);
     let alone = Grid::new((300, 256), (1.0, 1.0))?;
     let shared = world.share(alone)?;
     let follow = |grid: Grid| {
