@@ -51,9 +51,10 @@ pub use step::PathStep;
 ///
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
 /// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
-/// taken back and halved, until the work of the load in it is known to a tenth of the energy that it dissipates, and
-/// the tension before it to a hundredth of the largest one, or down to the [`smallest step`](PathSettings::smallest_step), if one is given. The step is then
-/// taken, with an [`Event`], and the jump is where the mean of the loads at its ends does the work.
+/// taken back and halved. A jump is located once the work of the load in the step is known to a tenth of the energy
+/// that the jump dissipates, and the largest tension to a hundredth; or at [`PathSettings::smallest_step`], if it is
+/// given. The step is then taken, with an [`Event`]. As the jump may be anywhere in it, the mean of the loads at its
+/// ends does the work, and the [standard error](PathStep::work_error) of that is told.
 ///
 /// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
 /// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path and its reports are
