@@ -595,7 +595,7 @@ fn help_and_version() {
             vec![
                 "--heights",
                 "[default: the file's, else 1 1]",
-                "[default: 1e-6, in f32 1e-4]",
+                "[default: 1e-6, in f32 and in cycles 1e-4]",
                 "Examples",
                 "--range 1nm",
             ],
