@@ -33,7 +33,7 @@ class Topography:
     heights : ndarray of float64, shape (Nx, Ny) or (N,)
         Heights, x along the first axis, peaks up. NaN is a missing point.
     lengths : (float, float), optional
-        Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights.
+        Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; Lx alone for square cells.
     unit : str, optional
         Unit of heights and side lengths.
     periodic : bool, optional
@@ -66,6 +66,10 @@ class Topography:
     log: tuple[str, ...] = ()
     scars_removed: float | None = None
     _is_line: bool = field(default=False, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.lengths is not None:
+            object.__setattr__(self, "lengths", _lengths(self.lengths, self.heights.shape))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -364,7 +368,7 @@ def _lengths(lengths: Lengths, shape: tuple[int, ...]) -> tuple[float, float]:
         raise TypeError(f"lengths are {lengths!r}: they must be (Lx, Ly), or Lx alone for square cells") from None
     if len(pair) == 1:
         # on a line Ly is the distance of nothing
-        return (pair[0], pair[0] if shape[1] == 1 else pair[0] * shape[1] / shape[0])
+        return (pair[0], pair[0] if shape[1:] in ((), (1,)) else pair[0] * shape[1] / shape[0])
     if len(pair) != 2:
         raise ValueError(f"lengths are {lengths!r}: they must be (Lx, Ly), or Lx alone for square cells")
     return (pair[0], pair[1])

@@ -466,3 +466,12 @@ def test_scars_and_noise_are_left_out():
     assert np.allclose(metres.heights, smooth.heights, rtol=0, atol=1e-12)
     with pytest.raises(ValueError, match="cut_off_wavelength"):
         asperity.prepare(noisy, "1um", cut_off_wavelength=0.1)
+
+
+def test_one_length_of_a_topography_means_square_cells():
+    heights = np.random.default_rng(1).normal(size=(16, 8)) * 1e-3
+    topography = asperity.Topography(heights, 1.0)
+    assert topography.lengths == (1.0, 0.5) and asperity.Topography(heights[:, 0], 2.0).lengths == (2.0, 2.0)
+    assert asperity.solve(topography, modulus=1.0, mean_pressure=1e-3).converged
+    with pytest.raises(ValueError, match="they must be .Lx, Ly., or Lx alone"):
+        asperity.Topography(heights, (1.0, 2.0, 3.0))
