@@ -25,7 +25,7 @@ pub enum Event {
     },
 }
 
-/// A jump, located to the smallest step of the path.
+/// A jump, between the states at the ends of the step in which it is located.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
