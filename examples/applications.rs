@@ -5,11 +5,13 @@
 //! `.ci/constants` measures by it how much the constants of the driver matter.
 
 use asperity::{
-    AdhesionLaw, ContactConstraint, Control, Exponential, Grid, Hardness, MaugisDugdale, Nested, NoAdhesion, Penalty,
-    Problem, Projection, Real, Result, Settings, Solver, Status, Surface, Sweep, Uzawa, Westergaard,
+    AdhesionLaw, Branch, ContactConstraint, Control, Exponential, Grid, Hardness, Jkr, MaugisDugdale, Nested,
+    NoAdhesion, Penalty, Problem, Projection, Real, Result, SelfAffine, Settings, Solver, Status, Surface, Sweep,
+    Uzawa, Westergaard,
 };
 use clap::Parser;
 use common::{arguments, rough};
+use rand::{RngExt, SeedableRng, rngs::ChaCha8Rng};
 
 #[derive(Parser)]
 struct Arguments {
@@ -19,11 +21,17 @@ struct Arguments {
     /// Take scenes of surfaces that yield at a hardness in the place of the others
     #[arg(long)]
     yielding: bool,
+    /// Take raw maps, to a fifth and more of which a law of short range sticks
+    #[arg(long, conflicts_with = "yielding")]
+    sticky: bool,
 }
 
 fn main() -> Result<()> {
-    let Arguments { size, yielding } = arguments::read(include_str!("applications.rs"));
+    let Arguments { size, yielding, sticky } = arguments::read(include_str!("applications.rs"));
     let (square, line) = (Grid::square(size, 1.0)?, Grid::line(16 * size, 1.0)?);
+    if sticky {
+        return raw_maps(size);
+    }
     let rough = rough::rough(square, (size / 4).min(64) as i32, 1);
     let mut bowed = rough.heights().clone();
     let rms = rough.rms_height();
@@ -85,6 +93,68 @@ fn main() -> Result<()> {
     sum += of::<f32>("rough, f32", &rough, NoAdhesion, Projection, Control::MeanGap(rms))?;
     sum += sweep(&rough, weak)?;
     println!("{:<44} {sum:>6}", "sum");
+    Ok(())
+}
+
+/// A map as an instrument has it: noise, a step, spikes, and missing points that the mean has filled. With its rms height
+/// and slope without these.
+fn raw_map(size: usize, seed: u64) -> Result<(Surface, [f64; 2])> {
+    let grid = Grid::square(size, 1.0)?;
+    let clean = SelfAffine::default().k_s((size / 8) as f64).seed(seed).surface(grid)?;
+    let statistics = clean.statistics();
+    let rms = statistics.rms_height;
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut heights = clean.heights().clone();
+    heights.indexed_iter_mut().for_each(|((i, _), height)| {
+        *height += rms * (random.random_range(-0.02..0.02) + if i > size / 3 { 0.7 } else { 0.0 });
+    });
+    for _ in 0..size * size / 1000 {
+        let [i, j] = [0; 2].map(|_: usize| random.random_range(0..size));
+        heights[[i, j]] += rms * random.random_range(-1.0..2.0);
+    }
+    let mean = heights.mean().unwrap_or_default();
+    for _ in 0..10 {
+        let [i, j] = [0; 2].map(|_: usize| random.random_range(0..size));
+        let side = random.random_range(2..size / 16 + 3);
+        let inside = |start: usize, at: usize| (start..start + side).contains(&at);
+        heights
+            .indexed_iter_mut()
+            .filter(|((k, l), _)| inside(i, *k) && inside(j, *l))
+            .for_each(|(_, height)| *height = mean);
+    }
+    Ok((Surface::new(grid, heights)?, [rms, statistics.rms_slope]))
+}
+
+/// Loading and unloading of raw maps, by laws whose range is too short for the grid, hardly long enough, and that of the
+/// grid.
+fn raw_maps(size: usize) -> Result<()> {
+    let (mut sum, mut worst) = (0, 0);
+    for seed in 1..=4 {
+        let (map, [rms, slope]) = raw_map(size, seed)?;
+        for share in [0.2, 0.5, 0.7] {
+            let work = 0.5 * share * rms * slope;
+            let range = |mu_rho: f64| (work / size as f64).sqrt() / mu_rho;
+            for (name, branch) in ["jkr", "μ_ρ = 0.5", "μ_ρ = 1"]
+                .into_iter()
+                .flat_map(|name| [Branch::Loading, Branch::Unloading].map(|branch| (name, branch)))
+            {
+                let law: Box<dyn AdhesionLaw<f64>> = match name {
+                    "jkr" => Box::new(Jkr::new(work)?),
+                    "μ_ρ = 1" => Box::new(Exponential::new(work, range(1.0))?),
+                    _ => Box::new(Exponential::new(work, range(0.5))?),
+                };
+                let half_space = Westergaard::<f64>::new(*map.grid(), 1.0)?;
+                let mut problem = Problem::new(&map, half_space, law)?;
+                let settings = Settings::default().branch(branch);
+                let mut solver = Solver { settings, constraint: Projection };
+                let report = solver.solve(&mut problem, Control::MeanPressure(1e-3 * slope))?.report;
+                let name = format!("{name}, {:.0} % sticks", 100.0 * report.contact_fraction);
+                println!("{seed} {name:<25} {branch:<12} {:>6}", report.operator_applications);
+                (sum, worst) = (sum + report.operator_applications, worst.max(report.operator_applications));
+            }
+        }
+    }
+    println!("{:<41} {sum:>6}\n{:<41} {worst:>6}", "sum", "worst");
     Ok(())
 }
 

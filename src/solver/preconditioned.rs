@@ -10,7 +10,7 @@ use crate::par::Parts;
 use crate::real::{Real, cast};
 
 /// The least curvature of a direction, as a share of its elastic curvature.
-const LEAST_CURVATURE: f64 = 0.05;
+const LEAST_CURVATURE: f64 = 0.01;
 
 /// The least best length, as a share of a clipped step, for which the whole is taken, to land its clipped nodes.
 const WHOLE: f64 = 0.7;
@@ -20,6 +20,10 @@ const SHORT: f64 = 0.01;
 
 /// The longest step, in trial lengths: the mean gap has no elastic curvature that would limit it.
 const FARTHEST: f64 = 10.0;
+
+/// The share of a step that the next one takes along where the law pulls more than the body resists: on the way from one
+/// equilibrium to another.
+const ONWARD: f64 = 0.7;
 
 /// The least and largest ratio of two successive trial lengths.
 const ADAPT: (f64, f64) = (0.7, 1.3);
@@ -32,7 +36,7 @@ const ADAPT_YIELDING: (f64, f64) = (0.5, 2.0);
 struct Momentum {
     /// the multiple that makes −z conjugate to c₀
     conjugate: f64,
-    /// the multiple that minimises the energy along c₀
+    /// the multiple that minimises the energy along c₀, or continues along it where the energy is concave
     remainder: f64,
     /// the mean of c₀ over the working set
     mean: f64,
@@ -141,10 +145,17 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         let centre =
             if share > 0.0 { (self.sums.preconditioned.sum - passes::idle(&mut self.fields)) * share } else { 0.0 };
-        let momentum = self.steps.momentum.take().filter(|made| made.curvature > 0.0).map(|made| Momentum {
-            conjugate: made.factor * ((self.sums.preconditioned.descent - made.overlap) / made.curvature).max(0.0),
-            remainder: made.factor * (-made.factor * made.descent / made.curvature).min(FARTHEST),
-            mean: made.sum * share,
+        let momentum = self.steps.momentum.take().and_then(|made| {
+            let (conjugate, remainder) = if made.curvature > 0.0 {
+                let overlap = self.sums.preconditioned.descent - made.overlap;
+                ((overlap / made.curvature).max(0.0), (-made.factor * made.descent / made.curvature).min(FARTHEST))
+            } else if made.factor * made.descent < 0.0 {
+                (0.0, ONWARD)
+            } else {
+                return None;
+            };
+            let [conjugate, remainder] = [conjugate, remainder].map(|multiple| made.factor * multiple);
+            Some(Momentum { conjugate, remainder, mean: made.sum * share })
         });
         (centre, momentum)
     }

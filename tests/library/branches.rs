@@ -266,7 +266,7 @@ fn the_branch_of_loading_is_kept_where_the_grid_resolves_the_adhesion() {
             taken[0] += loading.report.operator_applications;
             taken[1] += unloading.report.operator_applications;
             scenes += 1;
-            assert!(shares[0] >= of_largest - 1e-3 && shares[0] <= 1.12 * of_largest);
+            assert!(shares[0] >= of_largest - 1e-3 && shares[0] <= 1.12 * of_largest + 1e-3);
             if problem.mu_rho() < 1.0 {
                 assert!(apart(&loading.gap, &largest, range) < 1e-3);
             }
