@@ -3,7 +3,7 @@
 tables.
 
     benches/peers/setup.sh                       (once)
-    benches/peers/compare.py [--quick] [--rows application,wall,adhesion,free] [--csv FILE]
+    benches/peers/compare.py [--quick] [--rows application,wall,heavy,adhesion,free] [--csv FILE]
 
 Rules
 -----
@@ -46,6 +46,7 @@ CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "asperi
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "RAYON_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 PRESSURE = 0.02  # of E* h', at an rms slope h' of 1
+HEAVY = [0.127, 0.337, 0.64]  # the same, for contact of some 20, 50 and 80 %
 RADIUS, FORCE = 0.25, 0.1  # of the sphere that the same roughness is on, and of E* L²
 SEED = 1
 OURS = {
@@ -60,6 +61,8 @@ ASPHER = {
     ],
     "f32": [("float", ["1e-3", "3e-4", "1e-4", "3e-5", "1e-5", "4e-6", "2e-6"])],
 }
+# those at which the certified level is met
+TIGHT = [("double", ["1e-6", "3e-7", "1e-7", "3e-8"]), ("float_then_double", ["1e-6", "3e-7", "1e-7"])]
 TAMAAS = ["1e-3", "1e-4", "1e-5", "1e-6", "1e-8", "1e-10"]
 # the largest penetration, a length
 CONTACT_MECHANICS = ["1e-5", "1e-6", "1e-7", "1e-8"]
@@ -442,6 +445,29 @@ def wall(bench):
     table(["grid", "", "level", "asperity", "aspher", "aspher less interpreter", "aspher less interpreter / asperity"], lines)
 
 
+def heavy(bench):
+    rows, notes, level = [], [], LEVELS["f64"][-1]
+    for n, pressure in [(512, p) for p in HEAVY] if bench.options.quick else [(1024, p) for p in HEAVY] + [(4096, PRESSURE)]:
+        case = Case(bench, n, {"pressure": pressure})
+        case.table = f"wall at {pressure}"
+        large = n > 1024
+        ladders = [case.ours("f64"), *(case.aspher(*mode) for mode in TIGHT)] + ([] if large else [case.tamaas(["1e-6", "1e-7"])])
+        ours, *theirs = case.climb(ladders)
+        contact = f"{100 * case.reference['area']:.1f} %"
+        notes.append(f"{n}², {contact}: aspher: {case.agreement(theirs[0])}")
+        wanted = [(ours, theirs[: len(TIGHT)], level, 3)]
+        if not large:
+            wanted.append((ours, theirs[len(TIGHT) :], level, 1))
+            notes[-1] += f"; Tamaas: {case.agreement(theirs[-1])}"
+        for peer, (row, _, _) in zip(("aspher", "Tamaas"), compared(case, wanted)):
+            rows.append([f"{n}²", contact, peer, *row[1:]])
+    print(f"### Hard wall to a certified 1e-6, as above, at p̄ = {', '.join(map(str, HEAVY))} E*h', and on a large grid\n")
+    table(["grid", "contact", *HEAD[2:3], *HEAD[4:]], rows)
+    for note in notes:
+        print(f"- {note}")
+    print()
+
+
 def adhesion(bench):
     import numpy as np
 
@@ -537,7 +563,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="512² (and 1024² applications) only, fewer rounds")
     sizes = lambda text: [int(n) for n in text.split(",")]
     parser.add_argument("--sizes", type=sizes, default=[128, 256, 512, 1024, 2048], help="nodes along a side, of the solves")
-    parser.add_argument("--rows", default="application,wall,adhesion,free", help="which tables")
+    parser.add_argument("--rows", default="application,wall,heavy,adhesion,free", help="which tables")
     parser.add_argument("--csv", type=Path, help="a file for every single measurement")
     parser.add_argument("--prefix", default="", help="a command to run every measurement under, such as 'taskset -c 1'")
     ours = "further options for every solve of examples/timed.rs, as in --ours=--method=nested"
@@ -549,7 +575,7 @@ def main():
         os.execv(python, [str(python), __file__, *sys.argv[1:]])
     bench = Bench(options)
     conditions(bench)
-    tables = {"application": application, "wall": wall, "adhesion": adhesion, "free": free}
+    tables = {"application": application, "wall": wall, "heavy": heavy, "adhesion": adhesion, "free": free}
     for name in options.rows.split(","):
         if name not in tables:
             sys.exit(f"--rows {name}: the tables are {', '.join(tables)}")

@@ -130,6 +130,9 @@ class Curve:
         approach = z[pressed] - self.compliance * force[pressed]
         if self._slope() <= 0.0:
             self._refuse_falling()
+        # which no noise makes of a right one
+        if self._share() < -1.0:
+            self._refuse_steep()
         self.length = float(np.ptp(z)) / 100.0
 
         moduli = force.max() / self.tip.load(np.ptp(z) * np.geomspace(1.0, 1e-3, 25))
@@ -153,13 +156,29 @@ class Curve:
         far = np.ptp(self.z[top]) > 0.0
         return float(np.polyfit(self.z[top], self.force[top], 1)[0]) if far else np.inf
 
-    def _refuse_falling(self) -> None:
-        """Refuses a curve whose force does not grow with z where it is greatest."""
+    def _share(self) -> float:
+        """The share of the motion that is of the contact, where the force is greatest: below zero the spring is wrong."""
+        return float(1.0 - self.compliance * self._slope())
+
+    def _refuse_noise(self) -> None:
+        """Refuses a curve that is hardly more than its noise."""
         if np.std(self.cleared(self.data)) < 1.5 * self.noise:
             self.refuse_empty()
+
+    def _refuse_falling(self) -> None:
+        """Refuses a curve whose force does not grow with z where it is greatest."""
+        self._refuse_noise()
         raise ValueError(
             f"force grows with z by {self._slope():.4g} where it is greatest: z must grow as the surfaces approach, and "
             "compression be positive"
+        )
+
+    def _refuse_steep(self) -> None:
+        """Refuses a curve whose force grows by more than the spring allows."""
+        self._refuse_noise()
+        raise ValueError(
+            f"force grows with z by {self._slope():.4g} where it is greatest, and spring_stiffness is only "
+            f"{1.0 / self.compliance:.4g}: one of these is wrong, or z is not the position of the piezo"
         )
 
     def refuse_empty(self) -> None:
@@ -175,13 +194,10 @@ class Curve:
         told = f"the force tells a contact modulus only between {lower:.3g} and {upper:.3g}"
         if self.compliance == 0.0:
             raise ValueError(f"{told}: record more points in contact, or press harder")
-        share = 1.0 - self.compliance * self._slope()
+        share = self._share()
         # by more than noise makes of a soft spring
         if share < -0.2:
-            raise ValueError(
-                f"force grows with z by {self._slope():.4g} where it is greatest, and spring_stiffness is only "
-                f"{1.0 / self.compliance:.4g}: one of these is wrong, or z is not the position of the piezo"
-            )
+            self._refuse_steep()
         raise ValueError(
             f"{told}: where it is greatest, {100.0 * max(share, 0.0):.2g} % of the motion are of the contact, and the rest "
             f"of the spring of stiffness {1.0 / self.compliance:.4g}; take a stiffer cantilever, or record more points"
