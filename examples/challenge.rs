@@ -1,5 +1,5 @@
 //! The contact-mechanics challenge: area, mean gap, and distributions of pressure and gap over the load, without
-//! adhesion and with it, each with its certified error, its branch and the error of the grid.
+//! adhesion, with it, and with a law without a range, each with its certified error, its branch and the error of the grid.
 //!
 //! Müser et al., *Meeting the contact-mechanics challenge*, *Tribology Letters* 65:118 (2017): a self-affine surface of
 //! 100 µm by 100 µm with an rms slope of 1, waves from 100 µm to 0.1 µm and a plateau down to 20 µm, on a half-space of
@@ -18,7 +18,7 @@ use asperity::accuracy::{GridError, Quantity};
 use asperity::elastic::Boundary;
 use asperity::stability::ContactStiffness;
 use asperity::{
-    AdhesionLaw, Amplitude, Branch, Control, Exponential, Grid, Nested, NoAdhesion, Report, SelfAffine, Settings,
+    AdhesionLaw, Amplitude, Branch, Control, Exponential, Grid, Jkr, Nested, NoAdhesion, Report, SelfAffine, Settings,
     Solver, Surface, Westergaard,
 };
 use asperity_maps::io::read_fourier;
@@ -64,12 +64,13 @@ fn main() -> Outcome<()> {
     let law = Exponential::new(WORK_OF_ADHESION, RANGE)?;
     let mut rows = Vec::new();
     println!(
-        "{:>7} {:>8} {:>9} {:>8} {:>7} {:>9} {:>7} {:>8} {:>6} {:>7} {:>7}",
-        "p/E*", "adhesion", "branch", "area, %", "error", "gap, nm", "error", "certif.", "mu_rho", "applic.", "s"
+        "{:>7} {:>12} {:>8} {:>7} {:>9} {:>7} {:>8} {:>6} {:>7} {:>7}",
+        "p/E*", "adhesion", "area, %", "error", "gap, nm", "error", "certif.", "mu_rho", "applic.", "s"
     );
     for pressure in PRESSURES {
         rows.push(Row::of(&surface, NoAdhesion, pressure, None)?);
         rows.push(Row::of(&surface, law, pressure, Some(Branch::Loading))?);
+        rows.push(Row::of(&surface, Jkr::new(WORK_OF_ADHESION)?, pressure, None)?);
         if unloading {
             rows.push(Row::of(&surface, law, pressure, Some(Branch::Unloading))?);
         }
@@ -82,11 +83,11 @@ fn main() -> Outcome<()> {
 
 /// Prints the contact areas as a table in Markdown.
 fn areas(size: usize, rows: &[Row]) {
-    let branches: Vec<_> = rows.iter().filter(|row| row.pressure == PRESSURES[0]).map(|row| row.branch).collect();
-    let name = |branch: &Option<Branch>| format!(" {}, {size}² |", branch.map_or("no adhesion", Branch::name));
-    println!("\ncontact area, %\n\n| p/E* |{}", branches.iter().map(name).collect::<String>());
-    println!("|---|{}", "---|".repeat(branches.len()));
-    for of_pressure in rows.chunks(branches.len()) {
+    let first: Vec<_> = rows.iter().filter(|row| row.pressure == PRESSURES[0]).collect();
+    let name = |row: &&Row| format!(" {}, {size}² |", row.law);
+    println!("\ncontact area, %\n\n| p/E* |{}", first.iter().map(name).collect::<String>());
+    println!("|---|{}", "---|".repeat(first.len()));
+    for of_pressure in rows.chunks(first.len()) {
         let area = |row: &Row| format!(" {:.*} |", (2.0 - row.area.log10().floor()).clamp(0.0, 9.0) as usize, row.area);
         println!("| {} |{}", of_pressure[0].pressure, of_pressure.iter().map(area).collect::<String>());
     }
@@ -95,7 +96,7 @@ fn areas(size: usize, rows: &[Row]) {
 /// Prints the values that shares of all are below.
 fn distribution(what: &str, decimals: usize, rows: &[Row], of: impl Fn(&Row) -> &Vec<f64>) {
     println!("\n{what}");
-    println!("{:>7} {:>8} {:>9}{}", "p/E*", "adhesion", "branch", SHARES.map(|share| format!(" {share:>9}")).concat());
+    println!("{:>7} {:>12}{}", "p/E*", "adhesion", SHARES.map(|share| format!(" {share:>9}")).concat());
     for row in rows {
         println!("{}{}", row.name, of(row).iter().map(|value| format!(" {value:>9.decimals$}")).collect::<String>());
     }
@@ -119,8 +120,9 @@ fn drawn(size: usize) -> Outcome<Surface> {
 struct Row {
     name: String,
     pressure: f64,
-    branch: Option<Branch>,
-    /// In %, corrected for its edge.
+    /// The law, or the branch of the law with a range.
+    law: &'static str,
+    /// In %, corrected for its edge, or with `jkr` by the adhesive energy.
     area: f64,
     pressures: Vec<f64>,
     gaps: Vec<f64>,
@@ -147,9 +149,13 @@ impl Row {
             let rough = |error: GridError| if error.rough { "~" } else { "" };
             error.map_or("-".to_owned(), |error| format!("{}{:.1} %", rough(error), 100.0 * error.relative))
         };
-        let area = 100.0 * found.levels.last().map_or(f64::NAN, |level| level.area.corrected_contact_fraction);
-        let adhesion = if report.branch.is_some() { "with" } else { "none" };
-        let name = format!("{pressure:>7} {adhesion:>8} {:>9}", report.branch.map_or("-", Branch::name));
+        let corrected = found.levels.last().map_or(f64::NAN, |level| level.area.corrected_contact_fraction);
+        let area = 100.0 * report.adhesive_contact_fraction.unwrap_or(corrected);
+        let law = match (&*report.law, report.branch) {
+            ("jkr", _) => "jkr",
+            (_, branch) => branch.map_or("no adhesion", Branch::name),
+        };
+        let name = format!("{pressure:>7} {law:>12}");
         println!(
             "{name} {:>8.4} {:>7} {:>9.3} {:>7} {:>8.1e} {:>6.2} {applications:>7.0} {:>7.1}{}",
             area,
@@ -170,7 +176,7 @@ impl Row {
         Ok(Self {
             name,
             pressure,
-            branch: report.branch,
+            law,
             area,
             pressures: of(true, &solution.contact_pressure, MODULUS),
             gaps: of(false, &solution.gap, 1e-9),
