@@ -46,7 +46,7 @@ CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "asperi
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "RAYON_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 PRESSURE = 0.02  # of E* h', at an rms slope h' of 1
-HEAVY = [0.127, 0.337, 0.64]  # the same, for contact of some 20, 50 and 80 %
+HEAVY = [0.127, 0.337, 0.64]  # the same, for contact of 25, 57 and 84 %
 RADIUS, FORCE = 0.25, 0.1  # of the sphere that the same roughness is on, and of E* L²
 SEED = 1
 OURS = {

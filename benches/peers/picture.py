@@ -14,6 +14,7 @@ ROW = re.compile(
     r"\| (\d+)² \| (f64|force|approach) \| (\w+) \| certified 1e-6 "
     r"\| ([\d.e+-]+) s [^|]*\| ([\d.e+-]+) s [^|]*\| \*\*([\d.]+)\*\*"
 )
+HEAVY = re.compile(r"\| (\d+)² \| ([\d.]+) % \| (\w+) \|[^|]*\|[^|]*\| \*\*([\d.]+)\*\*")
 
 
 def rows(text):
@@ -22,13 +23,30 @@ def rows(text):
     return {kind: found for kind, found in parts if found}
 
 
+def rounded(ratio):
+    """A ratio as words."""
+    return f"{float(ratio):.{1 if float(ratio) < 10 else 0}f}"
+
+
+def heavy(text):
+    """The same of hard walls by their contact, on other grids and under other loads."""
+    ratios = {}
+    for side, contact, peer, ratio in HEAVY.findall(text):
+        ratios.setdefault(peer, {})[f"{float(contact):.0f} % contact, {side}²"] = rounded(ratio)
+    heads = list(dict.fromkeys(head for row in ratios.values() for head in row))
+    yield f"| program on a hard wall | {' | '.join(heads)} |"
+    yield "|---" * (len(heads) + 1) + "|"
+    for name, row in ratios.items():
+        yield f"| {name} | {' | '.join(row.get(head, '') for head in heads)} |"
+
+
 def table(kinds):
     """The time of the other programs over that of asperity, in Markdown."""
     ratios = {}
     for kind, found in kinds.items():
         for side, given, peer, _, _, ratio in found:
             name = f"{peer}, {kind.lower()}" + ("" if given == "f64" else f", given {given}")
-            ratios.setdefault(name, {})[int(side)] = f"{float(ratio):.{1 if float(ratio) < 10 else 0}f}"
+            ratios.setdefault(name, {})[int(side)] = rounded(ratio)
     sides = sorted({side for row in ratios.values() for side in row})
     yield f"| program and problem | {' | '.join(f'{side}²' for side in sides)} |"
     yield "|---" * (len(sides) + 1) + "|"
@@ -73,10 +91,11 @@ def draw(kinds, out):
 
 
 def main():
-    kinds = rows((HERE / "README.md").read_text())
+    text = (HERE / "README.md").read_text()
+    kinds = rows(text)
     out = sys.argv[1] if len(sys.argv) > 1 else HERE.parent.parent / "examples/pictures/peers.png"
     if out == "--table":
-        print(*table(kinds), sep="\n")
+        print(*table(kinds), "", *heavy(text), sep="\n")
     else:
         draw(kinds, out)
 
