@@ -75,7 +75,7 @@ def test_laws_and_walls_have_units_or_none(rough):
     assert solution.gap.tobytes() == plain.gap.tobytes() and plain.report["given"] is None
     texts = {"work_of_adhesion": "1mJ/m2", "range": "5nm", "cut_off": "0.1um", "wall_stiffness": "1GPa/nm"}
     assert solution.report["given"] == {**options, **texts}
-    # a law of one's own and works at the nodes are in the SI
+    # a law of one's own and works at the nodes are in SI units
     varying = asperity.Varying(law, np.full(rough.shape, 1e-3))
     given = asperity.solve(metres, law=varying, **options).report["given"]
     assert given == {**options, "range": "1nm"}

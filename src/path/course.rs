@@ -258,7 +258,7 @@ impl Course {
         reached > (1.0 + PEAK) * self.account.tension.max(-after)
     }
 
-    /// Goes on at given mean gaps, from a limit point or before a bifurcation: between the gap at which the surfaces
+    /// Continues at given mean gaps, from a limit point or before a bifurcation: between the gap at which the surfaces
     /// bear the pressure at the leg's end and that at which they lose each other.
     pub(super) fn leave_pressure_control(
         &mut self,

@@ -24,7 +24,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// Goes on with another goal, if it is another one.
+    /// Continues with another goal, if it is another one.
     pub(super) fn enter(&mut self, goal: Goal) {
         if goal != self.posed.goal {
             self.posed.goal = goal;
@@ -69,8 +69,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(())
     }
 
-    /// Goes on with adhesion, under the load. A wall that stood for the repulsion of the law leaves the surfaces as far
-    /// apart as the law's equilibrium separation, or a smaller mean gap that is held.
+    /// Continues with adhesion, under the load. A wall that stood for the repulsion of the law leaves the surfaces as
+    /// far apart as the law's equilibrium separation, or a smaller mean gap that is held.
     fn leave_wall(&mut self) -> Result<()> {
         if let Some(separation) = self.posed.separation() {
             let lift = match self.posed.control {
@@ -83,7 +83,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.adhere(load, Goal::Solution)
     }
 
-    /// Goes on with adhesion under a load, from a gap without it.
+    /// Continues with adhesion under a load, from a gap without it.
     pub(super) fn adhere(&mut self, load: Load, goal: Goal) -> Result<()> {
         (self.posed.load, self.posed.goal, self.steps.step_length) = (load, goal, 1.0);
         // the contacts before are not those that adhesion makes
@@ -93,7 +93,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.check_start()
     }
 
-    /// Goes on with springs from the state of a rigid wall: they take over its contact pressures, or yield to them.
+    /// Continues with springs from the state of a rigid wall: they take over its contact pressures, or yield to them.
     fn soften(&mut self) -> Result<()> {
         let (shift, below) = (T::lit(self.external_pressure() - self.sums.drift), self.posed.pressed());
         let local = self.posed.potential();
@@ -123,8 +123,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.refresh()
     }
 
-    /// Goes on with the law itself after the smoothed one. A given start is on a branch, which ends where the smoothed
-    /// law lets go.
+    /// Continues with the law itself after the smoothed one. A given start is on a branch, which ends where the
+    /// smoothed law lets go.
     fn sharpen(&mut self) -> Result<()> {
         self.posed.goal = Goal::Solution;
         if self.posed.branch.is_some() && self.is_adrift() {

@@ -217,7 +217,7 @@ impl Report {
     }
 }
 
-/// A name that a report has; behind a word of its own, which derived data does not take for a borrowed one.
+/// A name that a report has; behind a word of its own, which derived data does not treat as a borrowed one.
 type Name = &'static str;
 
 #[cfg(feature = "serde")]

@@ -127,7 +127,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         drifts && self.is_apart()
     }
 
-    /// Goes on to the next state that may hold the load; `false` if there is none.
+    /// Continues to the next state that may hold the load; `false` if there is none.
     pub(super) fn seek_hold(&mut self, observe: Observer<'_>) -> Result<bool> {
         while let Some(hold) = self.posed.holds.next() {
             let held = match hold {
@@ -141,7 +141,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok(false)
     }
 
-    /// Goes on under the load from surfaces that touch undeformed and adhere under no load.
+    /// Continues under the load from surfaces that touch undeformed and adhere under no load.
     fn touch(&mut self, observe: Observer<'_>) -> Result<bool> {
         let (load, smooths) = (self.posed.load, self.posed.smoothed.is_some());
         self.posed.from_full_contact = false;

@@ -44,7 +44,7 @@ impl Origin {
 }
 
 /// The map of a file with the given `--lengths`, of which one means square cells, or those of the file, or none.
-/// Lengths that contradict the file are refused. In the SI all is in metres, and side lengths have to be known.
+/// Lengths that contradict the file are refused. In SI units all is in metres, and side lengths have to be known.
 pub fn map(path: &Path, given: &Given, si: bool) -> Outcome<(Topography, Origin)> {
     with_sides(path, read_topography(path)?, given, si)
 }
@@ -122,7 +122,7 @@ pub fn shared(
     }
 }
 
-/// The side lengths of a map of this shape with the given `--lengths`, if they are known. In the SI they have to be.
+/// The side lengths of a map of this shape with the given `--lengths`, if they are known. In SI units they have to be.
 fn sides_of(
     path: &Path,
     map: &Topography,

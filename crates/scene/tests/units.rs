@@ -1,5 +1,5 @@
-//! Quantities have the bits of their numbers in the SI, figures their units, and names that are none what they mean; lists,
-//! legs of tables and the time that is left are read as people mean them.
+//! Quantities have the bits of their numbers in SI units, figures their units, and names that are none what they mean;
+//! lists, legs of tables and the time that is left are read as people mean them.
 
 use asperity::path::PathSettings;
 use asperity_scene::allowed::Range;
