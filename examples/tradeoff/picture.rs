@@ -18,27 +18,27 @@ const COLOURS: [RGBColor; 5] = [
     RGBColor(200, 30, 20),
 ];
 
-/// Draws errors, of the discretisation and of the solver added, in the energy norm (above) and of the contact area
-/// (below) over the tolerance, over the time, and over the work: applications times nodes, those in `f32`, of half the
+/// Draws errors, of the discretisation and of the solver added, in the energy norm (left) and of the contact area
+/// (right) over the tolerance, over the time, and over the work: applications times nodes, those in `f32`, of half the
 /// bytes, by half.
 pub fn draw(path: &Path, scene: &Scene, grids: &[OnGrid]) -> Outcome<()> {
-    let root = SVGBackend::new(path, (1080, 760)).into_drawing_area();
+    let root = SVGBackend::new(path, (760, 1120)).into_drawing_area();
     root.fill(&WHITE)?;
     let (head, panels) = root.split_vertically(36);
     head.draw(&Text::new(scene.name, (20, 10), ("sans-serif", 19)))?;
-    for (x, (family, colour)) in (180..).step_by(180).zip(FAMILIES.into_iter().zip(COLOURS)) {
+    for (x, (family, colour)) in (110..).step_by(130).zip(FAMILIES.into_iter().zip(COLOURS)) {
         head.draw(&Circle::new((x, 18), 4, colour.filled()))?;
         head.draw(&Text::new(family.0, (x + 12, 12), ("sans-serif", 15)))?;
     }
-    let panels = panels.split_evenly((2, 3));
+    let panels = panels.split_evenly((3, 2));
     let costs = |grid: &OnGrid, row: &Row| {
         let share = if row.family.2 { 0.5 } else { 1.0 };
         [row.tolerance, row.seconds, 1e-6 * share * row.applications * (grid.n * grid.n) as f64]
     };
     let names = ["tolerance", "time (s)", "work (applications × 10⁶ nodes)"];
     let parts = [(0, "displacement, energy norm"), (2, "contact area")];
-    for ((part, name), panels) in parts.into_iter().zip(panels.chunks(3)) {
-        for (k, (across, panel)) in names.into_iter().zip(panels).enumerate() {
+    for (k, (across, panels)) in names.into_iter().zip(panels.chunks(2)).enumerate() {
+        for ((part, name), panel) in parts.into_iter().zip(panels) {
             let series = FAMILIES.into_iter().zip(COLOURS).map(|(family, colour)| {
                 let rows = grids.iter().flat_map(|grid| grid.rows.iter().map(move |row| (grid, row)));
                 let well = rows.filter(|(_, row)| row.converged && row.family == family);
