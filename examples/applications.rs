@@ -125,36 +125,31 @@ fn raw_map(size: usize, seed: u64) -> Result<(Surface, [f64; 2])> {
     Ok((Surface::new(grid, heights)?, [rms, statistics.rms_slope]))
 }
 
-/// Loading and unloading of raw maps, by laws whose range is too short for the grid, hardly long enough, and that of the
-/// grid.
+/// Loading and unloading of raw maps, by the law of the grid, by one that the grid just resolves, and by a shorter one.
 fn raw_maps(size: usize) -> Result<()> {
-    let (mut sum, mut worst) = (0, 0);
+    let mut counts = Vec::new();
     for seed in 1..=4 {
         let (map, [rms, slope]) = raw_map(size, seed)?;
-        for share in [0.2, 0.5, 0.7] {
-            let work = 0.5 * share * rms * slope;
-            let range = |mu_rho: f64| (work / size as f64).sqrt() / mu_rho;
-            for (name, branch) in ["jkr", "μ_ρ = 0.5", "μ_ρ = 1"]
-                .into_iter()
-                .flat_map(|name| [Branch::Loading, Branch::Unloading].map(|branch| (name, branch)))
-            {
-                let law: Box<dyn AdhesionLaw<f64>> = match name {
-                    "jkr" => Box::new(Jkr::new(work)?),
-                    "μ_ρ = 1" => Box::new(Exponential::new(work, range(1.0))?),
-                    _ => Box::new(Exponential::new(work, range(0.5))?),
+        let load = Control::MeanPressure(1e-3 * slope);
+        for work in [0.2, 0.5, 0.7].map(|share| 0.5 * share * rms * slope) {
+            for mu_rho in [None, Some(0.5), Some(1.0)] {
+                let range = |mu_rho: f64| (work / size as f64).sqrt() / mu_rho;
+                let law: Box<dyn AdhesionLaw<f64>> = match mu_rho {
+                    None => Box::new(Jkr::new(work)?),
+                    Some(mu_rho) => Box::new(Exponential::new(work, range(mu_rho))?),
                 };
-                let half_space = Westergaard::<f64>::new(*map.grid(), 1.0)?;
-                let mut problem = Problem::new(&map, half_space, law)?;
-                let settings = Settings::default().branch(branch);
-                let mut solver = Solver { settings, constraint: Projection };
-                let report = solver.solve(&mut problem, Control::MeanPressure(1e-3 * slope))?.report;
-                let name = format!("{name}, {:.0} % sticks", 100.0 * report.contact_fraction);
-                println!("{seed} {name:<25} {branch:<12} {:>6}", report.operator_applications);
-                (sum, worst) = (sum + report.operator_applications, worst.max(report.operator_applications));
+                let mut problem = Problem::new(&map, Westergaard::<f64>::new(*map.grid(), 1.0)?, law)?;
+                for branch in [Branch::Loading, Branch::Unloading] {
+                    let report = Solver::new(Settings::default().branch(branch)).solve(&mut problem, load)?.report;
+                    let law = mu_rho.map_or("jkr".to_owned(), |mu_rho| format!("μ_ρ {mu_rho}"));
+                    let name = format!("{law}, {branch}, {:.0} %", 100.0 * report.contact_fraction);
+                    counts.push(show(&name, load, report.operator_applications, report.status));
+                }
             }
         }
     }
-    println!("{:<41} {sum:>6}\n{:<41} {worst:>6}", "sum", "worst");
+    let worst = counts.iter().max().copied().unwrap_or_default();
+    println!("{:<44} {:>6}\n{:<44} {worst:>6}", "sum", counts.iter().sum::<usize>(), "worst");
     Ok(())
 }
 

@@ -122,7 +122,7 @@ struct Row {
     pressure: f64,
     /// The law, or the branch of the law with a range.
     law: &'static str,
-    /// In %, corrected for its edge, or with `jkr` by the adhesive energy.
+    /// In %, corrected for its edge; with `jkr` that of the limit.
     area: f64,
     pressures: Vec<f64>,
     gaps: Vec<f64>,
@@ -149,8 +149,9 @@ impl Row {
             let rough = |error: GridError| if error.rough { "~" } else { "" };
             error.map_or("-".to_owned(), |error| format!("{}{:.1} %", rough(error), 100.0 * error.relative))
         };
-        let corrected = found.levels.last().map_or(f64::NAN, |level| level.area.corrected_contact_fraction);
-        let area = 100.0 * report.adhesive_contact_fraction.unwrap_or(corrected);
+        let area = found.levels.last().map_or(f64::NAN, |level| {
+            100.0 * level.area.jkr_contact_fraction.unwrap_or(level.area.corrected_contact_fraction)
+        });
         let law = match (&*report.law, report.branch) {
             ("jkr", _) => "jkr",
             (_, branch) => branch.map_or("no adhesion", Branch::name),

@@ -130,8 +130,8 @@ class Curve:
         approach = z[pressed] - self.compliance * force[pressed]
         if self._slope() <= 0.0:
             self._refuse_falling()
-        # which no noise makes of a right one
-        if self._share() < -1.0:
+        # which no noise makes of a right one; it is infinite where one point has the greatest force
+        if -np.inf < self._share() < -1.0:
             self._refuse_steep()
         self.length = float(np.ptp(z)) / 100.0
 

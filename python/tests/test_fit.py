@@ -185,6 +185,13 @@ def test_what_is_no_curve_is_refused():
         fit(z, force, radiuss=1.0)
 
 
+def test_one_point_may_have_the_greatest_force():
+    z, force = curve(1.0, 20.0)
+    fit = force < 0.6 * force.max()
+    fit[np.argmax(force)] = True
+    assert covers(asperity.fit_curve(z[fit], force[fit], radius=RADIUS, spring_stiffness=20.0).modulus, MODULUS)
+
+
 def test_a_curve_of_another_tip_is_named():
     # a cone has a force as the square of the approach
     approach = np.linspace(-10e-9, 10e-9, 400)
