@@ -7,6 +7,7 @@ use std::ops::ControlFlow;
 
 use ndarray::Array2;
 
+use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
@@ -51,7 +52,7 @@ pub use step::PathStep;
 ///
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
 /// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
-/// taken back and halved. A jump is located once the work of the load in the step is known to a tenth of the energy
+/// taken back and halved. A jump is located once the work of the load in the step is known to a fifth of the energy
 /// that the jump dissipates, and the largest tension to a hundredth; or at [`PathSettings::smallest_step`], if it is
 /// given. The step is then taken, with an [`Event`]. As the jump may be anywhere in it, the mean of the loads at its
 /// ends does the work, and the [standard error](PathStep::work_error) of that is told.
@@ -120,6 +121,8 @@ pub struct Path<T> {
     course: Course,
     /// the last gaps on the grid of the operator, the latest last: at most two
     gaps: Vec<Array2<T>>,
+    /// the gap at the end of the shortest step that was taken back, from which the state there is found anew
+    ahead: Option<Array2<T>>,
     /// the plastic depth of the last state, on the grid of the operator
     depth: Option<Array2<T>>,
     watch: Watch<T>,
@@ -129,14 +132,19 @@ pub struct Path<T> {
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
-/// The tolerance of a solve as a share of the root of the imbalance, if none is given: an energy is wrong by its square.
-const SHARE: f64 = 0.01;
+/// The share of the imbalance of a step that the tolerance of a solve takes, if none is given.
+const SHARE: f64 = 0.1;
 
-/// The largest such tolerance: less accurate states jump too early.
-const LOOSEST: f64 = 1e-4;
+/// The largest such tolerance: less accurate states jump too early, or too late.
+const LOOSEST: f64 = 5e-4;
 
 /// The roundings that the sums of the energy may have.
 const ROUNDINGS: f64 = 8.0;
+
+/// The least change of the energy to which an imbalance is compared.
+fn least_change<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
+    1e-3 * law.hints().work_of_adhesion.widen()
+}
 
 /// What a path is followed with.
 pub struct Bench<'a, T: Real> {
@@ -165,6 +173,7 @@ impl<T: Real> Path<T> {
             start: None,
             course: Course::default(),
             gaps: Vec::new(),
+            ahead: None,
             depth: None,
             watch: Watch::default(),
             failed: false,
@@ -187,10 +196,10 @@ impl<T: Real> Path<T> {
         self.course.share(self.legs.len())
     }
 
-    /// The last gaps and the plastic depth, on the grid of the operator, and the softest mode, on that of the surface:
+    /// The last gaps, one ahead and the plastic depth, on the grid of the operator, and the softest mode, on that of the surface:
     /// processes that share a grid gather these of a path that they keep.
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
-        self.gaps.iter_mut().chain(&mut self.depth).chain(&mut self.watch.mode)
+        self.gaps.iter_mut().chain(&mut self.ahead).chain(&mut self.depth).chain(&mut self.watch.mode)
     }
 
     /// Refuses loads that the problem does not have, as the first step does.
@@ -251,7 +260,7 @@ impl<T: Real> Path<T> {
             self.check(bench.solver, bench.problem)?;
             return self.begin(bench, load);
         }
-        for field in self.gaps.iter().chain(&self.depth) {
+        for field in self.gaps.iter().chain(&self.ahead).chain(&self.depth) {
             bench.problem.operator.grid().fits("field of the path", field.dim())?;
         }
         self.watch.check(bench.problem.grid())?;
@@ -313,8 +322,10 @@ impl<T: Real> Path<T> {
         let given = bench.solver.settings;
         if given.tolerance.is_none() && given.criterion == Criterion::EnergyNorm {
             let least = given.tolerance_in::<T>();
-            let tolerance = (SHARE * self.settings.imbalance.sqrt()).clamp(least, LOOSEST.max(least));
-            bench.solver.settings.tolerance = Some(tolerance);
+            let allowed = self.settings.imbalance * self.course.account.scale(least_change(parts.law));
+            // an energy is wrong by the square of the tolerance, as a share of that of the surface pressed flat
+            let tolerance = (SHARE * allowed / (parts.flat.work * parts.flat.padding)).sqrt();
+            bench.solver.settings.tolerance = Some(tolerance.max(least).min(LOOSEST.max(least)));
         }
         let solved = bench.solver.run(ProblemMut { law, ..parts }, control, begin, &mut *bench.observe);
         bench.solver.settings = given;
@@ -340,14 +351,14 @@ impl<T: Real> Path<T> {
             return Ok(None);
         }
         let hints = bench.problem.law_on_grid().hints();
-        let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
+        let range = hints.range.widen();
         let flat = bench.problem.flat.work * bench.problem.flat.padding;
         // where surfaces hardly touch, the energy is the small difference of sums as large as that of flat surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
         // the tolerance's share in it
         let left = report.tolerance.powi(2) * flat;
         let noise = (rounding, left);
-        let scale = (self.settings.imbalance, 1e-3 * w);
+        let scale = (self.settings.imbalance, least_change(bench.problem.law_on_grid()));
         let judge = |course: &Course, report: &Report| {
             let trial = course.judge(target, report, scale, noise);
             // only adhesion makes surfaces jump
@@ -360,6 +371,7 @@ impl<T: Real> Path<T> {
         let lost = good && saddle.is_some() && !self.course.on_saddle;
         if (!good && !jumped || lost) && !smallest {
             self.course.halve(report, &self.settings);
+            self.ahead = settled.then(|| solved.with_gap().1);
             return Ok(None);
         }
         let detached = report.status == Status::Detached;
@@ -394,6 +406,9 @@ impl<T: Real> Path<T> {
         } else if self.gaps.len() == 2 {
             self.gaps.remove(0);
         }
+        if self.course.taken_back().is_none() {
+            self.ahead = None;
+        }
         let solution = self.keep(bench.problem, solved)?;
         Ok(Some(self.step(solution, event)))
     }
@@ -404,7 +419,7 @@ impl<T: Real> Path<T> {
         let (solution, mut gap) = solved.with_gap();
         if let Some(depth) = &solution.plastic_depth {
             let lowered = problem.lower(depth.view(), stays, &mut gap)?;
-            self.gaps.iter_mut().for_each(|gap| *gap += &lowered);
+            self.gaps.iter_mut().chain(&mut self.ahead).for_each(|gap| *gap += &lowered);
         }
         self.depth = problem.yielded().cloned();
         self.gaps.push(gap);

@@ -52,10 +52,6 @@ const GROWTH: f64 = 2.0;
 /// The distance, as a share of the leg, to which a leg to a pressure approaches it at given mean gaps.
 const LANDING: f64 = 1e-3;
 
-/// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
-/// compared with all before are not located one by one.
-const MANY: f64 = 20.0;
-
 /// The step after a jump, as a share of that before it.
 const REGAINED: f64 = 0.25;
 
@@ -201,6 +197,11 @@ impl Course {
         self.step = (0.5 * tried).max(self.smallest(settings));
     }
 
+    /// The end of the shortest step that was taken back, if it is ahead.
+    pub(super) fn taken_back(&self) -> Option<f64> {
+        self.bracket.map(|bracket| bracket.end.0)
+    }
+
     /// The length of the next step in units of the last one.
     pub(super) fn extrapolation(&self, target: f64) -> f64 {
         let at: Vec<_> = self.at.iter().map(|place| place.slope(self.mode).0).collect();
@@ -227,9 +228,7 @@ impl Course {
         let first = points.len().saturating_sub(PLACES);
         let change = next.potential(self.mode) - here.potential(self.mode);
         let excess = change - integral(&points[first..]);
-        let (low, high) = self.account.range;
-        let scale = (high.max(next.energy) - low.min(next.energy)).max(least) + MANY * self.account.dissipated;
-        let allowed = (imbalance * scale + noise).max(left);
+        let allowed = (imbalance * self.account.with(next.energy).scale(least) + noise).max(left);
         let order = 1.0 + (points.len() - first) as f64;
         let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
         let energy = next.energy - here.energy;
@@ -315,8 +314,8 @@ impl Course {
             Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
-        let Account { work, dissipated, imbalance, variance, range, tension } = &mut self.account;
-        *range = (range.0.min(next.energy), range.1.max(next.energy));
+        self.account = self.account.with(next.energy);
+        let Account { work, dissipated, imbalance, variance, tension, .. } = &mut self.account;
         *tension = tension.max(-next.pressure);
         let mut event =
             self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
