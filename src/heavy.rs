@@ -1,8 +1,8 @@
 //! The functions that take long to compile, by name: they are compiled once for each precision, with this crate.
 //!
 //! Generic functions are compiled with each crate that calls them. A function of this table is called as one of the
-//! scalar, `T::solve(…)`, and calls the one next to it here: for `f32` and `f64` alike, or for each its own. As a table
-//! of contents it names functions of all floors.
+//! scalar, `T::solve(…)`, and calls the one next to it here: for `f32` and `f64` alike, or for each its own; with
+//! `[within]` on one of the workers, as it has many short loops. As a table of contents it names functions of all floors.
 
 use asperity_fft::num_complex::Complex;
 use asperity_fft::{Transform, double, single};
@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::fft::{Convolver, Layout, Products};
 use crate::grid::Grid;
 use crate::nested::{GridObserver, Heights, Level, Nested};
+use crate::par;
 use crate::path::{Bench, Path, PathStep};
 use crate::problem::{Control, PressedFlat, Problem, ProblemMut};
 use crate::pull_off::{FoundPullOff, PullOff};
@@ -30,17 +31,26 @@ use crate::surface::Surface;
 use crate::sweep::Sweep;
 
 macro_rules! heavy {
-    ($($(#[$doc:meta])* fn $name:ident($($arg:ident: $of:ty),* $(,)?) -> $value:ty = $both:path $(, $double:path)?;)*) => {
+    ($($(#[$doc:meta])* fn $name:ident($($arg:ident: $of:ty),* $(,)?) -> $value:ty = $([$within:ident])? $both:path $(, $double:path)?;)*) => {
         /// The functions of a precision, each compiled once.
         pub trait Heavy: Sized {
             $($(#[$doc])* fn $name($($arg: $of),*) -> $value where Self: Real;)*
         }
         impl Heavy for f32 {
-            $(fn $name($($arg: $of),*) -> $value { $both($($arg),*) })*
+            $(fn $name($($arg: $of),*) -> $value { run!($([$within])? $both($($arg),*)) })*
         }
         impl Heavy for f64 {
-            $(fn $name($($arg: $of),*) -> $value { last!($both $(, $double)?)($($arg),*) })*
+            $(fn $name($($arg: $of),*) -> $value { run!($([$within])? last!($both $(, $double)?)($($arg),*)) })*
         }
+    };
+}
+
+macro_rules! run {
+    ($call:expr) => {
+        $call
+    };
+    ([$within:ident] $call:expr) => {
+        par::$within(|| $call)
     };
 }
 
@@ -79,26 +89,26 @@ heavy! {
     /// The surface pressed flat against the body of an operator, if that and the law suit it.
     fn press_flat(
         surface: &Surface, operator: &mut dyn ElasticOperator<Self>, law: &dyn AdhesionLaw<Self>,
-    ) -> Result<PressedFlat<Self>> = PressedFlat::of;
+    ) -> Result<PressedFlat<Self>> = [within] PressedFlat::of;
     /// A solve.
-    fn solve(operator: &mut dyn ElasticOperator<Self>, job: Job<'_, Self>) -> Result<Solved<Self>> = in_single, in_double;
+    fn solve(operator: &mut dyn ElasticOperator<Self>, job: Job<'_, Self>) -> Result<Solved<Self>> = [within] in_single, in_double;
     /// The next load of a sweep.
     fn sweep(
         sweep: &mut Sweep<Self>, solver: &mut AnySolver<Self>, problem: &mut Problem<Self>, load: Control,
         observe: Observer<'_>,
-    ) -> Result<Solution<Self>> = Sweep::step;
+    ) -> Result<Solution<Self>> = [within] Sweep::step;
     /// A search for a contact fraction.
     fn search(
         search: &mut ContactSearch<Self>, solver: &mut AnySolver<Self>, problem: &mut Problem<Self>, fraction: f64,
         observe: Observer<'_>,
-    ) -> Result<FoundContact<Self>> = ContactSearch::find;
+    ) -> Result<FoundContact<Self>> = [within] ContactSearch::find;
     /// The next state of a path.
-    fn follow(path: &mut Path<Self>, bench: &mut Bench<'_, Self>) -> Result<Option<PathStep<Self>>> = Path::advance;
+    fn follow(path: &mut Path<Self>, bench: &mut Bench<'_, Self>) -> Result<Option<PathStep<Self>>> = [within] Path::advance;
     /// A search for a pull-off.
     fn pull_off(
         search: PullOff, solver: &mut AnySolver<Self>, problem: &mut Problem<Self>, start: Start<'_, Self>,
         observe: Observer<'_>,
-    ) -> Result<FoundPullOff<Self>> = PullOff::search;
+    ) -> Result<FoundPullOff<Self>> = [within] PullOff::search;
     /// A solve on nested grids.
     fn nested(
         nested: &Nested, solver: &mut AnySolver<Self>, heights: Heights<'_>, operators: &mut dyn OnGrids<Self>,
@@ -118,16 +128,16 @@ heavy! {
     fn stability(
         test: &StabilityTest, problem: ProblemMut<'_, Self>, constraint: &dyn ContactConstraint<Self>, control: Control,
         gap: &Array2<Self>, relative_error: f64,
-    ) -> Result<Stability<Self>> = StabilityTest::judge;
+    ) -> Result<Stability<Self>> = [within] StabilityTest::judge;
     /// The departure from a saddle.
     fn leave(
         stability: &Stability<Self>, solver: &mut AnySolver<Self>, problem: &mut Problem<Self>, from: &Solution<Self>,
         observe: Observer<'_>,
-    ) -> Result<Option<Departure<Self>>> = Stability::depart;
+    ) -> Result<Option<Departure<Self>>> = [within] Stability::depart;
     /// The contact stiffness of a solution.
     fn stiffness(
         problem: ProblemMut<'_, Self>, constraint: &dyn ContactConstraint<Self>, solution: &Solution<Self>, tolerance: f64,
-    ) -> Result<ContactStiffness> = ContactStiffness::find;
+    ) -> Result<ContactStiffness> = [within] ContactStiffness::find;
     /// The edge of a contact.
     fn edge(outline: &Outline<'_, Self>) -> Edge = Outline::edge;
     /// The statistics of a contact.

@@ -213,7 +213,7 @@ impl StabilityTest {
         let slopes = slopes(gap, (law, constraint), (operator.grid(), window))?;
         let smoothed = smoothed.is_some();
         let hessian = Hessian::new(operator, slopes, load);
-        let mut stability = par::within(|| self.verdict(hessian, control, relative_error, smoothed))?;
+        let mut stability = self.verdict(hessian, control, relative_error, smoothed)?;
         if let Some(window) = window {
             stability.mode = window.crop(&stability.mode, T::zero());
         }

@@ -7,7 +7,6 @@ use super::report::Solved;
 use crate::constraint::Wall;
 use crate::elastic::ElasticOperator;
 use crate::error::Result;
-use crate::par;
 use crate::problem::Load;
 use crate::real::Real;
 
@@ -16,18 +15,16 @@ const LIGHT: f64 = 1e-8;
 
 /// Solves a problem in `f32`.
 pub(crate) fn in_single(operator: &mut dyn ElasticOperator<f32>, job: Job<'_, f32>) -> Result<Solved<f32>> {
-    par::within(|| run(&mut One(operator), job))
+    run(&mut One(operator), job)
 }
 
 /// Solves a problem in `f64`, with corrections in `f32` where these will do.
 pub(crate) fn in_double(operator: &mut dyn ElasticOperator<f64>, job: Job<'_, f64>) -> Result<Solved<f64>> {
-    par::within(|| {
-        let spectral = operator.spectral().filter(|_| takes_coarse_corrections(&job));
-        match spectral.and_then(|spectral| spectral.in_single()) {
-            Some(corrections) => run(&mut Two::new(operator, corrections), job),
-            None => run(&mut One(operator), job),
-        }
-    })
+    let spectral = operator.spectral().filter(|_| takes_coarse_corrections(&job));
+    match spectral.and_then(|spectral| spectral.in_single()) {
+        Some(corrections) => run(&mut Two::new(operator, corrections), job),
+        None => run(&mut One(operator), job),
+    }
 }
 
 /// Whether corrections in `f32` will do: they miss the first contact under a light load, and the slopes of a law that

@@ -7,7 +7,6 @@ use super::{check_gap, slopes};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
 use crate::field::Field;
-use crate::par;
 use crate::problem::{Load, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::Solution;
@@ -134,7 +133,7 @@ impl ContactStiffness {
         hessian.hold(flat.stiffness);
         let gap = &solution.gap;
         let start = window.map_or_else(|| Field::of(gap), |window| Field::of(window.extend(gap.view())));
-        let least = par::within(|| least_energy(&mut hessian, start, (tolerance, at_edge)))?;
+        let least = least_energy(&mut hessian, start, (tolerance, at_edge))?;
         let LeastEnergy { energy: on_grid, relative_error, tangent } = least;
         let operator_applications = hessian.applications();
         // the mean of a free half-space gives way besides its waves
