@@ -371,7 +371,8 @@ impl<T: Real> Path<T> {
         let lost = good && saddle.is_some() && !self.course.on_saddle;
         if (!good && !jumped || lost) && !smallest {
             self.course.halve(report, &self.settings);
-            self.ahead = settled.then(|| solved.with_gap().1);
+            let kept = settled && self.settings.smallest_step.is_none();
+            self.ahead = kept.then(|| solved.with_gap().1);
             return Ok(None);
         }
         let detached = report.status == Status::Detached;
