@@ -371,7 +371,8 @@ impl<T: Real> Path<T> {
         let lost = good && saddle.is_some() && !self.course.on_saddle;
         if (!good && !jumped || lost) && !smallest {
             self.course.halve(report, &self.settings);
-            let kept = settled && self.settings.smallest_step.is_none();
+            // the place of the jump does matter where it is asked for, and at the largest tension
+            let kept = settled && self.settings.smallest_step.is_none() && !trial.peaks;
             self.ahead = kept.then(|| solved.with_gap().1);
             return Ok(None);
         }

@@ -42,6 +42,8 @@ pub(super) struct Balance {
     pub(super) jumped: bool,
     /// whether it jumped in a step that is short enough to be taken
     pub(super) located: bool,
+    /// whether the tension may have grown in it beyond the largest one so far
+    pub(super) peaks: bool,
     /// the imbalance that the step may have
     pub(super) allowed: f64,
     /// the work by quadrature

@@ -238,13 +238,14 @@ impl Course {
             balanced: excess.abs() <= allowed,
             jumped: -excess > allowed.max(product.abs()),
             located: false,
+            peaks: self.peaks(step, next.pressure),
             allowed,
             work: energy - excess,
             excess,
             drop,
             growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
         };
-        let located = balance.locates(product) && !self.peaks(step, next.pressure);
+        let located = balance.locates(product) && !balance.peaks;
         Balance { located: balance.jumped && drop > allowed.max(product.abs()) && located, ..balance }
     }
 
