@@ -7,7 +7,6 @@ use std::ops::ControlFlow;
 
 use ndarray::Array2;
 
-use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::Boundary;
 use crate::error::{Error, Result};
@@ -132,19 +131,14 @@ pub struct Path<T> {
 /// The number of further solves after one that did not converge, where the step cannot be halved.
 const RETRIES: usize = 3;
 
-/// The share of the imbalance of a step that the tolerance of a solve takes, if none is given.
-const SHARE: f64 = 0.1;
+/// The tolerance of a solve as a share of the root of the imbalance, if none is given: an energy is wrong by its square.
+const SHARE: f64 = 0.03;
 
 /// The largest such tolerance: less accurate states jump too early, or too late.
-const LOOSEST: f64 = 5e-4;
+const LOOSEST: f64 = 3e-4;
 
 /// The roundings that the sums of the energy may have.
 const ROUNDINGS: f64 = 8.0;
-
-/// The least change of the energy to which an imbalance is compared.
-fn least_change<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
-    1e-3 * law.hints().work_of_adhesion.widen()
-}
 
 /// What a path is followed with.
 pub struct Bench<'a, T: Real> {
@@ -322,10 +316,8 @@ impl<T: Real> Path<T> {
         let given = bench.solver.settings;
         if given.tolerance.is_none() && given.criterion == Criterion::EnergyNorm {
             let least = given.tolerance_in::<T>();
-            let allowed = self.settings.imbalance * self.course.account.scale(least_change(parts.law));
-            // an energy is wrong by the square of the tolerance, as a share of that of the surface pressed flat
-            let tolerance = (SHARE * allowed / (parts.flat.work * parts.flat.padding)).sqrt();
-            bench.solver.settings.tolerance = Some(tolerance.max(least).min(LOOSEST.max(least)));
+            let tolerance = (SHARE * self.settings.imbalance.sqrt()).clamp(least, LOOSEST.max(least));
+            bench.solver.settings.tolerance = Some(tolerance);
         }
         let solved = bench.solver.run(ProblemMut { law, ..parts }, control, begin, &mut *bench.observe);
         bench.solver.settings = given;
@@ -351,14 +343,14 @@ impl<T: Real> Path<T> {
             return Ok(None);
         }
         let hints = bench.problem.law_on_grid().hints();
-        let range = hints.range.widen();
+        let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
         let flat = bench.problem.flat.work * bench.problem.flat.padding;
         // where surfaces hardly touch, the energy is the small difference of sums as large as that of flat surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
         // the tolerance's share in it
         let left = report.tolerance.powi(2) * flat;
         let noise = (rounding, left);
-        let scale = (self.settings.imbalance, least_change(bench.problem.law_on_grid()));
+        let scale = (self.settings.imbalance, 1e-3 * w);
         let judge = |course: &Course, report: &Report| {
             let trial = course.judge(target, report, scale, noise);
             // only adhesion makes surfaces jump

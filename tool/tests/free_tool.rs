@@ -70,7 +70,7 @@ fn a_punch_has_absent_nodes_and_its_gap_is_a_start() {
 #[test]
 fn a_tip_jumps_in_and_off_and_the_cycle_ends_where_it_is_apart() {
     let bench = Bench::new();
-    bench.said("surface --form paraboloid --radius 2 --size 44 --lengths 0.616 --quiet --out tip.npz");
+    bench.said("surface --form paraboloid --radius 2 --size 42 --lengths 0.588 --quiet --out tip.npz");
     let cycle = "cycle --heights tip.npz --boundary free --law exponential --work-of-adhesion 2e-5 --range 2e-3 \
                  --spring-stiffness 0.01 --spring-positions=-0.02,0,-0.2 --steps 10 --smallest-step 1e-3 --out c.csv";
     let found = bench.reported(&format!("{cycle} --fields jumps --plot c.png"));
