@@ -15,24 +15,7 @@ pub(super) struct Account {
 }
 
 /// The share of the energy of a jump to which the work of the load in its step is known.
-const LOCATED: f64 = 0.2;
-
-/// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
-/// compared with all before are not located one by one.
-const MANY: f64 = 20.0;
-
-impl Account {
-    /// The account of a path that has also had this energy.
-    pub(super) fn with(self, energy: f64) -> Self {
-        Self { range: (self.range.0.min(energy), self.range.1.max(energy)), ..self }
-    }
-
-    /// The scale of an imbalance: how much the energy has changed along the path, `least` at least, and what jumps have
-    /// dissipated.
-    pub(super) fn scale(&self, least: f64) -> f64 {
-        (self.range.1 - self.range.0).max(least) + MANY * self.dissipated
-    }
-}
+const LOCATED: f64 = 0.1;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance {
@@ -42,8 +25,6 @@ pub(super) struct Balance {
     pub(super) jumped: bool,
     /// whether it jumped in a step that is short enough to be taken
     pub(super) located: bool,
-    /// whether the tension may have grown in it beyond the largest one so far
-    pub(super) peaks: bool,
     /// the imbalance that the step may have
     pub(super) allowed: f64,
     /// the work by quadrature

@@ -52,6 +52,10 @@ const GROWTH: f64 = 2.0;
 /// The distance, as a share of the leg, to which a leg to a pressure approaches it at given mean gaps.
 const LANDING: f64 = 1e-3;
 
+/// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
+/// compared with all before are not located one by one.
+const MANY: f64 = 20.0;
+
 /// The step after a jump, as a share of that before it.
 const REGAINED: f64 = 0.25;
 
@@ -197,11 +201,6 @@ impl Course {
         self.step = (0.5 * tried).max(self.smallest(settings));
     }
 
-    /// The end of the shortest step that was taken back, if it is ahead.
-    pub(super) fn taken_back(&self) -> Option<f64> {
-        self.bracket.map(|bracket| bracket.end.0)
-    }
-
     /// The length of the next step in units of the last one.
     pub(super) fn extrapolation(&self, target: f64) -> f64 {
         let at: Vec<_> = self.at.iter().map(|place| place.slope(self.mode).0).collect();
@@ -228,7 +227,9 @@ impl Course {
         let first = points.len().saturating_sub(PLACES);
         let change = next.potential(self.mode) - here.potential(self.mode);
         let excess = change - integral(&points[first..]);
-        let allowed = (imbalance * self.account.with(next.energy).scale(least) + noise).max(left);
+        let (low, high) = self.account.range;
+        let scale = (high.max(next.energy) - low.min(next.energy)).max(least) + MANY * self.account.dissipated;
+        let allowed = (imbalance * scale + noise).max(left);
         let order = 1.0 + (points.len() - first) as f64;
         let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
         let energy = next.energy - here.energy;
@@ -238,14 +239,13 @@ impl Course {
             balanced: excess.abs() <= allowed,
             jumped: -excess > allowed.max(product.abs()),
             located: false,
-            peaks: self.peaks(step, next.pressure),
             allowed,
             work: energy - excess,
             excess,
             drop,
             growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
         };
-        let located = balance.locates(product) && !balance.peaks;
+        let located = balance.locates(product) && !self.peaks(step, next.pressure);
         Balance { located: balance.jumped && drop > allowed.max(product.abs()) && located, ..balance }
     }
 
@@ -315,8 +315,8 @@ impl Course {
             Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
-        self.account = self.account.with(next.energy);
-        let Account { work, dissipated, imbalance, variance, tension, .. } = &mut self.account;
+        let Account { work, dissipated, imbalance, variance, range, tension } = &mut self.account;
+        *range = (range.0.min(next.energy), range.1.max(next.energy));
         *tension = tension.max(-next.pressure);
         let mut event =
             self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });

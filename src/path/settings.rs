@@ -7,12 +7,12 @@ use crate::setters::setters;
 /// | field | default | meaning | range |
 /// |---|---|---|---|
 /// | `steps` | 50 | the least number of steps in a leg | at least 1 |
-/// | `smallest_step` | none | the step, as a share of the leg, to which a jump is located; none: until the work of the step is known to a fifth of the energy that the jump dissipates, or to 1e-4 of the leg | positive, below 1 |
+/// | `smallest_step` | none | the step, as a share of the leg, to which a jump is located; none: until the work of the step is known to a tenth of the energy that the jump dissipates, or to 1e-4 of the leg | positive, below 1 |
 /// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
 /// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more), and of twenty times what jumps have dissipated so far | positive |
 ///
-/// A solver without a tolerance of its own solves to three hundredths of the root of the imbalance, between 1e-6 (the
-/// default of the precision) and 3e-4. The square of a tolerance that is given must be well below the imbalance. That square
+/// A solver without a tolerance of its own solves to a hundredth of the root of the imbalance, between 1e-6 (the default
+/// of the precision) and 1e-4. The square of a tolerance that is given must be well below the imbalance. That square
 /// times the energy of the surface pressed flat is no imbalance, nor is rounding: in `f32` jumps below a millionth of
 /// that energy are lost in it. [`Path`](super::Path) has an example.
 ///

@@ -307,9 +307,9 @@ fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
     assert_eq!(fresh.behind(3, 0).asked(), None);
     let mut short = Pace::new(1, &settings.steps(1));
     short.expect(0.005, true);
-    assert_eq!(short.asked().unwrap(), "2 states or more, 1 leg of 1 step: about 40 s");
+    assert_eq!(short.asked().unwrap(), "2 states or more, 1 leg of 1 step: about 60 s");
     short.add(0.5, false, 10.0);
-    assert_eq!(short.seconds_left(), Some(0.5 * (0.5 * 40.0 + 0.5 * 20.0)));
+    assert_eq!(short.seconds_left(), Some(0.5 * (0.5 * 60.0 + 0.5 * 20.0)));
     fresh.add(0.0, false, 0.5);
     assert_eq!(fresh.asked(), None);
     // past a limit point the load falls again, the way does not
