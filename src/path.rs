@@ -51,7 +51,7 @@ pub use step::PathStep;
 ///
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
 /// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
-/// taken back and halved. A jump is located once the work of the load in the step is known to a tenth of the energy
+/// taken back and halved. A jump is located once the work of the load in the step is known to a fifth of the energy
 /// that the jump dissipates, and the largest tension to a hundredth; or at [`PathSettings::smallest_step`], if it is
 /// given. The step is then taken, with an [`Event`]. As the jump may be anywhere in it, the mean of the loads at its
 /// ends does the work, and the [standard error](PathStep::work_error) of that is told.
@@ -120,6 +120,8 @@ pub struct Path<T> {
     course: Course,
     /// the last gaps on the grid of the operator, the latest last: at most two
     gaps: Vec<Array2<T>>,
+    /// the gap at the end of the shortest step that was taken back, from which the state there is found anew
+    ahead: Option<Array2<T>>,
     /// the plastic depth of the last state, on the grid of the operator
     depth: Option<Array2<T>>,
     watch: Watch<T>,
@@ -165,6 +167,7 @@ impl<T: Real> Path<T> {
             start: None,
             course: Course::default(),
             gaps: Vec::new(),
+            ahead: None,
             depth: None,
             watch: Watch::default(),
             failed: false,
@@ -187,10 +190,10 @@ impl<T: Real> Path<T> {
         self.course.share(self.legs.len())
     }
 
-    /// The last gaps and the plastic depth, on the grid of the operator, and the softest mode, on that of the surface:
-    /// processes that share a grid gather these of a path that they keep.
+    /// The last gaps, one ahead and the plastic depth, on the grid of the operator, and the softest mode, on that of the
+    /// surface: processes that share a grid gather these of a path that they keep.
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
-        self.gaps.iter_mut().chain(&mut self.depth).chain(&mut self.watch.mode)
+        self.gaps.iter_mut().chain(&mut self.ahead).chain(&mut self.depth).chain(&mut self.watch.mode)
     }
 
     /// Refuses loads that the problem does not have, as the first step does.
@@ -251,7 +254,7 @@ impl<T: Real> Path<T> {
             self.check(bench.solver, bench.problem)?;
             return self.begin(bench, load);
         }
-        for field in self.gaps.iter().chain(&self.depth) {
+        for field in self.gaps.iter().chain(&self.ahead).chain(&self.depth) {
             bench.problem.operator.grid().fits("field of the path", field.dim())?;
         }
         self.watch.check(bench.problem.grid())?;
@@ -359,7 +362,10 @@ impl<T: Real> Path<T> {
         let saddle = if settled && (good || smallest || jumped) { self.saddle(bench, &solved.solution)? } else { None };
         let lost = good && saddle.is_some() && !self.course.on_saddle;
         if (!good && !jumped || lost) && !smallest {
-            self.course.halve(report, &self.settings);
+            self.course.halve(report, trial, &self.settings);
+            // the place of the jump does matter where it is asked for, and at the largest tension
+            let kept = settled && self.settings.smallest_step.is_none() && !trial.peaks;
+            self.ahead = kept.then(|| solved.with_gap().1);
             return Ok(None);
         }
         let detached = report.status == Status::Detached;
@@ -394,6 +400,9 @@ impl<T: Real> Path<T> {
         } else if self.gaps.len() == 2 {
             self.gaps.remove(0);
         }
+        if self.course.taken_back().is_none() {
+            self.ahead = None;
+        }
         let solution = self.keep(bench.problem, solved)?;
         Ok(Some(self.step(solution, event)))
     }
@@ -404,7 +413,7 @@ impl<T: Real> Path<T> {
         let (solution, mut gap) = solved.with_gap();
         if let Some(depth) = &solution.plastic_depth {
             let lowered = problem.lower(depth.view(), stays, &mut gap)?;
-            self.gaps.iter_mut().for_each(|gap| *gap += &lowered);
+            self.gaps.iter_mut().chain(&mut self.ahead).for_each(|gap| *gap += &lowered);
         }
         self.depth = problem.yielded().cloned();
         self.gaps.push(gap);

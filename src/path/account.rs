@@ -15,7 +15,7 @@ pub(super) struct Account {
 }
 
 /// The share of the energy of a jump to which the work of the load in its step is known.
-const LOCATED: f64 = 0.1;
+const LOCATED: f64 = 0.2;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance {
@@ -25,6 +25,8 @@ pub(super) struct Balance {
     pub(super) jumped: bool,
     /// whether it jumped in a step that is short enough to be taken
     pub(super) located: bool,
+    /// whether the tension may have grown in it beyond the largest one so far
+    pub(super) peaks: bool,
     /// the imbalance that the step may have
     pub(super) allowed: f64,
     /// the work by quadrature

@@ -65,6 +65,9 @@ const SMALLEST: f64 = 1e-4;
 /// The share of the largest tension by which that before a jump may be larger than that of the last state.
 const PEAK: f64 = 0.01;
 
+/// The share of the expected growth of the tension in a step, below which it may have had a maximum there.
+const GROWN: f64 = 0.25;
+
 /// The largest number of states in the quadrature.
 const PLACES: usize = 4;
 
@@ -190,15 +193,20 @@ impl Course {
         (target, step <= smallest)
     }
 
-    /// Takes a step back, to the state of a report.
-    pub(super) fn halve(&mut self, report: &Report, settings: &PathSettings) {
+    /// Takes a step back, to the state of a report, with its balance.
+    pub(super) fn halve(&mut self, report: &Report, trial: Balance, settings: &PathSettings) {
         let (target, _) = self.next_target(settings);
         let tried = (target - self.here().slope(self.mode).0).abs();
         let there = Figures::of(report).held_by(self.mode);
         let stride = self.bracket.map_or(tried, |bracket| bracket.stride);
         let (end, potential) = ((target, there.slope(self.mode).1), there.potential(self.mode));
-        self.bracket = Some(Bracket { end, potential, stride });
+        self.bracket = Some(Bracket { end, potential, drop: trial.drop, stride });
         self.step = (0.5 * tried).max(self.smallest(settings));
+    }
+
+    /// The end of the shortest step that was taken back, if it is ahead.
+    pub(super) fn taken_back(&self) -> Option<f64> {
+        self.bracket.map(|bracket| bracket.end.0)
     }
 
     /// The length of the next step in units of the last one.
@@ -235,27 +243,35 @@ impl Course {
         let energy = next.energy - here.energy;
         let product = step * (after - before);
         let drop = 0.5 * (before + after) * step - change;
+        let (peaks, breaks_off) = self.peaks(step, next.pressure, noise.max(left));
         let balance = Balance {
-            balanced: excess.abs() <= allowed,
+            // a jump of little energy, or a smooth maximum, may be in the step
+            balanced: excess.abs() <= allowed && !(peaks && breaks_off),
             jumped: -excess > allowed.max(product.abs()),
             located: false,
+            peaks,
             allowed,
             work: energy - excess,
             excess,
             drop,
             growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
         };
-        let located = balance.locates(product) && !self.peaks(step, next.pressure);
+        let stays = self.bracket.is_some_and(|bracket| bracket.keeps(drop));
+        let located = stays && balance.locates(product) && !balance.peaks;
         Balance { located: balance.jumped && drop > allowed.max(product.abs()) && located, ..balance }
     }
 
-    /// Whether the tension may have grown along the branch, until the end of a step in which it jumps, beyond the
-    /// largest one so far.
-    fn peaks(&self, step: f64, after: f64) -> bool {
-        let ([.., last, here], Mode::Gap | Mode::Spring(_)) = (&self.places[..], self.mode) else { return false };
+    /// Whether the tension may have grown along the branch, somewhere in a step, beyond the largest one so far, and by
+    /// more than the noise of an energy; and whether it grew by less than a share of what it was to grow.
+    fn peaks(&self, step: f64, after: f64, noise: f64) -> (bool, bool) {
+        let ([.., last, here], Mode::Gap | Mode::Spring(_)) = (&self.places[..], self.mode) else {
+            return (false, false);
+        };
         let [(x0, p0), (x1, p1)] = [last, here].map(|place| place.slope(self.mode));
-        let reached = p1 + (p1 - p0) / (x1 - x0) * step;
-        reached > (1.0 + PEAK) * self.account.tension.max(-after)
+        let growth = (p1 - p0) / (x1 - x0) * step;
+        let beyond = p1 + growth - self.account.tension.max(-after);
+        let peaks = beyond > PEAK * (p1 + growth - beyond) && beyond * step.abs() > noise;
+        (peaks, -after - p1 < GROWN * growth)
     }
 
     /// Continues at given mean gaps, from a limit point or before a bifurcation: between the gap at which the surfaces

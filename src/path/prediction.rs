@@ -33,8 +33,13 @@ impl<T: Real> Bench<'_, T> {
 }
 
 impl<T: Real> Path<T> {
-    /// The gap at `target`, extrapolated from the last two gaps.
+    /// The gap at `target`: that of a state that was found there, or extrapolated from the last two gaps.
     pub(super) fn predict(&self, bench: &Bench<'_, T>, target: f64) -> Array2<T> {
+        if let (Some(ahead), Some(end)) = (&self.ahead, self.course.taken_back())
+            && end == target
+        {
+            return ahead.clone();
+        }
         match &self.gaps[..] {
             [before, last] => {
                 let steps = self.course.extrapolation(target).clamp(-MOST_STEPS, MOST_STEPS);
