@@ -52,9 +52,10 @@ pub use step::PathStep;
 /// Along a branch the energy changes by the work of the load, de = −p̄ dḡ. A step in which it falls by more has jumped
 /// to another branch, or is too long for the quadrature of the work (by up to four states, of fourth order): it is
 /// taken back and halved. A jump is located once the work of the load in the step is known to a fifth of the energy
-/// that the jump dissipates, and the largest tension to a hundredth; or at [`PathSettings::smallest_step`], if it is
-/// given. The step is then taken, with an [`Event`]. As the jump may be anywhere in it, the mean of the loads at its
-/// ends does the work, and the [standard error](PathStep::work_error) of that is told.
+/// that the jump dissipates, which has to be as large as in twice the step, and the largest tension to a hundredth; or
+/// at [`PathSettings::smallest_step`], if it is given. The step is then taken, with an [`Event`]. As the jump may be
+/// anywhere in it, the mean of the loads at its ends does the work, and the [standard error](PathStep::work_error) of
+/// that is told.
 ///
 /// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
 /// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path and its reports are

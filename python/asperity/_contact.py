@@ -332,7 +332,7 @@ def cycle(
         Least number of steps in a leg.
     smallest_step : float, optional
         Step to which a jump is located, as a share of the leg; if not given, until the work of the step is known to a
-        tenth of the energy that the jump dissipates.
+        fifth of the energy that the jump dissipates.
     imbalance : float
         Imbalance of energy that a step may have without being a jump, as a share of how much the energy has changed,
         and of twenty times what jumps have dissipated so far: jumps that are smaller are not located one by one.

@@ -7,7 +7,7 @@ use crate::setters::setters;
 /// | field | default | meaning | range |
 /// |---|---|---|---|
 /// | `steps` | 50 | the least number of steps in a leg | at least 1 |
-/// | `smallest_step` | none | the step, as a share of the leg, to which a jump is located; none: until the work of the step is known to a tenth of the energy that the jump dissipates, or to 1e-4 of the leg | positive, below 1 |
+/// | `smallest_step` | none | the step, as a share of the leg, to which a jump is located; none: until the work of the step is known to a fifth of the energy that the jump dissipates, or to 1e-4 of the leg | positive, below 1 |
 /// | `smooth` | true | whether jumps of the law's traction are smoothed, by what the grid can resolve | |
 /// | `imbalance` | 1e-4 | how far the energy may be from the work done in a step, as a share of how much the energy has changed along the path (or of w/1000, if that is more), and of twenty times what jumps have dissipated so far | positive |
 ///

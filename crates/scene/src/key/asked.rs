@@ -25,7 +25,7 @@ keys! {
             /// Least number of steps from one turning point to the next
             steps: Kind::whole(&["N"]).or("50"),
             /// Step to which jumps are located, as a share of the way from one turning point to the next [default: until
-            /// the work of the step is known to a tenth of the energy that the jump dissipates]
+            /// the work of the step is known to a fifth of the energy that the jump dissipates]
             smallest_step: Kind::number(Range::POSITIVE, &["SHARE"]),
             /// Imbalance of energy that a step may have, as a share of the change of the energy so far and of twenty
             /// times what jumps have dissipated; smaller jumps are not located one by one
