@@ -65,6 +65,9 @@ const SMALLEST: f64 = 1e-4;
 /// The share of the largest tension by which that before a jump may be larger than that of the last state.
 const PEAK: f64 = 0.01;
 
+/// The same in a step without a jump: corners of the load, where nodes come into contact, are smaller.
+const BROKEN_OFF: f64 = 0.1;
+
 /// The share of the expected growth of the tension in a step, below which it may have had a maximum there.
 const GROWN: f64 = 0.25;
 
@@ -243,13 +246,13 @@ impl Course {
         let energy = next.energy - here.energy;
         let product = step * (after - before);
         let drop = 0.5 * (before + after) * step - change;
-        let (peaks, breaks_off) = self.peaks(step, next.pressure, noise.max(left));
+        let (peak, breaks_off) = self.peak(step, next.pressure, noise.max(left));
         let balance = Balance {
             // a jump of little energy, or a smooth maximum, may be in the step
-            balanced: excess.abs() <= allowed && !(peaks && breaks_off),
+            balanced: excess.abs() <= allowed && !(breaks_off && peak > BROKEN_OFF),
             jumped: -excess > allowed.max(product.abs()),
             located: false,
-            peaks,
+            peaks: peak > PEAK,
             allowed,
             work: energy - excess,
             excess,
@@ -261,17 +264,18 @@ impl Course {
         Balance { located: balance.jumped && drop > allowed.max(product.abs()) && located, ..balance }
     }
 
-    /// Whether the tension may have grown along the branch, somewhere in a step, beyond the largest one so far, and by
-    /// more than the noise of an energy; and whether it grew by less than a share of what it was to grow.
-    fn peaks(&self, step: f64, after: f64, noise: f64) -> (bool, bool) {
+    /// The share of the largest tension so far by which the tension may have grown beyond it along the branch, somewhere
+    /// in a step, if that is more than the noise of an energy; and whether it grew by less than was to be expected.
+    fn peak(&self, step: f64, after: f64, noise: f64) -> (f64, bool) {
         let ([.., last, here], Mode::Gap | Mode::Spring(_)) = (&self.places[..], self.mode) else {
-            return (false, false);
+            return (0.0, false);
         };
         let [(x0, p0), (x1, p1)] = [last, here].map(|place| place.slope(self.mode));
         let growth = (p1 - p0) / (x1 - x0) * step;
-        let beyond = p1 + growth - self.account.tension.max(-after);
-        let peaks = beyond > PEAK * (p1 + growth - beyond) && beyond * step.abs() > noise;
-        (peaks, -after - p1 < GROWN * growth)
+        let largest = self.account.tension.max(-after);
+        let beyond = p1 + growth - largest;
+        let peak = if beyond * step.abs() > noise { beyond / largest } else { 0.0 };
+        (peak, -after - p1 < GROWN * growth)
     }
 
     /// Continues at given mean gaps, from a limit point or before a bifurcation: between the gap at which the surfaces
