@@ -93,9 +93,9 @@ pub use step::PathStep;
 ///
 /// # Going on
 ///
-/// Solver and problem are given with each step. A path is its own checkpoint: a copy, or with the feature `serde` one
-/// that was kept and read again, continues bit for bit, also at a problem that is made anew. The page
-/// [`branches`](crate::guide::branches) has a cycle with jumps.
+/// Solver and problem are given with each step. A path keeps three gaps at most, and the plastic depth if there is one.
+/// It is its own checkpoint: a copy, or with the feature `serde` one that was kept and read again, continues bit for
+/// bit, also at a problem that is made anew. The page [`branches`](crate::guide::branches) has a cycle with jumps.
 ///
 /// ```
 /// use asperity::path::{Path, PathSettings};

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use asperity::path::{Event, Jump, Path, PathSettings, PathStep};
 use asperity::stability::{StabilityTest, Verdict};
+use asperity::surface::Amplitude;
 use asperity::*;
 use oracles::{Kept, check, followed, rough, sphere};
 
@@ -78,6 +79,39 @@ fn jumps_are_found_where_they_are_however_long_the_steps() {
             let unsure = width * (jump.mean_pressure.1 - jump.mean_pressure.0).abs();
             assert!((jump.energy_drop - last.energy_drop).abs() <= 2.0 * unsure);
         }
+    }
+}
+
+#[test]
+fn corners_of_the_load_are_no_jumps() {
+    // where two nodes of the coarse grid come into contact, the load has a corner, with as large a load on either side
+    let grid = Grid::line(64, 1.0).unwrap();
+    let surface = Surface::wave(grid, AMPLITUDE, 1).unwrap();
+    let law = Exponential::new(1e-3, 8e-3).unwrap();
+    let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
+    for steps in [10, 15, 50] {
+        let settings = PathSettings::default().steps(steps).imbalance(3e-5);
+        let found = follow(&mut problem, gaps(&[0.08, 0.01, 0.08]), settings, 5.5e-5);
+        assert_eq!(names(&found), ["jump-in", "pull-off"], "{steps}");
+    }
+}
+
+#[test]
+fn steps_that_are_loosely_balanced_do_not_miss_the_largest_tension() {
+    let amplitude = Amplitude::RmsHeight(6e-3);
+    let profile = SelfAffine::default().k_s(32.0).hurst(0.8).amplitude(amplitude);
+    let largest = |seed, imbalance| {
+        let grid = Grid::line(2048, 1.0).unwrap();
+        let surface = profile.seed(seed).surface(grid).unwrap();
+        let law = Exponential::new(1e-4, 1e-3).unwrap();
+        let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
+        let settings = PathSettings::default().imbalance(imbalance);
+        let steps = follow(&mut problem, gaps(&[0.04, 0.004, 0.04]), settings, 1e-4);
+        steps.iter().map(|step| -step.solution.report.mean_pressure).fold(0.0, f64::max)
+    };
+    for seed in [51, 52] {
+        let [loose, close] = [1e-3, 1e-5].map(|imbalance| largest(seed, imbalance));
+        assert!((loose / close - 1.0).abs() < 0.02, "{seed}: {loose:e} {close:e}");
     }
 }
 
