@@ -55,7 +55,7 @@ pub use step::PathStep;
 /// that the jump dissipates, which has to be as large as in twice the step, and the largest tension to a hundredth; or
 /// at [`PathSettings::smallest_step`], if it is given. The step is then taken, with an [`Event`]. As the jump may be
 /// anywhere in it, the mean of the loads at its ends does the work, and the [standard error](PathStep::work_error) of
-/// that is told.
+/// that is told. A step is also halved where the tension breaks off a tenth below what it was to reach, or more.
 ///
 /// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
 /// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path and its reports are
