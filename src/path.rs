@@ -19,6 +19,7 @@ use crate::solver::{
 use crate::stability::Watch;
 
 mod account;
+mod balance;
 mod bracket;
 mod course;
 mod event;
@@ -30,7 +31,8 @@ mod settings;
 mod sharp;
 mod step;
 
-use account::{Account, Balance};
+use account::Account;
+use balance::Balance;
 use course::{Course, Way};
 pub use event::{Event, Jump};
 use figures::Mode;

@@ -1,6 +1,7 @@
 //! The bracket of a jump: from the last state to the end of a step that was taken back.
 
-use super::account::Balance;
+use super::balance::Balance;
+use super::quadrature::trapezoid;
 
 /// The share of the product of a step and the change of the load, to which the trapezoid rule is right where the load
 /// is a parabola.
@@ -34,7 +35,7 @@ impl Bracket {
     pub(super) fn next_step(&self, (at, slope): (f64, f64), potential: f64, balance: Balance) -> f64 {
         let left = self.end.0 - at;
         let product = left * (self.end.1 - slope);
-        let drop = 0.5 * (slope + self.end.1) * left - (self.potential - potential);
+        let drop = trapezoid((at, slope), self.end) - (self.potential - potential);
         let is_smooth = drop.abs() <= balance.allowed.max(SMOOTH * product.abs());
         let locates = self.keeps(drop) && Balance { drop, ..balance }.locates(product);
         if is_smooth || locates { left.abs() } else { 0.5 * left.abs() }

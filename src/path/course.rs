@@ -1,9 +1,10 @@
 //! The state of a path: its leg, its last places, the length of the next step, and the account of energy.
 
-use super::account::{Account, Balance};
+use super::account::Account;
+use super::balance::Balance;
 use super::bracket::Bracket;
 use super::figures::{Figures, Mode};
-use super::quadrature::integral;
+use super::quadrature::trapezoid;
 use super::{Event, Jump, PathSettings};
 use crate::elastic::Boundary;
 use crate::problem::{Control, Load, PressedFlat};
@@ -41,20 +42,14 @@ pub(super) struct Course {
     pub(super) on_saddle: bool,
     pub(super) account: Account,
     /// the last states on the branch, the latest last: at most four
-    places: Vec<Figures>,
+    pub(super) places: Vec<Figures>,
     /// the states of which the gaps are kept
     pub(super) at: Vec<Figures>,
-    bracket: Option<Bracket>,
+    pub(super) bracket: Option<Bracket>,
 }
-
-const GROWTH: f64 = 2.0;
 
 /// The distance, as a share of the leg, to which a leg to a pressure approaches it at given mean gaps.
 const LANDING: f64 = 1e-3;
-
-/// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
-/// compared with all before are not located one by one.
-const MANY: f64 = 20.0;
 
 /// The step after a jump, as a share of that before it.
 const REGAINED: f64 = 0.25;
@@ -62,17 +57,8 @@ const REGAINED: f64 = 0.25;
 /// The smallest step as a share of the leg, if none is given.
 const SMALLEST: f64 = 1e-4;
 
-/// The share of the largest tension by which that before a jump may be larger than that of the last state.
-const PEAK: f64 = 0.01;
-
-/// The same in a step without a jump: corners of the load, where nodes come into contact, are smaller.
-const BROKEN_OFF: f64 = 0.1;
-
-/// The share of the expected growth of the tension in a step, below which it may have had a maximum there.
-const GROWN: f64 = 0.25;
-
 /// The largest number of states in the quadrature.
-const PLACES: usize = 4;
+pub(super) const PLACES: usize = 4;
 
 impl Course {
     pub(super) fn on<T>(flat: &PressedFlat<T>) -> Self {
@@ -100,7 +86,7 @@ impl Course {
         }
     }
 
-    fn here(&self) -> Figures {
+    pub(super) fn here(&self) -> Figures {
         self.places.last().copied().unwrap_or_default()
     }
 
@@ -221,63 +207,6 @@ impl Course {
         }
     }
 
-    /// The balance of a step, up to an imbalance as a share of the change of the energy (`least` at least) and of what
-    /// jumps have dissipated, the noise of rounding, and what the tolerance of the solver has `left`.
-    pub(super) fn judge(
-        &self,
-        target: f64,
-        report: &Report,
-        (imbalance, least): (f64, f64),
-        (noise, left): (f64, f64),
-    ) -> Balance {
-        let (here, next) = (self.here(), Figures::of(report).held_by(self.mode));
-        let ((from, before), (_, after)) = (here.slope(self.mode), next.slope(self.mode));
-        let step = target - from;
-        let mut points: Vec<_> = self.places.iter().map(|place| place.slope(self.mode)).collect();
-        points.push((target, after));
-        let first = points.len().saturating_sub(PLACES);
-        let change = next.potential(self.mode) - here.potential(self.mode);
-        let excess = change - integral(&points[first..]);
-        let (low, high) = self.account.range;
-        let scale = (high.max(next.energy) - low.min(next.energy)).max(least) + MANY * self.account.dissipated;
-        let allowed = (imbalance * scale + noise).max(left);
-        let order = 1.0 + (points.len() - first) as f64;
-        let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
-        let energy = next.energy - here.energy;
-        let product = step * (after - before);
-        let drop = 0.5 * (before + after) * step - change;
-        let (peak, breaks_off) = self.peak(step, next.pressure, noise.max(left));
-        let balance = Balance {
-            // a jump of little energy, or a smooth maximum, may be in the step
-            balanced: excess.abs() <= allowed && !(breaks_off && peak > BROKEN_OFF),
-            jumped: -excess > allowed.max(product.abs()),
-            located: false,
-            peaks: peak > PEAK,
-            allowed,
-            work: energy - excess,
-            excess,
-            drop,
-            growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
-        };
-        let stays = self.bracket.is_some_and(|bracket| bracket.keeps(drop));
-        let located = stays && balance.locates(product) && !balance.peaks;
-        Balance { located: balance.jumped && drop > allowed.max(product.abs()) && located, ..balance }
-    }
-
-    /// The share of the largest tension so far by which the tension may have grown beyond it along the branch, somewhere
-    /// in a step, if that is more than the noise of an energy; and whether it grew by less than was to be expected.
-    fn peak(&self, step: f64, after: f64, noise: f64) -> (f64, bool) {
-        let ([.., last, here], Mode::Gap | Mode::Spring(_)) = (&self.places[..], self.mode) else {
-            return (0.0, false);
-        };
-        let [(x0, p0), (x1, p1)] = [last, here].map(|place| place.slope(self.mode));
-        let growth = (p1 - p0) / (x1 - x0) * step;
-        let largest = self.account.tension.max(-after);
-        let beyond = p1 + growth - largest;
-        let peak = if beyond * step.abs() > noise { beyond / largest } else { 0.0 };
-        (peak, -after - p1 < GROWN * growth)
-    }
-
     /// Continues at given mean gaps, from a limit point or before a bifurcation: between the gap at which the surfaces
     /// bear the pressure at the leg's end and that at which they lose each other.
     pub(super) fn leave_pressure_control(
@@ -350,7 +279,7 @@ impl Course {
         let jumped = way.jumped;
         if jumped {
             // the jump is anywhere in the step, each place as likely as another
-            let done = -0.5 * (here.pressure + next.pressure) * (next.position - here.position);
+            let done = -trapezoid((here.position, here.pressure), (next.position, next.pressure));
             let [(from, before), (_, after)] = [here, next].map(|place| place.slope(self.mode));
             *variance += ((target - from) * (after - before)).powi(2) / 12.0;
             jump.energy_drop = done - (next.energy - here.energy);

@@ -1,5 +1,10 @@
 //! The work of a load along a few states.
 
+/// The integral between two points, each abscissa and value, by the trapezoid rule.
+pub(super) fn trapezoid((a, before): (f64, f64), (b, after): (f64, f64)) -> f64 {
+    0.5 * (before + after) * (b - a)
+}
+
 /// The integral over the last interval of the polynomial through all points.
 pub(super) fn integral(points: &[(f64, f64)]) -> f64 {
     let [.., (a, _), (b, _)] = *points else { return 0.0 };
