@@ -95,9 +95,10 @@ pub use step::PathStep;
 ///
 /// # Going on
 ///
-/// Solver and problem are given with each step. A path keeps three gaps at most, and the plastic depth if there is one.
-/// It is its own checkpoint: a copy, or with the feature `serde` one that was kept and read again, continues bit for
-/// bit, also at a problem that is made anew. The page [`branches`](crate::guide::branches) has a cycle with jumps.
+/// Solver and problem are given with each step. A path keeps three gaps at most, the softest mode with the random field
+/// in which it is sought, and the plastic depth if there is one. It is its own checkpoint: a copy, or with the feature
+/// `serde` one that was kept and read again, continues bit for bit, also at a problem that is made anew. The page
+/// [`branches`](crate::guide::branches) has a cycle with jumps.
 ///
 /// ```
 /// use asperity::path::{Path, PathSettings};
