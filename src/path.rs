@@ -425,15 +425,7 @@ impl<T: Real> Path<T> {
     }
 
     fn step(&self, solution: Solution<T>, event: Option<Event>) -> PathStep<T> {
-        let account @ Account { work, dissipated, imbalance, .. } = self.course.account;
-        PathStep {
-            solution,
-            leg: self.course.leg,
-            work,
-            dissipated,
-            imbalance,
-            work_error: account.work_error(),
-            event,
-        }
+        let Account { work, dissipated, imbalance, variance, .. } = self.course.account;
+        PathStep { solution, leg: self.course.leg, work, dissipated, imbalance, work_error: variance.sqrt(), event }
     }
 }

@@ -36,9 +36,9 @@ pub(super) struct Balance {
     pub(super) peaks: bool,
     /// the imbalance that the step may have
     pub(super) allowed: f64,
-    /// the work of the load, between what the energy grew and what the branch before would have taken
+    /// the work by quadrature
     pub(super) work: f64,
-    /// the change of the energy beyond the work by quadrature
+    /// the change of the energy beyond the work
     pub(super) excess: f64,
     /// what a jump anywhere in it dissipates
     pub(super) drop: f64,
@@ -71,11 +71,7 @@ impl Course {
         points.push((target, after));
         let first = points.len().saturating_sub(PLACES);
         let change = next.potential(self.mode) - here.potential(self.mode);
-        let (on, branch) = (&points[first..], &points[first..points.len() - 1]);
-        let excess = change - integral(on, (from, target));
-        // no jump dissipates less than nothing, or more than one at the end of the step
-        let most = if branch.len() > 1 { integral(branch, (from, target)) - change } else { -excess };
-        let lost = (-excess).clamp(0.0, most.max(0.0));
+        let excess = change - integral(&points[first..]);
         let (low, high) = self.account.range;
         let scale = (high.max(next.energy) - low.min(next.energy)).max(least) + MANY * self.account.dissipated;
         let allowed = (imbalance * scale + noise).max(left);
@@ -92,7 +88,7 @@ impl Course {
             located: false,
             peaks: peak > PEAK,
             allowed,
-            work: energy + lost,
+            work: energy - excess,
             excess,
             drop,
             growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },

@@ -264,9 +264,9 @@ impl Course {
             Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
-        let account = &mut self.account;
-        account.range = (account.range.0.min(next.energy), account.range.1.max(next.energy));
-        account.tension = account.tension.max(-next.pressure);
+        let Account { work, dissipated, imbalance, variance, range, tension } = &mut self.account;
+        *range = (range.0.min(next.energy), range.1.max(next.energy));
+        *tension = tension.max(-next.pressure);
         let mut event =
             self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
         let mut jump = Jump {
@@ -276,17 +276,19 @@ impl Course {
             contact_fraction: (here.contact, next.contact),
             energy_drop: 0.0,
         };
-        let (jumped, change) = (way.jumped, next.energy - here.energy);
+        let jumped = way.jumped;
         if jumped {
             // the jump is anywhere in the step, each place as likely as another
             let done = -trapezoid((here.position, here.pressure), (next.position, next.pressure));
             let [(from, before), (_, after)] = [here, next].map(|place| place.slope(self.mode));
-            account.add(done, 0.0, (target - from) * (after - before) / 12f64.sqrt());
-            jump.energy_drop = done - change;
-            account.dissipated += jump.energy_drop;
+            *variance += ((target - from) * (after - before)).powi(2) / 12.0;
+            jump.energy_drop = done - (next.energy - here.energy);
+            *work += done;
+            *dissipated += jump.energy_drop;
         } else {
-            account.add(trial.work, trial.work - (change - trial.excess), trial.excess);
-            account.imbalance += change - trial.work;
+            *work += trial.work;
+            *imbalance += trial.excess;
+            *variance += trial.excess.powi(2);
         }
         if let Some(eigenvalue) = way.bifurcation {
             event = Some(Event::Bifurcation { eigenvalue, jump });

@@ -16,14 +16,11 @@ pub struct PathStep<T: Real> {
     pub work: f64,
     /// The energy dropped in jumps since the start, per area; over a closed cycle, the lost work of adhesion.
     pub dissipated: f64,
-    /// The imbalance of energy: its change, plus the dissipated energy, less the work. In steps that are not located as
-    /// jumps it is what small jumps have dissipated, and an error of the quadrature.
+    /// The imbalance of energy: its change, plus the dissipated energy, less the work. It comes from quadrature,
+    /// tolerance, and jumps below the imbalance that a step may have.
     pub imbalance: f64,
     /// The standard error of the work, and over a closed cycle of the energy dissipated: a jump is anywhere in its step,
-    /// and what a step is out of balance may be work. The work in a step without a located jump is that by quadrature,
-    /// but at least the change of the energy, as no jump dissipates less than nothing, and at most the work that the
-    /// branch before would have taken. What this adds to the quadrature in all may be an error too. Jumps that a longer
-    /// step takes too early are not in it.
+    /// and what a step is out of balance may be work. Jumps that a longer step takes too early are not in it.
     pub work_error: f64,
     /// The event between the previous state and this one.
     pub event: Option<Event>,
