@@ -13,7 +13,7 @@ use asperity::{
     Settings, Solution, Solver, Start, Surface, Westergaard,
 };
 use clap::Parser;
-use common::{Outcome, arguments};
+use common::{Outcome, arguments, quantile};
 use ndarray::Array2;
 
 const ROUNDS: usize = 5;
@@ -89,16 +89,10 @@ fn measure(
         "in f32, then on / a solve",
     ];
     for (what, figures) in names.iter().zip(&mut figures) {
-        let median = median(figures);
+        let median = quantile(figures, 0.5);
         println!("  {what:<28} {median:.3} ({:.3}-{:.3})", figures[0], figures[ROUNDS - 1]);
     }
     Ok(())
-}
-
-/// The median of values, which are sorted.
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// The seconds of an operator application in `f32` and in `f64`, timed in turn.
@@ -109,7 +103,7 @@ fn application(surface: &Surface) -> Result<[f64; 2]> {
         times[0].push(single()?);
         times[1].push(double()?);
     }
-    Ok(times.map(|mut times| median(&mut times)))
+    Ok(times.map(|mut times| quantile(&mut times, 0.5)))
 }
 
 /// Applies the half-space to the heights whenever it is called, and tells the seconds.

@@ -23,7 +23,7 @@ use asperity::{
 };
 use asperity_maps::io::read_fourier;
 use clap::Parser;
-use common::{Outcome, arguments};
+use common::{Outcome, arguments, quantile};
 
 const SIDE: f64 = 100e-6;
 const LONGEST_SELF_AFFINE: f64 = 20e-6;
@@ -197,7 +197,5 @@ fn remark(report: &Report) -> String {
 
 /// The values that shares of all are below.
 fn quantiles(mut values: Vec<f64>) -> Vec<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    let place = |share: f64| (share * values.len() as f64) as usize;
-    SHARES.iter().map(|&share| values.get(place(share)).copied().unwrap_or(f64::NAN)).collect()
+    SHARES.iter().map(|&share| quantile(&mut values, share)).collect()
 }

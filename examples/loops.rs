@@ -13,7 +13,7 @@ use asperity::path::{Event, Path, PathSettings};
 use asperity::surface::Amplitude;
 use asperity::{Control, Exponential, Grid, Problem, SelfAffine, Settings, Solver, Surface, Westergaard};
 use clap::Parser;
-use common::{Outcome, arguments};
+use common::{Outcome, arguments, quantile};
 
 /// The least dissipated energy of a cycle whose error is told, as a share of the work of adhesion.
 const HYSTERETIC: f64 = 2e-3;
@@ -130,8 +130,7 @@ fn main() -> Outcome<()> {
         let tension = pairs().map(|(_, (a, b))| (a.tension / b.tension - 1.0).abs()).fold(0.0, f64::max);
         let works = pairs().filter(|(scene, (_, b))| b.work > HYSTERETIC * scene.work);
         let mut errors: Vec<_> = works.map(|(_, (a, b))| (a.work / b.work - 1.0).abs()).collect();
-        errors.sort_by(f64::total_cmp);
-        let median = errors.get(errors.len() / 2).copied().unwrap_or_default();
+        let median = quantile(&mut errors, 0.5);
         let work = (errors.iter().map(|error| error * error).sum::<f64>() / errors.len().max(1) as f64).sqrt();
         let [states, applications] = [sum(found, |cycle| cycle.states), sum(found, |cycle| cycle.applications)];
         let [tension, work, median] = [tension, work, median].map(|error| 100.0 * error);

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use common::Outcome;
+use common::{Outcome, quantile};
 
 use crate::case::{Areas, extrapolated, head, row};
 use crate::estimate::Quantity;
@@ -77,8 +77,7 @@ fn quantiles(mut values: Vec<f64>) -> String {
     if values.is_empty() || values.iter().any(|value| value.is_nan()) {
         return "–".to_owned();
     }
-    values.sort_by(f64::total_cmp);
-    let at = |share: f64| 100.0 * values.get((share * values.len() as f64) as usize).copied().unwrap_or(f64::NAN);
+    let mut at = |share| 100.0 * quantile(&mut values, share);
     format!("{:.2}, {:.2}", at(0.5), at(0.9))
 }
 
@@ -86,8 +85,7 @@ fn quartiles(mut values: Vec<f64>) -> String {
     if values.is_empty() {
         return "–".to_owned();
     }
-    values.sort_by(f64::total_cmp);
-    let at = |share: f64| values.get((share * values.len() as f64) as usize).copied().unwrap_or(f64::NAN);
+    let mut at = |share| quantile(&mut values, share);
     [0.25, 0.5, 0.75].map(|share| format!("{:.3}", at(share))).join(", ")
 }
 
