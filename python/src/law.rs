@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use asperity::adhesion::{Values, check_functions};
+use asperity::adhesion::{Formula, Values, check_functions};
 use asperity::{AdhesionLaw, adhesion};
 use asperity_scene::numbers::plain;
-use asperity_scene::{Adhesion, Formula, Wall, dimension_of_key};
+use asperity_scene::{Adhesion, Scalar, Wall, dimension_of_key};
 use numpy::ndarray::ArrayD;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
@@ -121,7 +121,7 @@ impl Law {
         }
         let functions = Functions::of(object)?;
         let Functions { work_of_adhesion, range, .. } = functions;
-        let formula: Formula = Arc::new(asperity::Tabulated::of(functions).map_err(refusal)?);
+        let formula: Formula = asperity::Tabulated::of(functions).map_err(refusal)?.into();
         let name = object.get_type().name()?.to_string();
         let adhesion = Adhesion { work_of_adhesion, range, ..Adhesion::of(name) };
         Ok(Self { formula, adhesion, given: Given::default() })
@@ -135,7 +135,7 @@ impl Law {
     /// Energies (0), tractions (1) or slopes (2) at gaps of any shape; where the work of adhesion varies, at one for each
     /// of its nodes or one for all.
     fn at<'py>(&self, py: Python<'py>, gap: &Numbers<'py>, order: usize) -> PyResult<Bound<'py, PyAny>> {
-        let law = self.formula.clone().law::<f64>();
+        let law = f64::law(self.formula.clone());
         let Some((nx, ny)) = law.hints().shape else {
             return mapped(py, gap, |gap| [law.energy(gap), law.traction(gap), law.slope(gap)][order]);
         };
@@ -277,7 +277,7 @@ pub fn varied(law: &Bound<'_, PyAny>, works: Field<'_>) -> PyResult<Law> {
 pub fn check_law(law: &Bound<'_, PyAny>, largest_gap: Option<f64>) -> PyResult<()> {
     let checked = match law.cast::<Law>() {
         Ok(law) => {
-            let law = law.get().formula.clone().law::<f64>();
+            let law = f64::law(law.get().formula.clone());
             adhesion::check_law(&law, largest_gap.unwrap_or_else(|| law.hints().far()))
         }
         Err(_) => check_functions(Functions::of(law)?, largest_gap),

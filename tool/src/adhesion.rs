@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use asperity::adhesion::Formula;
 use asperity::{Error, Grid, Tabulated};
 use asperity_maps::io::read_field;
-use asperity_scene::{Adhesion as Described, Files, Formula, tabulated};
+use asperity_scene::{Adhesion as Described, Files, tabulated};
 use ndarray::Array2;
 
 use crate::heights;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;
 use asperity_plot::{Chart, Format};
-use asperity_scene::{AdhesionKeys, Chosen, LAWS, Law, Skin, UnitKeys};
+use asperity_scene::{AdhesionKeys, Chosen, LAWS, Law, Scalar, Skin, UnitKeys};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
@@ -78,7 +78,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         return Err(format!("--law {name} has the range of a grid, so that there is no curve without one").into());
     }
     let table = options.adhesion.0.files().law_table;
-    let law = uniform(&adhesion, table.as_deref())?.0.law::<f64>();
+    let law = f64::law(uniform(&adhesion, table.as_deref())?.0);
     check_apart(path, table.as_deref())?;
     let file = OutputFile::create(path, options.force)?;
     list(chosen);

@@ -4,12 +4,13 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use std::time::Instant;
 
+use asperity::adhesion::Formula;
 use asperity::exact::{AdhesiveWavyLine, Hertz, MaugisDugdale as Maugis, Periodic, WavyLine, closing_pressure_2d};
 use asperity::{
     Amplitude, Control, Exponential, Grid, MaugisDugdale, NoAdhesion, Problem, Report, SelfAffine, Settings, Solution,
     Solver, Status, Surface, Westergaard,
 };
-use asperity_scene::{Formula, Scalar};
+use asperity_scene::Scalar;
 use clap::Args;
 use ndarray::Array2;
 use serde::Serialize;
@@ -132,7 +133,7 @@ type Contact<'a> = (&'a Surface, Formula, Control);
 /// The equilibrium, to 1e-8 in f64, so that the error is that of the grid, and to the default of 1e-4 in f32.
 fn solved<T: Scalar>((surface, law, control): &Contact<'_>) -> asperity::Result<Solution<T>> {
     let body = Westergaard::<T>::new(*surface.grid(), 1.0)?;
-    let mut problem = Problem::new(surface, body, law.clone().law::<T>())?;
+    let mut problem = Problem::new(surface, body, T::law(law.clone()))?;
     let default = Settings::default();
     let tolerance = default.tolerance_in::<T>();
     let tolerance = if tolerance < 1e-5 { 1e-8 } else { tolerance };
@@ -217,7 +218,7 @@ fn known() -> Outcome<Vec<Check>> {
 fn rough() -> Outcome<Vec<Check>> {
     let spectrum = SelfAffine::default().k_l(3.0).k_r(3.0).k_s(40.0).amplitude(Amplitude::RmsHeight(5e-3)).seed(2017);
     let surface = spectrum.surface(Grid::square(NODES, 1.0)?)?;
-    let contact = (&surface, Arc::new(Exponential::new(5e-5, 1e-3)?) as Formula, Control::MeanPressure(5e-3));
+    let contact = (&surface, Exponential::new(5e-5, 1e-3)?.into(), Control::MeanPressure(5e-3));
     let ((double, of_double), (single, of_single)) = (on_threads::<f64>(&contact)?, on_threads::<f32>(&contact)?);
     let mut checks: Vec<_> = of_double.into_iter().chain(of_single).collect();
     let gaps = [single.mean_gap, double.mean_gap, single.tolerance * double.mean_gap];

@@ -11,6 +11,7 @@ pub(crate) mod way;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Weak};
 
+use asperity::adhesion::Formula;
 use asperity::contact::{ContactStatistics, Original};
 use asperity::solver::Iteration;
 use asperity::{AdhesionLaw, Grid, PullOff, Real, Result, Solver, Status, Surface};
@@ -21,7 +22,7 @@ pub use self::filled::{Next, TableFile};
 use crate::Either;
 use crate::account::row::Kind;
 use crate::account::{Account, Found, Inputs, PulledOff, Row, Slopes, check_finite, warnings_of, warnings_of_input};
-use crate::key::{After, Asked, Constraint, Formula, Goal, Scalar, Scene, Skin, Told, Units, worded};
+use crate::key::{After, Asked, Constraint, Goal, Scalar, Scene, Skin, Told, Units, worded};
 use crate::outcome::Outcome;
 use crate::processes::{Processes, WHOLE};
 use crate::session::course::Course;
@@ -110,7 +111,7 @@ impl<T: Scalar> Session<T> {
     /// Those of [`Adhesion::constraint`](crate::Adhesion::constraint), and warnings, if they are errors.
     pub fn new(scene: &Scene, input: Input, inputs: Inputs, units: Units, processes: &Processes) -> Outcome<Self> {
         let Input { surface, formula, hardness, original, converted_from, scars_removed, is_strict, skin } = input;
-        let (grid, strongest, law) = (*surface.grid(), formula.strongest(), formula.law::<T>());
+        let (grid, strongest, law) = (*surface.grid(), formula.strongest(), T::law(formula));
         let warn = || match is_whole(&grid) {
             true => {
                 let surface = (&*surface.whole(), converted_from.as_deref());

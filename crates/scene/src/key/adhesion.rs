@@ -1,14 +1,13 @@
 //! The adhesion between the surfaces, as options, keywords and reports describe it.
 
-use std::sync::Arc;
-
-use asperity::{Hardness, MaugisDugdale, Real, Result, Tabulated};
+use asperity::adhesion::Formula;
+use asperity::{AdhesionLaw, Hardness, MaugisDugdale, Real, Result, Tabulated};
 use ndarray::ArrayView2;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::key::{
-    Constraint, ENERGY, ENERGY_PER_AREA, Formula, Kind, LAWS, LENGTH, Law, PRESSURE, PRESSURE_PER_LENGTH, Range, WORK,
+    Constraint, ENERGY, ENERGY_PER_AREA, Kind, LAWS, LENGTH, Law, PRESSURE, PRESSURE_PER_LENGTH, Range, Scalar, WORK,
     Wall, Word, keys, record,
 };
 use crate::numbers::plain;
@@ -237,8 +236,8 @@ impl Adhesion {
     /// Those of [`Adhesion::formula`] and [`Varying::new`](asperity::adhesion::Varying::new).
     pub fn formula_on(&self, works: ArrayView2<'_, f64>, table: Option<&Tabulated>) -> Result<Formula> {
         // of a law of one unit they are multiples of one
-        let unit: Formula = Arc::new(MaugisDugdale::new(1.0, 1.0)?);
-        let most = unit.varied(works)?.law::<f64>().hints().work_of_adhesion;
+        let unit: Formula = MaugisDugdale::new(1.0, 1.0)?.into();
+        let most = f64::law(unit.varied(works)?).hints().work_of_adhesion;
         Self { work_of_adhesion: Some(most), ..self.clone() }.formula(table)?.varied(works)
     }
 }

@@ -1,10 +1,12 @@
 //! The adhesion laws by their names, each with its description, its parameters and its construction.
 
-use std::sync::Arc;
+use std::path::Path;
 
-use asperity::{Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
+use asperity::adhesion::Formula;
+use asperity::{Error, Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Result, Tabulated};
+use ndarray::ArrayRef2;
 
-use crate::key::{Adhesion, AdhesionKeys, Formula, Key, Keys, Skin, Wall, worded};
+use crate::key::{Adhesion, AdhesionKeys, Key, Keys, Skin, Wall, worded};
 
 /// An adhesion law by its name.
 pub struct Law {
@@ -41,7 +43,7 @@ const NONE: Law = Law {
     never_ends: false,
     of_grid: false,
     repels: false,
-    make: |_, _| Ok(Arc::new(NoAdhesion)),
+    make: |_, _| Ok(NoAdhesion.into()),
 };
 
 /// The adhesion laws.
@@ -54,7 +56,7 @@ pub static LAWS: [Law; 9] = [
         remark: "; the limit of no range, with r = sqrt(13 W dx/E*) on nodes dx apart",
         source: "Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971)",
         of_grid: true,
-        make: |of, _| Ok(Arc::new(Jkr::new(known(of.work_of_adhesion))?)),
+        make: |of, _| Ok(Jkr::new(known(of.work_of_adhesion))?.into()),
         ..NONE
     },
     Law {
@@ -62,7 +64,7 @@ pub static LAWS: [Law; 9] = [
         formula: "traction W/RHO for gaps below RHO, 0 beyond",
         needs: &[WORK, "range"],
         source: "Maugis, J. Colloid Interface Sci. 150 (1992)",
-        make: |of, _| Ok(Arc::new(MaugisDugdale::new(known(of.work_of_adhesion), known(of.range))?)),
+        make: |of, _| Ok(MaugisDugdale::new(known(of.work_of_adhesion), known(of.range))?.into()),
         ..NONE
     },
     Law {
@@ -71,7 +73,7 @@ pub static LAWS: [Law; 9] = [
         needs: &[WORK, "range"],
         source: "Rey, Anciaux and Molinari, Comput. Mech. 60 (2017)",
         never_ends: true,
-        make: |of, _| Ok(Arc::new(Exponential::new(known(of.work_of_adhesion), known(of.range))?)),
+        make: |of, _| Ok(Exponential::new(known(of.work_of_adhesion), known(of.range))?.into()),
         ..NONE
     },
     Law {
@@ -84,7 +86,7 @@ pub static LAWS: [Law; 9] = [
         repels: true,
         make: |of, _| {
             let law = LennardJones::new(known(of.work_of_adhesion), known(of.range))?;
-            Ok(Arc::new(if of.wall == Wall::None { law } else { law.cut() }))
+            Ok(if of.wall == Wall::None { law } else { law.cut() }.into())
         },
         ..NONE
     },
@@ -95,7 +97,7 @@ pub static LAWS: [Law; 9] = [
         source: "Morse, Phys. Rev. 34 (1929), as a law between surfaces",
         never_ends: true,
         repels: true,
-        make: |of, _| Ok(Arc::new(Morse::new(known(of.work_of_adhesion), known(of.range))?)),
+        make: |of, _| Ok(Morse::new(known(of.work_of_adhesion), known(of.range))?.into()),
         ..NONE
     },
     Law {
@@ -104,7 +106,7 @@ pub static LAWS: [Law; 9] = [
         needs: &[WORK, "range", "exponent"],
         source: "as of forces between bodies that fall with a power of their distance",
         never_ends: true,
-        make: |of, _| Ok(Arc::new(PowerLaw::new(known(of.work_of_adhesion), known(of.range), known(of.exponent))?)),
+        make: |of, _| Ok(PowerLaw::new(known(of.work_of_adhesion), known(of.range), known(of.exponent))?.into()),
         ..NONE
     },
     Law {
@@ -114,7 +116,7 @@ pub static LAWS: [Law; 9] = [
         remark: ", the distance in contact; cut off where retardation begins",
         source: "Israelachvili, Intermolecular and Surface Forces (2011), section 13",
         never_ends: true,
-        make: |of, _| Ok(Arc::new(PowerLaw::van_der_waals(known(of.hamaker), known(of.range))?)),
+        make: |of, _| Ok(PowerLaw::van_der_waals(known(of.hamaker), known(of.range))?.into()),
         ..NONE
     },
     Law {
@@ -124,8 +126,8 @@ pub static LAWS: [Law; 9] = [
         remark: ", lines of a gap and a traction",
         source: "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984)",
         make: |_, table| match table {
-            Some(table) => Ok(Arc::new(table.clone())),
-            None => Ok(Arc::new(NoAdhesion)),
+            Some(table) => Ok(table.clone().into()),
+            None => Ok(NoAdhesion.into()),
         },
         ..NONE
     },
@@ -154,4 +156,20 @@ impl Law {
 /// A parameter that is checked before; a law of one unit without it.
 fn known(parameter: Option<f64>) -> f64 {
     parameter.unwrap_or(1.0)
+}
+
+/// The law of a table of gaps and tractions, which was read from a file.
+///
+/// # Errors
+/// [`Error::File`] unless the table has two columns that make a law.
+pub fn tabulated(path: &Path, table: &ArrayRef2<f64>) -> Result<Tabulated> {
+    if table.ncols() != 2 {
+        let columns = table.ncols();
+        return Err(Error::file(
+            path,
+            format!("has {columns} columns, not two: put a gap and a traction on each line"),
+        ));
+    }
+    let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
+    Tabulated::new(&gaps, &tractions).map_err(|error| Error::file(path, format!("is no law: {error}")))
 }

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
+use asperity::adhesion::Formula;
 use asperity::{AdhesionLaw, Real};
 use ndarray::Array2;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-
-use crate::key::Formula;
 
 /// A scalar in which one can solve, and that can be written: `f32` or `f64`.
 pub trait Scalar: Real + Serialize + DeserializeOwned {

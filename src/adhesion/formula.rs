@@ -1,20 +1,31 @@
 //! Adhesion laws as one type, in both precisions.
 
 use std::any::Any;
-use std::path::Path;
 use std::sync::Arc;
 
-use asperity::adhesion::{CutOff, Varying};
-use asperity::{AdhesionLaw, Error, Result, Tabulated};
-use ndarray::{ArrayRef2, ArrayView2};
+use ndarray::ArrayView2;
 
-use crate::key::Scalar;
+use super::{
+    AdhesionLaw, CutOff, Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated, Varying,
+};
+use crate::error::Result;
 
 /// An adhesion law in both precisions, whichever it is; a clone shares it.
+///
+/// A law of the library becomes one by `into`, whose loops over the nodes are compiled with the library; any other
+/// [`AnyLaw`] in an `Arc` is one.
+///
+/// ```
+/// use asperity::adhesion::Formula;
+/// use asperity::{AdhesionLaw, Exponential};
+/// let law: Formula = Exponential::new(0.05, 2e-9)?.into();
+/// let law = law.cut_off(20e-9)?;
+/// assert_eq!((law.energy(30e-9_f32), law.energy(30e-9_f64)), (0.0, 0.0));
+/// # Ok::<(), asperity::Error>(())
+/// ```
 pub type Formula = Arc<dyn AnyLaw>;
 
-/// An adhesion law in both precisions that can be compared with others. All laws of the library have this trait, and
-/// every other type that is a law and has an equality.
+/// An adhesion law in both precisions that can be compared with others: every type that is a law and has an equality.
 pub trait AnyLaw: AdhesionLaw<f32> + AdhesionLaw<f64> + Any {
     /// Whether another law is of the same type and equal.
     fn equals(&self, other: &dyn AnyLaw) -> bool;
@@ -33,11 +44,6 @@ impl PartialEq for dyn AnyLaw {
 }
 
 impl dyn AnyLaw {
-    /// The law in the precision of a solve.
-    pub fn law<T: Scalar>(self: Arc<Self>) -> Arc<dyn AdhesionLaw<T>> {
-        T::law(self)
-    }
-
     /// The law, zero from a gap on.
     ///
     /// # Errors
@@ -69,18 +75,16 @@ impl dyn AnyLaw {
     }
 }
 
-/// The law of a table of gaps and tractions, which was read from a file.
-///
-/// # Errors
-/// [`Error::File`] unless the table has two columns that make a law.
-pub fn tabulated(path: &Path, table: &ArrayRef2<f64>) -> Result<Tabulated> {
-    if table.ncols() != 2 {
-        let columns = table.ncols();
-        return Err(Error::file(
-            path,
-            format!("has {columns} columns, not two: put a gap and a traction on each line"),
-        ));
-    }
-    let [gaps, tractions] = [0, 1].map(|column| table.column(column).to_vec());
-    Tabulated::new(&gaps, &tractions).map_err(|error| Error::file(path, format!("is no law: {error}")))
+/// Not generic, so that the loops of the laws are compiled here, and not with each crate that has one.
+macro_rules! formulas {
+    ($($law:ty),*) => {$(
+        impl From<$law> for Formula {
+            #[inline(never)]
+            fn from(law: $law) -> Self {
+                Arc::new(law)
+            }
+        }
+    )*};
 }
+
+formulas!(Exponential, Jkr, LennardJones, MaugisDugdale, Morse, NoAdhesion, PowerLaw, Tabulated);
