@@ -177,16 +177,21 @@ impl Table {
         Kept(self.opening.fields.as_deref())
     }
 
-    /// Appends a row with the place from which the next one follows, which the first of several processes has, and the
-    /// fields of its solution on the part of a mirrored map, if they are kept: those of a cycle where the row or the
-    /// next one has an event, and of the last row.
+    /// Whether the next row has the place saved from which the one after it follows; on the first of several processes.
+    pub fn saves(&self) -> bool {
+        self.journal.as_ref().is_some_and(Journal::saves)
+    }
+
+    /// Appends a row with the place from which the next one follows, if that is saved, and the fields of its solution on
+    /// the part of a mirrored map, if they are kept: those of a cycle where the row or the next one has an event, and of
+    /// the last row.
     ///
     /// # Errors
     /// Files that cannot be written, or were changed meanwhile.
     pub fn append<T: Scalar>(
         &mut self,
         row: &Row,
-        place: Vec<u8>,
+        place: Option<Vec<u8>>,
         solution: &Solution<T>,
         processes: &Processes,
     ) -> Outcome<()> {

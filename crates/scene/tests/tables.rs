@@ -30,7 +30,7 @@ fn sweep(path: &Path, loads: &[f64], killed: usize) -> Outcome<String> {
         place.extend([load as u8, sum as u8]);
         place.drain(..place.len().saturating_sub(4));
         let text = format!("{load},{sum}");
-        journal.append(Row { text: &text, load, converged: load != 2.0, place: place.clone() })?;
+        journal.append(Row { text: &text, load, converged: load != 2.0, place: Some(place.clone()) })?;
     }
     assert_eq!(journal.written().unconverged, usize::from(journal.written().rows > 1));
     Ok(fs::read_to_string(path)?)
@@ -136,7 +136,7 @@ fn two_sweeps_do_not_write_into_one_file() {
         let second = Journal::open(&path, HEADER, identity("1"), Some(&LOADS), (force, false));
         assert!(reason(second).contains("sweep.csv: another run is writing there"));
     }
-    let row = |text, load| Row { text, load, converged: true, place: vec![1] };
+    let row = |text, load| Row { text, load, converged: true, place: Some(vec![1]) };
     first.append(row("1,0", 1.0)).unwrap();
     assert_eq!(first.text().unwrap(), "load,answer\n1,0\n");
     // what knows nothing of the lock

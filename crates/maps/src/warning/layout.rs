@@ -50,13 +50,15 @@ const AXES: &str = "leave out coordinates";
 /// Numbers of which the bytes are in the wrong order.
 pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
     let stride = heights.len().div_ceil(MOST).max(1);
-    let magnitudes = heights.iter().step_by(stride).map(|h| h.abs().log10());
-    let mut powers: Vec<f64> = magnitudes.filter(|power| power.is_finite()).collect();
-    if powers.len() < 4 {
+    let magnitudes = heights.iter().step_by(stride).map(|h| h.abs());
+    let mut magnitudes: Vec<f64> = magnitudes.filter(|h| h.is_finite() && *h > 0.0).collect();
+    if magnitudes.len() < 4 {
         return None;
     }
-    powers.sort_unstable_by(f64::total_cmp);
-    let [low, high] = [1, 3].map(|quarter| powers[quarter * (powers.len() - 1) / 4]);
+    let [low, high] = [1, 3].map(|quarter| {
+        let rank = quarter * (magnitudes.len() - 1) / 4;
+        magnitudes.select_nth_unstable_by(rank, f64::total_cmp).1.log10()
+    });
     // whole numbers become less than the least normal one
     if high - low < DECADES && high >= f64::MIN_POSITIVE.log10() {
         return None;

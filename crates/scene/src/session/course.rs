@@ -173,8 +173,8 @@ impl<T: Scalar> Course<T> {
         processes: &Processes,
     ) -> Outcome<()> {
         let place = self.place.whole(nodes);
-        let bytes = processes.is_first().then(|| Ok(postcard::to_stdvec(&place)?)).transpose();
-        let place = processes.agree(bytes)?.unwrap_or_default();
+        let bytes = table.saves().then(|| Ok(postcard::to_stdvec(&place)?)).transpose();
+        let place = processes.agree(bytes)?;
         table.append(row, place, &*found.part()?, processes)
     }
 

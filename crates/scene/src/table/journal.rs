@@ -41,7 +41,7 @@ pub struct Journal {
 /// The work, in time, that an interrupted case of a study may lose.
 const A_WHILE: Duration = Duration::from_secs(1);
 
-/// A row to append, with the place from which the next one follows.
+/// A row to append.
 pub struct Row<'a> {
     /// The line.
     pub text: &'a str,
@@ -49,8 +49,8 @@ pub struct Row<'a> {
     pub load: f64,
     /// Whether the row converged.
     pub converged: bool,
-    /// The place from which the next row follows.
-    pub place: Vec<u8>,
+    /// The place from which the next row follows, where the state is to be saved.
+    pub place: Option<Vec<u8>>,
 }
 
 const REMEDY: &str = "choose another --out, or --force to start over";
@@ -91,7 +91,10 @@ impl Journal {
             } else {
                 resume(path, &content, header, &identity, loads, is_case)?
             };
-            file.set_len(state.written.bytes).map_err(|e| Error::unwritable(path, e))?;
+            // some file systems write what was cut to disk when it is closed
+            if state.written.bytes != content.len() as u64 {
+                file.set_len(state.written.bytes).map_err(|e| Error::unwritable(path, e))?;
+            }
             Ok(state)
         };
         let State { written, place, .. } = begin().inspect_err(|_| {
@@ -120,19 +123,23 @@ impl Journal {
         self.written
     }
 
-    /// Appends a row, and saves the state.
+    /// Whether the next row has its state saved: that of a case of a study is, once it has run for a while.
+    pub fn saves(&self) -> bool {
+        !self.is_case || self.saved.elapsed() >= A_WHILE
+    }
+
+    /// Appends a row, and saves the state if the row has its place.
     pub fn append(&mut self, row: Row<'_>) -> Outcome<()> {
         let Row { text, load, converged, place } = row;
         let header = if self.written.rows == 0 { self.header.as_str() } else { "" };
         let text = format!("{header}{text}\n");
-        let saves = !self.is_case || self.saved.elapsed() >= A_WHILE;
         let mut write = || {
             // by its name: it may be another file by now
             if fs::metadata(&self.path)?.len() != self.written.bytes {
                 return Err(changed());
             }
             let written = self.file.write_all(text.as_bytes());
-            let written = written.and_then(|()| if saves { self.file.sync_data() } else { Ok(()) });
+            let written = written.and_then(|()| if place.is_some() { self.file.sync_data() } else { Ok(()) });
             written.inspect_err(|_| {
                 // no half row
                 let _ = self.file.set_len(self.written.bytes);
@@ -146,7 +153,7 @@ impl Journal {
             bytes: self.written.bytes + text.len() as u64,
             content: self.written.content.of(text.as_bytes()),
         };
-        if saves {
+        if let Some(place) = place {
             State { identity: self.identity.clone(), written: self.written, place }.save(&self.path)?;
             self.saved = Instant::now();
         }
