@@ -69,22 +69,26 @@ impl Course {
         let step = target - from;
         let mut points: Vec<_> = self.places.iter().map(|place| place.slope(self.mode)).collect();
         points.push((target, after));
-        let first = points.len().saturating_sub(PLACES);
+        let points = &points[points.len().saturating_sub(PLACES)..];
         let change = next.potential(self.mode) - here.potential(self.mode);
-        let excess = change - integral(&points[first..]);
+        let along = integral(points, (from, target));
+        let excess = change - along;
         let (low, high) = self.account.range;
         let scale = (high.max(next.energy) - low.min(next.energy)).max(least) + MANY * self.account.dissipated;
         let allowed = (imbalance * scale + noise).max(left);
-        let order = 1.0 + (points.len() - first) as f64;
+        let order = 1.0 + points.len() as f64;
         let growth = (0.5 * allowed / excess.abs()).powf(order.recip());
         let energy = next.energy - here.energy;
         let product = step * (after - before);
         let drop = trapezoid((from, before), (target, after)) - change;
+        // under a corner of the load the integral is between this one and that of the branch before, continued
+        let continued = integral(&points[..points.len() - 1], (from, target));
+        let corner = allowed.max(product.abs()).max((along - continued).abs());
         let (peak, breaks_off) = self.peak(step, next.pressure, noise.max(left));
         let balance = Balance {
             // a jump of little energy, or a smooth maximum, may be in the step
             balanced: excess.abs() <= allowed && !(breaks_off && peak > BROKEN_OFF),
-            jumped: -excess > allowed.max(product.abs()),
+            jumped: -excess > corner,
             located: false,
             peaks: peak > PEAK,
             allowed,
@@ -95,7 +99,7 @@ impl Course {
         };
         let stays = self.bracket.is_some_and(|bracket| bracket.keeps(drop));
         let located = stays && balance.locates(product) && !balance.peaks;
-        Balance { located: balance.jumped && drop > allowed.max(product.abs()) && located, ..balance }
+        Balance { located: balance.jumped && drop > corner && located, ..balance }
     }
 
     /// The share of the largest tension so far by which the tension may have grown beyond it along the branch, somewhere

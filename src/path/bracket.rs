@@ -7,8 +7,8 @@ use super::quadrature::trapezoid;
 /// is a parabola.
 const SMOOTH: f64 = 1.0 / 6.0;
 
-/// The share of the energy that a jump would dissipate in a step, which it has to have in half of it too: of the energy
-/// under a corner of the load, where a node comes into contact, half at most is left.
+/// The share of the energy that a jump would dissipate in a step, which it has to have in half of it too, and the other
+/// way round: of the energy under a corner of the load, where a node comes into contact, half at most is left.
 const PERSISTENT: f64 = 0.7;
 
 /// The end of the shortest step that was taken back: what it jumped over, or bent too much in, is on the way there.
@@ -27,7 +27,7 @@ pub(super) struct Bracket {
 impl Bracket {
     /// Whether a step on the way jumps by as much as the one that was taken back.
     pub(super) fn keeps(&self, drop: f64) -> bool {
-        drop >= PERSISTENT * self.drop
+        drop >= PERSISTENT * self.drop && self.drop >= PERSISTENT * drop
     }
 
     /// The length of the next step from a state on the way, with the balance of the step to it: half the way if a jump

@@ -89,11 +89,11 @@ fn corners_of_the_load_are_no_jumps() {
     let surface = Surface::wave(grid, AMPLITUDE, 1).unwrap();
     let law = Exponential::new(1e-3, 8e-3).unwrap();
     let mut problem = Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), law).unwrap();
-    for steps in [10, 15, 50] {
-        let settings = PathSettings::default().steps(steps).imbalance(3e-5);
+    for (steps, imbalance) in [7, 10, 15, 25].iter().flat_map(|steps| [1e-5, 3e-5, 1e-4].map(|share| (*steps, share))) {
+        let settings = PathSettings::default().steps(steps).imbalance(imbalance);
         // the tolerance that a path has by itself with that imbalance
-        let found = follow(&mut problem, gaps(&[0.08, 0.01, 0.08]), settings, 0.01 * f64::sqrt(3e-5));
-        assert_eq!(names(&found), ["jump-in", "pull-off"], "{steps}");
+        let found = follow(&mut problem, gaps(&[0.08, 0.01, 0.08]), settings, 0.01 * imbalance.sqrt());
+        assert_eq!(names(&found), ["jump-in", "pull-off"], "{steps} {imbalance}");
     }
 }
 
