@@ -24,6 +24,12 @@ const FACTORS: [f64; 2] = [1.2, 0.75];
 /// The width of the bracket of a search, as a share of the accuracy.
 const BRACKET: f64 = 0.2;
 
+/// The contact fraction by the adhesive energy, above which a periodic cell is closed: the grid decides when it opens.
+const CLOSED: f64 = 0.75;
+
+/// The growth of the limit from one grid to the next, above which the two tell no error.
+const GROWTH: f64 = 1.2;
+
 /// The pull-off on the finest of some grids, and the estimated error of its [limit](FoundPullOff::limit).
 #[non_exhaustive]
 #[derive(Clone, Debug)]
@@ -44,8 +50,9 @@ pub struct AccuratePullOff<T: Real> {
 
 impl<T: Real> FoundPullOff<T> {
     /// The pull-off in the limit of no range, a pressure, that a state under the greatest tension tells on its grid: the
-    /// tension less the share of the process zone in its adhesive energy. None of a law with a range, and without a
-    /// tension.
+    /// tension less the share of the process zone in its adhesive energy. None of a law with a range, without a tension,
+    /// and of a periodic cell of which more than three quarters are in contact by A_E: closed surfaces have no flaw from
+    /// which to peel, and their pull-off grows as 1/√Δx.
     ///
     /// ```math
     /// T = T_grid · A/A_E ,   A_E = −E_adh/w ,   A = A_E − 0.16 S Δx
@@ -57,7 +64,8 @@ impl<T: Real> FoundPullOff<T> {
         let report = &self.solution.report;
         let (tension, by_energy) = (-report.mean_pressure, report.adhesive_contact_fraction);
         let area = ContactArea::of_solution(&self.solution)?.jkr_contact_fraction;
-        let share = area.zip(by_energy).map(|(area, by_energy)| area / by_energy);
+        let is_closed = report.approach.is_none() && by_energy > Some(CLOSED);
+        let share = area.zip(by_energy).filter(|_| !is_closed).map(|(area, by_energy)| area / by_energy);
         Ok(share.filter(|share| tension > 0.0 && share.is_finite()).map(|share| share * tension))
     }
 }
@@ -157,12 +165,13 @@ impl Accuracy {
             let waves = surface.nodes_per_wave(boundary);
             let stopped = found.solution.report.status == Status::Stopped;
             levels.extend(limit.map(|limit| (surface.grid().shape(), limit)));
-            let error = if found.reached { error(&found, &levels, waves) } else { None };
+            let told = found.reached && limit.is_some();
+            let error = if told { error(&found, &levels, waves) } else { None };
             let reached = !refines || error.is_some_and(|error| error.relative <= self.target);
             let shape = twice(surface.grid().shape());
             let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
             let bytes = 8.0 * NUMBERS * nodes as f64 * growth;
-            if reached || stopped || !found.reached || !refinable || bytes > self.memory {
+            if reached || stopped || !found.reached || limit.is_none() || !refinable || bytes > self.memory {
                 let unaffordable =
                     (!reached && found.reached && refinable && bytes > self.memory).then_some((shape, bytes));
                 return Ok(AccuratePullOff { found, surface, levels, error, reached, unaffordable });
@@ -176,7 +185,7 @@ impl Accuracy {
 fn error<T: Real>(found: &FoundPullOff<T>, levels: &[((usize, usize), f64)], nodes_per_wave: f64) -> Option<GridError> {
     let limits: Vec<f64> = levels.iter().rev().map(|(_, limit)| *limit).collect();
     let &[limit, coarse, ..] = &limits[..] else { return None };
-    if nodes_per_wave < 2.0 * GridError::LEAST_NODES_PER_WAVE {
+    if nodes_per_wave < 2.0 * GridError::LEAST_NODES_PER_WAVE || limit > GROWTH * coarse {
         return None;
     }
     let tension = -found.solution.report.mean_pressure;

@@ -235,6 +235,10 @@ fn the_law_without_a_range_has_that_of_the_grid() {
     let pull_off = "pull-off --heights heights.txt --preload 1e-3";
     let found = bench.reported(&format!("{pull_off} {law}"));
     assert!(number(&found, "limit_pressure") < number(&found, "pull_off_pressure"));
+    // closed surfaces have no limit
+    let closed = "pull-off --heights heights.txt --law jkr --work-of-adhesion 1e-2";
+    assert!(bench.reported(closed)["limit_pressure"].is_null());
+    assert!(bench.said(closed).contains("none: the surfaces are closed"));
     let long = "--law exponential --work-of-adhesion 2e-6 --range 4e-3 --accuracy 0.1";
     bench.refused_with(&format!("{pull_off} {long}"), &["accuracy of the pull-off", "range of the grid"]);
 }

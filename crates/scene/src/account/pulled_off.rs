@@ -65,6 +65,10 @@ impl PulledOff {
         // where the search itself has come to its end, the grid falls short
         let ends = self.lost_pressure.zip(self.pull_off_pressure);
         let is_narrow = ends.is_some_and(|(lost, borne)| lost - borne <= self.rtol * lost);
+        if self.accuracy.is_some() && is_narrow && self.limit_pressure.is_none() {
+            let text = "the surfaces are closed, and their pull-off has no limit of no range: take a law with a range";
+            return Some(text.to_owned());
+        }
         if let Some(accuracy) = self.accuracy.filter(|_| is_narrow) {
             let estimate = self.limit_error.map_or("unknown".to_owned(), |error| format!("{} %", percent(error)));
             let text = format!(
@@ -96,8 +100,11 @@ impl PulledOff {
         let limit = self.limit_pressure.map(|limit| {
             let error = self.limit_error.map_or(String::new(), |error| format!(", to {} %", percent(error)));
             let force = self.limit_force.map_or(String::new(), |force| format!(", {}", units.number(force, FORCE)));
-            ("in the limit of no range", format!("{}{force}{error}", units.number(limit, PRESSURE)))
+            format!("{}{force}{error}", units.number(limit, PRESSURE))
         });
+        let closed = (last.jkr_contact_fraction.and(self.pull_off_pressure).is_some())
+            .then(|| "none: the surfaces are closed".to_owned());
+        let limit = limit.or(closed).map(|text| ("in the limit of no range", text));
         let place = match last.approach {
             Some(approach) => ("approach there", units.number(approach, LENGTH)),
             None => ("mean gap there", units.number(last.mean_gap, LENGTH)),
