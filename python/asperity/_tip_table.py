@@ -20,6 +20,9 @@ from ._warnings import InputWarning, warn
 #: Distances and forces.
 Pair: TypeAlias = tuple[Array, Array]
 
+#: Approaches, which rise, forces over the modulus, and whether they have jumped since the approach before.
+Way: TypeAlias = tuple[Array, Array, Array]
+
 #: Points between the ends of each piece of a branch, dense near the jump, where the force goes as a root.
 _ROOTS = np.linspace(0.0, 1.0, 120)
 
@@ -105,14 +108,14 @@ class TipTable:
         #: the cubic roots of w/E* over the greatest: displacements by adhesion go as powers of it
         roots = np.linspace(0.0, 1.0, works + 1) if contact.adheres else np.zeros(1)
 
-        def rows(root: float) -> Array:
+        def ways(root: float) -> tuple[Way, Way]:
             keys = {**elastic, **adhesion} if root else elastic
             return self._states(float(softest / (root or 1.0) ** 3), keys)
 
         with ThreadPoolExecutor(os.cpu_count()) as pool, warnings.catch_warnings():
             # of moduli that are not those of the body
             warnings.filterwarnings("ignore", "hardness", InputWarning)
-            found = np.array([*pool.map(rows, roots)])
+            found = self._table([*pool.map(ways, roots)])
         self._bare = found[0]
         self.fewer, self.tabor = {"no adhesion": 1}, np.ones(0)
         self.ratio, self.error, self.radius = 0.0, 0.0, high
@@ -158,8 +161,8 @@ class TipTable:
         lengths = [f"{length!r}m" for length in approaches] if self.is_si else approaches
         return {"approaches": lengths} if self._body is None else {"mean_gaps": lengths, "start": "apart"}
 
-    def _states(self, modulus: float, keys: dict[str, Any]) -> Array:
-        """Forces over the modulus before the jump, and behind it on the approach and the withdrawal, and both places."""
+    def _states(self, modulus: float, keys: dict[str, Any]) -> tuple[Way, Way]:
+        """The approach and the withdrawal."""
         # with more of the steps about contact
         ends = [self.low, 0.25 * self.low, 0.25 * self.high, self.high]
         loads = self._loads([*ends, *ends[-2::-1]])
@@ -174,23 +177,26 @@ class TipTable:
             squeezed = free * float(body.thickness) * columns["mean_pressure"] / modulus
             approach = heights.max() - heights.mean() - columns["mean_gap"] + squeezed
         back = columns["direction"] == "withdrawal"
-        there = ~back
         jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
-        place, before, behind = self._cut(approach[there], load[there], jumps[there])
-        off, _, drawn = self._cut(approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1))
-        pieces = ((before, place - self.low), (behind, self.high - place), (drawn, self.high - off))
-        tail, *others = (_sampled(*piece, span) for piece, span in pieces)
-        return np.concatenate([tail[::-1], *others, [place, off]])
+        way = [approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1)]
+        return (approach[~back], load[~back], jumps[~back]), (way[0], way[1], way[2])
 
-    def _cut(self, approach: Array, load: Array, jumps: Array) -> tuple[float, Pair, Pair]:
-        """The place where forces fall most steeply, and the distances and forces before and behind it."""
-        slopes = np.diff(load) / np.maximum(np.diff(approach), 1e-9 * (self.high - self.low))
-        at = int(np.argmin(slopes))
-        place = 0.5 * float(approach[at] + approach[at + 1]) if slopes[at] < 0.0 else 0.0
-        # without a jump the force is that of the points around it
-        both = not jumps[at + 1]
-        tail, behind = slice(None, at + 1 + both), slice(at + 1 - both, None)
-        return place, (place - approach[tail][::-1], load[tail][::-1]), (approach[behind] - place, load[behind])
+    def _table(self, ways: list[tuple[Way, Way]]) -> Array:
+        """Forces before the jump, and behind it on the approach and the withdrawal, and both places, for each modulus."""
+        places = np.array([[_jump(*way) for way in both] for both in ways])
+        # an adhesion too weak for a jump has its places where the weakest one jumps that does
+        for weaker in range(len(ways) - 2, 0, -1):
+            places[weaker] = np.where(np.isnan(places[weaker]), places[weaker + 1], places[weaker])
+        places[0] = 0.0
+        places = np.nan_to_num(places)
+
+        def row(both: tuple[Way, Way], place: float, off: float) -> Array:
+            (before, behind), (_, drawn) = _parted(both[0], place), _parted(both[1], off)
+            pieces = ((before, place - self.low), (behind, self.high - place), (drawn, self.high - off))
+            tail, *others = (_sampled(*piece, span) for piece, span in pieces)
+            return np.concatenate([tail[::-1], *others, [place, off]])
+
+        return np.array([row(both, *pair) for both, pair in zip(ways, places)])
 
     def _equilibria(self, modulus: float, root: float) -> tuple[Array, Array]:
         """Approaches and loads of both ways."""
@@ -240,6 +246,24 @@ class TipTable:
                 f"the curve goes to an approach of {approach:.3g}, and the table to {self.high:.3g}: make one that goes "
                 "further, or leave out points"
             )
+
+
+def _jump(approach: Array, load: Array, jumps: Array) -> float:
+    """The place of the largest jump to a smaller force, if that is a tenth of the greatest tension or more."""
+    falls = np.where(jumps[1:], -np.diff(load), 0.0)
+    at = int(falls.argmax())
+    return 0.5 * float(approach[at] + approach[at + 1]) if falls[at] > max(-0.1 * load.min(), 0.0) else np.nan
+
+
+def _parted(way: Way, place: float) -> tuple[Pair, Pair]:
+    """Distances and forces before a place and behind it, and there, unless the force jumps."""
+    approach, load, jumps = way
+    at = int(np.searchsorted(approach[:-1], place))
+    smooth = not jumps[at]
+    if smooth:
+        approach, load = np.insert(approach, at, place), np.insert(load, at, np.interp(place, approach, load))
+    before, behind = slice(None, at + smooth), slice(at, None)
+    return (place - approach[before][::-1], load[before][::-1]), (approach[behind] - place, load[behind])
 
 
 def _sampled(distance: Array, load: Array, span: float) -> Array:

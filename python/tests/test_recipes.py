@@ -157,7 +157,7 @@ def a_force_curve_of_a_rough_tip(found):
     fit = found["fit"]
     with pytest.warns(asperity.InputWarning, match="is not that of a smooth paraboloid"):
         smooth = asperity.fit_curve(*asperity.read_curve("rough.csv"), radius="40nm", **found["units"])
-    assert [f"{end / 1e9:.2f}" for end in fit.modulus] == ["2.00", "1.98", "2.01"]
+    assert [f"{end / 1e9:.2f}" for end in fit.modulus] == ["2.00", "1.99", "2.02"]
     assert [f"{1e3 * one.work_of_adhesion.value:.0f}" for one in (fit, smooth)] == ["40", "31"]
     assert f"{100 * found['table'].error:.0f}" == "1" and pathlib.Path("rough.png").stat().st_size > 1000
 

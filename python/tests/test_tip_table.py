@@ -107,7 +107,7 @@ def test_a_sphere_on_a_thin_layer_is_one_on_springs(base, poisson):
 def test_a_table_of_a_paraboloid_is_that_of_maugis():
     tip = asperity.surface.paraboloid(64, 28e-9, radius=RADIUS)
     law = asperity.MaugisDugdale(work_of_adhesion=1.5 * WORK, range=2 * LENGTH)
-    table = asperity.TipTable(tip, approaches=(-4e-9, 3e-9), modulus=MODULUS, law=law, steps=25)
+    table = asperity.TipTable(tip, approaches=(-4e-9, 3e-9), modulus=MODULUS, law=law, works=18, steps=25)
     for spring in (None, 20.0):
         fit = asperity.fit_curve(*curve(0.5, spring), tip=table, spring_stiffness=spring)
         assert fit.modulus.value == pytest.approx(MODULUS, rel=0.02)
