@@ -303,9 +303,11 @@ class Solution:
         >>> abs(found.per_area / (2 * solution.contact_stiffness / (2.0 * 4.0)) - 1) < 1e-4
         True
         """
-        body = next((key for key in ("layer", "coating", "symbol") if self._told[key] is not None), None)
+        body = next((key for key in ("layer", "coating", "plate", "symbol") if self._told[key] is not None), None)
         if body is not None:
             raise ValueError(f"the body is a {body}: conductance is that between half-spaces")
+        if self._told["wall"] != "hard":
+            raise ValueError(f"the wall is {self._told['wall']}: only a hard wall says where the surfaces conduct")
         first, second = (float(one) for one in resistivities)
         gap = field_of(self.whole_gap, "gaps")
         shares = zip(self.lengths, gap.shape, self._told["shape"], strict=True)

@@ -123,11 +123,20 @@ def test_the_conductance_is_that_of_the_stiffness(solution):
     assert abs(spot.whole / (4 * np.sqrt(0.08)) - 1) < 0.03
     with pytest.raises(ValueError, match="resistivity of the first body is -1"):
         solution.conductance((-1.0, 1.0))
-    layer = asperity.solve(
-        solution.topography, modulus=2.0, mean_pressure=0.02, body=asperity.Layer(0.1, poisson=0.3, base="bonded")
-    )
-    with pytest.raises(ValueError, match="between half-spaces"):
-        layer.conductance((1.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"body": asperity.Layer(0.1, poisson=0.3, base="bonded")}, "the body is a layer: .* between half-spaces"),
+        ({"plate": 1e-9}, "the body is a plate: .* between half-spaces"),
+        ({"wall": asperity.Penalty(500.0)}, "the wall is penalty: only a hard wall"),
+    ],
+)
+def test_a_contact_conducts_between_half_spaces_and_at_a_hard_wall_alone(solution, given, message):
+    other = asperity.solve(solution.topography, modulus=2.0, mean_pressure=0.02, **given)
+    with pytest.raises(ValueError, match=message):
+        other.conductance((1.0, 1.0))
 
 
 @pytest.mark.skipif("ASPERITY_TOOL" not in os.environ, reason="ASPERITY_TOOL names the program")
