@@ -124,19 +124,16 @@ def leakage(
     >>> found.y.grid_error < 1e-3
     True
     """
+    solved = isinstance(gap, Solution)
+    if solved and lengths is not None:
+        raise ValueError("the solution has its side lengths: leave lengths out")
+    field = field_of(gap.gap if isinstance(gap, Solution) else gap, "gaps")
+    own: Boundary = "periodic"
+    sides = (1.0, 1.0) if lengths is None else _lengths(lengths, field.shape)
     if isinstance(gap, Solution):
-        if lengths is not None:
-            raise ValueError("the solution has its side lengths: leave lengths out")
-        values: ArrayLike = gap.gap
         sides, own = gap.lengths, gap.flow_boundary
-    else:
-        values, own = gap, "periodic"
-        shape = np.shape(gap)
-        sides = (1.0, 1.0) if lengths is None else _lengths(lengths, shape if len(shape) == 2 else (*shape, 1))
-    field = field_of(values, "gaps")
     absent = None if absent_gap is None else number("absent_gap", absent_gap)
     viscous = None if viscosity is None else number("viscosity", viscosity)
-    solved = isinstance(gap, Solution)
     found = _asperity.leakage(field, solved, sides, boundary or own, absent, viscous, tolerance, max_iterations)
     if found["shortfall"] is not None:
         warn(found["shortfall"], ConvergenceWarning)

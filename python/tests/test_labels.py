@@ -93,5 +93,6 @@ def test_what_goes_with_heights_is_turned_as_they_are(frame):
     for start in (frame(gaps.T), falling, xarray.DataArray(falling, dims=("y", "x"))):
         with pytest.warns(asperity.ConvergenceWarning):
             assert asperity.solve(frame(heights.T), start=start, **options).gap.tobytes() == expected.tobytes()
+    assert asperity.leakage(frame(1 + 0.1 * HEIGHTS.T), 3.0).report == asperity.leakage(1 + 0.1 * HEIGHTS, 3.0).report
     law = asperity.Varying(asperity.Exponential(1.0, 8e-3), falling)
     assert np.array_equal(law.work_of_adhesion, gaps)
