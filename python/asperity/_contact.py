@@ -544,6 +544,9 @@ def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stabilit
     keys: dict[str, Any] = {key: report.get(key) for key in names(ContactKeywords) if key not in ("shift", "against")}
     if not isinstance(solution.law, str | None):
         keys.update(dict.fromkeys(_OF_LAWS), law=solution.law)
+    elif solution.law == "jkr":
+        # that of the report is of the grid
+        keys["range"] = None
     if solution.body is not None:
         keys.update(dict.fromkeys(solution.body.keys if isinstance(solution.body, Measured) else ()), body=solution.body)
     keys["absent_missing"], keys["whole"] = report["absent_nodes"] > 0, report["part"] == "whole"

@@ -232,13 +232,18 @@ def test_springs_have_their_positions_and_no_others(rough):
         contact.sweep(springs=[])
 
 
-def test_the_stability_of_a_solution_with_units_takes_numbers_in_the_si():
+@pytest.mark.parametrize(
+    "law",
+    [{"law": asperity.Exponential("50mJ/m2", "5nm")}, {"law": "jkr", "work_of_adhesion": "50mJ/m2"}],
+    ids=["an object", "a name without a range"],
+)
+def test_the_stability_of_a_solution_with_units_takes_numbers_in_the_si(law):
     rough = asperity.surface.self_affine(32, "1um", rms_slope=0.1, k_s=8, seed=1)
-    law, layer = asperity.Exponential("50mJ/m2", "5nm"), asperity.Layer("200nm", 0.3)
+    layer = asperity.Layer("200nm", 0.3)
     for body in (None, layer):
-        held = asperity.solve(rough, modulus="1GPa", mean_pressure="10MPa", law=law, body=body)
+        held = asperity.solve(rough, modulus="1GPa", mean_pressure="10MPa", body=body, **law)
         found = asperity.stability(held)
-        asked = asperity.solve(rough, modulus="1GPa", mean_pressure="10MPa", law=law, body=body, stability=True)
+        asked = asperity.solve(rough, modulus="1GPa", mean_pressure="10MPa", body=body, stability=True, **law)
         assert found.eigenvalue == asked.report["stability"]["eigenvalue"]
         other = asperity.stability(held, mean_pressure="5MPa"), asperity.stability(held, mean_pressure=5e6)
         assert other[0].eigenvalue == other[1].eigenvalue
