@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import copy
+import os
 from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -109,9 +110,9 @@ def solve(
     Parameters
     ----------
     heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
-        Heights of the rigid surface, shape (Nx, Ny), or (N,) on a line; peaks up. Any float type, order or stride. A
-        C-ordered array of float64 is copied once, as the solver needs it; others are converted first. Missing points,
-        NaN or masked, are refused: `prepare` fills them, or ``absent_missing`` takes them as they are.
+        Heights of the rigid surface, shape (Nx, Ny), or (N,) on a line; peaks up. Any float type, order or stride. An
+        array is copied, for the solver and for the results, and may change afterwards; a Topography is copied once, for
+        the solver. Missing points, NaN or masked, are refused: `prepare` fills them, or ``absent_missing`` takes them as they are.
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
         unless the heights bring them.
@@ -657,6 +658,10 @@ class Contact:
         }
         self._is_kept = is_kept
         self.problem = _asperity.Problem(self._map, self._given, symbol(body), is_kept)
+        if not isinstance(heights, Topography | str | os.PathLike) and against is None:
+            # the array may change before the heights are asked for
+            self.topography = replace(self.topography, heights=self.topography.heights.copy())
+            self._map["heights"] = self.topography.heights
         #: why theories do not know of it
         self.beyond_theory = self.problem.beyond_theory
         moduli = [self._given.numbers(key) for key in ("modulus", "against_modulus")]

@@ -31,7 +31,8 @@ class Topography:
     Parameters
     ----------
     heights : ndarray of float64, shape (Nx, Ny) or (N,)
-        Heights, x along the first axis, peaks up. NaN is a missing point.
+        Heights, x along the first axis, peaks up. NaN is a missing point. An array of float64 is not copied: do not
+        change it afterwards.
     lengths : (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; Lx alone for square cells.
     unit : str, optional

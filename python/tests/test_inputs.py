@@ -42,6 +42,13 @@ def test_heights_are_neither_changed_nor_held(rough):
     heights = rough.heights.copy()
     heights.flags.writeable = False
     assert gap(heights).shape == (64, 64) and np.array_equal(heights, rough.heights)
+    reused = heights.copy()
+    contact = asperity.Contact(reused, 1.0, modulus=1.0)
+    solutions = [asperity.solve(reused, 1.0, modulus=1.0, mean_pressure=0.01), contact.solve(mean_pressure=0.01)]
+    reused *= 2.0
+    solutions.append(next(contact.sweep(mean_pressures=[0.01])))
+    for solution in solutions:
+        assert np.array_equal(solution.heights, heights) and np.array_equal(solution.gap, solutions[0].gap)
 
 
 def test_missing_points_are_refused_with_the_remedy(rough):
