@@ -30,8 +30,8 @@ class Topography:
 
     Parameters
     ----------
-    heights : ndarray of float64, shape (Nx, Ny) or (N,)
-        Heights, x along the first axis, peaks up. NaN is a missing point. An array of float64 is not copied: do not
+    heights : array_like, shape (Nx, Ny) or (N,)
+        Heights, x along the first axis, peaks up; as an attribute of shape (Nx, Ny), (N, 1) on a line. NaN is a missing point. An array of float64 is not copied: do not
         change it afterwards.
     lengths : (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; Lx alone for square cells.
@@ -69,6 +69,9 @@ class Topography:
     _is_line: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
+        heights, is_line = array_of(self.heights)
+        object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "_is_line", self._is_line or is_line)
         if self.lengths is not None:
             object.__setattr__(self, "lengths", _lengths(self.lengths, self.heights.shape))
 

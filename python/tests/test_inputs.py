@@ -480,5 +480,8 @@ def test_one_length_of_a_topography_means_square_cells():
     topography = asperity.Topography(heights, 1.0)
     assert topography.lengths == (1.0, 0.5) and asperity.Topography(heights[:, 0], 2.0).lengths == (2.0, 2.0)
     assert asperity.solve(topography, modulus=1.0, mean_pressure=1e-3).converged
+    for line in (heights[:, 0], heights[:, 0].tolist()):
+        gap = asperity.solve(asperity.Topography(line, 2.0), modulus=1.0, mean_pressure=1e-3).gap
+        assert gap.tobytes() == asperity.solve(line, 2.0, modulus=1.0, mean_pressure=1e-3).gap.tobytes()
     with pytest.raises(ValueError, match="they must be .Lx, Ly., or Lx alone"):
         asperity.Topography(heights, (1.0, 2.0, 3.0))
