@@ -111,11 +111,17 @@ class Cycle(Rows[Step]):
         ax : matplotlib Axes, optional
             Axes to draw on; new ones by default.
         length_unit, pressure_unit, force_unit : str, optional
-            Units for the axes; forces are in N where lengths are in m and pressures in Pa.
+            Units for the axes, into which numbers are converted where the result has units, as that of a cycle with
+            units; others stay as they are. ``"m"``, ``"Pa"`` and ``"N"`` get prefixes. Forces are in N where lengths are
+            in m and pressures in Pa.
 
         Returns
         -------
         matplotlib Axes
         """
-        length_unit, pressure_unit = length_unit or self._contact.topography.unit, pressure_unit or self._contact.pressure_unit
-        return _plot.cycle(self.columns, ax, length_unit, pressure_unit, force_unit)
+        own = self._contact.topography.unit, self._contact.pressure_unit
+        newtons = "N" if (own[0] or length_unit, own[1] or pressure_unit) == ("m", "Pa") else None
+        length = _plot.shown("length_unit", own[0], length_unit)
+        pressure = _plot.shown("pressure_unit", own[1], pressure_unit)
+        force = _plot.shown("force_unit", newtons, force_unit)
+        return _plot.cycle(self.columns, ax, length, pressure, force)

@@ -13,7 +13,7 @@ from ._equilibria import Array, Paraboloid, scipy
 from ._likelihood import Estimate, Likelihood, ModelFit
 from ._tip_table import TipTable
 from ._types import Quantity
-from ._units import given, number
+from ._units import given, in_unit, number
 
 
 
@@ -98,12 +98,12 @@ class CurveFit:
         for name, unit in units.items():
             found: Estimate | None = getattr(self, name)
             if found is not None:
-                factor, unit = _plot._scaled([end for end in found if np.isfinite(end)], unit if self._is_si else None)
+                factor, unit = _plot._scaled([end for end in found if np.isfinite(end)], (1.0, unit if self._is_si else None))
                 value, lower, upper = _digits(factor, found)
                 lines.append(f"{name.replace('_', ' '):<18}{value:>12}   {lower} to {upper} {unit}".rstrip())
         lines.append(f"{'':<18}{'rms residual':>12}   AIC   probability")
         for name, model in self.models.items():
-            factor, unit = _plot._scaled([model.rms], "N" if self._is_si else None)
+            factor, unit = _plot._scaled([model.rms], (1.0, "N" if self._is_si else None))
             rms = f"{factor * model.rms:.4g} {unit}".rstrip()
             lines.append(f"{name:<18}{rms:>12}   {model.aic:.1f}   {model.p_value:.2g}")
         return "\n".join([*lines, self.verdict])
@@ -116,15 +116,16 @@ class CurveFit:
         ax : sequence of two matplotlib Axes, optional
             Axes to draw on; new ones by default.
         length_unit, force_unit : str, optional
-            Units for the axes. ``"m"`` and ``"N"``, those of a fit with units, get prefixes.
+            Units for the axes, into which the numbers of a fit with units are converted; those of other fits stay as
+            they are. ``"m"`` and ``"N"``, the default of a fit with units, get prefixes.
 
         Returns
         -------
         ndarray of two matplotlib Axes
         """
         own = ("m", "N") if self._is_si else (None, None)
-        units = (length_unit or own[0], force_unit or own[1])
-        return _plot.force_curve(self.z, self.force, self.fitted, self._turn, *units, ax)
+        length, force = _plot.shown("length_unit", own[0], length_unit), _plot.shown("force_unit", own[1], force_unit)
+        return _plot.force_curve(self.z, self.force, self.fitted, self._turn, length, force, ax)
 
 
 def _digits(factor: float, found: Estimate) -> list[str]:
@@ -263,16 +264,9 @@ def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tupl
             "all units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
         )
     if si:
-        keys = (("length_unit", "approach"), ("force_unit", "normal_force"))
-        columns = [column * _unit(*key, unit) for column, key, unit in zip(columns, keys, units)]
+        names = ("length_unit", "force_unit")
+        columns = [column * in_unit(name, unit) for name, column, unit in zip(names, columns, units)]
     return columns[0], columns[1]
-
-
-def _unit(name: str, key: str, unit: str | None) -> float:
-    try:
-        return _asperity.quantity(key, f"1{unit}")
-    except ValueError:
-        raise ValueError(f"{name} is {unit!r}: it must be a unit of a {name.split('_')[0]}, as 'nm' or 'nN'") from None
 
 
 def _positive(name: str, value: Any) -> float:

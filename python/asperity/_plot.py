@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
+from ._units import in_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+#: The factor of numbers into the unit of an axis, and that unit.
+Unit: TypeAlias = tuple[float, str | None]
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
@@ -23,14 +27,22 @@ def _pyplot() -> Any:
     return plt
 
 
-def _scaled(values: Any, unit: str | None) -> tuple[float, str]:
+def shown(name: str, own: str | None, wanted: str | None) -> Unit:
+    """The unit of an axis: the one that is wanted, into which numbers of a known unit are converted, or their own."""
+    if own is None or wanted in (None, own):
+        return 1.0, wanted or own
+    return in_unit(name, own) / in_unit(name, wanted), wanted
+
+
+def _scaled(values: Any, shown: Unit) -> tuple[float, str]:
     """The factor for an axis with these values, and its unit: SI units get prefixes."""
+    into, unit = shown
     if unit not in ("m", "Pa", "N", "J/m²", "N/m"):
-        return 1.0, unit or ""
-    finite = np.abs(np.asarray(values, dtype=float))
+        return into, unit or ""
+    finite = np.abs(into * np.asarray(values, dtype=float))
     largest = float(finite[np.isfinite(finite)].max(initial=0.0))
     power = 0 if largest == 0.0 else int(np.clip(3 * np.floor(np.log10(largest) / 3 + 1e-9), -12, 12))
-    return 10.0**-power, _PREFIXES[power] + unit
+    return into * 10.0**-power, _PREFIXES[power] + unit
 
 
 def _is_wide(values: NDArray[Any]) -> bool:
@@ -48,7 +60,7 @@ def _label(name: str, unit: str) -> str:
     return f"{name} ({unit})" if unit else name
 
 
-def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, **options: Any) -> Any:
+def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_unit: Unit, **options: Any) -> Any:
     """A field with x to the right and y up, both from zero to the side length."""
     factor, unit = _scaled(lengths, length_unit)
     extent = (0.0, factor * lengths[0], 0.0, factor * lengths[1])
@@ -65,7 +77,7 @@ def _one(ax: Axes | None, height: float) -> Axes:
     return ax
 
 
-def heights(field: NDArray[Any], lengths: tuple[float, float], length_unit: str | None, ax: Axes | None) -> Axes:
+def heights(field: NDArray[Any], lengths: tuple[float, float], length_unit: Unit, ax: Axes | None) -> Axes:
     """The heights of a map."""
     ax = _one(ax, 3.8)
     factor, unit = _scaled(field, length_unit)
@@ -78,7 +90,7 @@ def heights(field: NDArray[Any], lengths: tuple[float, float], length_unit: str 
     return ax
 
 
-def _profile(ax: Axes, values: NDArray[Any], length: float, length_unit: str | None, **options: Any) -> None:
+def _profile(ax: Axes, values: NDArray[Any], length: float, length_unit: Unit, **options: Any) -> None:
     factor, unit = _scaled(length, length_unit)
     x = factor * (np.arange(values.size) + 0.5) * length / values.size
     ax.plot(x, values, **options)
@@ -103,7 +115,7 @@ def _bar(ax: Axes, image: Any, label: str, place: tuple[float, float] = (0.0, 1.
 
 
 def contact(
-    ax: Axes, classes: NDArray[np.int64], names: tuple[str, ...], lengths: tuple[float, float], length_unit: str | None
+    ax: Axes, classes: NDArray[np.int64], names: tuple[str, ...], lengths: tuple[float, float], length_unit: Unit
 ) -> None:
     """Classes of nodes with a legend of those that there are, or clusters of contact by their labels."""
     from matplotlib.patches import Patch
@@ -130,8 +142,8 @@ def pressure(
     lengths: tuple[float, float],
     adhesive: bool,
     limits: tuple[float, float] | None,
-    length_unit: str | None,
-    pressure_unit: str | None,
+    length_unit: Unit,
+    pressure_unit: Unit,
 ) -> None:
     """A pressure with a scale for each sign, as compression and tension differ by orders of magnitude."""
     steps = _palette("diverging")
@@ -174,8 +186,8 @@ def profiles(
     sides: tuple[NDArray[Any], NDArray[Any]],
     pressure: NDArray[Any],
     length: float,
-    length_unit: str | None,
-    pressure_unit: str | None,
+    length_unit: Unit,
+    pressure_unit: Unit,
     ax: Any,
 ) -> Any:
     """Surface and half-space of a solution on a line, and the pressure between them."""
@@ -198,8 +210,8 @@ def sweep(
     name: str,
     theories: tuple[Any, ...],
     ax: Axes | None,
-    length_unit: str | None,
-    pressure_unit: str | None,
+    length_unit: Unit,
+    pressure_unit: Unit,
 ) -> Axes:
     """Contact fraction or mean gap over mean pressure, with theories that have it."""
     ax = _one(ax, 3.4)
@@ -228,27 +240,25 @@ def sweep(
     return ax
 
 
-def over_time(columns: dict[str, NDArray[Any]], name: str, ax: Axes | None, unit: str | None) -> Axes:
+def over_time(columns: dict[str, NDArray[Any]], name: str, ax: Axes | None, unit: Unit) -> Axes:
     """A column over the time."""
     ax = _one(ax, 3.4)
-    factor, unit = _scaled(columns[name], unit)
+    factor, word = _scaled(columns[name], unit)
     ax.plot(columns["time"], factor * columns[name], "o-", markersize=3.5)
     ax.set_xlabel("time")
-    ax.set_ylabel(_label(name.replace("_", " "), unit))
+    ax.set_ylabel(_label(name.replace("_", " "), word))
     return ax
 
 
 def cycle(
     columns: dict[str, NDArray[Any]],
     ax: Axes | None,
-    length_unit: str | None,
-    pressure_unit: str | None,
-    force_unit: str | None,
+    length_unit: Unit,
+    pressure_unit: Unit,
+    force_unit: Unit,
 ) -> Axes:
     """Mean pressure over mean gap, or normal force over approach, a line for each leg, with the jumps dashed."""
     free = bool(np.isfinite(columns["approach"]).any())
-    if (length_unit, pressure_unit) == ("m", "Pa"):
-        force_unit = force_unit or "N"
     x, y = ("approach", "normal_force") if free else ("mean_gap", "mean_pressure")
     ax = _one(ax, 3.4)
     across_factor, across_unit = _scaled(columns[x], length_unit)
@@ -282,8 +292,8 @@ def force_curve(
     force: NDArray[Any],
     fitted: NDArray[Any],
     turn: int,
-    length_unit: str | None,
-    force_unit: str | None,
+    length_unit: Unit,
+    force_unit: Unit,
     ax: Any,
 ) -> Any:
     """A force curve with its fit over the position, and the residuals below; the withdrawal begins at the point `turn`."""

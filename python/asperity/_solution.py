@@ -537,9 +537,10 @@ class Solution:
         ax : sequence of two matplotlib Axes, optional
             Axes to draw on; new ones by default.
         length_unit, pressure_unit : str, optional
-            Units for the axes and the scales. ``"m"`` and ``"Pa"`` get prefixes.
+            Units for the axes and the scales, into which numbers are converted where the result has units, as that of a
+            solve with units; others stay as they are. ``"m"`` and ``"Pa"`` get prefixes.
         colour_limits : (float, float), optional
-            Pressures at the ends of the scales, for figures that are to be compared: that of the largest tension, zero
+            Pressures at the ends of the scales, in the units of the result, for figures that are to be compared: that of the largest tension, zero
             or negative, and that of the largest compression.
         colour_clusters : bool
             Each cluster of contact gets a colour of its own, nine in turn, the largest clusters first.
@@ -552,23 +553,23 @@ class Solution:
         # without adhesion the elastic pressure is the contact pressure but for the tolerance of the solve, of either sign
         adhesive = self.report["law"] != "none"
         pressure = np.asarray(self.pressure if adhesive else self.contact_pressure, dtype=float)
-        length_unit = length_unit or self.report["length_unit"]
-        pressure_unit = pressure_unit or self.report["pressure_unit"]
+        length = _plot.shown("length_unit", self.report["length_unit"], length_unit)
+        units = length, _plot.shown("pressure_unit", self.report["pressure_unit"], pressure_unit)
         if colour_limits is not None and not (colour_limits[0] <= 0.0 < colour_limits[1]):
             raise ValueError(
                 f"colour_limits are {colour_limits!r}: they must be (low, high), low zero or negative, and high positive"
             )
         if self.gap.ndim == 1:
             sides = (self._flattened, self.displacement)
-            return _plot.profiles(sides, pressure, self.lengths[0], length_unit, pressure_unit, ax)
+            return _plot.profiles(sides, pressure, self.lengths[0], *units, ax)
         title, classes = f"contact {100 * self.contact_fraction:.3g} %", self._classes()
         names: tuple[str, ...] = CLASSES
         if colour_clusters:
             sizes, classes = _asperity.clusters(self.contact, self.flow_boundary == "periodic")
             title, names = f"{title}, {len(sizes)} cluster{'' if len(sizes) == 1 else 's'}", ()
         ax = left, right = _plot.two(ax, ncols=2, figsize=(8.2, 3.8), sharey=True, layout="compressed")
-        _plot.contact(left, classes, names, self.lengths, length_unit)
-        _plot.pressure(right, pressure, self.lengths, adhesive, colour_limits, length_unit, pressure_unit)
+        _plot.contact(left, classes, names, self.lengths, length)
+        _plot.pressure(right, pressure, self.lengths, adhesive, colour_limits, *units)
         left.set_title(title)
         right.set_ylabel("")
         return ax

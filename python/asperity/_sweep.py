@@ -51,7 +51,8 @@ class Sweep(Rows[Solution]):
             for the area. The area has then also the points of the ``corrected_contact_fraction``, which compares with
             theories better than that of the nodes. Without adhesion, on a half-space, with a periodic boundary.
         length_unit, pressure_unit : str, optional
-            Units for the axes.
+            Units for the axes, into which numbers are converted where the result has units, as that of a sweep with
+            units; others stay as they are. ``"m"`` and ``"Pa"`` get prefixes.
 
         Returns
         -------
@@ -61,5 +62,6 @@ class Sweep(Rows[Solution]):
         if name is None:
             raise ValueError(f"of is {of!r}: it must be 'area' or 'gap'")
         theories = _theory.beside(self._contact) if theory else ()
-        units = (length_unit or self._contact.topography.unit, pressure_unit or self._contact.pressure_unit)
-        return _plot.sweep(self.columns, name, theories, ax, *units)
+        length = _plot.shown("length_unit", self._contact.topography.unit, length_unit)
+        pressure = _plot.shown("pressure_unit", self._contact.pressure_unit, pressure_unit)
+        return _plot.sweep(self.columns, name, theories, ax, length, pressure)

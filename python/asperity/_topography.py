@@ -116,7 +116,7 @@ class Topography:
         matplotlib Axes
         """
         lengths = self.lengths or (float(self.heights.shape[0]), float(self.heights.shape[1]))
-        return _plot.heights(np.asarray(self), lengths, self.unit, ax)
+        return _plot.heights(np.asarray(self), lengths, (1.0, self.unit), ax)
 
 
 #: A map as functions take it.

@@ -58,6 +58,20 @@ def in_si(key: str, text: str) -> float:
         raise ValueError(str(refused).replace(like, key, 1)) from None
 
 
+#: Keys of the dimensions of units, with an example.
+_DIMENSIONS = {"length": ("approach", "nm"), "pressure": ("mean_pressure", "MPa"), "force": ("normal_force", "nN")}
+
+
+def in_unit(name: str, unit: str | None) -> float:
+    """A unit in SI units, by its name: ``length_unit``, ``pressure_unit`` or ``force_unit``."""
+    kind = name.removesuffix("_unit")
+    key, example = _DIMENSIONS[kind]
+    try:
+        return _asperity.quantity(key, f"1{unit}")
+    except ValueError:
+        raise ValueError(f"{name} is {unit!r}: it must be a unit of a {kind}, as {example!r}") from None
+
+
 def _items(value: Any) -> Sequence[Any] | None:
     """The items of a sequence; None of a number."""
     try:

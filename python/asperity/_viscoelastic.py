@@ -216,7 +216,7 @@ class Viscoelastic(Rows[Moment]):
         units = {"mean_pressure": self._contact.pressure_unit} | dict.fromkeys(
             ("mean_gap", "approach"), self._contact.topography.unit
         )
-        return _plot.over_time(self.columns, of, ax, units.get(of))
+        return _plot.over_time(self.columns, of, ax, (1.0, units.get(of)))
 
 
 def _work(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:

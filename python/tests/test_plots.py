@@ -110,6 +110,32 @@ def test_a_line_a_sweep_a_cycle_and_a_map_are_drawn(rough):
     assert rough.plot().get_xlabel() == "x"
 
 
+def test_numbers_of_results_in_known_units_are_converted(rough, law):
+    metres = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6), "m")
+    options = {"modulus": "1GPa", "law": asperity.Exponential("20mJ/m2", "8nm")}
+    units = {"length_unit": "nm", "pressure_unit": "kPa"}
+    left, right = asperity.solve(metres, mean_pressure="10MPa", **options).plot(**units)
+    solution = asperity.solve(metres, mean_pressure="10MPa", **options)
+    assert left.get_xlabel() == "x (nm)" and left.get_xlim() == pytest.approx((0.0, 1000.0))
+    assert right.child_axes[0].get_ylabel() == "compression (kPa)"
+    assert right.images[0].get_array().max() == pytest.approx(1e-3 * solution.pressure.max())
+    axes = asperity.sweep(metres, mean_pressures=["10MPa"], **options).plot(of="gap", **units)
+    x, y = axes.lines[0].get_data()
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("mean pressure (kPa)", "mean gap (nm)")
+    assert x == pytest.approx(1e4) and y == pytest.approx(1e9 * solution.mean_gap)
+    tip = asperity.surface.paraboloid(32, "1um", radius="2um")
+    cycle = asperity.cycle(tip, boundary="free", approaches=["0nm", "10nm"], steps=2, modulus="1GPa")
+    axes = cycle.plot(force_unit="uN", **units)
+    x, y = axes.lines[0].get_data()
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("approach (nm)", "normal force (uN)")
+    assert x[-1] == pytest.approx(10.0) and y[-1] == pytest.approx(1e6 * cycle.columns["normal_force"][-1])
+    with pytest.raises(ValueError, match="length_unit is 'kPa': it must be a unit of a length, as 'nm'"):
+        cycle.plot(length_unit="kPa")
+    # numbers without a unit are what the user says
+    plain = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+    assert plain.plot(**units)[0].get_xlim() == (0.0, 1.0)
+
+
 def test_theories_are_drawn_beside_a_sweep(rough, law):
     metres = asperity.Topography(1e-6 * rough.heights, (1e-6, 1e-6), "m")
     sweep = asperity.sweep(metres, modulus="1GPa", mean_pressures=["5MPa", "10MPa", "40MPa"])
