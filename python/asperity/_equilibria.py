@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import exact
+from ._warnings import InputWarning, warn
 
 Array: TypeAlias = NDArray[np.float64]
 #: Approaches and loads from bodies apart on, those of the approach and those of the withdrawal, over modulus and work of
@@ -97,7 +98,7 @@ class Tip(Protocol):
         """Whether there are equilibria, with a range that ends at this distance before contact."""
 
     def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
-        """Refuses what a fit found beyond all equilibria."""
+        """Refuses what a fit found beyond all equilibria, or warns of it."""
 
 
 class Paraboloid:
@@ -137,7 +138,13 @@ class Paraboloid:
         return self.length(modulus, work) / tabor < before
 
     def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
-        """There are equilibria of all approaches."""
+        """Warns of an approach that no tip has; there are equilibria of all."""
+        if approach > self.radius:
+            warn(
+                f"the greatest indentation is {approach / self.radius:.3g} times the radius of the tip: give z, force and "
+                "radius in one system of units, as m and N, or length_unit='nm', force_unit='nN' and radius='20nm'",
+                InputWarning,
+            )
 
 
 def fold(where: Array, reached: Array, load: Array) -> int:

@@ -197,7 +197,8 @@ def fit_curve(
     Warns
     -----
     InputWarning
-        If neighbouring residuals are alike: the curve is not that of such a tip, and intervals are too narrow.
+        If neighbouring residuals are alike: the curve is not that of such a tip, and intervals are too narrow. If the
+        greatest indentation is greater than the radius, as where z is in nm and the radius in m.
 
     See Also
     --------

@@ -200,6 +200,12 @@ def test_a_curve_of_another_tip_is_named():
         asperity.fit_curve(approach, force, radius=RADIUS)
 
 
+def test_an_indentation_beyond_the_radius_is_told():
+    z, force = curve(1.0, None)
+    with pytest.warns(asperity.InputWarning, match=r"is 1\.39e\+08 times the radius of the tip: give z, "):
+        asperity.fit_curve(1e9 * z, 1e9 * force, radius=RADIUS)
+
+
 def test_without_scipy_the_way_to_it_is_told():
     script = """
 import sys
