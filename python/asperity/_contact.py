@@ -117,7 +117,8 @@ def solve(
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
         unless the heights bring them.
     axes : {"xy", "yx"}, optional
-        Axes of an array of heights: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray
+        Axes of an array of heights, of ``against`` and of ``hardness``: "xy" by default, the first is x, or "yx" for an
+        image, [row, column]. The works of `Varying` and ``start`` have x along the first axis in any case. A DataArray
         whose dimensions are named x and y does not need it. Results have x along the first axis in any case.
     spring : (float, float)
         Stiffness k of a spring in series, a force per length, and its position z at rest, a length: with a free
@@ -155,8 +156,8 @@ def solve(
         `Morse`, or springs of a stiffness, as an object or by name with ``wall_stiffness``.
     hardness : float or array_like, optional
         Hardness H, a pressure that caps the contact pressure: the surface yields there, and stays flattened by
-        ``Solution.plastic_depth``. An array has it at each node, x along the first axis, in Pa where other quantities
-        have units. At a hard wall.
+        ``Solution.plastic_depth``. An array has it at each node, with the ``axes`` of the heights, in Pa where other
+        quantities have units. At a hard wall.
     branch : {"loading", "unloading", "both"}, optional
         Equilibrium to find where adhesion has several: that of surfaces pressed together from afar, or that of surfaces
         pressed flat before; by default loading, and unloading under a tension or at a given mean gap. ``"both"`` finds
@@ -654,7 +655,7 @@ class Contact:
             "unit": self.topography.unit,
             "source": self.topography.source,
             "scars_removed": self.topography.scars_removed,
-            "hardness": None if hardness is None else field_of(hardness, "hardness"),
+            "hardness": None if hardness is None else field_of(hardness, "hardness", axes).copy(),
         }
         self._is_kept = is_kept
         self.problem = _asperity.Problem(self._map, self._given, symbol(body), is_kept)

@@ -276,9 +276,9 @@ def refined(topography: Topography, heights: NDArray[np.float64]) -> Topography:
     return replace(topography, heights=heights, original=(nx, ny))
 
 
-def field_of(values: Any, name: str) -> NDArray[np.float64]:
-    """A field as the compiled core takes it: two-dimensional, float64."""
-    return array_of(values, name)[0]
+def field_of(values: Any, name: str, axes: AxisOrder | None = None) -> NDArray[np.float64]:
+    """A field as the compiled core takes it: two-dimensional, float64; dimensions with names are known without axes."""
+    return array_of(values, name, None if _is_data_array(values) else axes)[0]
 
 
 def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) -> tuple[NDArray[np.float64], bool]:

@@ -78,6 +78,20 @@ def test_a_hardness_may_vary_and_have_a_unit(surface, elastic):
         asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=np.ones((48, 24)))
 
 
+def test_a_hardness_has_the_axes_of_the_heights(surface, elastic):
+    soft = 0.2 * float(elastic.contact_pressure.max())
+    nodes = np.where(np.arange(48)[:, None] < 24, soft, 1.0) * np.ones(48)
+    expected = asperity.solve(surface, modulus=1.0, mean_pressure=0.02, hardness=nodes)
+    xarray = pytest.importorskip("xarray")
+    labelled = xarray.DataArray(nodes, dims=("x", "y"))
+    buffer = nodes.T.copy()
+    for hardness in (buffer, labelled):
+        contact = asperity.Contact(surface.heights.T, 1.0, axes="yx", modulus=1.0, hardness=hardness)
+        buffer *= 2.0
+        for found in (contact.solve(mean_pressure=0.02), next(contact.sweep(mean_pressures=[0.02]))):
+            assert np.array_equal(found.contact_pressure, expected.contact_pressure)
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
