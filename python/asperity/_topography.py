@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
@@ -344,7 +345,8 @@ def _labelled(values: Any, axes: AxisOrder | None, name: str = "heights") -> Any
             f"{name} are a DataFrame with coordinates as its {has} and none as its {lacks}: give both as numbers, by "
             f"frame.{lacks} = frame.{lacks}.astype(float), or the array alone, by frame.to_numpy()"
         )
-    dims = [str(label.name) for label in labels]
+    # without a unit in brackets
+    dims = [re.split(r"\s*[\[(]", str(label.name))[0] for label in labels]
     if dims[0] == dims[1] or not {"x", "y"} & {dim.lower() for dim in dims}:
         dims = list(axes or "yx")
     coords = {dim: SimpleNamespace(values=label.to_numpy(), attrs={}) for dim, label in zip(dims, labels)}

@@ -42,9 +42,10 @@ def test_a_table_with_coordinates_is_a_data_array_with_them(frame):
     data = xarray.DataArray(HEIGHTS.T, dims=("y", "x"), coords={"y": Y, "x": X})
     expected = asperity.prepare(data)
     rotated = frame(HEIGHTS, X, Y).rename_axis(index="x", columns="y")
+    named = frame(HEIGHTS, X, Y).rename_axis(index="x [m]", columns="y (m)")
     falling = frame(HEIGHTS[::-1, ::-1].T, Y[::-1], X[::-1])
     same = frame().rename_axis(index="x", columns="x")
-    for table in (frame(), falling, frame().rename_axis(index="row", columns="X"), same, rotated):
+    for table in (frame(), falling, frame().rename_axis(index="row", columns="X"), same, rotated, named):
         found = asperity.prepare(table)
         assert np.array_equal(found.heights, HEIGHTS) and found.lengths == expected.lengths
     assert expected.lengths == pytest.approx((3.0, 1.2), rel=1e-14) and np.array_equal(expected.heights, HEIGHTS)
