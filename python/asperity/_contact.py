@@ -111,15 +111,16 @@ def solve(
     ----------
     heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
         Heights of the rigid surface, shape (Nx, Ny), or (N,) on a line; peaks up. Any float type, order or stride. An
-        array is copied, for the solver and for the results, and may change afterwards; a Topography is copied once, for
-        the solver. Missing points, NaN or masked, are refused: `prepare` fills them, or ``absent_missing`` takes them as they are.
+        array is copied, for the solver and for the results, and may change afterwards; a Topography is copied for
+        the solver alone. Missing points, NaN or masked, are refused: `prepare` fills them, or ``absent_missing`` takes
+        them as they are.
     lengths : float or (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
         unless the heights bring them.
     axes : {"xy", "yx"}, optional
         Axes of an array of heights, of ``against`` and of ``hardness``: "xy" by default, the first is x, or "yx" for an
-        image, [row, column]. The works of `Varying` and ``start`` have x along the first axis in any case. A DataArray
-        whose dimensions are named x and y does not need it. Results have x along the first axis in any case.
+        image, [row, column]. A DataArray whose dimensions are named x and y does not need it. Results, ``start`` and
+        the works of `Varying` have x along the first axis in any case.
     spring : (float, float)
         Stiffness k of a spring in series, a force per length, and its position z at rest, a length: with a free
         boundary F = k (z − δ), with a periodic one and the mean gap ḡ, without absent nodes, F = k (ḡ − z).

@@ -112,8 +112,8 @@ class Cycle(Rows[Step]):
             Axes to draw on; new ones by default.
         length_unit, pressure_unit, force_unit : str, optional
             Units for the axes, into which numbers are converted where the result has units, as that of a cycle with
-            units; others stay as they are. ``"m"``, ``"Pa"`` and ``"N"`` get prefixes. Forces are in N where lengths are
-            in m and pressures in Pa.
+            units; others stay as they are. ``"m"``, ``"Pa"`` and ``"N"`` get prefixes. Forces are in N where lengths
+            are in m and pressures in Pa.
 
         Returns
         -------

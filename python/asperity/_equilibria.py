@@ -141,8 +141,8 @@ class Paraboloid:
         """Warns of an approach that no tip has; there are equilibria of all."""
         if approach > self.radius:
             warn(
-                f"the greatest indentation is {approach / self.radius:.3g} times the radius of the tip: give z, force and "
-                "radius in one system of units, as m and N, or length_unit='nm', force_unit='nN' and radius='20nm'",
+                f"the greatest indentation is {approach / self.radius:.3g} times the radius of the tip: give z, force "
+                "and radius in one system of units, as m and N, or length_unit='nm', force_unit='nN' and radius='20nm'",
                 InputWarning,
             )
 

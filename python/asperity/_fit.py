@@ -98,7 +98,8 @@ class CurveFit:
         for name, unit in units.items():
             found: Estimate | None = getattr(self, name)
             if found is not None:
-                factor, unit = _plot._scaled([end for end in found if np.isfinite(end)], (1.0, unit if self._is_si else None))
+                shown = (1.0, unit if self._is_si else None)
+                factor, unit = _plot._scaled([end for end in found if np.isfinite(end)], shown)
                 value, lower, upper = _digits(factor, found)
                 lines.append(f"{name.replace('_', ' '):<18}{value:>12}   {lower} to {upper} {unit}".rstrip())
         lines.append(f"{'':<18}{'rms residual':>12}   AIC   probability")

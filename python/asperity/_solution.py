@@ -540,8 +540,8 @@ class Solution:
             Units for the axes and the scales, into which numbers are converted where the result has units, as that of a
             solve with units; others stay as they are. ``"m"`` and ``"Pa"`` get prefixes.
         colour_limits : (float, float), optional
-            Pressures at the ends of the scales, in the units of the result, for figures that are to be compared: that of the largest tension, zero
-            or negative, and that of the largest compression.
+            Pressures at the ends of the scales, in the units of the result, for figures that are to be compared: that of
+            the largest tension, zero or negative, and that of the largest compression.
         colour_clusters : bool
             Each cluster of contact gets a colour of its own, nine in turn, the largest clusters first.
 

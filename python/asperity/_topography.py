@@ -32,8 +32,8 @@ class Topography:
     Parameters
     ----------
     heights : array_like, shape (Nx, Ny) or (N,)
-        Heights, x along the first axis, peaks up; as an attribute of shape (Nx, Ny), (N, 1) on a line. NaN is a missing point. An array of float64 is not copied: do not
-        change it afterwards.
+        Heights, x along the first axis, peaks up; as an attribute of shape (Nx, Ny), (N, 1) on a line. NaN is a missing
+        point. An array of float64 is not copied: do not change it afterwards.
     lengths : (float, float), optional
         Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; Lx alone for square cells.
     unit : str, optional

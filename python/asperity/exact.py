@@ -22,6 +22,7 @@ Contact(contact_radius=1.28923e-09, load=1e-08, approach=8.3106e-11) of Hertz(ra
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass
 from operator import attrgetter
 from typing import Any, ClassVar
@@ -59,8 +60,13 @@ class _States:
         for name in cls.__annotations__:
             setattr(cls, name, property(attrgetter(f"_found.{name}")))
 
-    def __init__(self, solution: Formula, found: Any) -> None:
-        self._solution, self._found = solution, found
+    def __init__(self, solution: Formula, way: str, *at: ArrayLike) -> None:
+        # another process finds it again by these
+        self._made = solution, way, *deepcopy(at)
+        self._solution, self._found = solution, getattr(solution._of, way)(*at)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._made
 
     def __repr__(self) -> str:
         values = {name: getattr(self, name) for name in self._told}
@@ -146,19 +152,19 @@ class _Sphere(Formula):
 
     def at_load(self, load: ArrayLike) -> Contact:
         """Stable contacts at loads P, compression positive."""
-        return Contact(self, self._of.at_load(self._read("load", load)))
+        return Contact(self, "at_load", self._read("load", load))
 
     def at_approach(self, approach: ArrayLike) -> Contact:
         """Stable contacts at approaches δ."""
-        return Contact(self, self._of.at_approach(self._read("approach", approach)))
+        return Contact(self, "at_approach", self._read("approach", approach))
 
     def at_contact_radius(self, radius: ArrayLike) -> Contact:
         """Contacts of radii a ≥ 0."""
-        return Contact(self, self._of.at_contact_radius(self._read("radius", radius)))
+        return Contact(self, "at_contact_radius", self._read("radius", radius))
 
     def pull_off(self) -> Contact:
         """Contact of least load: the pull-off force is minus its load."""
-        return Contact(self, self._of.pull_off())
+        return Contact(self, "pull_off")
 
 
 class Hertz(_Sphere):
@@ -255,15 +261,15 @@ class _Wave(Formula):
 
     def at_half_width(self, half_width: ArrayLike) -> WaveContact:
         """Contacts of half-widths a."""
-        return WaveContact(self, self._of.at_half_width(self._read("half_width", half_width)))
+        return WaveContact(self, "at_half_width", self._read("half_width", half_width))
 
     def at_mean_pressure(self, mean_pressure: ArrayLike) -> WaveContact:
         """Contacts at mean pressures p̄: the stable ones."""
-        return WaveContact(self, self._of.at_mean_pressure(self._read("mean_pressure", mean_pressure)))
+        return WaveContact(self, "at_mean_pressure", self._read("mean_pressure", mean_pressure))
 
     def at_mean_gap(self, mean_gap: ArrayLike) -> WaveContact:
         """Contacts at mean gaps: the stable ones."""
-        return WaveContact(self, self._of.at_mean_gap(self._read("mean_gap", mean_gap)))
+        return WaveContact(self, "at_mean_gap", self._read("mean_gap", mean_gap))
 
 
 class WavyLine(_Wave):
@@ -324,11 +330,11 @@ class AdhesiveWavyLine(_Wave):
 
     def pull_off(self) -> WaveContact:
         """Partial contact of least mean pressure, from which it opens."""
-        return WaveContact(self, self._of.pull_off())
+        return WaveContact(self, "pull_off")
 
     def jump_to_full_contact(self) -> WaveContact:
         """Partial contact of largest mean pressure, from which it jumps to full contact."""
-        return WaveContact(self, self._of.jump_to_full_contact())
+        return WaveContact(self, "jump_to_full_contact")
 
 
 def closing_pressure_2d(amplitude: ArrayLike, wavelength: Quantity, modulus: Quantity) -> Any:

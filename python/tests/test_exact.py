@@ -105,6 +105,19 @@ def isotropic():
     return asperity.surface.self_affine(512, 1.0, rms_slope=0.1, hurst=0.8, k_l=4, k_s=32, seed=5)
 
 
+@pytest.mark.parametrize(
+    "state",
+    [
+        exact.Hertz("20nm", "70GPa").at_load(["1nN", "2nN"]),
+        exact.Jkr(2.0, 1.0, 1e-5).pull_off(),
+        exact.WavyLine(0.01, 1.0, 1.0).at_mean_pressure(0.01),
+    ],
+)
+def test_states_travel_to_other_processes(state):
+    copied = pickle.loads(pickle.dumps(state))
+    assert repr(copied) == repr(state) and np.array_equal(copied.pressure(0.0), state.pressure(0.0))
+
+
 def test_persson_has_the_energy_of_the_closed_gap(isotropic):
     theory = exact.Persson.of(isotropic, modulus=2.0)
     pressures = np.geomspace(1e-9, 2.0, 4000)
