@@ -295,6 +295,12 @@ fn files_vary_too_and_a_changed_file_is_another_case() {
     bench.write("units.toml", &range.replace("mean-gaps = 0.006", "mean-gaps = \"6nm\""));
     let listed = bench.said("study units.toml --list");
     assert!(listed.contains("2  to do  heights a,b.npy, modulus 2GPa"), "{listed}");
+    // of which some begin as an exponent does
+    bench.write(
+        "units.toml",
+        &range.replace("mean-gaps = 0.006", "mean-gaps = \"6nm\"").replace("1GPa:3GPa:3\"", "1eV/nm3:3eV/nm3:3\""),
+    );
+    assert!(bench.said("study units.toml --list").contains("modulus 2eV/nm3"));
     for wrong in ["1GPa:3MPa:3", "1GPa:3:3", "one:two:3"] {
         bench.write("wrong.toml", &range.replace("1GPa:3GPa:3", wrong));
         bench.refused_with("study wrong.toml", &["vary.modulus", "same unit"]);

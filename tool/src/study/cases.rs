@@ -15,7 +15,7 @@ use crate::entries::{document, entries, spelled};
 use crate::loads::parsed;
 use crate::outcome::Outcome;
 use crate::printing::{on_one_line, on_terminal};
-use crate::quantity::Quantity;
+use crate::quantity::{Quantity, number_and_unit};
 use crate::scene::{is_path, key, section};
 use crate::synonyms::similar;
 use crate::table::format_of;
@@ -172,16 +172,18 @@ fn choices(key: String, value: Value) -> Result<Vec<Choice>, String> {
 
 /// The values of a range FROM:TO:COUNT or FROM:TO:COUNT:log, of which both ends have the same unit or none.
 fn range(text: &str) -> Result<Vec<Value>, String> {
-    let unit =
-        |end: &str| end.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c)).to_owned();
-    let units: Vec<_> = text.split(':').take(2).map(unit).collect();
-    let number = |end: &str| match end.trim().trim_end_matches(&units[0]).trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && units[0] == units[1] => Ok(Quantity::number(value)),
+    let split = |end: &str| {
+        let (number, unit) = number_and_unit(end.trim())?;
+        Some((number.parse::<f64>().ok().filter(|value| value.is_finite())?, unit.to_owned()))
+    };
+    let unit = text.split(':').find_map(split).map_or(String::new(), |(_, unit)| unit);
+    let number = |end: &str| match split(end) {
+        Some((value, own)) if own == unit => Ok(Quantity::number(value)),
         _ => Err("both ends of a range must be numbers, with the same unit or without one".to_owned()),
     };
     // in no unit, so that the digits are those that one would write
     let values = parsed(text, &number)?.values;
-    Ok(values.into_iter().map(|value| Value::String(format!("{value}{}", units[0]))).collect())
+    Ok(values.into_iter().map(|value| Value::String(format!("{value}{unit}"))).collect())
 }
 
 /// The combination of this number, the last list changing fastest.

@@ -156,9 +156,11 @@ impl Dimension {
     }
 }
 
-/// A number, as much of a text as can be read as one, and what follows: 1e5Pa is no 1 of a unit e5Pa.
-fn number_and_unit(text: &str) -> Option<(&str, &str)> {
-    let mut splits = text.char_indices().rev().map(|(at, _)| text.split_at(at));
+/// A number, as much of a text as can be read as one, and the unit that follows, if there is one: 1e5Pa is no 1 of a
+/// unit e5Pa.
+pub fn number_and_unit(text: &str) -> Option<(&str, &str)> {
+    let ends = text.char_indices().map(|(at, _)| at).chain([text.len()]);
+    let mut splits = ends.rev().map(|at| text.split_at(at));
     splits.find(|(number, _)| number.parse::<f64>().is_ok()).map(|(number, unit)| (number, unit.trim()))
 }
 
