@@ -181,8 +181,12 @@ pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
         let [pressure, speed] = FIELDS[axis as usize].map(|name| read_field(folder.join(name)));
         // the pressure is known where the fluid is
         let open = pressure?.mapv(|pressure| if pressure.is_nan() { 0.0 } else { 1.0 });
+        let speed = speed?;
+        if [open.dim(), speed.dim()] != [grid.shape(); 2] {
+            return Err("pressure and flow have not the shape of the report: they are of different runs".into());
+        }
         let passage = (*leaked.constriction.along(axis), &[][..]);
-        pictures.push(drawn(axis, (&open, &speed?), passage, grid, &units, dpi)?);
+        pictures.push(drawn(axis, (&open, &speed), passage, grid, &units, dpi)?);
     }
     Ok(Contents { figures: leaked.rows(&units), shortfall: leaked.shortfall(Skin::Options), pictures })
 }

@@ -76,6 +76,9 @@ fn a_solve_leaks_with_its_sides_and_units_and_leaves_files() {
     // the same gap from its file, in a cell of the same shape
     let alone = bench.reported("leak pressed/gap.npy --lengths 20um");
     assert_eq!(alone["transmissivity"], report["transmissivity"]);
+
+    write_npy(bench.path("leakage/flow_x.npy"), &Array2::<f64>::ones((32, 32))).unwrap();
+    bench.refused_with("report leakage", &["pressure and flow", "different runs"]);
 }
 
 #[test]
