@@ -233,13 +233,14 @@ impl Found<'_> {
         let names = known.columns(&["nodes", "area", "perimeter", "normal_force"], "", on_line);
         // a step at each area, from the largest on
         let count = |(k, area): (usize, f64)| [(area, k.max(1) as f64), (area, (k + 1) as f64)];
-        let unit = self.units.length.as_ref().map(|unit| format!("{unit}²"));
+        let extent = if on_line { "length" } else { "area" };
+        let unit = self.units.length.as_ref().map(|unit| if on_line { unit.clone() } else { format!("{unit}²") });
         let chart = Chart {
             title: "Clusters of contact",
-            x_label: "area of a cluster",
+            x_label: &format!("{extent} of a cluster"),
             x_unit: unit.as_deref(),
             x_log: true,
-            y_label: "clusters of that area or more",
+            y_label: &format!("clusters of that {extent} or more"),
             y_log: true,
             curves: vec![("", spots.iter().map(|spot| spot.area).enumerate().flat_map(count).collect())],
             ..Chart::default()

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::bench::Bench;
+use crate::bench::{Bench, text};
 
 /// The numbers of a table, column by column, and its header.
 fn table(bench: &Bench, file: &str) -> (String, Vec<Vec<f64>>) {
@@ -82,6 +82,19 @@ fn the_edge_of_a_free_map_is_that_of_its_report() {
             ["pressed", "contact"].map(|name| bench.report(name)).map(|report| report["perimeter"].as_f64().unwrap());
         assert!(edge > 0.0 && (same / edge - 1.0).abs() < 1e-12, "{nx} x {ny}: {edge} {same}");
     }
+}
+
+#[test]
+fn the_clusters_of_a_profile_have_lengths() {
+    let bench = Bench::new();
+    let row = |i: usize| format!("{}e-9\n", 7 * i % 11);
+    bench.write("profile.txt", &(0..64).map(row).collect::<String>());
+    let loads = "--lengths 64um --modulus 1GPa --mean-pressure 1MPa --no-pictures --quiet";
+    let solved = bench.run(&format!("solve --heights profile.txt {loads} --out pressed"));
+    assert!(solved.status.success(), "{}", text(&solved.stderr));
+    bench.said("contact pressed --picture-format svg --out contact");
+    let chart = bench.read("contact/clusters.svg");
+    assert!(chart.contains("length of a cluster (µm)") && !chart.contains("area"), "{chart}");
 }
 
 #[test]
