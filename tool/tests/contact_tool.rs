@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use asperity_maps::io::{read_field, write_npy};
+
 use crate::bench::{Bench, text};
 
 /// The numbers of a table, column by column, and its header.
@@ -63,6 +65,13 @@ fn the_tables_are_those_of_the_contact() {
     assert_eq!(again["clusters"], report["clusters"]);
     bench.refused_with("contact pressed --out contact", &["exists: use --force"]);
     bench.refused_with("contact contact", &["contact", "another command"]);
+    // however small a gap is
+    let mut gap = read_field(bench.path("pressed/gap.npy")).unwrap();
+    let open = gap.iter_mut().find(|gap| **gap > 0.0).unwrap();
+    *open = 1e-320;
+    write_npy(bench.path("pressed/gap.npy"), &gap).unwrap();
+    bench.said("contact pressed --force --out again");
+    assert_eq!(table(&bench, "again/gap.csv").1[0].len(), 72);
     // tables that somebody has changed have no page
     fs::write(bench.path("contact/gap.csv"), "from,to,density\n1\n").unwrap();
     bench.refused_with("report contact", &["gap.csv", "rows of other than 3 numbers"]);

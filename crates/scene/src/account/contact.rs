@@ -177,7 +177,8 @@ impl Density {
             return Self { edges: Vec::new(), density: Vec::new(), exponent };
         }
         let place = |value: f64| (greatest / value).log10() * PER_DECADE as f64;
-        let bins = (place(least).floor() as usize + 1).min(DECADES * PER_DECADE);
+        // the ratio to the least one may be infinite
+        let bins = (place(least).floor() as usize).saturating_add(1).min(DECADES * PER_DECADE);
         let edge = |k: usize| greatest * 10f64.powf(-(k as f64) / PER_DECADE as f64);
         let edges: Vec<f64> = (0..=bins).rev().map(edge).collect();
         let mut counts = vec![0_usize; bins];
