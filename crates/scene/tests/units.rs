@@ -310,6 +310,9 @@ fn the_pace_of_a_cycle_tells_the_time_that_is_left() {
     assert_eq!(short.asked().unwrap(), "2 states or more, 1 leg of 1 step: about 60 s");
     short.add(0.5, false, 10.0);
     assert_eq!(short.seconds_left(), Some(0.5 * (0.5 * 60.0 + 0.5 * 20.0)));
+    let mut endless = Pace::new(1, &settings.steps(usize::MAX));
+    endless.expect(1e-3, false);
+    assert!(endless.asked().unwrap().starts_with(&format!("{} states or more", usize::MAX)));
     fresh.add(0.0, false, 0.5);
     assert_eq!(fresh.asked(), None);
     // past a limit point the load falls again, the way does not

@@ -53,7 +53,7 @@ impl Pace {
 
     /// The least number of states at the end: the start, and the steps of all legs.
     fn least(&self) -> usize {
-        1 + self.asked.0 * self.asked.1
+        self.asked.0.saturating_mul(self.asked.1).saturating_add(1)
     }
 
     /// Begins the run at a share of the way.
