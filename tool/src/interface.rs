@@ -1,5 +1,6 @@
 //! `asperity interface`: the law of an interface over the load, for codes of finite elements.
 
+use std::fs;
 use std::path::PathBuf;
 
 use asperity::Error;
@@ -83,6 +84,17 @@ impl Options {
         endings.map(|ending| (*ending, self.out.with_extension(&ending[1..])))
     }
 
+    /// Removes the files for any code of a former table in the place of this one.
+    fn clear(&self) -> Outcome<()> {
+        for ending in Code::ALL.iter().flat_map(|code| code.endings()) {
+            let path = self.out.with_extension(&ending[1..]);
+            if path.is_file() && fs::read_to_string(&path).is_ok_and(|text| Code::wrote(&text)) {
+                fs::remove_file(&path).map_err(|error| Error::file(&path, format!("cannot be removed: {error}")))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Writes the files of all rows for the codes, and tells their names.
     fn write<T: Scalar>(&self, rows: &[Value], table: &Table<'_, T>) -> Outcome<Vec<String>> {
         let (adhesive, units) = (table.session.adheres(), table.session.units());
@@ -101,6 +113,11 @@ impl Options {
 
 impl Fill for Options {
     fn fill<T: Scalar>(&self, table: &mut Table<'_, T>) -> Outcome<bool> {
+        let (rows, of_rows) = (table.session.rows(), table.session.of_rows());
+        // while the table changes, those of its former rows are wrong
+        if self.manner.force || rows > 0 && of_rows != Some(rows) {
+            table.first(|| self.clear())?;
+        }
         let rows = table.solve()?;
         let converged = table.converged("or --tolerance");
         if !converged && !self.codes.is_empty() {

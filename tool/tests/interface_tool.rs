@@ -110,6 +110,31 @@ fn each_code_gets_the_table_as_it_reads_it() {
 }
 
 #[test]
+fn files_for_codes_are_never_those_of_a_former_table() {
+    let bench = Bench::new();
+    bench.said(ROUGH);
+    let all = "--for abaqus,comsol,moose --quiet";
+    let files = || {
+        bench
+            .names(".")
+            .into_iter()
+            .filter(|name| !name.ends_with(".scene.toml") && !name.ends_with(".state") && !name.contains("warnings"))
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    bench.said(&format!("{PRESSED} --mean-pressures 1MPa,2MPa {all} --out law.csv"));
+    // a further code on the same rows is no other table, and a model of one's own none of its files
+    bench.said(&format!("{PRESSED} --mean-pressures 1MPa,2MPa --for comsol --quiet --out law.csv"));
+    assert_eq!(files(), "heights.npz law.csv law.inp law.pressure.csv law.pressure.txt");
+    bench.write("law.conductance.txt", "mine");
+    bench.said(&format!("{PRESSED} --mean-pressures 1MPa,3MPa --for abaqus --quiet --force --out law.csv"));
+    assert_eq!(files(), "heights.npz law.conductance.txt law.csv law.inp");
+    let failed = bench.run(&format!("{PRESSED} --mean-pressures 1MPa --max-iterations 3 {all} --force --out law.csv"));
+    assert_eq!(failed.status.code(), Some(2));
+    assert_eq!(files(), "heights.npz law.conductance.txt law.csv");
+}
+
+#[test]
 fn with_adhesion_the_law_begins_between_the_rows_around_no_pressure() {
     let bench = Bench::new();
     bench.said(ROUGH);

@@ -52,6 +52,15 @@ impl Code {
         }
     }
 
+    /// Whether a text is that of such a file, of any rows: it begins with the names of its columns.
+    pub fn wrote(text: &str) -> bool {
+        let columns = match text.strip_prefix("*SURFACE INTERACTION, NAME=") {
+            Some(rest) => rest.lines().nth(2).and_then(|line| line.strip_prefix("** ")),
+            None => text.strip_prefix("% ").or(text.strip_prefix("# ")),
+        };
+        columns.is_some_and(|columns| ["closure", "mean_pressure"].iter().any(|name| columns.starts_with(name)))
+    }
+
     /// The files of the rows of a table, with or without adhesion: the ends of their names, and their texts. `name` is
     /// that of the interface.
     ///
