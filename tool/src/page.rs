@@ -17,6 +17,7 @@ use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart, with_suffix, write_text};
 use crate::pictures::MapColours;
 use crate::printing::{name, say};
+use crate::results::PAGE;
 use crate::scene;
 use crate::solve;
 use crate::solved::units_of;
@@ -77,10 +78,10 @@ pub fn write(results: &Path, out: Option<&Path>, force: bool, colours: &MapColou
         let text = "has no maps, of which --colour-limits and --colour-clusters are: name the folder of a solve";
         return Err(Error::file(results, text).into());
     }
-    let beside = || if folder { results.join("report.html") } else { with_suffix(results, ".html") };
+    let beside = || if folder { results.join(PAGE) } else { with_suffix(results, ".html") };
     let out = out.map_or_else(beside, Path::to_path_buf);
     let read: Vec<_> = match folder {
-        true => solve::files().iter().map(|name| results.join(name)).collect(),
+        true => solve::files().iter().filter(|name| *name != PAGE).map(|name| results.join(name)).collect(),
         false => vec![results.to_path_buf(), scene::beside(results), warnings::beside(results), state_path(results)],
     };
     check_apart(&out, read.iter().map(PathBuf::as_path))?;

@@ -17,6 +17,9 @@ use crate::scene::{self, SceneFile};
 /// The name of the report in a folder of results.
 pub const REPORT: &str = "report.json";
 
+/// The name of the page of a folder of results.
+pub const PAGE: &str = "report.html";
+
 /// The contents of a folder for a page: figures by their names, what falls short, and pictures.
 pub struct Contents {
     pub figures: Vec<(String, String)>,
@@ -35,10 +38,10 @@ pub struct Results<'a> {
     pub force: bool,
 }
 
-/// The report, the scene, other files, and pictures in any format.
+/// The report, the scene, other files, the page of all, and pictures in any format.
 pub fn files(others: &[&str], pictures: &[&str]) -> Vec<String> {
     let pictures = PictureFormat::ALL.into_iter().flat_map(|format| pictures.iter().map(move |name| format.file(name)));
-    [REPORT, scene::NAME].iter().chain(others).map(|name| (*name).to_owned()).chain(pictures).collect()
+    [REPORT, scene::NAME].iter().chain(others).chain([&PAGE]).map(|name| (*name).to_owned()).chain(pictures).collect()
 }
 
 impl Results<'_> {
