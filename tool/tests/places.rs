@@ -74,6 +74,26 @@ fn no_output_replaces_what_its_run_reads() {
 
 #[cfg(unix)]
 #[test]
+fn no_output_replaces_what_is_no_regular_file() {
+    let bench = bench();
+    assert!(Command::new("mkfifo").arg(bench.path("fifo")).status().unwrap().success());
+    bench.write("table.csv", "mine");
+    std::os::unix::fs::symlink("table.csv", bench.path("link")).unwrap();
+    bench.said("solve --heights heights.npy --mean-pressure 0.01 --quiet --no-pictures --out results");
+    for (file, reason) in [("fifo", "is not a regular file"), ("link", "name the file to which it points")] {
+        bench.refused_with(&format!("report results --out {file} --force"), &[file, reason]);
+        bench.refused_with(&format!("stats heights.npy --lengths 1 --psd {file} --force"), &[file, reason]);
+    }
+    fs::rename(bench.path("fifo"), bench.path("results/gap.npy")).unwrap();
+    bench.refused_with(
+        "solve --heights heights.npy --mean-pressure 0.01 --force --out results",
+        &["gap.npy", "regular"],
+    );
+    assert_eq!(bench.read("table.csv"), "mine");
+}
+
+#[cfg(unix)]
+#[test]
 fn names_that_control_a_terminal_do_not_reach_it() {
     let bench = bench();
     let name = "a\u{1b}[2Jb\nc\u{9b}31md\u{7f}";

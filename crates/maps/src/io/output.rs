@@ -67,7 +67,7 @@ impl OutputFolder {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] if one of the files exists and `force` is not given, if one of them is a folder, if
+    /// [`Error::File`] if one of the files exists and `force` is not given, if one of them is no regular file, if
     /// `path` or something above it is a file, and if the folder cannot be written.
     pub fn create(path: impl AsRef<Path>, names: &[&str], force: bool) -> Result<Self> {
         let path = path.as_ref();
@@ -177,6 +177,8 @@ fn live() -> MutexGuard<'static, Vec<PathBuf>> {
 fn refuse_existing(file: &Path, force: bool) -> Result<()> {
     match file.symlink_metadata() {
         Ok(found) if found.is_dir() => Err(Error::file(file, "is a folder: choose another output folder")),
+        Ok(found) if found.is_symlink() => Err(Error::file(file, "is a link: name the file to which it points")),
+        Ok(found) if !found.is_file() => Err(Error::file(file, "is not a regular file: choose another name")),
         Ok(_) if !force => Err(Error::file(file, "exists: allow it to be replaced, or choose another output folder")),
         _ => Ok(()),
     }
