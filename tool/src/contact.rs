@@ -30,7 +30,7 @@ use crate::units::Units;
 /// whose density is an artefact of the grid; if no window fits, they are unknown. The autocorrelation of the contact
 /// pressure is about its mean and over its variance, in a periodic cell.
 #[derive(Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_args(results::of_files))]
 pub struct Options {
     /// Folder of a solve
     #[arg(value_name = "SOLVED")]

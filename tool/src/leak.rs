@@ -32,7 +32,7 @@ use crate::units::Units;
 /// any conserved flow. The constriction along each axis is the narrowest place of the widest passage. Exits with 0 if
 /// the distance of the bounds is within --tolerance, 2 if not (they still hold), and 1 if the input is refused.
 #[derive(Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_args(results::of_files))]
 pub struct Options {
     /// Folder of a solve, or a file of gaps, shape (Nx, Ny): .npy, .npz, .gwy or .gsf (Gwyddion), .xyz, or a text
     /// matrix. Gaps are distances of the surfaces; heights are refused because of their negative values

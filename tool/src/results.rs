@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity_maps::io::OutputFolder;
 use asperity_plot::Picture;
+use clap::Arg;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -42,6 +43,12 @@ pub struct Results<'a> {
 pub fn files(others: &[&str], pictures: &[&str]) -> Vec<String> {
     let pictures = PictureFormat::ALL.into_iter().flat_map(|format| pictures.iter().map(move |name| format.file(name)));
     [REPORT, scene::NAME].iter().chain(others).chain([&PAGE]).map(|name| (*name).to_owned()).chain(pictures).collect()
+}
+
+/// An option of a command whose only files are in its folder: what those are like needs one.
+pub fn of_files(option: Arg) -> Arg {
+    let ids = ["format", "picture_format", "dpi", "colour_limits", "colour_clusters"];
+    if ids.contains(&option.get_id().as_str()) { option.requires("out") } else { option }
 }
 
 impl Results<'_> {

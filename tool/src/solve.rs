@@ -39,7 +39,7 @@ use crate::summary::{table, warn};
 /// written. Probable mistakes, such as a tilt, give warnings, one line each and in the report; --strict treats them as
 /// errors.
 #[derive(Args)]
-#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())))]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("load").required(true).args(Load::one())), mut_args(results::of_files))]
 pub struct Options {
     #[command(flatten)]
     problem: Chosen<(SurfaceKeys, LoadKeys, AdhesionKeys, SolverKeys, NestedKeys, AccuracyKeys)>,

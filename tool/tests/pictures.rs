@@ -313,8 +313,12 @@ fn a_solve_without_a_folder_prints_its_result() {
     let found = bench.reported(solve);
     bench.said(&format!("{solve} --quiet --out results"));
     assert_eq!(found["contact_nodes"], bench.report("results")["contact_nodes"]);
-    for files in ["--fields displacement", "--distribution"] {
+    let looks = ["--format vti", "--picture-format svg", "--dpi 300", "--colour-limits 0 1", "--colour-clusters"];
+    for files in ["--fields displacement", "--distribution"].into_iter().chain(looks) {
         bench.refused_with(&format!("{solve} {files}"), &["--out"]);
+    }
+    for command in ["contact", "leak"] {
+        bench.refused_with(&format!("{command} results --dpi 300"), &["--out"]);
     }
 }
 
