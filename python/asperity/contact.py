@@ -128,7 +128,8 @@ def tables(solution: Solution) -> ContactTables:
     True
     """
     gap, pressure = field_of(solution.gap, "gaps"), field_of(solution.contact_pressure, "pressures")
-    found = _asperity.contact_tables(gap, pressure, solution.lengths, solution.flow_boundary)
+    boundary = "original" if solution.report["part"] == "original" else solution.boundary
+    found = _asperity.contact_tables(gap, pressure, solution.lengths, boundary)
     figures = found["figures"]
     densities = [Density(*(*found[name], figures[f"{name}_exponent"])) for name in ("gap", "pressure")]
     return ContactTables(densities[0], densities[1], found["autocorrelation"], found["clusters"], figures)

@@ -88,8 +88,9 @@ pub fn contact_tables<'py>(
     boundary: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (gap, pressure) = (gap.as_array(), contact_pressure.as_array());
-    let boundary = if boundary == "free" { Boundary::Free } else { Boundary::Periodic };
-    let find = || ContactTables::of(gap, pressure, Grid::new(gap.dim(), lengths)?, boundary);
+    let is_original = boundary == "original";
+    let boundary = if boundary == "periodic" { Boundary::Periodic } else { Boundary::Free };
+    let find = || ContactTables::of(gap, pressure, Grid::new(gap.dim(), lengths)?, boundary, is_original);
     let tables = py.detach(find).map_err(refusal)?;
     let found = PyDict::new(py);
     found.set_item("figures", reported(py, &tables.figures())?)?;

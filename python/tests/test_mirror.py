@@ -27,6 +27,7 @@ def test_a_solution_is_of_the_original(mirrored):
     for name in ("normal_force", "normal_stiffness"):
         assert getattr(part, name) == pytest.approx(getattr(whole, name) / 4)
     assert part.statistics.perimeter == pytest.approx(whole.statistics.perimeter / 4)
+    assert asperity.contact.tables(part).figures["perimeter"] == pytest.approx(part.statistics.perimeter)
     assert "original, 32 x 24 of 64 x 48 nodes" in repr(part)
 
 

@@ -72,7 +72,8 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let [gap, pressure] = [solved.map(GAP)?, solved.map(CONTACT_PRESSURE)?];
     let lengths = gap.lengths.ok_or_else(|| Error::file(folder, "has a report.json without side lengths"))?;
     let grid = Grid::new(gap.heights.dim(), lengths)?;
-    let tables = ContactTables::of(gap.heights.view(), pressure.heights.view(), grid, solved.boundary())?;
+    let (boundary, is_original) = (solved.boundary(), solved.is_original());
+    let tables = ContactTables::of(gap.heights.view(), pressure.heights.view(), grid, boundary, is_original)?;
     let (figures, units) = (tables.figures(), solved.units());
     let report = || {
         let inputs = json!({
@@ -81,7 +82,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
             "lengths": grid.lengths(),
             "length_unit": units.length,
             "pressure_unit": units.pressure,
-            "boundary": solved.boundary(),
+            "boundary": boundary,
             "version": env!("CARGO_PKG_VERSION"),
         });
         report::report("contact", json!(figures), &inputs)

@@ -63,8 +63,13 @@ impl<'a> Solved<'a> {
     /// What is beyond the map: of the original of a mirrored one sides through which nothing flows, or which have one
     /// pressure, as those of a free one.
     pub fn boundary(&self) -> Boundary {
-        let free = self.report["boundary"] == "free" || self.report["solved_shape"].is_array();
+        let free = self.report["boundary"] == "free" || self.is_original();
         if free { Boundary::Free } else { Boundary::Periodic }
+    }
+
+    /// Whether the map is the original of a mirrored one.
+    pub fn is_original(&self) -> bool {
+        self.report["solved_shape"].is_array()
     }
 
     /// The units of its numbers, as far as they are known.

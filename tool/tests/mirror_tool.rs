@@ -41,6 +41,23 @@ fn results_are_of_the_original_unless_the_whole_is_asked_for() {
         assert!(whole > 0.0 && (4.0 * part / whole - 1.0).abs() < 1e-12, "{key}: {part} of {whole}");
     }
 
+    // mirror planes are no edges of the contact
+    bench.write(
+        "corner.txt",
+        &(0..16)
+            .map(|i| {
+                let height = |j: i32| -0.01 * f64::from((2 * i + 1_i32).pow(2) + (2 * j + 1).pow(2)) / 1024.0;
+                (0..16).map(|j| height(j).to_string()).collect::<Vec<_>>().join(" ") + "\n"
+            })
+            .collect::<String>(),
+    );
+    bench.said("prepare corner.txt --lengths 1 --mirror --quiet --out corner.npz");
+    bench.said("solve --heights corner.npz --mean-pressure 0.002 --no-pictures --quiet --out corner");
+    for (folder, edge) in [("corner", 1.375), ("part", number(&part, "perimeter"))] {
+        bench.said(&format!("contact {folder} --out contact --force"));
+        assert!((number(&bench.report("contact"), "perimeter") / edge - 1.0).abs() < 1e-12, "{folder}");
+    }
+
     // the gap of either is a start
     for (start, folder) in [("part", "from-part"), ("whole", "from-whole")] {
         bench.said(&format!("{solve} --initial-gap {start}/gap.npy --quiet --out {folder}"));

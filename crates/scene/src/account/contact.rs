@@ -100,7 +100,8 @@ record! {
 }
 
 impl ContactTables {
-    /// The tables of a gap, infinite at absent nodes, and a contact pressure on their grid.
+    /// The tables of a gap, infinite at absent nodes, and a contact pressure on their grid: on all of a surface, or on
+    /// the original of a mirrored one, whose sides are no edges of the contact.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field is not on the grid.
@@ -109,10 +110,11 @@ impl ContactTables {
         contact_pressure: ArrayView2<'_, f64>,
         grid: Grid,
         boundary: Boundary,
+        is_original: bool,
     ) -> Result<Self> {
         Error::shape("gap", gap.dim(), grid.shape())?;
         Error::shape("contact pressure", contact_pressure.dim(), grid.shape())?;
-        let meets = boundary == Boundary::Periodic;
+        let meets = boundary == Boundary::Periodic && !is_original;
         let contact = Zip::from(gap).and(contact_pressure).map_collect(|gap, pressure| *gap <= 0.0 || *pressure > 0.0);
         let facing = gap.iter().filter(|gap| gap.is_finite()).count();
         let edge = Zip::indexed(&contact).map_collect(|node, own| {
@@ -127,7 +129,7 @@ impl ContactTables {
             gap: Density::of(values(gap), facing, GAP_WINDOW),
             pressure: Density::of(values(contact_pressure), facing, PRESSURE_WINDOW),
             autocorrelation,
-            spots: spots(&contact, contact_pressure, grid, meets),
+            spots: spots(&contact, contact_pressure, grid, (meets, !meets && !is_original)),
             mean_contact_pressure: contact_pressure.sum() / facing.max(1) as f64,
         })
     }
@@ -283,7 +285,7 @@ fn autocorrelation(pressure: ArrayView2<'_, f64>, grid: Grid) -> Result<Vec<(f64
 }
 
 /// The spots of contact.
-fn spots(contact: &Array2<bool>, pressure: ArrayView2<'_, f64>, grid: Grid, meets: bool) -> Vec<Spot> {
+fn spots(contact: &Array2<bool>, pressure: ArrayView2<'_, f64>, grid: Grid, (meets, ends): (bool, bool)) -> Vec<Spot> {
     let Clusters { sizes, labels, .. } =
         if meets { Clusters::of(contact.view()) } else { Clusters::of_part(contact.view()) };
     let (dx, dy) = grid.spacing();
@@ -294,7 +296,7 @@ fn spots(contact: &Array2<bool>, pressure: ArrayView2<'_, f64>, grid: Grid, meet
         let Some(spot) = label.checked_sub(1).and_then(|spot| spots.get_mut(spot)) else { continue };
         spot.force += pressure[node] * cell;
         let inside = neighbours(node, grid, meets).filter(|(other, _)| !contact[*other]).map(|(_, side)| side);
-        spot.perimeter += inside.sum::<f64>() + if meets { 0.0 } else { outer_sides(node, grid) };
+        spot.perimeter += inside.sum::<f64>() + if ends { outer_sides(node, grid) } else { 0.0 };
     }
     spots
 }
