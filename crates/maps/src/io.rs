@@ -82,8 +82,8 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 /// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
 ///   either memory order. Integers beyond 2^53 are rounded.
 /// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
-///   `lengths`, two numbers, `unit`, a text, and what [`write_topography`] says of mirrors and seeds are taken next to
-///   that; [`Topography::unread`] names all others.
+///   `lengths`, two numbers, `unit` or `units`, a text, and what [`write_topography`] says of mirrors and seeds are taken
+///   next to that; [`Topography::unread`] names all others.
 /// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length; a [`Reading`]
 ///   takes any. [`Topography::unread`] names the other channels, and a mask. Shown corrections are left where they are.
 /// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
@@ -98,8 +98,8 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 ///   - Three columns x, y and z of a whole grid are points, as in `.xyz`.
 /// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
 ///   order. Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its
-///   spacing. A heading may tell units, as `X[um] Y[um] Z[nm]`. Nx and Ny follow from the spacings, and the side lengths
-///   are Nx Δx and Ny Δy.
+///   spacing. A heading may tell units, as `X[um] Y[um] Z[nm]`, or a line below it. Nx and Ny follow from the spacings,
+///   and the side lengths are Nx Δx and Ny Δy.
 ///
 /// **Orientation.** Arrays and plain texts have shape (Nx, Ny): the first index, in a text the line, runs along x.
 /// Images have lines along x, from the top to the bottom: line r of Ny in Gwyddion's three formats becomes column Ny −

@@ -148,7 +148,12 @@ impl Heading {
         if self.pairs.len() < MOST_LINES {
             self.pairs.extend(Pair::of(line));
         }
-        self.columns = self.columns.take().or_else(|| columns(line));
+        match &mut self.columns {
+            // a line of units below that of the names
+            Some(columns) if columns.iter().all(String::is_empty) => *columns = units(line).unwrap_or_default(),
+            Some(_) => {}
+            None => self.columns = columns(line),
+        }
     }
 
     /// Takes a line of words, which are no row for a reason.
@@ -204,9 +209,12 @@ impl Heading {
                 None => {}
                 Some((Some(Kind::Unit), axes)) => {
                     let is_default = axes.is_empty();
+                    // one unit, or those of x, y and z
+                    let each = units(&pair.value).filter(|_| is_default);
+                    let each = each.unwrap_or_else(|| [(); 3].map(|()| bare(&pair.value).to_owned()));
                     for &axis in if is_default { &[0, 1, 2] } else { axes } {
                         let unit = sizes.units[axis].take().filter(|_| is_default);
-                        sizes.units[axis] = unit.or_else(|| Some(bare(&pair.value).to_owned()));
+                        sizes.units[axis] = unit.or_else(|| Some(each[axis].clone()));
                     }
                 }
                 Some((Some(Kind::Missing), _)) => sizes.missing = found.map(|(code, _)| code),
@@ -329,4 +337,11 @@ fn columns(line: &str) -> Option<[String; 3]> {
         [x, of_x, y, of_y, z, of_z] if is_points(x, y, z) => Some([of_x, of_y, of_z].map(str::to_owned)),
         _ => None,
     }
+}
+
+/// The units of length of three columns, as `um,um,nm`.
+fn units(line: &str) -> Option<[String; 3]> {
+    let units: Vec<_> = line.split([' ', '\t', ',', ';', '"']).map(bare).filter(|unit| !unit.is_empty()).collect();
+    let units = <[&str; 3]>::try_from(units).ok()?;
+    units.iter().all(|unit| per_metre(unit).is_some()).then(|| units.map(str::to_owned))
 }

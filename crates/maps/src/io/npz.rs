@@ -24,7 +24,7 @@ const MAX_COMPRESSION: u64 = 1032;
 const ENTRY: usize = 1024;
 
 /// The arrays that an archive of a map may have.
-const ARRAYS: [&str; 6] = ["heights", "lengths", "unit", "original", "seed", "scars_removed"];
+const ARRAYS: [&str; 7] = ["heights", "lengths", "unit", "units", "original", "seed", "scars_removed"];
 
 /// Reads the array `heights`, or the only one, of an archive of `size` bytes; and with it what else a map has.
 pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topography> {
@@ -54,7 +54,7 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
             _ => return refuse("has an array lengths that is not two positive numbers: save it as [Lx, Ly]"),
         }
     }
-    if let Some(index) = archive.index_for_name("unit.npy")
+    if let Some(index) = ["unit.npy", "units.npy"].iter().find_map(|name| archive.index_for_name(name))
         && archive.len() > 1
     {
         let unit = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
@@ -355,15 +355,13 @@ mod tests {
         let lengths = npy("'<f8'", "False", "(2,)", &f8(&[3.0, 4.0]));
         let unit = text_as_npy("\u{b5}m");
         assert_eq!((unit.len() - 8) % 64, 0);
-        let file = npz(
-            method,
-            &[("unit.npy", &unit), ("other.npy", &lengths), ("lengths.npy", &lengths), ("heights.npy", &heights)],
-        );
-        let map = read_map(file, "heights.npz").unwrap();
-        assert_eq!(
-            (map.heights, map.lengths, map.unit.as_deref()),
-            (array![[1.0, 2.0]], Some((3.0, 4.0)), Some("\u{b5}m"))
-        );
+        for name in ["unit.npy", "units.npy"] {
+            let entries =
+                [(name, &unit), ("other.npy", &lengths), ("lengths.npy", &lengths), ("heights.npy", &heights)];
+            let map = read_map(npz(method, &entries.map(|(name, entry)| (name, &entry[..]))), "heights.npz").unwrap();
+            let expected = (array![[1.0, 2.0]], Some((3.0, 4.0)), Some("\u{b5}m"));
+            assert_eq!((map.heights, map.lengths, map.unit.as_deref()), expected);
+        }
         for (name, wrong, part) in [
             ("lengths.npy", npy("'<f8'", "False", "(3,)", &f8(&[1.0, 2.0, 3.0])), "lengths"),
             ("lengths.npy", npy("'<f8'", "False", "(2,)", &f8(&[1.0, f64::NAN])), "two positive numbers"),

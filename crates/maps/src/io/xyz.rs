@@ -169,9 +169,15 @@ mod tests {
         for text in [points.clone(), blocks, separated] {
             assert_eq!(read_map(text, "a.txt").unwrap(), plain);
         }
-        for heading in
-            ["# X[um] Y[um] Z[nm]", "x (um), y (um), z (nm)", "x/um y/um z/nm", "#Lateral units: um\n#Value units: nm"]
-        {
+        for heading in [
+            "# X[um] Y[um] Z[nm]",
+            "x (um), y (um), z (nm)",
+            "x/um y/um z/nm",
+            "#Lateral units: um\n#Value units: nm",
+            "X,Y,Z\num,um,nm",
+            "# x y z\n# [um] [um] [nm]",
+            "# units: um um nm",
+        ] {
             let map = read_map(format!("{heading}\n{points}"), "a.xyz").unwrap();
             assert_eq!((map.unit.as_deref(), map.lengths), (Some("m"), Some((4e-6, 3e-6))), "{heading}");
             assert_eq!(map.heights, &plain.heights / 1e9, "{heading}");
