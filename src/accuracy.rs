@@ -72,6 +72,15 @@ impl Quantity {
         Err(Error::Unsuited { what, reason })
     }
 
+    /// Refuses a quantity that there is not with a boundary.
+    fn check_in(self, boundary: Boundary) -> Result<()> {
+        if self == Self::Approach && boundary == Boundary::Periodic {
+            let reason = "bodies in a periodic cell have none: ask for that of the gap, or of the area";
+            return Err(Error::Unsuited { what: "accuracy of the approach", reason });
+        }
+        Ok(())
+    }
+
     fn of(self, level: &Level) -> Option<f64> {
         Some(match self {
             Self::Area => level.area.corrected_contact_fraction,

@@ -162,6 +162,7 @@ impl Accuracy {
         self.of.check(control)?;
         self.check_law(law)?;
         let boundary = operator.boundary();
+        self.of.check_in(boundary)?;
         let nodes_per_wave = surface.nodes_per_wave(boundary);
         let refinable = is_refinable(surface, law);
         let line = surface.grid().shape().0 == 1 || surface.grid().shape().1 == 1;
@@ -282,6 +283,7 @@ impl Accuracy {
     ) -> Result<AccurateSolution<T>> {
         let (Solved { mut solution, mut whole, .. }, mut levels) =
             self.nested.run(solver, Box::new(surface), operators, law, control, &mut *observe)?;
+        self.of.check_in(solution.report.boundary)?;
         let periodic = solution.report.boundary == Boundary::Periodic;
         let mut waves = surface.nodes_per_wave(solution.report.boundary);
         let mut surface = surface.clone();
