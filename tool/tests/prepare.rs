@@ -282,6 +282,18 @@ fn lengths_of_files_and_of_options() {
 }
 
 #[test]
+fn a_low_pass_warns_of_edges_that_do_not_meet() {
+    let bench = Bench::new();
+    bench.said("surface --size 128 --k-s 8 --rms-height 0.01 --seed 3 --quiet --out rough.npz");
+    let low_pass = "prepare rough.npz --lengths 1 1 --crop 0 0 50 50 --cut-off-wavelength 0.05";
+    for (options, rings) in [("--out part.npz", true), ("--mirror --out mirrored.npz", false)] {
+        let output = bench.run(&format!("{low_pass} {options}"));
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert_eq!(text(&output.stderr).contains("warning: open-edges: "), rings, "{}", text(&output.stderr));
+    }
+}
+
+#[test]
 fn scars_and_noise_are_found_told_and_left_out() {
     let bench = Bench::new();
     let grid = Grid::square(128, 1e-6).unwrap();

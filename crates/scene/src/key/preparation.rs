@@ -266,6 +266,9 @@ impl Preparation {
         if let Some(cut_off) = self.cut_off_wavelength {
             let before = map.clone();
             map = map.low_pass(cut_off)?;
+            // the waves are those of a periodic map: where edges do not meet they ring
+            let rings = |warning: &Warning| warning.code == WarningCode::OpenEdges;
+            log.warn(Warning::of_surface(&before.clone().surface()?).into_iter().filter(rings), &before);
             let [to, from] = [&map, &before].map(|map| plain(map.rms_slope().unwrap_or(f64::NAN)));
             let what = format!("waves shorter than {} left out, which may be noise", quantity(cut_off, &map));
             let before = format!("{}, rms slope by differences {to} from {from}", rms(&before));
