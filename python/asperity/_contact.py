@@ -115,8 +115,9 @@ def solve(
         the solver alone. Missing points, NaN or masked, are refused: `prepare` fills them, or ``absent_missing`` takes
         them as they are.
     lengths : float or (float, float), optional
-        Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells. Needed
-        unless the heights bring them.
+        Side lengths (Lx, Ly) = (Nx Δx, Ny Δy), in the unit of the heights; one alone means square cells, and of an
+        array (N,) a strip as wide as it is long. A force on a line is that on its width. Needed unless the heights bring
+        them.
     axes : {"xy", "yx"}, optional
         Axes of an array of heights, of ``against`` and of ``hardness``: "xy" by default, the first is x, or "yx" for an
         image, [row, column]. A DataArray whose dimensions are named x and y does not need it. Results, ``start`` and
