@@ -97,7 +97,7 @@ class Tip(Protocol):
     def holds(self, modulus: float, work: float, tabor: float, before: float) -> bool:
         """Whether there are equilibria, with a range that ends at this distance before contact."""
 
-    def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
+    def check_reach(self, modulus: float, work: float, approach: float) -> None:
         """Refuses what a fit found beyond all equilibria, or warns of it."""
 
 
@@ -137,7 +137,7 @@ class Paraboloid:
         # a longer range would be a part of the baseline
         return self.length(modulus, work) / tabor < before
 
-    def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
+    def check_reach(self, modulus: float, work: float, approach: float) -> None:
         """Warns of an approach that no tip has; there are equilibria of all."""
         if approach > self.radius:
             warn(

@@ -125,13 +125,14 @@ def leakage(
     True
     """
     solved = isinstance(gap, Solution)
-    if solved and lengths is not None:
-        raise ValueError("the solution has its side lengths: leave lengths out")
-    field = field_of(gap.gap if isinstance(gap, Solution) else gap, "gaps")
     own: Boundary = "periodic"
-    sides = (1.0, 1.0) if lengths is None else _lengths(lengths, field.shape)
     if isinstance(gap, Solution):
-        sides, own = gap.lengths, gap.flow_boundary
+        if lengths is not None:
+            raise ValueError("the solution has its side lengths: leave lengths out")
+        field, sides, own = field_of(gap.gap, "gaps"), gap.lengths, gap.flow_boundary
+    else:
+        field = field_of(gap, "gaps")
+        sides = (1.0, 1.0) if lengths is None else _lengths(lengths, field.shape)
     absent = None if absent_gap is None else number("absent_gap", absent_gap)
     viscous = None if viscosity is None else number("viscosity", viscosity)
     found = _asperity.leakage(field, solved, sides, boundary or own, absent, viscous, tolerance, max_iterations)

@@ -186,7 +186,7 @@ class Likelihood:
         fitted, approach = curve.fitted(best)
         residuals = curve.force - fitted
         tabor, work = self.tabor(), self.work()
-        curve.tip.refuse_beyond(modulus.value, 0.0 if work is None else work.upper, approach)
+        curve.tip.check_reach(modulus.value, 0.0 if work is None else work.upper, approach)
         alike = 1.0 - float(np.sum(np.diff(residuals) ** 2)) / (2.0 * best.squares)
         noise = float(np.sqrt(self.variance))
         if alike > 6.0 / np.sqrt(residuals.size) and noise > 1e-4 * np.ptp(curve.force):

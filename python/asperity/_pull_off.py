@@ -20,8 +20,8 @@ class PullOff(NamedTuple):
         The force of that tension.
     limit_pressure, limit_force : float or None
         Pull-off in the limit of zero range, with `JKR`: the tension less the share of the process zone at the edges of
-        the contacts, which the nodes make too wide. None where more than three quarters of a periodic cell are in contact:
-        closed surfaces have no limit.
+        the contacts, which the nodes make too wide. None where more than three quarters of a periodic cell are in
+        contact by their adhesive energy: closed surfaces have no limit.
     limit_error : float or None
         Estimated relative error of the limit, by a grid of half as many nodes along the sides. None also where the limit
         grows by more than a fifth from that grid.

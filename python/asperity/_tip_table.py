@@ -178,8 +178,8 @@ class TipTable:
             approach = heights.max() - heights.mean() - columns["mean_gap"] + squeezed
         back = columns["direction"] == "withdrawal"
         jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
-        way = [approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1)]
-        return (approach[~back], load[~back], jumps[~back]), (way[0], way[1], way[2])
+        withdrawal = approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1)
+        return (approach[~back], load[~back], jumps[~back]), withdrawal
 
     def _table(self, ways: list[tuple[Way, Way]]) -> Array:
         """Forces before the jump, and behind it on the approach and the withdrawal, and both places, for each modulus."""
@@ -235,7 +235,7 @@ class TipTable:
     def holds(self, modulus: float, work: float, tabor: float, before: float) -> bool:
         return work <= 1.001 * self.ratio * modulus
 
-    def refuse_beyond(self, modulus: float, work: float, approach: float) -> None:
+    def check_reach(self, modulus: float, work: float, approach: float) -> None:
         if work > 1.001 * self.ratio * modulus:
             raise ValueError(
                 f"the curve asks for w/E* of {work / modulus:.3g} or more, and the table ends at {self.ratio:.3g}: make one of a "

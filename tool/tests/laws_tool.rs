@@ -240,6 +240,12 @@ fn the_law_without_a_range_has_that_of_the_grid() {
     let closed = "pull-off --heights heights.txt --law jkr --work-of-adhesion 1e-2";
     assert!(bench.reported(closed)["limit_pressure"].is_null());
     assert!(bench.said(closed).contains("none: the surfaces are closed"));
+    // nor has one an error that grows by more than a fifth from the coarser grid
+    bench.said("surface --size 128 --rms-slope 0.1 --k-l 2 --k-s 16 --seed 3 --quiet --out rough.npy");
+    for (work, known) in [("1.5e-4", true), ("2.5e-4", false)] {
+        let found = bench.reported(&format!("pull-off --heights rough.npy --law jkr --work-of-adhesion {work}"));
+        assert!(found["limit_pressure"].is_number() && found["limit_error"].is_number() == known, "{found}");
+    }
     let long = "--law exponential --work-of-adhesion 2e-6 --range 4e-3 --accuracy 0.1";
     bench.refused_with(&format!("{pull_off} {long}"), &["accuracy of the pull-off", "range of the grid"]);
 }

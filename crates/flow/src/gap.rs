@@ -65,17 +65,13 @@ pub struct Gap<'a> {
 }
 
 impl<'a> Gap<'a> {
-    /// A periodic gap. Nodes without a surface, where `values` are NaN or −∞, are closed.
+    /// A periodic gap. Nodes without a surface, where `values` are not finite, are closed.
     ///
     /// # Errors
     /// Those of [`of_solution`](Self::of_solution); [`Error::Value`] if a value is below -1e-6 of the greatest, as heights
-    /// are, or infinite.
+    /// are.
     pub fn new(values: impl Into<ArrayView2<'a, f64>>, grid: Grid) -> Result<Self> {
         let values = values.into();
-        if let Some(&value) = values.iter().find(|gap| **gap == f64::INFINITY) {
-            let requirement = "finite, or NaN where there is no surface, which is closed";
-            return Err(Error::Value { name: "gap", value, requirement });
-        }
         let finite = || values.iter().copied().filter(|gap| gap.is_finite());
         let (least, greatest) = (finite().fold(0.0, f64::min), finite().fold(0.0, f64::max));
         if least < -OVERLAP * greatest {

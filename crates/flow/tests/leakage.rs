@@ -328,9 +328,7 @@ fn unusable_input_is_refused_by_name() {
     let named = |error: asperity::Error| error.to_string();
     assert!(named(Gap::new(values.view(), Grid::square(5, 1.0).unwrap()).unwrap_err()).contains("gap"));
     // heights, but not what a solve leaves of zero, nor what has no surface
-    for (own, refused) in
-        [(-26.3, true), (-1e-5, true), (-1e-7, false), (f64::NEG_INFINITY, false), (f64::INFINITY, true)]
-    {
+    for (own, refused) in [(-26.3, true), (-1e-5, true), (-1e-7, false), (f64::NEG_INFINITY, false)] {
         let mut heights = values.clone();
         heights[[2, 1]] = own;
         let found = Gap::new(heights.view(), grid);
