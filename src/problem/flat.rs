@@ -11,6 +11,9 @@ use crate::real::Real;
 use crate::surface::Surface;
 use crate::vector::range;
 
+/// The roundings of the rms height within which surfaces that just touch are apart, in units of ε.
+const TOUCH: f64 = 16.0;
+
 /// The surface pressed flat: the pressure K⁻¹h and the figures of h that a solve needs.
 #[derive(Clone, Debug)]
 pub struct PressedFlat<T> {
@@ -176,7 +179,7 @@ impl<T: Real> PressedFlat<T> {
             Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
             Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
             Control::Approach(_) => {
-                let rest = self.peak - held()?;
+                let rest = self.resting(held()?);
                 Load::Spring { stiffness: self.boundary.mean_compliance().recip(), rest }
             }
             Control::Spring { stiffness, rest } => {
@@ -185,7 +188,7 @@ impl<T: Real> PressedFlat<T> {
                 let compliance = self.padding * self.area / stiffness + self.boundary.mean_compliance();
                 Load::Spring {
                     stiffness: compliance.recip(),
-                    rest: if free { self.peak - rest } else { rest + self.mean_depth() },
+                    rest: if free { self.resting(rest) } else { rest + self.mean_depth() },
                 }
             }
         };
@@ -198,6 +201,12 @@ impl<T: Real> PressedFlat<T> {
             return Err(Error::Value { name, value, requirement });
         }
         Ok(load)
+    }
+
+    /// The mean gap at an approach without a load. Surfaces that touch within their rounding bear none: they are apart.
+    fn resting(&self, approach: f64) -> f64 {
+        let rounding = TOUCH * T::epsilon().widen() * self.rms_height;
+        self.peak - if approach.abs() <= rounding { -rounding } else { approach }
     }
 
     /// The approach at a mean gap and a mean pressure on the operator's grid; none in a periodic cell.

@@ -751,6 +751,27 @@ fn bodies_apart_carry_nothing() {
 }
 
 #[test]
+fn surfaces_that_just_touch_bear_nothing() {
+    fn check<T: Real>(surface: &Surface, control: Control) {
+        let body = Boussinesq::<T>::new(*surface.grid(), 1.0).unwrap();
+        let found = Solver::default().solve(&mut Problem::new(surface, body, NoAdhesion).unwrap(), control).unwrap();
+        assert_eq!(
+            (found.report.status, found.report.contact_nodes),
+            (Status::Converged, 0),
+            "{control:?} {}",
+            T::NAME
+        );
+    }
+    for seed in 0..12 {
+        let surface = oracles::rough::rough(Grid::square(64, 1.0).unwrap(), 16, seed);
+        for control in [Control::Approach(0.0), Control::Spring { stiffness: 0.3, rest: 0.0 }] {
+            check::<f64>(&surface, control);
+            check::<f32>(&surface, control);
+        }
+    }
+}
+
+#[test]
 fn bodies_apart_follow_the_softest_spring_to_its_rest() {
     fn check<T: Real>(surface: &Surface, free: bool, (stiffness, distance): (f64, f64), tolerance: f64) {
         let grid = *surface.grid();
