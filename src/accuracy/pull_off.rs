@@ -58,6 +58,8 @@ impl<T: Real> FoundPullOff<T> {
     /// T = T_grid · A/A_E ,   A_E = −E_adh/w ,   A = A_E − 0.16 S Δx
     /// ```
     ///
+    /// At steps of the surface A is another, as [`ContactArea::jkr_contact_fraction`] says.
+    ///
     /// # Errors
     /// Those of [`ContactArea::of_solution`].
     pub fn limit(&self) -> Result<Option<f64>> {

@@ -16,6 +16,9 @@ use crate::solver::Solution;
 /// The excess area of a contact map per edge, in cells: (π − 1 + ln 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
+/// The gap beyond the attraction's reach, in ranges, from which its edge is a step of the surface: a crack opens by less.
+const STEP: f64 = 4.0;
+
 /// The contact area, and its edge; [`ContactStatistics`] says how the area of a solution is corrected.
 ///
 /// ```
@@ -42,7 +45,9 @@ pub struct ContactArea {
     /// The number of neighbours between which the edge runs.
     pub edges: usize,
     /// The contact area that the theory of Johnson, Kendall and Roberts means, as a share of the nominal area, of a
-    /// solution by [`Jkr`](crate::Jkr): [`Report::jkr_contact_fraction`](crate::Report::jkr_contact_fraction).
+    /// solution by [`Jkr`](crate::Jkr): [`Report::jkr_contact_fraction`](crate::Report::jkr_contact_fraction). Where the
+    /// attraction's reach ends at a step of the surface, as around a flat punch, the process zone is within the contact:
+    /// for that share of its edge the area is that of all nodes within reach.
     pub jkr_contact_fraction: Option<f64>,
     /// How many of the `edges` are at independent places between the nodes; 1 for a strip along the nodes.
     pub places: f64,
@@ -80,8 +85,14 @@ impl ContactArea {
         let map = contact_map(gap, contact_pressure);
         let periodic = report.boundary == Boundary::Periodic;
         let outline = Outline { gap, contact_pressure, map: map.view(), grid, periodic, modulus: report.modulus };
-        let area = Self::within_edge(&outline, grid.nodes().saturating_sub(report.absent_nodes));
-        Ok(Self { jkr_contact_fraction: report.jkr_contact_fraction(area.perimeter, grid), ..area })
+        let facing = grid.nodes().saturating_sub(report.absent_nodes);
+        let area = Self::within_edge(&outline, facing);
+        let smooth = report.jkr_contact_fraction(area.perimeter, grid);
+        let jkr_contact_fraction = smooth.zip(report.range).map(|(smooth, range)| {
+            let (steps, within) = reach(gap, range, periodic);
+            smooth + steps * (within / facing as f64 - smooth)
+        });
+        Ok(Self { jkr_contact_fraction, ..area })
     }
 
     /// The area within the edge of a contact, of whose nodes so many face the half-space.
@@ -124,6 +135,21 @@ fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
     let edges = along_x + along_y;
     let excess = if grid.is_line() { 0.0 } else { EDGE_EXCESS * edges as f64 };
     Edge { excess, edges, places: edges as f64 }
+}
+
+/// The share of the edge of an attraction's reach that is a step of the surface, and the number of nodes within reach.
+fn reach<T: Real>(gap: ArrayView2<'_, T>, range: f64, periodic: bool) -> (f64, f64) {
+    let ranges = gap.mapv(|gap| gap.widen() / range);
+    let maps =
+        [(f64::MIN, 1.0), (f64::MIN, STEP), (1.0, STEP)].map(|(from, to)| ranges.mapv(|gap| from <= gap && gap < to));
+    let [within, near, between] = maps.each_ref().map(|map| {
+        let (along_x, along_y) = edges(map.view(), periodic);
+        (along_x + along_y) as f64
+    });
+    // pairs of which one node is within reach and the other beyond a step
+    let steps = 0.5 * (within + near - between);
+    let nodes = maps[0].fold(0.0, |count, &within| count + f64::from(u8::from(within)));
+    (if within > 0.0 { steps / within } else { 0.0 }, nodes)
 }
 
 /// The pairs of neighbours along x, and along y, of which one is on the map; across opposite sides if periodic.

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use asperity::adhesion::{Varying, mu_rho};
 use asperity::elastic::{Base, Layer, Material};
 use asperity::exact::{self, AdhesiveWavyLine, Sphere};
+use asperity::pull_off::FoundPullOff;
 use asperity::*;
 use asperity_maps::surface_with_absent;
 use ndarray::Array2;
@@ -32,10 +33,14 @@ fn sphere(n: usize) -> Problem<f64> {
     Problem::new(&surface, Boussinesq::new(grid, 1.0).unwrap(), Jkr::new(WORK).unwrap()).unwrap()
 }
 
-fn pull_off(problem: &mut Problem<f64>, tolerance: f64) -> Report {
+fn found(problem: &mut Problem<f64>, tolerance: f64) -> FoundPullOff<f64> {
     let found = PullOff::default().tolerance(tolerance).find(&mut Solver::default(), problem).unwrap();
     assert!(found.reached);
-    found.solution.report
+    found
+}
+
+fn pull_off(problem: &mut Problem<f64>, tolerance: f64) -> Report {
+    found(problem, tolerance).solution.report
 }
 
 /// The value to which those on a grid and on one of half its spacing converge in the first order.
@@ -186,14 +191,23 @@ fn a_flat_punch_and_a_cone_come_off_as_they_do_in_the_limit() {
     let on = |n: usize, surface: &Surface| {
         let grid = Grid::square(n, side).unwrap();
         let half_space = Boussinesq::new(grid, 1.0).unwrap();
-        -pull_off(&mut Problem::new(surface, half_space, Jkr::new(work).unwrap()).unwrap(), 3e-3).normal_force
+        found(&mut Problem::new(surface, half_space, Jkr::new(work).unwrap()).unwrap(), 3e-3)
     };
     let punch = [48, 96].map(|n| {
         let grid = Grid::square(n, side).unwrap();
         let heights = grid.sample(|x, y| if x.hypot(y) <= 0.25 { 0.0 } else { f64::NAN });
         let nodes = heights.iter().filter(|height| height.is_finite()).count() as f64;
         let radius = (nodes / PI).sqrt() * side / n as f64;
-        on(n, &surface_with_absent(grid, heights).unwrap()) / (8.0 * PI * work * radius.powi(3)).sqrt()
+        // that of Kendall (1971), whether the punch has a foot or its nodes alone face the half-space
+        let kendall = (8.0 * PI * work * radius.powi(3)).sqrt() / (side * side);
+        let foot = Surface::new(grid, heights.mapv(|height| if height.is_nan() { -1.0 } else { height })).unwrap();
+        let [_, alone] = [foot, surface_with_absent(grid, heights).unwrap()].map(|surface| {
+            let found = on(n, &surface);
+            let limit = found.limit().unwrap().unwrap() / kendall;
+            assert!((limit - 1.0).abs() < 0.02, "{n} nodes: {limit}");
+            found
+        });
+        -alone.solution.report.mean_pressure / kendall
     });
     // F = ½πE*m a² − √(8πwE*a³), least where a = 18w/(πE*m²)
     let slope = 0.2;
@@ -201,7 +215,7 @@ fn a_flat_punch_and_a_cone_come_off_as_they_do_in_the_limit() {
     let exact = (8.0 * PI * work * a.powi(3)).sqrt() - exact::Cone::new(slope, 1.0).unwrap().load(a);
     let cone = [48, 96].map(|n| {
         let surface = Surface::from_fn(Grid::square(n, side).unwrap(), |x, y| -slope * x.hypot(y)).unwrap();
-        on(n, &surface) / exact
+        -on(n, &surface).solution.report.normal_force / exact
     });
     println!("pull-off over that of the limit: punch {punch:?}, cone {cone:?}");
     let limit = extrapolated(cone[0], cone[1]);
