@@ -37,6 +37,7 @@ from ._keywords import (
     described,
     names,
 )
+from ._laws import Varying
 from ._measured import Measured
 from ._pair import along_both, between
 from ._progress import by_default
@@ -44,7 +45,7 @@ from ._pull_off import PullOff
 from ._solution import Solution, Start
 from ._stability import Stability
 from ._sweep import Sweep
-from ._topography import Heights, Topography, field_of, mirrored, refined, sides, taken
+from ._topography import Heights, Topography, axes_of, field_of, mirrored, refined, sides, taken
 from ._types import AxisOrder, Lengths
 from ._viscoelastic import ELASTIC, Viscoelastic
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
@@ -613,6 +614,12 @@ class Contact:
         self.body, self.law = body, law if law is not None else keys.get("law")
         if law is not None:
             _refuse_beside("law", _OF_LAWS, keys)
+        order = axes_of(heights, axes)
+        if order == "yx" and isinstance(law, Varying) and not law.knows_axes:
+            raise ValueError(
+                "heights have y along their first axis, and the works of adhesion of law do not say whether they have: "
+                "give asperity.Varying(law, work_of_adhesion, axes='yx'), or axes='xy'"
+            )
         if keys.get("law") == "table":
             raise ValueError(
                 "law is table: give its values, as law=asperity.Tabulated(gaps, tractions), or its file, as "
@@ -657,7 +664,7 @@ class Contact:
             "unit": self.topography.unit,
             "source": self.topography.source,
             "scars_removed": self.topography.scars_removed,
-            "hardness": None if hardness is None else field_of(hardness, "hardness", axes).copy(),
+            "hardness": None if hardness is None else field_of(hardness, "hardness", order).copy(),
         }
         self._is_kept = is_kept
         self.problem = _asperity.Problem(self._map, self._given, symbol(body), is_kept)

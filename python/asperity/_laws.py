@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from . import _asperity
 from ._asperity import Law
 from ._topography import array_of
+from ._types import AxisOrder
 from ._words import check
 
 __all__ = ["Exponential", "JKR", "LennardJones", "MaugisDugdale", "Morse", "PowerLaw", "VanDerWaals"]
@@ -311,8 +312,10 @@ class Varying(_Described):
     law : Law or an object of your own
         Law that varies; its own work of adhesion > 0 is replaced.
     work_of_adhesion : array_like, shape (Nx, Ny) or (N,)
-        Works of adhesion ≥ 0 at the nodes of the heights, energies per area; x along the first axis, or that of the
-        dimensions x and y of a DataArray.
+        Works of adhesion ≥ 0 at the nodes of the heights, energies per area; x along the first axis, unless ``axes`` or
+        the dimensions of a DataArray say otherwise.
+    axes : {"xy", "yx"}, optional
+        Order of the axes of an array; "yx" is that of images. Heights with y along their first axis ask for it.
 
     Examples
     --------
@@ -325,6 +328,12 @@ class Varying(_Described):
 
     __match_args__ = ("law", "work_of_adhesion")
 
-    def __new__(cls, law: Any, work_of_adhesion: ArrayLike) -> Any:
-        works, is_line = array_of(work_of_adhesion, "works of adhesion")
-        return cls._of(_asperity.varied(law, works), (law, (works[:, 0] if is_line else works).copy()))
+    def __new__(cls, law: Any, work_of_adhesion: ArrayLike, axes: AxisOrder | None = None) -> Any:
+        works, is_line = array_of(work_of_adhesion, "works of adhesion", axes)
+        own = cls._of(_asperity.varied(law, works), (law, (works[:, 0] if is_line else works).copy()))
+        #: whether it is known which axis is x
+        own.knows_axes = axes is not None or hasattr(work_of_adhesion, "dims") or is_line
+        return own
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        return (*super().__getnewargs__(), "xy" if self.knows_axes else None)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._asperity import Law
+from ._types import AxisOrder
 
 __all__ = ["Exponential", "JKR", "LennardJones", "MaugisDugdale", "Morse", "PowerLaw", "VanDerWaals"]
 
@@ -111,9 +112,10 @@ class CutOff(Law):
 @final
 class Varying(Law):
     __match_args__: ClassVar[tuple[str, str]]
-    def __new__(cls, law: Any, work_of_adhesion: ArrayLike) -> Varying: ...
+    def __new__(cls, law: Any, work_of_adhesion: ArrayLike, axes: AxisOrder | None = None) -> Varying: ...
     @property
     def law(self) -> Any: ...
     @property
     def work_of_adhesion(self) -> NDArray[np.float64]: ...
-    def __getnewargs__(self) -> tuple[Any, NDArray[np.float64]]: ...
+    knows_axes: bool
+    def __getnewargs__(self) -> tuple[Any, NDArray[np.float64], AxisOrder | None]: ...

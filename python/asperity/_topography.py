@@ -256,6 +256,11 @@ def knows_axes(heights: Heights) -> bool:
     return isinstance(heights, Topography | str | os.PathLike) or _is_topography(heights)
 
 
+def axes_of(heights: Heights, axes: AxisOrder | None) -> AxisOrder:
+    """The order of the axes of heights: that of a map, of the names of dimensions, or the one that is given."""
+    return "xy" if knows_axes(heights) else _order(_labelled(heights, axes), axes)
+
+
 def sides(topography: Topography) -> tuple[float, float]:
     """The side lengths of a map that needs them."""
     if topography.lengths is None:
@@ -312,14 +317,14 @@ def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) 
     return (array.T if order == "yx" else array), False
 
 
-def _order(values: Any, axes: AxisOrder | None) -> str:
+def _order(values: Any, axes: AxisOrder | None) -> AxisOrder:
     """The order of the axes of an array: that of the names of its dimensions, or the one that is given."""
     if axes not in (None, "xy", "yx"):
         raise ValueError(f"axes is {axes!r}: it must be 'xy', x along the first axis, or 'yx', as of an image")
     dims = [str(dim).lower() for dim in values.dims] if _is_data_array(values) else []
     if len(dims) != 2 or not {"x", "y"} & set(dims):
         return axes or "xy"
-    named = "yx" if dims[0] == "y" or dims[1] == "x" else "xy"
+    named: AxisOrder = "yx" if dims[0] == "y" or dims[1] == "x" else "xy"
     if axes not in (None, named):
         raise ValueError(f"axes is {axes!r}, but the dimensions are {tuple(values.dims)}: leave axes out, or rename them")
     return named

@@ -90,6 +90,9 @@ def test_a_hardness_has_the_axes_of_the_heights(surface, elastic):
         buffer *= 2.0
         for found in (contact.solve(mean_pressure=0.02), next(contact.sweep(mean_pressures=[0.02]))):
             assert np.array_equal(found.contact_pressure, expected.contact_pressure)
+    image = xarray.DataArray(surface.heights.T, dims=("y", "x"))
+    found = asperity.solve(image, 1.0, modulus=1.0, mean_pressure=0.02, hardness=nodes.T)
+    assert np.array_equal(found.contact_pressure, expected.contact_pressure)
 
 
 @pytest.mark.parametrize(

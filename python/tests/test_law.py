@@ -558,3 +558,15 @@ def test_walls_of_springs_are_values_and_refuse_what_they_cannot_do(rough):
         asperity.stability(rounds)
     columns = asperity.sweep(rough, modulus=1.0, mean_pressures=[0.005, 0.01], wall=wall).columns
     assert (columns["min_gap"] < 0).all() and (columns["status"] == "converged").all()
+
+
+def test_works_that_vary_have_the_axes_that_are_named(rough):
+    works = np.where(np.arange(64)[:, None] < 32, 1e-4, 2e-4) * np.ones(64)
+    law, near = asperity.Exponential(1e-4, 8e-3), {"modulus": 1.0, "mean_gap": 0.02}
+    expected = asperity.solve(rough, law=asperity.Varying(law, works), **near)
+    image = asperity.Varying(law, works.T, axes="yx")
+    for varying in (image, pickle.loads(pickle.dumps(image))):
+        found = asperity.solve(rough.heights.T, 1.0, axes="yx", law=varying, **near)
+        assert np.array_equal(found.gap, expected.gap)
+    with pytest.raises(ValueError, match="give asperity.Varying"):
+        asperity.solve(rough.heights.T, 1.0, axes="yx", law=asperity.Varying(law, works.T), **near)
