@@ -208,10 +208,11 @@ impl Given {
         self.get(name)?.typed.first().map(PathBuf::from)
     }
 
-    /// The side lengths of a map of a shape, by one of them, which means square cells, or two.
+    /// The side lengths of a map of a shape, by two of them, or one, which means square cells; a line is as wide as long.
     pub fn lengths(&self, (nx, ny): (usize, usize)) -> Option<(f64, f64)> {
         match self.numbers("lengths")?[..] {
             [lx, ly, ..] => Some((lx, ly)),
+            [lx] if ny == 1 => Some((lx, lx)),
             [lx] => Some((lx, lx / nx as f64 * ny as f64)),
             [] => None,
         }
