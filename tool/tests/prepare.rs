@@ -368,6 +368,7 @@ fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
     fs::write(bench.path("holes.txt"), "1 nan 3\n4 5 6\n7 8 9\n").unwrap();
     fs::write(bench.path("nothing.txt"), "nan nan\nnan nan\n").unwrap();
     fs::write(bench.path("old.npz"), "old").unwrap();
+    fs::write(bench.path("nm.txt"), "# heights in nm\n1 2 3\n4 5 6\n").unwrap();
     for (arguments, parts) in [
         ("prepare holes.txt --window 0.1 --out n.npz", vec!["holes.txt", "9 heights, 1 missing", "add --fill"]),
         ("prepare holes.txt --resample 6 6 --out n.npz", vec!["1 missing", "add --fill"]),
@@ -382,12 +383,13 @@ fn what_cannot_be_prepared_is_refused_and_nothing_is_written() {
         ("prepare holes.txt --fill --resample 0 4 --out n.npz", vec!["--resample", "'0'"]),
         ("prepare holes.txt --fill --resample 16000000 16000000 --out n.npz", vec!["memory", "fewer"]),
         ("prepare holes.txt --scale 0 --out n.npz", vec!["--scale", "'0'"]),
+        ("prepare nm.txt --scale 1e-9 --out n.npz", vec!["scale is 1e-9", "the file tells the unit"]),
         ("prepare holes.txt --detrend cubic --out n.npz", vec!["cubic", "quadric"]),
         ("prepare none.txt --out n.npz", vec!["none.txt", "does not exist"]),
         ("prepare holes.txt", vec!["--out"]),
     ] {
         bench.refused_with(arguments, &parts);
-        assert_eq!(fs::read_dir(&bench.0).unwrap().count(), 3, "{arguments}");
+        assert_eq!(fs::read_dir(&bench.0).unwrap().count(), 4, "{arguments}");
     }
     assert_eq!(fs::read(bench.path("old.npz")).unwrap(), b"old");
     let help = bench.said("prepare --help").split_whitespace().collect::<Vec<_>>().join(" ");

@@ -221,6 +221,10 @@ fn maps_have_their_unit_and_come_into_the_si() {
     write_topography(bench.path("metres.npz"), &metres).unwrap();
     bench.said("solve --heights metres.npz --modulus 1e9 --mean-pressure 1e6 --no-pictures --quiet --out plain");
     assert!(bench.bytes("si/gap.npy") == bench.bytes("plain/gap.npy"));
+    // the unit may stand in a comment
+    bench.write("said.txt", &format!("# heights in nm\n{}", (0..30).map(row).collect::<Vec<_>>().join("\n")));
+    bench.said("prepare said.txt --lengths 5um 4um --mirror --out said.npz");
+    assert!(bench.bytes("said.npz") == bench.bytes("map.npz"));
     // in whatever unit the map is, if numbers have none
     let plain = bench.reported("solve --heights map.npz --modulus 1 --mean-pressure 1e-3 --no-pictures --out nm");
     assert_eq!((&plain["lengths"][0], &plain["length_unit"]), (&5000.0.into(), &"nm".into()));

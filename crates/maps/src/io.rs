@@ -93,6 +93,7 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 ///   - `#`, `%`, `!` and `//` start a comment at the start of a line or behind a blank, `;` at the start of a line.
 ///   - Comments and headings of the form `name: number unit` or `name = number unit` tell sizes, pixels and units, as
 ///     those of Gwyddion in any language, SPIP, Attocube, Nova, Keyence and ESRI. The lines are those of an image then.
+///     A comment such as `heights in nm` tells the unit of the map.
 ///     What may tell a size and is not understood is in [`Topography::unread`].
 ///   - Blocks of numbers with blank lines or headings between are channels, of which a [`Reading`] takes one.
 ///   - Three columns x, y and z of a whole grid are points, as in `.xyz`.

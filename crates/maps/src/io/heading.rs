@@ -1,6 +1,6 @@
 //! What the comments and the heading of a text tell: sizes, units and titles, as pairs of a name and a value.
 
-use super::units::per_metre;
+use super::units::{per_metre, symbol};
 use super::{Parsed, quoted, refuse};
 
 /// A pair of a name and a value.
@@ -135,6 +135,8 @@ pub(super) struct Heading {
     pairs: Vec<Pair>,
     /// The units of three columns x, y and z.
     columns: Option<[String; 3]>,
+    /// The unit of heights in words, and whether it is that of x and y too.
+    said: Option<(&'static str, bool)>,
     /// Of the lines of words that are no comments the first and the last number, and why the first one is no row.
     words: Option<(usize, usize, String)>,
 }
@@ -147,6 +149,7 @@ impl Heading {
     pub fn read(&mut self, line: &str) {
         if self.pairs.len() < MOST_LINES {
             self.pairs.extend(Pair::of(line));
+            self.said = self.said.or_else(|| said(line));
         }
         match &mut self.columns {
             // a line of units below that of the names
@@ -178,12 +181,13 @@ impl Heading {
     pub fn tells(&self) -> bool {
         let is_told =
             |pair: &Pair| pair.length().is_some() || meaning(&pair.name).is_some_and(|(kind, _)| kind.is_some());
-        self.words.is_some() || self.pairs.iter().any(is_told)
+        self.words.is_some() || self.said.is_some() || self.pairs.iter().any(is_told)
     }
 
     pub fn append(&mut self, other: Self) {
         self.pairs.extend(other.pairs);
         self.columns = self.columns.take().or(other.columns);
+        self.said = self.said.or(other.said);
         self.words = self.words.take().or(other.words);
     }
 
@@ -201,7 +205,7 @@ impl Heading {
     /// The sizes and units that it tells of a block of numbers.
     pub fn sizes(&self, (rows, columns): (usize, usize)) -> Parsed<Sizes> {
         let (nodes, mut lengths) = ([columns, rows], [None, None]);
-        let mut sizes = Sizes::default();
+        let mut sizes = Sizes { said: self.said, ..Sizes::default() };
         for pair in &self.pairs {
             let found = quantity(&pair.value);
             match meaning(&pair.name) {
@@ -274,6 +278,8 @@ pub(super) struct Sizes {
     pub sides: Option<((f64, f64), String)>,
     /// The units along x and y, and of the heights.
     pub units: [Option<String>; 3],
+    /// The unit of heights in words, and whether it is that of x and y too.
+    pub said: Option<(&'static str, bool)>,
     /// The factor of the heights.
     pub factor: Option<f64>,
     /// The number that stands for missing points.
@@ -325,6 +331,27 @@ impl Sizes {
     pub fn is_image(&self) -> bool {
         self.sides.is_some() || self.pixels.iter().all(Option::is_some)
     }
+}
+
+/// The unit of heights that a comment ends with, in words, as `heights in nm`, `z [um]` or `x, y, z in nm`, and whether it
+/// is that of x and y too.
+fn said(line: &str) -> Option<(&'static str, bool)> {
+    const HEIGHTS: &str = " z height heights elevation topography unit units values data all ";
+    const BESIDE: &str = " x y and axis lengths numbers are is given measured in of the map ";
+    let is_in = |words: &str, word: &str| words.contains(&format!(" {} ", word.to_lowercase()));
+    let of = |text: &str| {
+        let words: Vec<_> = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+        let (unit, words) = words.split_last()?;
+        let known = words.iter().rev().take_while(|word| is_in(HEIGHTS, word) || is_in(BESIDE, word));
+        let known = &words[words.len() - known.count()..];
+        let has = |name: &str| known.iter().any(|word| word.eq_ignore_ascii_case(name));
+        let is_of_others = (has("x") || has("y")) && !has("z");
+        let is_whole = known.len() == words.len() || has("heights");
+        let is_told = known.iter().any(|word| is_in(HEIGHTS, word)) && is_whole && !is_of_others;
+        Some((symbol(unit).filter(|_| is_told)?, ["x", "all", "lengths"].into_iter().any(has)))
+    };
+    let parts = line.split([',', ';']).map(|part| part.rsplit_once(':').map_or(part, |(_, last)| last));
+    std::iter::once(line).chain(parts).find_map(of)
 }
 
 /// The units of three columns that are named x, y and z, as `X[um] Y[um] Z[nm]` or `x (µm), y (µm), z (nm)`.

@@ -82,7 +82,7 @@ impl Text {
         }
         let is_image = sizes.is_image();
         heading.check_words(is_image)?;
-        let Sizes { pixels, sides, units: [.., vertical], factor, missing, unread } = sizes;
+        let Sizes { pixels, sides, units: [.., vertical], said, factor, missing, unread } = sizes;
         if let [Some(nx), Some(ny)] = pixels
             && (nx, ny) != (columns, rows)
         {
@@ -103,7 +103,14 @@ impl Text {
             let upright = heights.slice_axis(Axis(0), Slice::new(0, None, -1)).reversed_axes();
             heights = upright.as_standard_layout().into_owned();
         }
-        let (lengths, lateral) = sides.unzip();
+        let (lengths, mut lateral) = sides.unzip();
+        let (unit, is_of_all) = said.unzip();
+        // heights next to sides are brought to one unit, and stay as they are alone
+        let is_alone = lengths.is_none() && vertical.is_none();
+        let vertical = vertical.or(unit.filter(|_| !is_alone).map(str::to_owned));
+        if is_of_all == Some(true) && lateral.as_deref() == Some("") {
+            lateral.clone_from(&vertical);
+        }
         if let (Some(unit), None) = (lateral.as_ref().filter(|unit| is_length(unit)), &vertical) {
             return refuse(format!(
                 "has side lengths in {}, but no unit of the heights: add a line as # z-unit: nm on top",
@@ -111,6 +118,7 @@ impl Text {
             ));
         }
         let mut map = in_one_unit(heights, lengths, &lateral.unwrap_or_default(), &vertical.unwrap_or_default())?;
+        map.unit = map.unit.or(unit.filter(|_| is_alone).map(str::to_owned));
         map.unread = unread;
         Ok(map)
     }
@@ -147,7 +155,10 @@ impl Text {
         heading.check_words(heading.has_columns())?;
         let (heights, lengths) = gridded?;
         let (nx, ny) = heights.dim();
-        let Sizes { units: [x, y, z], sides, unread, .. } = heading.sizes((ny, nx))?;
+        let Sizes { units: [x, y, z], said, sides, unread, .. } = heading.sizes((ny, nx))?;
+        let all = said.filter(|(_, is_of_all)| *is_of_all);
+        let or_said = |unit: Option<String>, said: Option<(&str, bool)>| unit.or(said.map(|(unit, _)| unit.to_owned()));
+        let [x, y, z] = [or_said(x, all), or_said(y, all), or_said(z, said)];
         let [x, y, z] = [x, y, z].map(Option::unwrap_or_default);
         if x != y {
             return refuse(format!("has x in {} and y in {}, expected one unit", quoted(&x), quoted(&y)));
@@ -245,6 +256,34 @@ mod tests {
     }
 
     #[test]
+    fn a_comment_says_the_unit_of_heights_in_words() {
+        for comment in [
+            "# heights in nm",
+            "# z in nm",
+            "# Height [nm]",
+            "# Heights, nm",
+            "% Z (nm)",
+            "# z: nm",
+            "# AFM of sample 3: heights are in nanometres; scan 20 um",
+            "# size 20 um, z values given in nm",
+            "# All units in nm",
+            "# x, y, z in nm",
+        ] {
+            let map = headed(comment).unwrap();
+            // the numbers stay as they are
+            assert_eq!((map.unit.as_deref(), map.heights[[0, 1]], map.unread.len()), (Some("nm"), 2.0, 0), "{comment}");
+        }
+        assert_eq!(headed("# heights in micrometres").unwrap().unit.as_deref(), Some("\u{b5}m"));
+        let sized = headed("# Width: 3 um\n# Height: 20 um\n# heights in nm").unwrap();
+        assert_eq!((sized.heights[[0, 0]], sized.unit.as_deref()), (4e-9, Some("m")));
+        assert_refused(headed("# dx = 1\n# dy = 1\n# heights in nm"), &["side lengths in no unit and values in \"nm\""]);
+        assert_eq!(headed("# dx = 1\n# dy = 1\n# all lengths in nm").unwrap().unit.as_deref(), Some("m"));
+        let points = |comment: &str| read_map(format!("{comment}\n0 0 1\n0 1 2\n1 0 3\n1 1 4\n"), "a.xyz");
+        assert_eq!(points("# x, y, z in nm").unwrap().lengths, Some((2e-9, 2e-9)));
+        assert_refused(points("# z in nm"), &["side lengths in no unit and values in \"nm\""]);
+    }
+
+    #[test]
     fn what_a_heading_tells_and_is_not_understood_is_named() {
         assert_refused(headed("# Width: 3 um\n# Height: 2 um"), &["no unit of the heights", "# z-unit"]);
         for (heading, unread) in [
@@ -262,7 +301,11 @@ mod tests {
         for comment in [
             "# rate: 3 Hz",
             "# Created by me: 2020",
-            "# heights in micrometres",
+            "# scan size 20 um",
+            "# Width, size in um",
+            "# x data in um",
+            "# height range in nm",
+            "# force in nN",
             "# y = 3",
             "# Scale: 2",
             "# size: 2 x 3",

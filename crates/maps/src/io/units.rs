@@ -10,14 +10,20 @@ pub(super) fn per_metre(unit: &str) -> Option<f64> {
     Some(match unit {
         "pm" => 1e12,
         "Å" | "\u{212b}" | "Angstrom" | "angstrom" => 1e10,
-        "nm" | "нм" => 1e9,
+        "nm" | "нм" | "nanometers" | "nanometres" => 1e9,
         // the micro sign, the Greek letter, and what stands for them
-        "µm" | "\u{3bc}m" | "um" | "micron" | "microns" | "мкм" => 1e6,
-        "mm" | "мм" => 1e3,
+        "µm" | "\u{3bc}m" | "um" | "micron" | "microns" | "мкм" | "micrometers" | "micrometres" => 1e6,
+        "mm" | "мм" | "millimeters" | "millimetres" => 1e3,
         "cm" => 1e2,
-        "m" => 1.0,
+        "m" | "meters" | "metres" => 1.0,
         _ => return None,
     })
+}
+
+/// The symbol of a unit of length.
+pub(super) fn symbol(unit: &str) -> Option<&'static str> {
+    let size = per_metre(unit)?;
+    ["pm", "Å", "nm", "µm", "mm", "cm", "m"].into_iter().find(|symbol| per_metre(symbol) == Some(size))
 }
 
 /// Whether a unit is one of length.

@@ -6,7 +6,7 @@ mod steps;
 use std::fmt::Display;
 use std::str::FromStr;
 
-use asperity::Result;
+use asperity::{Error, Result};
 use asperity_maps::io::check_memory;
 use asperity_maps::warning::{Warning, WarningCode};
 use asperity_maps::{Form, RowAlignment, ScanAxis, Topography, Trend};
@@ -178,6 +178,11 @@ impl Preparation {
         log.warn(Warning::of_topography(&map).into_iter().filter(is_code), &map);
         let has_codes = !log.warnings.is_empty();
         if let Some(factor) = self.scale {
+            let to_metres = map.unit.as_deref().and_then(power_of_length).filter(|power| *power != 0);
+            if self.unit.is_none() && to_metres.is_some_and(|power| factor == times_ten_to(power, 1.0)) {
+                let requirement = "left out, since the file tells the unit, or next to unit m, if heights are in m then";
+                return Err(Error::Value { name: "scale", value: factor, requirement });
+            }
             map.heights.mapv_inplace(|h| factor * h);
             log.tell_rms("scale", format!("heights times {}", plain(factor)), &map);
         }
