@@ -17,7 +17,9 @@ impl Pair {
         let (name, value) = fields
             .or_else(|| line.split_once([':', '=', '\u{ff1a}', '\u{ff1d}']))
             .or_else(|| line.split_once('\t'))
-            .or_else(|| line.split_once(' ').filter(|(_, number)| number.trim().parse::<f64>().is_ok()))?;
+            .or_else(|| {
+                line.split_once(' ').filter(|(_, number)| number.replace(',', ".").trim().parse::<f64>().is_ok())
+            })?;
         let plain = |text: &str| text.replace("\",\"", " ").replace('"', "").trim().to_owned();
         let (name, value) = (plain(name), plain(value));
         // the unit may stand behind the name, as in `Width (µm): 3`
@@ -36,6 +38,11 @@ impl Pair {
         let (x, y) = self.value.split_once(['x', '\u{d7}', '*']).unwrap_or((&self.value, &self.value));
         let (x, y) = (quantity(x)?, quantity(y)?);
         Some([if x.1.is_empty() { (x.0, y.1) } else { x }, y])
+    }
+
+    /// Whether a comma is within a number.
+    fn has_comma(&self) -> bool {
+        self.value.as_bytes().windows(3).any(|of| of[1] == b',' && of[0].is_ascii_digit() && of[2].is_ascii_digit())
     }
 
     /// A positive length with its unit.
@@ -209,6 +216,16 @@ impl Heading {
         for pair in &self.pairs {
             let found = quantity(&pair.value);
             match meaning(&pair.name) {
+                Some((kind, axes))
+                    if pair.has_comma()
+                        && kind != Some(Kind::Unit)
+                        && (axes != [2] || matches!(kind, Some(Kind::Factor | Kind::Missing))) =>
+                {
+                    let text = quoted(&pair.text());
+                    return refuse(format!(
+                        "has the comment {text}, expected a number with a decimal point, and its unit"
+                    ));
+                }
                 None if pair.is_like_length() => sizes.unread.push(pair.text()),
                 None => {}
                 Some((Some(Kind::Unit), axes)) => {
@@ -312,10 +329,7 @@ impl Sizes {
             let is_count = kind == Some(Kind::Pixels) || is_size && number == nodes[axis] as f64;
             let is_pixels = ["px", "pixel", "pixels"].contains(&unit) || unit.is_empty() && is_count;
             let is_told = kind.is_some() && (per_metre(unit).is_some() || unit.is_empty() && !axes.is_empty());
-            if unit.starts_with(',') {
-                let text = quoted(&pair.text());
-                return refuse(format!("has the comment {text}, expected a number with a decimal point, and its unit"));
-            } else if is_pixels {
+            if is_pixels {
                 self.pixels[axis] = Some(number as usize);
             } else if number > 0.0 && is_told {
                 let times = if kind == Some(Kind::Spacing) { nodes[axis] as f64 } else { 1.0 };

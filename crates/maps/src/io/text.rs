@@ -276,7 +276,10 @@ mod tests {
         assert_eq!(headed("# heights in micrometres").unwrap().unit.as_deref(), Some("\u{b5}m"));
         let sized = headed("# Width: 3 um\n# Height: 20 um\n# heights in nm").unwrap();
         assert_eq!((sized.heights[[0, 0]], sized.unit.as_deref()), (4e-9, Some("m")));
-        assert_refused(headed("# dx = 1\n# dy = 1\n# heights in nm"), &["side lengths in no unit and values in \"nm\""]);
+        assert_refused(
+            headed("# dx = 1\n# dy = 1\n# heights in nm"),
+            &["side lengths in no unit and values in \"nm\""],
+        );
         assert_eq!(headed("# dx = 1\n# dy = 1\n# all lengths in nm").unwrap().unit.as_deref(), Some("m"));
         let points = |comment: &str| read_map(format!("{comment}\n0 0 1\n0 1 2\n1 0 3\n1 1 4\n"), "a.xyz");
         assert_eq!(points("# x, y, z in nm").unwrap().lengths, Some((2e-9, 2e-9)));
@@ -322,6 +325,11 @@ mod tests {
         };
         assert_eq!(gwyddion("3", "20", "").unwrap().lengths, Some((3.0, 20.0)));
         assert_refused(gwyddion("3,0 um", "20 um", "m"), &["3,0 um", "decimal point"]);
+        for heading in ["ncols 3\nnrows 2\ncellsize 0,25", "# Bit2nm: 0,5", "# nodata = -9,5", "# size: 2 um x 3,5 um"]
+        {
+            assert_refused(headed(heading), &["has the comment", "decimal point"]);
+        }
+        assert_eq!(headed("# z range: 3,5 nm\n# offset: 2,5").unwrap().lengths, None);
         assert_eq!(gwyddion("-3 um", "20 um", "m").unwrap().unread, ["Width: -3 um", "20 um"]);
         let odd = gwyddion("3 um", "20 V", "m").unwrap();
         assert_eq!((odd.lengths, &odd.unread[..]), (None, &["Height: 20 V".to_owned(), "3 um".to_owned()][..]));

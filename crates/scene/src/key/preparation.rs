@@ -180,7 +180,8 @@ impl Preparation {
         if let Some(factor) = self.scale {
             let to_metres = map.unit.as_deref().and_then(power_of_length).filter(|power| *power != 0);
             if self.unit.is_none() && to_metres.is_some_and(|power| factor == times_ten_to(power, 1.0)) {
-                let requirement = "left out, since the file tells the unit, or next to unit m, if heights are in m then";
+                let requirement =
+                    "left out, since the file tells the unit, or next to unit m, if heights are in m then";
                 return Err(Error::Value { name: "scale", value: factor, requirement });
             }
             map.heights.mapv_inplace(|h| factor * h);
