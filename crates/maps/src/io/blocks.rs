@@ -93,7 +93,7 @@ impl Blocks {
         }
         if text.is_like_decimals && text.values.len() > 2 {
             return refuse(
-                "has two whole numbers with a comma between on each line: are these decimal commas? write decimal points, \
+                "has pairs of whole numbers with a comma between on each line: are these decimal commas? write decimal points, \
                  or tabs between two columns",
             );
         }
@@ -319,6 +319,7 @@ mod tests {
         assert_refused(read("1,5 2,5\n"), &["\"5 2\" is not a number", "decimal points"]);
         assert_refused(read("\"1,5\",\"2,5\"\n"), &["\"\\\"1\" is not a number", "decimal points"]);
         assert_refused(read("0,00\n-9,30\n15,92\n"), &["decimal commas?", "tabs"]);
+        assert_refused(read("1,5, 2,5\n4,5, -5,5\n"), &["decimal commas?"]);
         assert_refused(read("(1+2j) 3\n"), &["\"(1+2j)\""]);
         for empty in ["", "\n\n", "# only a comment\n", "\r\n % \r\n"] {
             assert_refused(read(empty), &["holds no numbers", ".npy"]);

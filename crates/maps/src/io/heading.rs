@@ -142,6 +142,8 @@ pub(super) struct Heading {
     pairs: Vec<Pair>,
     /// The units of three columns x, y and z.
     columns: Option<[String; 3]>,
+    /// Whether these are y, x and z.
+    is_swapped: bool,
     /// The unit of heights in words, and whether it is that of x and y too.
     said: Option<(&'static str, bool)>,
     /// Of the lines of words that are no comments the first and the last number, and why the first one is no row.
@@ -162,7 +164,10 @@ impl Heading {
             // a line of units below that of the names
             Some(columns) if columns.iter().all(String::is_empty) => *columns = units(line).unwrap_or_default(),
             Some(_) => {}
-            None => self.columns = columns(line),
+            None => {
+                self.columns = columns(line, "x y z").or_else(|| columns(line, "y x z"));
+                self.is_swapped = columns(line, "y x z").is_some();
+            }
         }
     }
 
@@ -193,6 +198,7 @@ impl Heading {
 
     pub fn append(&mut self, other: Self) {
         self.pairs.extend(other.pairs);
+        self.is_swapped |= other.is_swapped;
         self.columns = self.columns.take().or(other.columns);
         self.said = self.said.or(other.said);
         self.words = self.words.take().or(other.words);
@@ -201,6 +207,11 @@ impl Heading {
     /// Whether three columns are named x, y and z.
     pub fn has_columns(&self) -> bool {
         self.columns.is_some()
+    }
+
+    /// Whether three columns are named y, x and z.
+    pub fn is_swapped(&self) -> bool {
+        self.is_swapped
     }
 
     /// The first value that is none of numbers.
@@ -364,15 +375,16 @@ fn said(line: &str) -> Option<(&'static str, bool)> {
         let is_told = known.iter().any(|word| is_in(HEIGHTS, word)) && is_whole && !is_of_others;
         Some((symbol(unit).filter(|_| is_told)?, ["x", "all", "lengths"].into_iter().any(has)))
     };
-    let parts = line.split([',', ';']).map(|part| part.rsplit_once(':').map_or(part, |(_, last)| last));
-    std::iter::once(line).chain(parts).find_map(of)
+    let parts = || line.split([',', ';']);
+    let last = parts().filter_map(|part| Some(part.rsplit_once(':')?.1));
+    std::iter::once(line).chain(parts()).chain(last).find_map(of)
 }
 
-/// The units of three columns that are named x, y and z, as `X[um] Y[um] Z[nm]` or `x (µm), y (µm), z (nm)`.
-fn columns(line: &str) -> Option<[String; 3]> {
+/// The units of three columns of these names, as of x y z in `X[um] Y[um] Z[nm]` or `x (µm), y (µm), z (nm)`.
+fn columns(line: &str, names: &str) -> Option<[String; 3]> {
     let words: Vec<_> =
         line.split([' ', '\t', ',', ';', '[', ']', '(', ')', '/', '"']).filter(|word| !word.is_empty()).collect();
-    let is_points = |x: &str, y: &str, z: &str| [x, y, z].join(" ").eq_ignore_ascii_case("x y z");
+    let is_points = |x: &str, y: &str, z: &str| [x, y, z].join(" ").eq_ignore_ascii_case(names);
     match words[..] {
         [x, y, z] if is_points(x, y, z) => Some(Default::default()),
         [x, of_x, y, of_y, z, of_z] if is_points(x, y, z) => Some([of_x, of_y, of_z].map(str::to_owned)),

@@ -28,7 +28,7 @@ pub(super) struct Row<'a> {
     pub values: &'a [f64],
     /// Whether the first and the last field are empty.
     pub is_open: [bool; 2],
-    /// Whether it is of two fields of digits with a comma between, which may be one number.
+    /// Whether it is of pairs of fields of digits with a comma between, which may be numbers.
     pub is_like_decimal: bool,
 }
 
@@ -59,9 +59,9 @@ pub(super) fn for_each_line(
             match numbers(row, reading, &mut values)? {
                 Ok(is_open) => {
                     let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-                    let parts = if values.len() == 2 { row.trim().split_once(',') } else { None };
-                    let is_like_decimal =
-                        parts.is_some_and(|(a, b)| is_digits(a.trim_start_matches(['-', '+'])) && is_digits(b));
+                    let is_decimal = |(a, b): (&str, &str)| is_digits(a.trim_start_matches(['-', '+'])) && is_digits(b);
+                    let mut parts = row.trim().split(", ").map(|part| part.trim().split_once(','));
+                    let is_like_decimal = parts.all(|pair| pair.is_some_and(is_decimal));
                     Line::Row(Row { values: &values, is_open, is_like_decimal })
                 }
                 Err(word) => {

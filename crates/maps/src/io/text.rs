@@ -25,7 +25,11 @@ pub(super) struct Text {
 
 impl Text {
     pub fn read(reader: impl BufRead, reading: &Reading) -> Parsed<Self> {
-        read_blocks(reader, reading).map(|(blocks, values)| Self { blocks, values })
+        let (blocks, mut values) = read_blocks(reader, reading)?;
+        if blocks[0].heading.is_swapped() && blocks.iter().all(|block| block.columns == 3) {
+            values.as_chunks_mut().0.iter_mut().for_each(|[y, x, _]| std::mem::swap(x, y));
+        }
+        Ok(Self { blocks, values })
     }
 
     /// What is told of a block, on top of it or of one before.
@@ -81,7 +85,8 @@ impl Text {
             sizes = told.sizes((rows, columns))?;
         }
         let is_image = sizes.is_image();
-        heading.check_words(is_image)?;
+        // one column may be named, with its unit
+        heading.check_words(is_image || columns == 1 && sizes.said.is_some())?;
         let Sizes { pixels, sides, units: [.., vertical], said, factor, missing, unread } = sizes;
         if let [Some(nx), Some(ny)] = pixels
             && (nx, ny) != (columns, rows)
@@ -266,6 +271,7 @@ mod tests {
             "# z: nm",
             "# AFM of sample 3: heights are in nanometres; scan 20 um",
             "# size 20 um, z values given in nm",
+            "# Width 3, z: nm",
             "# All units in nm",
             "# x, y, z in nm",
         ] {
@@ -274,6 +280,9 @@ mod tests {
             assert_eq!((map.unit.as_deref(), map.heights[[0, 1]], map.unread.len()), (Some("nm"), 2.0, 0), "{comment}");
         }
         assert_eq!(headed("# heights in micrometres").unwrap().unit.as_deref(), Some("\u{b5}m"));
+        let column = read_map("Height [nm]\n1.5\n2.5\n", "a.csv").unwrap();
+        assert_eq!((column.heights.dim(), column.unit.as_deref()), ((2, 1), Some("nm")));
+        assert_refused(read("x [um], z [nm]\n0 1\n1 3\n"), &["\"x [um]\" is not a number", "--skip-lines 1"]);
         let sized = headed("# Width: 3 um\n# Height: 20 um\n# heights in nm").unwrap();
         assert_eq!((sized.heights[[0, 0]], sized.unit.as_deref()), (4e-9, Some("m")));
         assert_refused(

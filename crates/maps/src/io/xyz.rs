@@ -182,6 +182,8 @@ mod tests {
             assert_eq!((map.unit.as_deref(), map.lengths), (Some("m"), Some((4e-6, 3e-6))), "{heading}");
             assert_eq!(map.heights, &plain.heights / 1e9, "{heading}");
         }
+        let swapped: String = (0..12).map(|k| format!("{} {} {}\n", k / 4, k % 4, 7 * k * k % 11)).collect();
+        assert_eq!(read_map(format!("# y x z\n{swapped}"), "a.txt").unwrap(), plain);
         let told = points.lines().map(|line| format!("{line}\n")).collect::<String>();
         let map = read_map(format!("# pixel size: 250 nm\n# z-unit: um\n{told}"), "a.xyz").unwrap();
         assert_eq!((map.lengths, map.heights[[1, 0]]), (Some((1e-6, 7.5e-7)), 7e-6));
