@@ -12,8 +12,10 @@ use asperity_scene::{Body, Log, Preparation, Roughness, in_unit};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::inputs::keys;
+use crate::keywords::{self, known};
 use crate::numbers::{Field, whole};
 use crate::pools::apart;
 use crate::refusal::{reason, refusal};
@@ -192,9 +194,9 @@ pub fn prepare<'py>(
     new_lengths: Option<(f64, f64)>,
     cut_off_wavelength: Option<f64>,
     in_metres: bool,
-    steps: Bound<'py, PyAny>,
+    steps: &Bound<'py, PyDict>,
 ) -> PyResult<Prepared<'py>> {
-    let mut steps: Preparation = keys(steps)?;
+    let mut steps: Preparation = keywords::read(&known!(StepKeys), steps)?.object().map_err(reason)?;
     let measured = given.topography()?;
     let unit = measured.unit.as_deref();
     let lengths = new_lengths.map_or(Ok(()), |lengths| steps.set_lengths(lengths, in_metres, unit));

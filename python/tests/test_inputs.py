@@ -412,6 +412,28 @@ def test_threads_are_as_many_as_in_the_tool(rough):
 
 
 @pytest.mark.parametrize(
+    ("steps", "message"),
+    [
+        ({"missing": "NA"}, "missing is NA: it must be a number"),
+        ({"scale": "nm"}, "scale is nm: it must be a number"),
+        ({"resample": 128}, "resample is 128: it must be two values, NX, NY"),
+        ({"crop": (1, 2)}, "crop is 1, 2: it must be four values, X, Y, NX, NY"),
+        ({"window": "wide"}, "window is wide: it must be a number"),
+        ({"detrend": "cubic"}, "detrend is cubic: it must be"),
+    ],
+)
+def test_a_step_that_is_wrong_is_told_with_its_value(steps, message):
+    with pytest.raises(ValueError, match=message):
+        asperity.prepare(OBLONG, 1.0, **steps)
+
+
+def test_a_code_may_be_a_text():
+    coded = np.where(OBLONG > 0, OBLONG, -9999.0)
+    by_text, by_number = (asperity.prepare(coded, 1.0, missing=code).heights for code in ("-9999", -9999))
+    assert np.array_equal(by_text, by_number, equal_nan=True) and np.isnan(by_text).any()
+
+
+@pytest.mark.parametrize(
     ("ask", "message"),
     [
         (lambda h: asperity.solve(h, modulus=1.0, mean_pressures=[1.0]), "give mean_pressure, .* asperity.sweep"),

@@ -100,14 +100,16 @@ impl Given {
             let (least, most) = key.kind.count;
             match key.kind.values {
                 Values::Quantities(..) | Values::Numbers(_) if !texts.is_empty() => texts = vec![texts.join(",")],
-                _ if texts.is_empty() || (least..=most).contains(&texts.len()) => {}
+                _ if texts.is_empty() || (least..=most).contains(&texts.len()) || key.kind.commas && most == 1 => {}
                 _ => {
                     let count = match (least, most) {
                         (_, 1) => "one value",
                         (2, _) => "two values",
+                        (4, _) => "four values",
                         _ => "one value or two",
                     };
-                    return Err(format!("{name} is {}: it must be {count}", texts.join(", ")));
+                    let symbols = key.kind.symbols.join(", ");
+                    return Err(format!("{name} is {}: it must be {count}, {symbols}", texts.join(", ")));
                 }
             }
             let of = |text: &String| key.any_value(text).map_err(|reason| format!("{name} is {text}: {reason}"));
