@@ -466,7 +466,7 @@ mod tool {
             for command in [
                 format!("stats {name}"),
                 format!("solve --heights {name} --mean-gap 0.1 --out out --force"),
-                format!("prepare {name} --detrend quadric --fill --mirror --resample 5 7 --out out.npz --force"),
+                format!("prepare {name} --detrend quadric --fill --mirror --resample 6 8 --out out.npz --force"),
             ] {
                 let output = limited(
                     bench.path(),

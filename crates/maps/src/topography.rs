@@ -249,16 +249,24 @@ impl Topography {
     /// The map on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation: [`resample`].
     ///
     /// Edges that do not meet make it ring: use [`window`](Self::window) or [`mirror`](Self::mirror) first. The
-    /// original of a mirrored map has the new nodes that are on it, with one in the mirror line of an odd number.
+    /// original of a mirrored map keeps its sides.
     ///
     /// # Errors
-    /// [`Error::Value`] if a number of nodes is zero; [`Error::Memory`] if they take more than there is;
+    /// [`Error::Value`] if a number of nodes is zero, or on a mirrored map odd; [`Error::Memory`] if they take more than there is;
     /// [`Error::NotFinite`] if heights are missing.
     pub fn resample(mut self, nodes: (usize, usize)) -> Result<Self> {
         let before = self.heights.dim();
-        let share = |n: usize, before: usize, now: usize| (n * now).div_ceil(before);
+        if let Some((x, y)) = self.original {
+            let sides = [("nodes along x", x, before.0, nodes.0), ("nodes along y", y, before.1, nodes.1)];
+            let [x, y] = sides.map(|(name, part, before, now)| {
+                let share = part.saturating_mul(now);
+                let requirement = "even, or resampled before the mirror: the original would change its sides";
+                let odd = Error::Value { name, value: now as f64, requirement };
+                if share.is_multiple_of(before) { Ok(share / before) } else { Err(odd) }
+            });
+            self.original = Some((x?, y?));
+        }
         self.heights = resample(self.heights, nodes)?;
-        self.original = self.original.map(|(x, y)| (share(x, before.0, nodes.0), share(y, before.1, nodes.1)));
         Ok(self)
     }
 

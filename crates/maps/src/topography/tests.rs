@@ -234,11 +234,14 @@ fn a_mirrored_map_is_periodic_and_continuous() {
     assert_relative_eq!(mirrored.rms_height(), map.rms_height(), max_relative = 1e-14);
     assert_eq!((map.original, mirrored.original), (None, Some((7, 4))));
     assert_eq!(mirrored.clone().mirror().original, Some((7, 4)));
-    let refined = mirrored.clone().resample((21, 16)).unwrap();
+    let refined = mirrored.clone().resample((22, 16)).unwrap();
     assert_eq!(refined.original, Some((11, 8)));
+    // half of 21 nodes is no side of the original
+    let odd = mirrored.clone().resample((21, 16)).unwrap_err();
+    assert!(odd.to_string().starts_with("nodes along x is 21: it must be even"), "{odd}");
     for ((i, j), value) in refined.heights.indexed_iter() {
         // images are met exactly
-        assert_relative_eq!(*value, refined.heights[[20 - i, 15 - j]], epsilon = 1e-12);
+        assert_relative_eq!(*value, refined.heights[[21 - i, 15 - j]], epsilon = 1e-12);
     }
     assert_eq!(mirrored.clone().crop(0..7, 0..4).unwrap().original, None);
     let h = &mirrored.heights;
