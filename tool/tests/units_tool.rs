@@ -132,6 +132,10 @@ fn units_belong_to_all_numbers_or_to_none() {
             "--lengths 1um --modulus 1GPa --mean-pressure 1MPa --length-unit nm",
             vec!["--length-unit is nm", "m already"],
         ),
+        (
+            "--mean-pressure 1e-3 --length-unit nm --pressure-unit GPa --force-unit N",
+            vec!["--force-unit is N", "lengths in nm and pressures in GPa", "1 nN"],
+        ),
     ] {
         bench.refused_with(&format!("{solve} {arguments}"), &parts);
     }

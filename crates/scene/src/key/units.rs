@@ -2,8 +2,8 @@
 
 use asperity_maps::warning::Warning;
 
-use crate::key::{Dimension, FORCE, Given, Kind, LENGTH, PRESSURE, Told, keys, unit};
-use crate::numbers::{plain, si};
+use crate::key::{Dimension, FORCE, Given, Kind, LENGTH, PRESSURE, Range, Told, keys, unit};
+use crate::numbers::{self, plain, si};
 
 keys! {
     /// The units of numbers that are given without them.
@@ -37,11 +37,26 @@ impl Given {
             (unit, known) => Ok(unit.or(known).map(str::to_owned)),
         };
         let of_si = |dimension: Dimension| si.then_some(dimension.si);
-        Ok(Units {
+        let units = Units {
             length: chosen("length_unit", of_si(LENGTH).or(file))?,
             pressure: chosen("pressure_unit", of_si(PRESSURE))?,
             force: chosen("force_unit", of_si(FORCE))?,
-        })
+        };
+        if let Units { length: Some(length), pressure: Some(pressure), force: Some(force) } = &units {
+            let size =
+                |of: Dimension, unit: &str| of.within(Range::POSITIVE)(&format!("1{unit}")).ok().map(|one| one.value);
+            let found =
+                size(LENGTH, length).zip(size(PRESSURE, pressure)).map(|(length, pressure)| pressure * length.powi(2));
+            let (Some(found), Some(given)) = (found, size(FORCE, force)) else { return Ok(units) };
+            if (found / given - 1.0).abs() > 1e-9 {
+                let found = numbers::si(found, FORCE.si);
+                return Err(format!(
+                    "{{force_unit}} is {force}, but with lengths in {length} and pressures in {pressure} forces are in units \
+                     of {found}: leave it out, or change the others"
+                ));
+            }
+        }
+        Ok(units)
     }
 }
 
