@@ -31,13 +31,14 @@ pub fn rounded(value: f64, digits: usize, most: f64) -> String {
 }
 
 /// A number to four digits with its SI unit, and the prefix that makes it readable; one that is too large for any prefix
-/// has a power of ten, and one that is too small is zero.
+/// has a power of ten, and one that is too small is zero, but for energies, which are that small on nanometres.
 pub fn si(value: f64, unit: &str) -> String {
     // Rounded first, so that 999.96 n is 1 µ.
     let text = format!("{value:.3e}");
     let rounded: f64 = text.parse().unwrap_or(value);
     let Some((power, unit)) = scale(rounded, unit) else {
-        let number = if rounded.abs() < 1.0 { "0".to_owned() } else { scientific(text) };
+        let is_zero = rounded.abs() < 1.0 && unit != "J";
+        let number = if is_zero { "0".to_owned() } else { scientific(text) };
         return format!("{number} {unit}");
     };
     let value = rounded / 10f64.powi(power);

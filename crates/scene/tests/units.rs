@@ -142,6 +142,7 @@ fn numbers_and_headers_have_their_units() {
     assert_eq!(Units::si().number(9.9999e14, PRESSURE_PER_LENGTH), "1 GPa/µm");
     assert_eq!(Units::si().number(2.6170857e17, PRESSURE_PER_LENGTH), "261.7 GPa/µm");
     assert_eq!(Units::si().number(0.05, ENERGY_PER_AREA), "50 mJ/m²");
+    assert_eq!([-2.5e-22, 0.0, 2e-21].map(|energy| Units::si().number(energy, ENERGY)), ["-2.5e-22 J", "0 J", "2 zJ"]);
     let powers = [
         (1.8e-24, TRANSMISSIVITY, "1800 nm³"),
         (9.9999e-22, TRANSMISSIVITY, "0.001 µm³"),
