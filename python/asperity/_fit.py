@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _asperity, _plot
+from ._branches import ordered
 from ._curve import Curve, Direction, all_fits
 from ._equilibria import Array, Paraboloid, scipy
 from ._likelihood import Estimate, Likelihood, ModelFit
 from ._tip_table import TipTable
 from ._types import Quantity
 from ._units import given, in_unit, number
+from ._warnings import InputWarning, warn
 
 
 
@@ -199,7 +201,8 @@ def fit_curve(
     -----
     InputWarning
         If neighbouring residuals are alike: the curve is not that of such a tip, and intervals are too narrow. If the
-        greatest indentation is greater than the radius, as where z is in nm and the radius in m.
+        greatest indentation is greater than the radius, as where z is in nm and the radius in m. If the force falls
+        further on approach than on withdrawal.
 
     See Also
     --------
@@ -228,7 +231,11 @@ def fit_curve(
     if direction not in (None, "approach", "withdrawal"):
         raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
     compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
-    if direction is not None and (z[-1] > z[0]) != (direction == "approach"):
+    if direction is None:
+        z, force, against = ordered(z, force)
+        if against:
+            warn(against, InputWarning)
+    elif (z[-1] > z[0]) != (direction == "approach"):
         z, force = z[::-1], force[::-1]
     scipy("optimize")
     _refuse_saturated(force)

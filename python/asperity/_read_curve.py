@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _asperity
+from ._branches import ordered
 from ._equilibria import Array
 
 #: The name of a column, and its unit in parentheses, brackets, or behind a slash.
@@ -47,7 +48,8 @@ def read_curve(
     A text has columns between tabs, semicolons, commas or spaces, with decimal points or commas, under headings with
     units, such as ``Height (nm)`` and ``Force [nN]``, or a line of names and one of units. Binary files, such as
     ``.jpk-force`` and ``.ibw``, are read by afmformats, which ``pip install 'asperity[curves]'`` brings. Positions that
-    fall towards contact are turned round. Points that are not finite are left out.
+    fall towards contact are turned round, and the approach comes before the withdrawal, whatever their order in the file.
+    Points that are not finite are left out.
 
     Parameters
     ----------
@@ -91,15 +93,20 @@ def read_curve(
     for key, given, chosen, unit in (("approach", "z", z, length_unit), ("normal_force", "force", force, force_unit)):
         name, own, values = _chosen(path, columns, key, given, chosen)
         factor = _factor(key, own or unit or "")
+        kind = "length" if given == "z" else "force"
+        if own and (factor is None or unit and factor != _factor(key, unit)):
+            remedy = f"leave {kind}_unit out" if factor else f"give another {given}"
+            if factor is None and given == "force":
+                remedy += ", or multiply the deflection, as a length, by the stiffness of the cantilever"
+            raise ValueError(f"{path}: column {name!r} is in {own}, and not in {unit or f'a unit of {kind}'}: {remedy}")
         if factor is None:
-            kind = "length" if given == "z" else "force"
             raise ValueError(f"{path}: column {name!r} has no unit of {kind}: give {kind}_unit, or another {given}")
         found.append(factor * values)
     where, load = np.array(found)[:, np.isfinite(found).all(axis=0)]
     if not load.size:
         raise ValueError(f"{path}: has no point with a finite position and force")
     falls = where[load >= 0.5 * (load.max() + np.median(load))].mean() < where.mean()
-    return ForceCurve(-where if falls else where, load)
+    return ForceCurve(*ordered(-where if falls else where, load)[:2])
 
 
 def _instrument(path: Any, number: int) -> list[tuple[str, str, Array]]:

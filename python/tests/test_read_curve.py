@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity._branches import ordered
+from force_curves import curve
 
 Z, FORCE = np.array([-10.5, 0.25, 2.0]), np.array([-0.5, 0.25, 3.5])
 
@@ -41,14 +43,36 @@ def test_columns_are_chosen(tmp_path):
         assert asperity.read_curve(path, z=z).z == pytest.approx([1e-9, 3e-9])
     with pytest.raises(ValueError, match="none of them alone is 'Piezo'"):
         asperity.read_curve(path, z="Piezo")
-    with pytest.raises(ValueError, match="column 'Tip' has no unit of force: give force_unit, or another force"):
+    with pytest.raises(ValueError, match="column 'Tip' is in nm, and not in a unit of force: give another force"):
         asperity.read_curve(path, z=0, force="Tip")
     path.write_text("0 1\n2 3\n")
     with pytest.raises(ValueError, match="column '' has no unit of length: give length_unit"):
         asperity.read_curve(path)
     assert asperity.read_curve(path, length_unit="um", force_unit="nN").z == pytest.approx([0.0, 2e-6])
+    path.write_text("z (nm)\tDeflection (nm)\n0\t1\n1\t2\n")
+    with pytest.raises(ValueError, match="column 'Deflection' is in nm, and not in nN: .* multiply the deflection"):
+        asperity.read_curve(path, z=0, force=1, force_unit="nN")
+    path.write_text("z (nm)\tF (nN)\n0\t1\n1\t2\n")
+    with pytest.raises(ValueError, match="column 'F' is in nN, and not in N: leave force_unit out"):
+        asperity.read_curve(path, force_unit="N")
+    assert asperity.read_curve(path, force_unit="nN").force == pytest.approx([1e-9, 2e-9])
     path.write_text("z (nm)\tF (nN)\n0\tnan\n1\t2\n")
     assert np.array(asperity.read_curve(path)) == pytest.approx(1e-9 * np.array([[1.0], [2.0]]))
+
+
+@pytest.mark.parametrize("layout", [(1, 1, 1), (1, 1, -1), (1, -1, 1), (1, -1, -1), (-1, 1, 1), (-1, 1, -1)])
+def test_the_approach_comes_first_whatever_the_order_of_a_file(layout, tmp_path):
+    there, back, order = layout
+    made = np.array(curve(1.0, 20.0, noise=0.005))
+    branches = [made[:, :200][:, ::there], made[:, 200:][:, ::back]][::order]
+    path = tmp_path / "curve.csv"
+    heading = {"delimiter": ",", "header": "Height (nm),Force (nN)", "comments": ""}
+    np.savetxt(path, 1e9 * np.hstack(branches).T, "%.6f", **heading)
+    assert np.array(asperity.read_curve(path)) == pytest.approx(made, abs=1e-15)
+    # backwards in time the withdrawal looks like an approach
+    assert ordered(*made)[2] == ""
+    told = "branches: the force falls by 5e-09 as z grows, and by 4.27e-09 as it falls"
+    assert ordered(*made[:, ::-1])[2].startswith(told)
 
 
 def test_what_is_no_curve_is_refused(tmp_path, monkeypatch):
