@@ -303,6 +303,20 @@ fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
     let (count, code, message) = resolved(found(1e-5, 0.1));
     assert_eq!((count, code), (1, WarningCode::Range));
     assert!(["0.1", "0.02", "unit"].iter().all(|part| message.contains(part)), "{message}");
+    // J/m² and Pa next to sides of 1000 nm
+    let surface = Surface::wave_2d(Grid::square(64, 1e3).unwrap(), 10.0, 2).unwrap();
+    let of_work = |work: f64, modulus: f64| {
+        let found = Warning::of_law::<f64>(&Jkr::new(work).unwrap(), &surface, modulus);
+        found
+            .iter()
+            .map(short)
+            .filter(|found| found.code == WarningCode::Work)
+            .map(Warning::message)
+            .collect::<Vec<_>>()
+    };
+    assert!(of_work(0.05, 70e9)[0].starts_with("w/E* is 7.14e-13, 7.14e-16 sides: check the units"));
+    assert!(of_work(50.0, 1e-3)[0].starts_with("w/E* is 50000, 50 sides"));
+    assert!(of_work(0.05, 70.0).is_empty() && of_work(0.0, 70e9).is_empty());
     assert!(found(0.0, 0.1).is_empty() && Warning::of_law::<f64>(&NoAdhesion, &surface, 1.0).is_empty());
 }
 

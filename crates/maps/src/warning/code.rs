@@ -57,6 +57,8 @@ codes! {
     Cells = "cells",
     /// The range of adhesion exceeds the heights, or is too short for the grid.
     Range = "range",
+    /// The work of adhesion over the contact modulus E* is a length beyond the sides, or below any of solids.
+    Work = "work",
     /// All heights are the same.
     Flat = "flat",
     /// Contact or traction reaches the edge of a free boundary's window.

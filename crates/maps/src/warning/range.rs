@@ -1,4 +1,5 @@
-//! The warnings about the range of adhesion: it is too short for the grid, or exceeds the heights.
+//! The warnings about adhesion: its range is too short for the grid, or exceeds the heights, and its work is not one of
+//! such a body.
 
 use asperity::adhesion::mu_rho;
 use asperity::{AdhesionLaw, Real, Report, Surface};
@@ -10,9 +11,14 @@ use super::{Warning, WarningCode};
 /// The resolution measure μ_ρ that the grid resolves.
 const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
+/// The least length w/E* over the sides: of a hard solid it is 1e-15 m, and of maps the sides are below 10 mm.
+const LEAST_WORK: f64 = 1e-13;
+/// The greatest one: strains by adhesion, √(w/(E* L)), exceed one beyond it.
+const MOST_WORK: f64 = 1.0;
+
 impl Warning {
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
-    /// [`Range`](WarningCode::Range). Nothing without adhesion.
+    /// [`Range`](WarningCode::Range), and in its work of adhesion: [`Work`](WarningCode::Work). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &dyn AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {
         if law.hints().zero {
             return Vec::new();
@@ -34,6 +40,17 @@ impl Warning {
                 range / span,
                 "the range of adhesion, {}, exceeds the heights, {}: check its unit",
                 [Length(range), Length(span)],
+            ));
+        }
+        let (lx, ly) = surface.grid().lengths();
+        let work = law.hints().work_of_adhesion.widen() / modulus;
+        let share = work / if surface.grid().is_line() { lx } else { lx.max(ly) };
+        if share > MOST_WORK && share.is_finite() || share > 0.0 && share < LEAST_WORK {
+            found.push(Self::told(
+                WarningCode::Work,
+                share.max(share.recip()),
+                "w/E* is {}, {} sides: check the units of work of adhesion and modulus",
+                [Length(work), Figure(share)],
             ));
         }
         found
