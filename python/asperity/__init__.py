@@ -13,23 +13,25 @@ Results do not depend on the number of threads. The interpreter's lock is free d
 
 from __future__ import annotations
 
-from . import _fit, _flow, _laws, _pair, _prepare, _read_curve, contact, exact, surface
+from . import _laws, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
 from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
 from ._cycle import Cycle, Step
-from ._fit import CurveFit
-from ._flow import Flow, Leakage
+from ._fit import CurveFit, fit_curve
+from ._flow import Flow, Leakage, leakage
 from ._folder import load, report
 from ._interface import Interface
 from ._likelihood import Estimate, ModelFit
 from ._laws import *
 from ._laws import CutOff, Tabulated, Varying
+from ._pair import contact_modulus
+from ._prepare import prepare
 from ._progress import progress
 from ._pull_off import PullOff
-from ._read_curve import ForceCurve
+from ._read_curve import ForceCurve, read_curve
 from ._solution import (
     Conductance,
     Constriction,
@@ -46,13 +48,6 @@ from ._types import OwnLaw, Report
 from ._viscoelastic import Moment, Viscoelastic
 from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
-from ._words import checked as _checked
-
-contact_modulus = _checked(_pair.contact_modulus)
-fit_curve = _checked(_fit.fit_curve)
-leakage = _checked(_flow.leakage)
-prepare = _checked(_prepare.prepare)
-read_curve = _checked(_read_curve.read_curve)
 
 __all__ = [
     "AccuracyWarning",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _law
+from ._optional import package
 from ._progress import progress
 from ._solution import Solution
 
@@ -98,10 +98,7 @@ class Rows(Iterator[T]):
         -------
         pandas.DataFrame
         """
-        try:
-            pandas = importlib.import_module("pandas")
-        except ImportError as error:
-            raise ImportError("to_dataframe needs pandas: python -m pip install pandas") from error
+        pandas = package("pandas", "to_dataframe needs pandas: python -m pip install pandas")
         return pandas.DataFrame(self.columns)
 
 

@@ -64,16 +64,13 @@ class Cycle(Rows[Step]):
         try:
             return Step(self._solve(), self.rows[-1])
         except StopIteration:
-            if not has_ended:
-                self._look_at_balance()
+            most = max((abs(row["work"]) for row in self.rows), default=0.0)
+            if not has_ended and most > 0.0:
+                # a balance of energy that misses much of the work
+                text = _asperity.unbalanced(most, self.rows[-1]["imbalance"])
+                if text is not None:
+                    warn(text, AccuracyWarning)
             raise
-
-    def _look_at_balance(self) -> None:
-        """Warns of a balance of energy that misses much of the work."""
-        most = max((abs(row["work"]) for row in self.rows), default=0.0)
-        text = _asperity.unbalanced(most, self.rows[-1]["imbalance"]) if most > 0.0 else None
-        if text is not None:
-            warn(text, AccuracyWarning)
 
     @property
     def events(self) -> list[dict[str, Any]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 from functools import lru_cache, partial
 from typing import Any, Protocol, TypeAlias
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import exact
+from ._optional import package
 from ._warnings import InputWarning, warn
 
 Array: TypeAlias = NDArray[np.float64]
@@ -28,10 +28,7 @@ _RADII = 0.5 * np.sinh(np.linspace(0.0, 7.5, 1250))
 
 def scipy(module: str) -> Any:
     """A module of SciPy, which is only asked for when a curve is fitted."""
-    try:
-        return importlib.import_module(f"scipy.{module}")
-    except ImportError as error:
-        raise ImportError("fits need SciPy: pip install 'asperity[fit]'") from error
+    return package(f"scipy.{module}", "fits need SciPy: pip install 'asperity[fit]'")
 
 
 def _maugis(tabor: float) -> Array:

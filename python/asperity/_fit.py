@@ -16,7 +16,7 @@ from ._tip_table import TipTable
 from ._types import Quantity
 from ._units import given, in_unit, number
 from ._warnings import InputWarning, warn
-
+from ._words import checked
 
 
 class CurveFit:
@@ -139,6 +139,7 @@ def _digits(factor: float, found: Estimate) -> list[str]:
     return [f"{end:.{min(max(digits, 4), 12)}g}" for end in (value, lower, upper)]
 
 
+@checked
 def fit_curve(
     z: ArrayLike,
     force: ArrayLike,

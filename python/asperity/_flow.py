@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity
-from ._units import number
-from ._solution import Conductance, Constriction, Percolation, Solution
-from ._summary import summary
+from ._solution import Constriction, Solution
+from ._summary import summarised
 from ._topography import _lengths, field_of
 from ._types import Boundary, Lengths, Quantity
+from ._units import number
 from ._warnings import ConvergenceWarning, warn
+from ._words import checked
 
-__all__ = ["Conductance", "Constriction", "Flow", "Leakage", "Percolation", "leakage"]
 
-
+@summarised
 class Flow(NamedTuple):
     """Flow along one axis.
 
@@ -49,10 +49,8 @@ class Flow(NamedTuple):
     pressure: NDArray[np.float64]
     flow: NDArray[np.float64]
 
-    def __repr__(self) -> str:
-        return summary(self)
 
-
+@summarised
 class Leakage(NamedTuple):
     """Leakage through a gap.
 
@@ -68,10 +66,8 @@ class Leakage(NamedTuple):
     y: Flow
     report: dict[str, Any]
 
-    def __repr__(self) -> str:
-        return summary(self)
 
-
+@checked
 def leakage(
     gap: Solution | ArrayLike,
     lengths: Lengths | None = None,

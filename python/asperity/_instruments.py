@@ -44,7 +44,7 @@ def read(path: str, channel: int | str | None, refused: ValueError) -> Topograph
             try:
                 channels = reader(file).channels
             except Exception as raised:
-                reason = _told(raised)
+                reason = told(raised)
                 continue
             if channels:
                 return _map_of(_chosen(channels, channel, path), path, reader.format() in _ARRAYS)
@@ -96,7 +96,7 @@ def _map_of(channel: Any, path: str, is_array: bool) -> Topography:
     try:
         found = from_topography(channel.topography(physical_sizes=sizes))
     except Exception as raised:
-        raise ValueError(f"{path}: is not read by SurfaceTopography: {_told(raised)}") from raised
+        raise ValueError(f"{path}: is not read by SurfaceTopography: {told(raised)}") from raised
     if sizes is not None:
         found = replace(found, lengths=None)
     if not (is_array or found._is_line):
@@ -104,6 +104,6 @@ def _map_of(channel: Any, path: str, is_array: bool) -> Topography:
     return replace(found if found.unit is None else _in_metres(found), source=path)
 
 
-def _told(raised: Exception) -> str:
+def told(raised: Exception) -> str:
     """The reason of an exception on one line."""
     return next(iter(str(raised).splitlines()), "") or type(raised).__name__

@@ -9,6 +9,7 @@ from . import _asperity
 from ._topography import Heights, Topography, knows_axes, taken
 from ._types import AxisOrder, Boundary, Quantity
 from ._units import given, number
+from ._words import checked
 
 
 def along_both(shift: list[float] | None) -> tuple[float, float]:
@@ -42,6 +43,7 @@ def contact_modulus(
 def contact_modulus(
     young: str, poisson: float, other_young: str | None = None, other_poisson: float | None = None
 ) -> str: ...
+@checked
 def contact_modulus(
     young: Quantity,
     poisson: float,

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
+from ._optional import package
 from ._units import in_unit
 
 if TYPE_CHECKING:
@@ -19,12 +20,9 @@ Unit: TypeAlias = tuple[float, str | None]
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
-def _pyplot() -> Any:
-    try:
-        import matplotlib.pyplot as plt
-    except ImportError as error:
-        raise ImportError("plots need matplotlib: pip install 'asperity[plot]'") from error
-    return plt
+def _axes(**options: Any) -> Any:
+    """New axes, one or several."""
+    return package("matplotlib.pyplot", "plots need matplotlib: pip install 'asperity[plot]'").subplots(**options)[1]
 
 
 def shown(name: str, own: str | None, wanted: str | None) -> Unit:
@@ -65,16 +63,13 @@ def _map(ax: Axes, field: NDArray[Any], lengths: tuple[float, float], length_uni
     factor, unit = _scaled(lengths, length_unit)
     extent = (0.0, factor * lengths[0], 0.0, factor * lengths[1])
     image = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
-    ax.set_xlabel(_label("x", unit))
-    ax.set_ylabel(_label("y", unit))
+    ax.set(xlabel=_label("x", unit), ylabel=_label("y", unit))
     return image
 
 
 def _one(ax: Axes | None, height: float) -> Axes:
     """Axes that are given, or new ones."""
-    if ax is None:
-        ax = _pyplot().subplots(figsize=(4.6, height), layout="constrained")[1]
-    return ax
+    return _axes(figsize=(4.6, height), layout="constrained") if ax is None else ax
 
 
 def heights(field: NDArray[Any], lengths: tuple[float, float], length_unit: Unit, ax: Axes | None) -> Axes:
@@ -176,7 +171,7 @@ def pressure(
 def two(ax: Any, **options: Any) -> Any:
     """Two axes: those that are given, or new ones."""
     if ax is None:
-        return _pyplot().subplots(**options)[1]
+        return _axes(**options)
     if np.size(ax) != 2:
         raise ValueError(f"ax has {np.size(ax)} axes: it must be two of matplotlib, as from subplots(1, 2)")
     return np.asarray(ax).ravel()
@@ -235,8 +230,7 @@ def sweep(
             ax.set_yscale("log")
     if theories:
         ax.legend(frameon=False, fontsize="small")
-    ax.set_xlabel(_label("mean pressure", unit))
-    ax.set_ylabel(_label(name.replace("_", " "), up_unit))
+    ax.set(xlabel=_label("mean pressure", unit), ylabel=_label(name.replace("_", " "), up_unit))
     return ax
 
 
@@ -245,8 +239,7 @@ def over_time(columns: dict[str, NDArray[Any]], name: str, ax: Axes | None, unit
     ax = _one(ax, 3.4)
     factor, word = _scaled(columns[name], unit)
     ax.plot(columns["time"], factor * columns[name], "o-", markersize=3.5)
-    ax.set_xlabel("time")
-    ax.set_ylabel(_label(name.replace("_", " "), word))
+    ax.set(xlabel="time", ylabel=_label(name.replace("_", " "), word))
     return ax
 
 
@@ -281,8 +274,7 @@ def cycle(
         for k in on[1:][jumps[on[1:]]]:
             ax.plot(across[k - 1 : k + 1], up[k - 1 : k + 1], "--", color="k", linewidth=0.5)
     ax.axhline(0.0, color="0.7", linewidth=0.8, zorder=0)
-    ax.set_xlabel(_label(x.replace("_", " "), across_unit))
-    ax.set_ylabel(_label(y.replace("_", " "), up_unit))
+    ax.set(xlabel=_label(x.replace("_", " "), across_unit), ylabel=_label(y.replace("_", " "), up_unit))
     ax.legend(frameon=False)
     return ax
 
@@ -308,7 +300,6 @@ def force_curve(
             lower.plot(across * z[part], rest * (force - fitted)[part], ".", color=color, alpha=0.4, markersize=3)
     lower.axhline(0.0, color="0.7", linewidth=0.8, zorder=0)
     upper.set_ylabel(_label("force", unit))
-    lower.set_ylabel(_label("residual", small))
-    lower.set_xlabel(_label("z", length))
+    lower.set(xlabel=_label("z", length), ylabel=_label("residual", small))
     upper.legend(frameon=False)
     return ax

@@ -12,12 +12,14 @@ from ._types import AxisOrder, Lengths, Quantity, RemovedForm, RowAlignment, Sca
 from ._units import given as units
 from ._units import number
 from ._warnings import warn_of_input
+from ._words import checked
 
 #: The threshold of scars, that of Gwyddion.
 _SCARS = 0.667
 _SPIKES = 10.0
 
 
+@checked
 def prepare(
     heights: Heights,
     lengths: Lengths | None = None,

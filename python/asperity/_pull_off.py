@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ._solution import Solution
-from ._summary import summary
+from ._summary import summarised
 from ._types import Branch
 
 
+@summarised
 class PullOff(NamedTuple):
     """A pull-off: a tension that surfaces bear, and a slightly larger one that they do not.
 
@@ -58,6 +59,3 @@ class PullOff(NamedTuple):
     solves: int
     operator_applications: int
     solution: Solution
-
-    def __repr__(self) -> str:
-        return summary(self)

@@ -12,6 +12,8 @@ import numpy as np
 from . import _asperity
 from ._branches import ordered
 from ._equilibria import Array
+from ._instruments import told
+from ._words import checked
 
 #: The name of a column, and its unit in parentheses, brackets, or behind a slash.
 _HEADING = re.compile(r"^(.*?)[\s_]*(?:\(([^()]*)\)|\[([^\[\]]*)\]|/\s*(\S+))$")
@@ -34,6 +36,7 @@ class ForceCurve(NamedTuple):
     force: Array
 
 
+@checked
 def read_curve(
     path: str | os.PathLike[str],
     *,
@@ -123,8 +126,7 @@ def _instrument(path: Any, number: int) -> list[tuple[str, str, Array]]:
         names = [name for name in curve.columns if name not in ("segment", "time", "index")]
         return [(name, "N" if name == "force" else "m", np.asarray(curve[name], np.float64)) for name in names]
     except (Exception, formats.errors.AFMFileFormatError, formats.errors.MissingMetaDataError) as raised:
-        told = next(iter(str(raised).splitlines()), "") or type(raised).__name__
-        raise ValueError(f"{path}: is not read by afmformats: {told}") from raised
+        raise ValueError(f"{path}: is not read by afmformats: {told(raised)}") from raised
 
 
 def _text(path: Any, content: bytes) -> list[tuple[str, str, Array]]:

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity, _plot
 from ._accuracy import Plan
-from ._summary import summary
+from ._optional import package
+from ._summary import summarised
 from ._topography import Topography, field_of
 from ._types import Boundary, Report, Status
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
+@summarised
 class ContactStatistics(NamedTuple):
     """Contact area and clusters, and the area that attracts without contact; fractions of nodes not absent.
 
@@ -50,10 +52,8 @@ class ContactStatistics(NamedTuple):
     attractive_fraction: float
     apart_fraction: float
 
-    def __repr__(self) -> str:
-        return summary(self)
 
-
+@summarised
 class PressureDistribution(NamedTuple):
     """The distribution of the contact pressure over the nodes: a histogram, as a probability density.
 
@@ -69,10 +69,8 @@ class PressureDistribution(NamedTuple):
     density: NDArray[np.float64]
     edges: NDArray[np.float64]
 
-    def __repr__(self) -> str:
-        return summary(self)
 
-
+@summarised
 class Constriction(NamedTuple):
     """The narrowest place of the widest passage through a gap.
 
@@ -90,10 +88,8 @@ class Constriction(NamedTuple):
     node: tuple[int, int]
     path: NDArray[np.int64]
 
-    def __repr__(self) -> str:
-        return summary(self)
 
-
+@summarised
 class Percolation(NamedTuple):
     """Whether a gap is open from side to side, or around a periodic cell.
 
@@ -105,9 +101,6 @@ class Percolation(NamedTuple):
 
     x: Constriction | None
     y: Constriction | None
-
-    def __repr__(self) -> str:
-        return summary(self)
 
 
 class Conductance(NamedTuple):
@@ -346,10 +339,7 @@ class Solution:
         -------
         xarray.Dataset
         """
-        try:
-            import xarray
-        except ImportError as error:
-            raise ImportError("to_xarray needs xarray: python -m pip install xarray") from error
+        xarray = package("xarray", "to_xarray needs xarray: python -m pip install xarray")
         dims = ("x", "y")[: self.gap.ndim]
         coords = {
             dim: np.arange(nodes) * (side / nodes) for dim, nodes, side in zip(dims, self.gap.shape, self.lengths)
@@ -357,7 +347,9 @@ class Solution:
         fields = {"gap": self.gap, "pressure": self.pressure, "contact_pressure": self.contact_pressure}
         heights = {} if self._topography is None else {"heights": self.heights}
         data = {name: (dims, field) for name, field in {**fields, **heights}.items()}
-        return xarray.Dataset(data, coords, {k: v for k, v in self.report.items() if isinstance(v, int | float | str)})
+        numbers = {k: v for k, v in self.report.items() if isinstance(v, int | float | str)}
+        found: Dataset = xarray.Dataset(data, coords, numbers)
+        return found
 
     @property
     def heights(self) -> NDArray[np.float64]:

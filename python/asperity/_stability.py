@@ -1,14 +1,16 @@
 """Whether an equilibrium lasts."""
 
 from __future__ import annotations
-from ._summary import summary
 
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._summary import summarised
 
+
+@summarised
 class Stability(NamedTuple):
     """Stability of an equilibrium; eigenvalues are pressures per length.
 
@@ -40,6 +42,3 @@ class Stability(NamedTuple):
     smoothed: bool
     operator_applications: int
     mode: NDArray[np.floating[Any]]
-
-    def __repr__(self) -> str:
-        return summary(self)

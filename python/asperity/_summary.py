@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+
+T = TypeVar("T", bound=tuple[Any, ...])
+
+
+def summarised(kind: type[T]) -> type[T]:
+    """Prints a named tuple by `summary`."""
+    setattr(kind, "__repr__", summary)
+    return kind
 
 
 def summary(found: Any) -> str:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from numpy.typing import ArrayLike
 
-from . import _asperity, _surface
+from . import _asperity, surface
 from ._formula import Formula
-from ._surface import PowerSpectralDensity
 from ._topography import Heights, Topography, taken
 from ._types import AxisOrder, Lengths, Quantity
 from ._units import Quantities
+from .surface import PowerSpectralDensity
 
 if TYPE_CHECKING:
     from ._contact import Contact
@@ -46,7 +46,7 @@ class _Theory(Formula):
         return cls._by(_surface_of(heights, lengths, axes, modulus), modulus)
 
     @classmethod
-    def _by(cls: type[T], surface: Topography, modulus: Quantity) -> T:
+    def _by(cls: type[T], topography: Topography, modulus: Quantity) -> T:
         raise NotImplementedError
 
     def contact_fraction(self, mean_pressure: ArrayLike) -> Any:
@@ -97,8 +97,8 @@ class Persson(_Theory):
     _core = _asperity.Persson
 
     @classmethod
-    def _by(cls, surface: Topography, modulus: Quantity) -> Persson:
-        return cls(_surface.statistics(surface).rms_slope, modulus, _surface.spectrum(surface))
+    def _by(cls, topography: Topography, modulus: Quantity) -> Persson:
+        return cls(surface.statistics(topography).rms_slope, modulus, surface.spectrum(topography))
 
     def mean_gap(self, mean_pressure: ArrayLike) -> Any:
         """Mean gap at mean pressures p̄ > 0, a length; without a load it is infinite."""
@@ -154,8 +154,8 @@ class GreenwoodWilliamson(_Theory):
     _core = _asperity.GreenwoodWilliamson
 
     @classmethod
-    def _by(cls, surface: Topography, modulus: Quantity) -> GreenwoodWilliamson:
-        found = _surface.statistics(surface)
+    def _by(cls, topography: Topography, modulus: Quantity) -> GreenwoodWilliamson:
+        found = surface.statistics(topography)
         unit = "m" if isinstance(modulus, str) else None
         return cls(
             f"{found.rms_height:.8g}m" if unit else found.rms_height,
@@ -193,5 +193,5 @@ def beside(contact: Contact) -> tuple[Persson, GreenwoodWilliamson]:
     if contact.beyond_theory is not None:
         raise ValueError(contact.beyond_theory)
     modulus = f"{contact.modulus!r}Pa" if contact.pressure_unit else contact.modulus
-    surface = contact.topography
-    return Persson.of(surface, modulus=modulus), GreenwoodWilliamson.of(surface, modulus=modulus)
+    heights = contact.topography
+    return Persson.of(heights, modulus=modulus), GreenwoodWilliamson.of(heights, modulus=modulus)

@@ -43,7 +43,7 @@ def _meant(word: str, known: Sequence[str]) -> str:
     return f"did you mean {right}?" if right else f"it has {', '.join(known)}"
 
 
-def checked(function: Callable[P, R], module: str = "asperity") -> Callable[P, R]:
+def checked(function: Callable[P, R]) -> Callable[P, R]:
     """A function of the package, as users see it.
 
     It reads quantities with units, and suggests what an unknown keyword may mean.
@@ -63,5 +63,5 @@ def checked(function: Callable[P, R], module: str = "asperity") -> Callable[P, R
             given.reset(token)
 
     # by this name it is found in other processes
-    call.__module__ = module
+    call.__module__ = function.__module__.partition("._")[0]
     return call

@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 
 from . import _asperity
 from ._solution import ContactStatistics, Solution
-from ._summary import summary
+from ._summary import summarised
 from ._topography import field_of
 
 __all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
 
 
+@summarised
 class Clusters(NamedTuple):
     """The pieces of a periodic map that hang together.
 
@@ -28,9 +29,6 @@ class Clusters(NamedTuple):
 
     sizes: NDArray[np.int64]
     labels: NDArray[np.int64]
-
-    def __repr__(self) -> str:
-        return summary(self)
 
 
 def clusters(contact: Any) -> Clusters:
@@ -58,6 +56,7 @@ def clusters(contact: Any) -> Clusters:
     return Clusters(sizes, labels.reshape(given.shape))
 
 
+@summarised
 class Density(NamedTuple):
     """Probability density of a gap or a pressure over the nodes, in bins that are equally wide in its logarithm.
 
@@ -77,10 +76,8 @@ class Density(NamedTuple):
     edges: NDArray[np.float64]
     exponent: dict[str, Any] | None
 
-    def __repr__(self) -> str:
-        return summary(self)
 
-
+@summarised
 class ContactTables(NamedTuple):
     """The contact of a solution in tables.
 
@@ -102,9 +99,6 @@ class ContactTables(NamedTuple):
     autocorrelation: NDArray[np.float64]
     clusters: NDArray[np.float64]
     figures: dict[str, Any]
-
-    def __repr__(self) -> str:
-        return summary(self)
 
 
 def tables(solution: Solution) -> ContactTables:
