@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import copy
 import os
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -49,12 +50,12 @@ from ._topography import Heights, Topography, axes_of, field_of, mirrored, refin
 from ._types import AxisOrder, Lengths
 from ._viscoelastic import ELASTIC, Viscoelastic
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
-from ._words import check
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 R = TypeVar("R", bound=Rows[Any])
+T = TypeVar("T")
 
 #: The parameters of laws, which are no keywords next to an object that has its own.
 _OF_LAWS = tuple(key for key in names(AdhesionKeywords) if key not in ("law", "wall", "wall_stiffness", "hardness"))
@@ -86,15 +87,14 @@ def _springs(keys: dict[str, Any]) -> None:
         keys["spring_stiffness"], keys["spring_position"] = _pair("spring", spring)
 
 
-def _posed(
-    function: Any, heights: Heights, lengths: Lengths | None, axes: AxisOrder | None, keywords: Any
-) -> tuple[Contact, Any]:
-    """The contact that a function solves, once, and the keywords of its call."""
-    check(function.__name__, keywords, tuple(function.__signature__.parameters))
+def _once(
+    way: Callable[..., T], heights: Heights, lengths: Lengths | None, axes: AxisOrder | None, keywords: Any
+) -> T:
+    """What a method of a contact returns, of one that is solved once."""
     of_contact = names(ContactKeywords)
     contact = Contact.__new__(Contact)
     contact._pose(heights, lengths, axes, {key: keywords[key] for key in keywords if key in of_contact}, False)
-    return contact, {key: keywords[key] for key in keywords if key not in of_contact}
+    return way(contact, **{key: keywords[key] for key in keywords if key not in of_contact})
 
 
 @described(SolveAll)
@@ -239,8 +239,7 @@ def solve(
     >>> right.report["accuracy"], right.heights.shape
     ({'wanted': 0.01, 'of': 'area', 'reached': True}, (64, 64))
     """
-    contact, call = _posed(solve, heights, lengths, axes, keywords)
-    return contact.solve(**call)
+    return _once(Contact.solve, heights, lengths, axes, keywords)
 
 
 @described(SweepAll)
@@ -305,8 +304,7 @@ def sweep(
     >>> [f"{share:.2f}" for share in found["contact_fraction"]], [f"{p:.4f}" for p in found["mean_pressure"]]
     (['0.05', '0.10'], ['0.0019', '0.0040'])
     """
-    contact, call = _posed(sweep, heights, lengths, axes, keywords)
-    return contact.sweep(**call)
+    return _once(Contact.sweep, heights, lengths, axes, keywords)
 
 
 @described(CycleAll)
@@ -368,8 +366,7 @@ def cycle(
     >>> bool(found.columns["mean_pressure"].min() < 0)  # the pull-off stress
     True
     """
-    contact, call = _posed(cycle, heights, lengths, axes, keywords)
-    return contact.cycle(**call)
+    return _once(Contact.cycle, heights, lengths, axes, keywords)
 
 
 @described(InterfaceAll, without=_NOT_OF_INTERFACE)
@@ -398,8 +395,7 @@ def interface(
     >>> bool(np.isclose(slope, law["contact_stiffness"].mean(), rtol=law["stiffness_error"].max()).all())
     True
     """
-    contact, call = _posed(interface, heights, lengths, axes, keywords)
-    return contact.interface(**call)
+    return _once(Contact.interface, heights, lengths, axes, keywords)
 
 
 @described(PullOffAll)
@@ -445,8 +441,7 @@ def pull_off(
     >>> abs(found.force / exact - 1) < 0.02
     True
     """
-    contact, call = _posed(pull_off, heights, lengths, axes, keywords)
-    return contact.pull_off(**call)
+    return _once(Contact.pull_off, heights, lengths, axes, keywords)
 
 
 @described(ViscoelasticAll, without=ELASTIC)
@@ -507,8 +502,7 @@ def viscoelastic(
     >>> bool(np.allclose(found.columns["approach"], hertz, rtol=2e-3))
     True
     """
-    contact, call = _posed(viscoelastic, heights, lengths, axes, keywords)
-    return contact.viscoelastic(**call)
+    return _once(Contact.viscoelastic, heights, lengths, axes, keywords)
 
 
 @described(StabilityKeywords)
@@ -536,7 +530,6 @@ def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stabilit
     >>> asperity.stability(held).verdict, asperity.stability(held, mean_pressure=held.mean_pressure).verdict
     ('stable', 'unstable')
     """
-    check("stability", load, ("solution", *names(StabilityKeywords)))
     report = solution.report
     if report["wall"] == "uzawa":
         raise ValueError(
@@ -591,7 +584,6 @@ class Contact:
         axes: AxisOrder | None = None,
         **keywords: Unpack[ContactKeywords],
     ) -> None:
-        check("Contact", keywords, ("heights", "lengths", "axes", *names(ContactKeywords)))
         self._pose(heights, lengths, axes, dict(keywords), is_kept=True)
 
     def _pose(
@@ -693,7 +685,6 @@ class Contact:
     @described(SolveKeywords)
     def solve(self, **keywords: Unpack[SolveKeywords]) -> Solution:
         """Finds the equilibrium under a load, as `asperity.solve`."""
-        check("solve", keywords, names(SolveKeywords))
         start, observe, keys = self._split(keywords)
         _springs(keys)
         found = self.problem.solve(keys, self._start(start), observe)
@@ -703,26 +694,22 @@ class Contact:
     @described(SweepKeywords)
     def sweep(self, **keywords: Unpack[SweepKeywords]) -> Sweep:
         """Solves under many loads, as `asperity.sweep`."""
-        check("sweep", keywords, names(SweepKeywords))
         return self._rows(Sweep, "sweep", keywords)
 
     @described(CycleKeywords)
     def cycle(self, **keywords: Unpack[CycleKeywords]) -> Cycle:
         """Follows a branch of equilibria through turning points, as `asperity.cycle`."""
-        check("cycle", keywords, names(CycleKeywords))
         smooth = keywords.pop("smooth", None)
         return self._rows(Cycle, "cycle", {**keywords, "sharp": smooth is not None and not smooth})
 
     @described(InterfaceKeywords, without=_NOT_OF_INTERFACE)
     def interface(self, **keywords: Unpack[InterfaceKeywords]) -> Interface:
         """Tabulates the law of an interface over the load, as `asperity.interface`."""
-        check("interface", keywords, names(InterfaceKeywords))
         return self._rows(Interface, "interface", keywords)
 
     @described(OfPullOffKeywords)
     def pull_off(self, **keywords: Unpack[OfPullOffKeywords]) -> PullOff:
         """Finds the pull-off, as `asperity.pull_off`."""
-        check("pull_off", keywords, names(OfPullOffKeywords))
         start, observe, keys = self._split(keywords)
         self._has_one_branch()
         if "accuracy" in keys and start is not None:
@@ -738,7 +725,6 @@ class Contact:
     @described(ViscoelasticKeywords)
     def viscoelastic(self, **keywords: Unpack[ViscoelasticKeywords]) -> Viscoelastic:
         """Follows a viscoelastic body over time, as `asperity.viscoelastic`."""
-        check("viscoelastic", keywords, names(ViscoelasticKeywords))
         start, observe, keys = self._split(keywords)
         self._has_one_branch()
         return Viscoelastic(self, keys, start, observe)
@@ -746,7 +732,6 @@ class Contact:
     @described(StabilityKeywords)
     def stability(self, solution: Solution, **load: Unpack[StabilityKeywords]) -> Stability:
         """Finds out whether a solution is stable, as `asperity.stability`."""
-        check("stability", load, names(StabilityKeywords))
         keys: dict[str, Any] = {key: value for key, value in load.items() if value is not None}
         _springs(keys)
         if not keys:
@@ -838,7 +823,5 @@ class Contact:
         return solution
 
 
-# by these names they are found in other processes
-for _function in (solve, sweep, cycle, interface, pull_off, viscoelastic, stability):
-    _function.__module__ = "asperity"
+# by this name it is found in other processes
 Contact.__module__ = "asperity"

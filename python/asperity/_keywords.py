@@ -2,35 +2,22 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import re
 import textwrap
 from collections.abc import Callable, Iterable
 from os import PathLike
-from typing import Any, TypedDict, TypeVar
+from typing import Any, TypedDict, TypeVar, cast
 
 from . import _asperity
 from ._asperity import Iteration
 from ._body import Body
-from ._keys import (
-    AccuracyKeywords,
-    AdhesionKeywords,
-    ConductorKeywords,
-    FindingsKeywords,
-    FractionsKeywords,
-    LeakageKeywords,
-    LoadKeywords,
-    LoadsKeywords,
-    NestedKeywords,
-    PathKeywords,
-    PullOffKeywords,
-    SolverKeywords,
-    StiffnessKeywords,
-    SurfaceKeywords,
-)
+from ._keys import *
 from ._solution import Start
 from ._topography import Heights
 from ._types import Quantity
+from ._words import check
 
 #: What the docstrings of functions say of their parameters.
 _ENTRIES: dict[str, dict[str, str]] = {}
@@ -151,7 +138,7 @@ def names(kind: Any) -> tuple[str, ...]:
 
 
 def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
-    """Gives a function the signature of its keywords, and its docstring those that it leaves out."""
+    """Gives a function the signature of its keywords, and its docstring those that it leaves out; refuses all others."""
 
     def describe(function: F) -> F:
         signature = inspect.signature(function)
@@ -163,8 +150,17 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
             if keys.keys() <= set(known):
                 meanings.update(keys)
         more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=meanings[name][0]) for name in known]
-        setattr(function, "__signature__", signature.replace(parameters=[*own, *more]))
         order = [*(one.name for one in own), *known]
+        of = function.__qualname__.removesuffix(".__init__").rpartition(".")[-1]
+
+        @functools.wraps(function)
+        def call(*args: Any, **keywords: Any) -> Any:
+            check(of, keywords, [one for one in order if one != "self"])
+            return function(*args, **keywords)
+
+        setattr(call, "__signature__", signature.replace(parameters=[*own, *more]))
+        # by this name it is found in other processes
+        call.__module__ = function.__module__.partition("._")[0]
         head, returns, tail = inspect.cleandoc(function.__doc__ or "").partition("\nReturns\n-------\n")
         head, _, documented = head.partition("\nParameters\n----------\n")
         entries = _entries(documented)
@@ -181,8 +177,8 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
                 entries.append(((name,), said))
         entries.sort(key=lambda one: order.index(one[0][0]))
         lines = "".join(f"{', '.join(names_of)}{entry.rstrip()}\n" for names_of, entry in entries)
-        setattr(function, "__doc__", f"{head.rstrip()}\n\nParameters\n----------\n{lines}{returns}{tail}")
-        return function
+        call.__doc__ = f"{head.rstrip()}\n\nParameters\n----------\n{lines}{returns}{tail}"
+        return cast("F", call)
 
     return describe
 
