@@ -81,18 +81,11 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
     taken = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
     solution = Solution(of, (_body(told), law), told, {**taken, "look": None, "displacements": None})
     sizes, _ = _asperity.clusters(solution.contact.reshape(shape), solution.flow_boundary == "periodic")
-    corrected = told["corrected_contact_fraction"]
-    repulsive, attractive = told["repulsive_fraction"], told["attractive_fraction"]
-    statistics = ContactStatistics(
-        contact_nodes=told["contact_nodes"],
-        contact_fraction=told["contact_fraction"],
-        corrected_contact_fraction=np.nan if corrected is None else corrected,
-        perimeter=told["perimeter"],
-        cluster_sizes=sizes,
-        repulsive_fraction=repulsive,
-        attractive_fraction=attractive,
-        apart_fraction=1.0 - repulsive - attractive,
-    )
+    apart = 1.0 - told["repulsive_fraction"] - told["attractive_fraction"]
+    counted = {**told, "cluster_sizes": sizes, "apart_fraction": apart}
+    if counted["corrected_contact_fraction"] is None:
+        counted["corrected_contact_fraction"] = np.nan
+    statistics = ContactStatistics(*(counted[name] for name in ContactStatistics._fields))
     rows = _asperity.figures_of(json.dumps(told))
     both: list[Any] = [taken[name] for name in ("displacement", "against_displacement")]
     parts = None if both[1] is None else tuple(map(solution.part_of, both))

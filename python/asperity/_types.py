@@ -134,19 +134,16 @@ class Patch(TypedDict):
     attractive_fraction: float
 
 
-#: The stability of an equilibrium.
-Steadiness = TypedDict(
-    "Steadiness",
-    {
-        "verdict": Literal["stable", "unstable", "undecided"],
-        "eigenvalue": float | None,
-        "residual": float,
-        "lower_bound": float | None,
-        "error_bound": float | None,
-        "smoothed": bool,
-        "operator_applications": int,
-    },
-)
+class Steadiness(TypedDict):
+    """The stability of an equilibrium."""
+
+    verdict: Literal["stable", "unstable", "undecided"]
+    eigenvalue: float | None
+    residual: float
+    lower_bound: float | None
+    error_bound: float | None
+    smoothed: bool
+    operator_applications: int
 
 
 class Conducted(TypedDict):
