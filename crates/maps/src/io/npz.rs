@@ -45,24 +45,21 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
         }
     };
     let mut map = Topography::new(read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?);
-    if let Some(index) = archive.index_for_name("lengths.npy")
-        && archive.len() > 1
-    {
+    if archive.len() == 1 {
+        return Ok(map);
+    }
+    if let Some(index) = archive.index_for_name("lengths.npy") {
         let lengths = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
         match lengths.as_slice() {
             Some(&[lx, ly]) if is_side(lx) && is_side(ly) => map.lengths = Some((lx, ly)),
             _ => return refuse("has an array lengths that is not two positive numbers: save it as [Lx, Ly]"),
         }
     }
-    if let Some(index) = ["unit.npy", "units.npy"].iter().find_map(|name| archive.index_for_name(name))
-        && archive.len() > 1
-    {
+    if let Some(index) = ["unit.npy", "units.npy"].iter().find_map(|name| archive.index_for_name(name)) {
         let unit = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
         map.unit = Some(unit).filter(|unit| !unit.is_empty());
     }
-    if let Some(index) = archive.index_for_name("original.npy")
-        && archive.len() > 1
-    {
+    if let Some(index) = archive.index_for_name("original.npy") {
         let nodes = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
         let fits = |nodes: f64, of: usize| nodes >= 1.0 && nodes <= of as f64 && nodes.fract() == 0.0;
         map.original = match nodes.as_slice() {
@@ -75,26 +72,20 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
             }
         };
     }
-    if let Some(index) = archive.index_for_name("seed.npy")
-        && archive.len() > 1
-    {
+    if let Some(index) = archive.index_for_name("seed.npy") {
         let seed = read_entry(&mut archive, index, size, |entry, size| read_npy_text(entry, size))?;
         let wrong = || format!("has the seed {}, expected a whole number: leave the array out", quoted(&seed));
         map.seed = Some(seed.parse().map_err(|_| wrong())?);
     }
-    if let Some(index) = archive.index_for_name("scars_removed.npy")
-        && archive.len() > 1
-    {
+    if let Some(index) = archive.index_for_name("scars_removed.npy") {
         let threshold = read_entry(&mut archive, index, size, |entry, size| read_npy(entry, size))?;
         match threshold.as_slice() {
             Some(&[threshold]) if threshold > 0.0 && threshold.is_finite() => map.scars_removed = Some(threshold),
             _ => return refuse("has an array scars_removed that is not a positive number: leave the array out"),
         }
     }
-    if archive.len() > 1 {
-        let unread = archive.file_names().map(array).filter(|name| !ARRAYS.contains(name));
-        map.unread = unread.map(str::to_owned).collect();
-    }
+    let unread = archive.file_names().map(array).filter(|name| !ARRAYS.contains(name));
+    map.unread = unread.map(str::to_owned).collect();
     Ok(map)
 }
 
