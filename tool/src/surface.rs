@@ -94,20 +94,13 @@ fn described(options: &Options, scene: &SceneFile) -> Outcome<Described> {
     let shape = in_options(options.grid.0.shape())?;
     let (body, roughness): (Body, Roughness) = (options.form.0.object()?, options.roughness.0.object()?);
     let (form, fourier) = (body.form, options.fourier.0.fourier());
-    if let Some((name, lacks)) = body.misfits().first() {
-        let (what, remedy) = if *lacks { ("lacks", "give it") } else { ("has no", "leave it out") };
-        return Err(format!("--form {form} {what} --{name}: {remedy}").into());
-    }
+    in_options(body.check())?;
     let rough = roughness.self_affine();
     if rough.is_none() && fourier.is_none() && form == BodyForm::SelfAffine {
         return Err("--form self-affine lacks its roughness: give --rms-height or --rms-slope, or --fourier".into());
     }
     let unit = scene.is_si().then_some(LENGTH.si);
-    if unit.is_some() && options.grid.0.lengths(shape).is_none() {
-        return Err(
-            "the numbers have units, but nothing says how large the map is: give --lengths, such as 20um".into()
-        );
-    }
+    let sides = in_options(options.grid.0.sides(shape, scene.is_si()))?;
     if let (Some(_), Some(key)) = (&fourier, options.roughness.0.first()) {
         let text = format!("{{{key}}} is of random roughness, which {{fourier}} replaces: leave it out");
         return in_options(Err(text));
@@ -116,7 +109,7 @@ fn described(options: &Options, scene: &SceneFile) -> Outcome<Described> {
         let text = "the numbers have units, but the coefficients have none: give --fourier-unit, such as 0.1mm";
         return Err(text.into());
     }
-    let grid = Grid::new(shape, options.grid.0.lengths(shape).unwrap_or((1.0, 1.0)))?;
+    let grid = Grid::new(shape, sides)?;
     let fourier = fourier.map(|path| (path, options.fourier.0.fourier_unit().unwrap_or(1.0)));
     Ok(Described { grid, body, rough, fourier, unit })
 }

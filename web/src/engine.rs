@@ -80,21 +80,12 @@ impl Engine {
         let given = read(given, without_files::<(FormKeys, RoughnessKeys, GridKeys)>())?;
         let (typed, si) = (given.typed(), given.quantities().is_si());
         let shape = given.shape().map_err(reason)?;
-        if si && given.lengths(shape).is_none() {
-            return Err(
-                "the numbers have units, but nothing says how large the map is: give lengths, such as 20um".into()
-            );
-        }
-        let sides = given.lengths(shape).unwrap_or((1.0, 1.0));
+        let sides = given.sides(shape, si).map_err(reason)?;
         let body: Body = given.object()?;
-        let form = body.form;
-        if let Some((name, lacks)) = body.misfits().first() {
-            let (what, remedy) = if *lacks { ("lacks", "give it") } else { ("has no", "leave it out") };
-            return Err(format!("form {form} {what} {name}: {remedy}").into());
-        }
+        body.check().map_err(reason)?;
         let roughness: Roughness = given.object()?;
         let rough = roughness.self_affine();
-        if rough.is_none() && (roughness.rms_height.is_some() || form == Default::default()) {
+        if rough.is_none() && (roughness.rms_height.is_some() || body.form == Default::default()) {
             return Err("roughness: give rms_height or rms_slope, one of the two".into());
         }
         check_memory("a surface", shape, if rough.is_some() { 40 } else { 24 })?;

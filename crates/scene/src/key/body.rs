@@ -37,6 +37,20 @@ impl Given {
         }
     }
 
+    /// The side lengths of a surface that is made, 1 by 1 by default, which are needed where numbers are in SI units.
+    ///
+    /// # Errors
+    /// The remedy where they are missing, for [`worded`](crate::worded).
+    pub fn sides(&self, shape: (usize, usize), si: bool) -> std::result::Result<(f64, f64), String> {
+        match self.lengths(shape) {
+            None if si => {
+                Err("the numbers have units, but nothing says how large the map is: give {lengths}, such as 20um"
+                    .to_owned())
+            }
+            lengths => Ok(lengths.unwrap_or((1.0, 1.0))),
+        }
+    }
+
     /// The unit of the coefficients of a surface, if it is given.
     pub fn fourier_unit(&self) -> Option<f64> {
         self.number("fourier_unit")
@@ -105,8 +119,11 @@ choice! {
 }
 
 impl Body {
-    /// The parameters that the form lacks or does not have, with whether it lacks them.
-    pub fn misfits(&self) -> Vec<(&'static str, bool)> {
+    /// Refuses parameters that the form lacks or does not have.
+    ///
+    /// # Errors
+    /// The first of them, and the remedy, for [`worded`](crate::worded).
+    pub fn check(&self) -> std::result::Result<(), String> {
         let round = [BodyForm::Sphere, BodyForm::Paraboloid, BodyForm::FlatPunch];
         let given = [
             ("radius", self.radius.is_some(), round.contains(&self.form)),
@@ -114,7 +131,11 @@ impl Body {
             ("amplitude", self.amplitude.is_some(), self.form == BodyForm::Wave),
             ("periods", self.periods.is_some(), self.form == BodyForm::Wave && self.periods.is_some()),
         ];
-        given.into_iter().filter(|(_, given, needed)| given != needed).map(|(name, _, needed)| (name, needed)).collect()
+        let misfit = given.into_iter().find(|(_, given, needed)| given != needed);
+        misfit.map_or(Ok(()), |(name, _, lacks)| {
+            let (what, remedy) = if lacks { ("lacks", "give it") } else { ("has no", "leave it out") };
+            Err(format!("{{form}} {} {what} {{{name}}}: {remedy}", self.form))
+        })
     }
 
     /// The surface of the body with `roughness` of the shape of the grid on it; nodes beyond the body are absent.
