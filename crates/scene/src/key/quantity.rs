@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Deserializer};
-
 use crate::key::Range;
 
 /// A number in SI units if it was given with a unit, and otherwise in whatever units its user thinks in.
@@ -31,13 +29,6 @@ impl Quantity {
     /// A number without a dimension.
     pub fn number(value: f64) -> Self {
         Self { value, has_unit: false, is_number: true }
-    }
-}
-
-/// A number, in whatever units its user thinks in.
-impl<'de> Deserialize<'de> for Quantity {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Ok(Self::bare(f64::deserialize(from)?))
     }
 }
 
