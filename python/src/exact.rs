@@ -23,12 +23,11 @@ fn fields<'py, S>(
     returned(py, values.map_err(|error| PyValueError::new_err(error.to_string()))?)
 }
 
-/// A property of states, as a getter.
+/// States of a solution, with their numbers as getters and their fields as functions of places.
 macro_rules! states {
-    ($(#[$doc:meta])* $class:ident($state:ty) { $($property:ident,)* } { $($field:ident($place:ident),)* }) => {
-        $(#[$doc])*
+    ($class:ident { $($property:ident),* } { $($field:ident($place:ident)),* }) => {
         #[pyclass(frozen, module = "asperity.exact")]
-        pub struct $class(ArrayD<$state>);
+        pub struct $class(ArrayD<exact::$class>);
 
         #[pymethods]
         impl $class {
@@ -44,30 +43,20 @@ macro_rules! states {
 }
 
 states! {
-    /// Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found
-    /// at.
-    Contact(exact::Contact) {
-        contact_radius, adhesion_radius, load, approach, radius_of_curvature, second_moment,
-    } { pressure(r), gap(r), displacement(r), deflection(r), }
+    Contact { contact_radius, adhesion_radius, load, approach, radius_of_curvature, second_moment }
+    { pressure(r), gap(r), displacement(r), deflection(r) }
 }
-
-states! {
-    /// Contacts of a wave h₀ cos(2πx/λ) with a half-space; numbers have the shape of what they were found at.
-    WaveContact(exact::WaveContact) { half_width, mean_pressure, mean_gap, } {
-        pressure(x), gap(x), displacement(x),
-    }
-}
+states! { WaveContact { half_width, mean_pressure, mean_gap } { pressure(x), gap(x), displacement(x) } }
 
 /// A solution as a class: its states at the likes of loads, single states, and numbers of its own.
 macro_rules! solution {
     (
-        $(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*) -> $states:ident;
-        at { $($(#[$at_doc:meta])* $at:ident($place:ident);)* }
-        one { $($(#[$one_doc:meta])* $one:ident($of:ident) $found:expr;)* }
-        number { $($(#[$number_doc:meta])* $number:ident;)* }
+        $class:ident($($parameter:ident),*) -> $states:ident;
+        at { $($at:ident($place:ident))* }
+        one { $($one:ident($of:ident) $found:expr;)* }
+        number { $($number:ident)* }
     ) => {
-        $(#[$doc])*
-        #[pyclass(frozen, name = $name, module = "asperity.exact")]
+        #[pyclass(frozen, module = "asperity.exact")]
         pub struct $class(exact::$class);
 
         #[pymethods]
@@ -76,17 +65,14 @@ macro_rules! solution {
             fn new($($parameter: f64),*) -> PyResult<Self> {
                 exact::$class::new($($parameter),*).map(Self).map_err(refusal)
             }
-            $($(#[$at_doc])*
-            fn $at(&self, $place: Numbers<'_>) -> PyResult<$states> {
+            $(fn $at(&self, $place: Numbers<'_>) -> PyResult<$states> {
                 tried($place.as_array(), |place| self.0.$at(place)).map($states)
             })*
-            $($(#[$one_doc])*
-            fn $one(&self) -> PyResult<$states> {
+            $(fn $one(&self) -> PyResult<$states> {
                 let $of = &self.0;
                 Ok($states(ArrayD::from_elem(IxDyn(&[]), $found)))
             })*
-            $($(#[$number_doc])*
-            #[getter]
+            $(#[getter]
             fn $number(&self) -> f64 {
                 self.0.$number()
             })*
@@ -96,81 +82,40 @@ macro_rules! solution {
 
 /// A solution for a sphere.
 macro_rules! sphere {
-    ($(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*); $($number:tt)*) => {
+    ($class:ident($($parameter:ident),*); $($number:ident)*) => {
         solution! {
-            $(#[$doc])*
-            $class as $name ($($parameter),*) -> Contact;
-            at {
-                /// Stable contacts at loads P, compression positive.
-                at_load(load);
-                /// Stable contacts at approaches δ.
-                at_approach(approach);
-                /// Contacts of radii a ≥ 0.
-                at_contact_radius(radius);
-            }
-            one {
-                /// Contact of least load: the pull-off force is minus its load.
-                pull_off(sphere) sphere.pull_off();
-            }
+            $class($($parameter),*) -> Contact;
+            at { at_load(load) at_approach(approach) at_contact_radius(radius) }
+            one { pull_off(sphere) sphere.pull_off(); }
             number { $($number)* }
         }
     };
 }
 
-sphere! {
-    /// Hertz' contact of a sphere, without adhesion: P = 4E*a³/(3R), δ = a²/R.
-    Hertz as "Hertz" (radius, modulus);
-}
-sphere! {
-    /// The contact of Johnson, Kendall and Roberts, with adhesion of no range.
-    Jkr as "Jkr" (radius, modulus, work_of_adhesion);
-}
-sphere! {
-    /// Maugis' contact of a sphere, with a constant traction w/ρ up to a gap ρ.
-    MaugisDugdale as "MaugisDugdale" (radius, modulus, work_of_adhesion, range);
-    /// Tabor parameter: large for JKR, small for DMT.
-    tabor_parameter;
-}
+sphere! { Hertz(radius, modulus); }
+sphere! { Jkr(radius, modulus, work_of_adhesion); }
+sphere! { MaugisDugdale(radius, modulus, work_of_adhesion, range); tabor_parameter }
 
 /// A solution for a wave.
 macro_rules! wave {
-    ($(#[$doc:meta])* $class:ident as $name:literal ($($parameter:ident),*); $one:tt $($number:tt)*) => {
+    ($class:ident($($parameter:ident),*); $one:tt $($number:ident)*) => {
         solution! {
-            $(#[$doc])*
-            $class as $name ($($parameter),*) -> WaveContact;
-            at {
-                /// Contacts of half-widths a.
-                at_half_width(half_width);
-                /// Contacts at mean pressures p̄: the stable ones.
-                at_mean_pressure(mean_pressure);
-                /// Contacts at mean gaps: the stable ones.
-                at_mean_gap(mean_gap);
-            }
+            $class($($parameter),*) -> WaveContact;
+            at { at_half_width(half_width) at_mean_pressure(mean_pressure) at_mean_gap(mean_gap) }
             one $one
-            number {
-                /// Mean pressure at which the contact closes without adhesion.
-                closing_pressure;
-                $($number)*
-            }
+            number { closing_pressure $($number)* }
         }
     };
 }
 
+wave! { WavyLine(amplitude, wavelength, modulus); {} }
 wave! {
-    /// Westergaard's contact of a wave on a line, without adhesion.
-    WavyLine as "WavyLine" (amplitude, wavelength, modulus); {}
-}
-wave! {
-    /// Johnson's contact of a wave on a line, with adhesion of no range.
-    AdhesiveWavyLine as "AdhesiveWavyLine" (amplitude, wavelength, modulus, work_of_adhesion);
+    AdhesiveWavyLine(amplitude, wavelength, modulus, work_of_adhesion);
     {
-        /// Partial contact of least mean pressure, from which it opens.
         pull_off(wave) wave.pull_off().map_err(refusal)?;
-        /// Partial contact of largest mean pressure, from which it jumps to full contact.
         jump_to_full_contact(wave) wave.jump_to_full_contact().map_err(refusal)?;
     }
-    /// Johnson's parameter √(2wλ/(π²E*h₀²)).
-    alpha;
+    alpha
 }
 
 /// The mean pressure √2πE*h₀/λ that closes a wave h₀ cos(2πx/λ) cos(2πy/λ), without adhesion.
