@@ -296,7 +296,7 @@ def statistics(heights: Heights, lengths: Lengths | None = None, *, axes: AxisOr
     SurfaceStatistics
     """
     given = taken(heights, lengths, axes)
-    return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths))
+    return SurfaceStatistics(*_asperity.statistics(given.heights, given.lengths).values())
 
 
 @checked

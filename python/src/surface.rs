@@ -13,6 +13,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde_pyobject::to_pyobject;
 
 use crate::inputs::keys;
 use crate::keywords::{self, known};
@@ -137,25 +138,16 @@ pub fn fourier<'py>(
     Ok(Topography::from(found).heights.into_pyarray(py))
 }
 
-/// The statistics of heights, in the order of the library.
+/// The statistics of heights by the names of reports, in the order of the library.
 #[pyfunction]
-pub fn statistics(py: Python<'_>, heights: Field<'_>, lengths: Option<(f64, f64)>) -> PyResult<[f64; 11]> {
+pub fn statistics<'py>(
+    py: Python<'py>,
+    heights: Field<'_>,
+    lengths: Option<(f64, f64)>,
+) -> PyResult<Bound<'py, PyAny>> {
     let mut map = Topography::new(heights.to_array()?);
     map.lengths = lengths;
-    let found = apart(py, || map.statistics())?;
-    Ok([
-        found.mean,
-        found.lowest,
-        found.highest,
-        found.rms_height,
-        found.skewness,
-        found.kurtosis,
-        found.rms_slope,
-        found.rms_slope_differences,
-        found.rms_curvature,
-        found.rms_curvature_differences,
-        found.nayak,
-    ])
+    Ok(to_pyobject(py, &apart(py, || map.statistics())?)?)
 }
 
 /// The wavelength of the knee of the spectrum of heights, if it has one.

@@ -12,8 +12,10 @@ use super::{Surface, rms_slope};
 /// spacing Δ. If the two differ much, the grid does not resolve the surface, or its edges do not meet.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SurfaceStatistics {
     /// The mean height.
+    #[cfg_attr(feature = "serde", serde(rename = "mean_height"))]
     pub mean: f64,
     /// The least height.
     pub lowest: f64,

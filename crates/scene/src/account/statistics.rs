@@ -11,25 +11,15 @@ use crate::numbers::plain;
 
 /// The statistics of the map in a file, and the wavelength of the knee of its spectrum, by name.
 pub fn figures(map: &Topography, (found, knee): &(SurfaceStatistics, Option<f64>), heights: &Path) -> Value {
-    json!({
+    let of_map = json!({
         "heights": heights.to_string_lossy(),
         "shape": map.heights.dim(),
         "lengths": map.lengths,
         "length_unit": map.unit,
         "original": map.original,
-        "mean_height": found.mean,
-        "lowest": found.lowest,
-        "highest": found.highest,
-        "rms_height": found.rms_height,
-        "skewness": found.skewness,
-        "kurtosis": found.kurtosis,
-        "rms_slope": found.rms_slope,
-        "rms_slope_differences": found.rms_slope_differences,
-        "rms_curvature": found.rms_curvature,
-        "rms_curvature_differences": found.rms_curvature_differences,
-        "nayak": found.nayak,
-        "knee_wavelength": knee,
-    })
+    });
+    let parts = [of_map, json!(found), json!({ "knee_wavelength": knee })];
+    parts.iter().filter_map(Value::as_object).flatten().map(|(key, value)| (key.clone(), value.clone())).collect()
 }
 
 /// The statistics of a map for people: their names and texts, in the words of a skin, with the unit of length if it is
