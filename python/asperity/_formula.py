@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._units import Quantities, in_si, number
+from . import _asperity
+from ._units import number
 
 
 class Formula:
@@ -24,12 +25,10 @@ class Formula:
 
     def __post_init__(self) -> None:
         given = {name: getattr(self, name) for name in self._names()}
-        quantities = Quantities()
-        for name, value in given.items():
-            found = quantities.read(name, value)
+        for name, found in zip(given, _asperity.in_si([*given.items()])[0]):
             # a text that is left is one of a number without a dimension, and is refused
-            object.__setattr__(self, name, number(name, in_si(name, found) if isinstance(found, str) else found))
-        quantities.are_si()
+            found = _asperity.quantity(name, found) if isinstance(found, str) else found
+            object.__setattr__(self, name, number(name, found))
         object.__setattr__(self, "_texts", {name: text for name, text in given.items() if isinstance(text, str)})
         object.__setattr__(self, "_of", self._core(*(getattr(self, field.name) for field in fields(self))))  # type: ignore[arg-type]
 
@@ -55,7 +54,7 @@ class Formula:
         typed = np.asarray(values)
         if typed.dtype.kind != "U":
             return values
-        found = np.array([in_si(name, str(text)) for text in typed.flat]).reshape(typed.shape)
+        found = np.array([_asperity.quantity(name, str(text)) for text in typed.flat]).reshape(typed.shape)
         if not self._texts:
             first = typed.flat[0]
             raise ValueError(f"{name} is {first}, with a unit, but {self._called()} has none: give both units, or neither")

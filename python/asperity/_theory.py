@@ -11,7 +11,6 @@ from . import _asperity, surface
 from ._formula import Formula
 from ._topography import Heights, Topography, taken
 from ._types import AxisOrder, Lengths, Quantity
-from ._units import Quantities
 from .surface import PowerSpectralDensity
 
 if TYPE_CHECKING:
@@ -182,10 +181,8 @@ class GreenwoodWilliamson(_Theory):
 
 def _surface_of(heights: Heights, lengths: Lengths | None, axes: AxisOrder | None, modulus: Quantity) -> Topography:
     """The surface of a theory, in metres where the numbers of the call have units."""
-    quantities = Quantities()
-    sides = quantities.read("lengths", lengths)
-    quantities.read("modulus", modulus)
-    return taken(heights, sides, axes, quantities.are_si())
+    (sides, _), is_si = _asperity.in_si([("lengths", lengths), ("modulus", modulus)])
+    return taken(heights, sides, axes, is_si)
 
 
 def beside(contact: Contact) -> tuple[Persson, GreenwoodWilliamson]:

@@ -9,12 +9,13 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 
+from . import _asperity
 from ._body import Layer
 from ._contact import Contact, cycle
 from ._equilibria import Array, Equilibria, scipy
 from ._topography import Heights
 from ._types import AxisOrder, Lengths, OwnLaw, Quantity
-from ._units import in_si, number
+from ._units import number
 from ._warnings import InputWarning, warn
 
 #: Distances and forces.
@@ -97,7 +98,7 @@ class TipTable:
             raise ValueError(f"approaches are {approaches!r}, and modulus is {modulus!r}: give all units, or none")
         if works < 4 or works % 2:
             raise ValueError(f"works is {works!r}: it must be even, and at least 4")
-        low, high = (in_si("approach", end) if isinstance(end, str) else number("approaches", end) for end in approaches)
+        low, high = (_asperity.quantity("approach", end) if isinstance(end, str) else number("approaches", end) for end in approaches)
         if not low < 0.0 < high:
             raise ValueError(f"approaches are {approaches!r}: they must be a negative one, before contact, and a greatest one")
         self.is_si, self.low, self.high = si, low, high

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any, ParamSpec, TypeVar
 
 from . import _asperity
-from ._units import Quantities, given
+from ._units import given
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -53,12 +53,13 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
         check(function.__name__, kwargs, known)
-        quantities = Quantities()
-        values: Any = [quantities.read(key, value) for key, value in zip(known, args)] + [*args[len(known) :]]
-        keywords: Any = {key: quantities.read(key, value) for key, value in kwargs.items()}
-        token = given.set(quantities.are_si())
+        count = min(len(args), len(known))
+        values, is_si = _asperity.in_si([*zip(known, args), *kwargs.items()])
+        numbers: Any = (*values[:count], *args[count:])
+        keywords: Any = dict(zip(kwargs, values[count:]))
+        token = given.set(is_si)
         try:
-            return function(*values, **keywords)
+            return function(*numbers, **keywords)
         finally:
             given.reset(token)
 

@@ -34,7 +34,6 @@ from . import _asperity
 from ._formula import Formula
 from ._theory import GreenwoodWilliamson, Persson
 from ._types import Quantity
-from ._units import Quantities
 
 __all__ = [
     "AdhesiveWavyLine",
@@ -355,8 +354,5 @@ def closing_pressure_2d(amplitude: ArrayLike, wavelength: Quantity, modulus: Qua
     >>> f"{exact.closing_pressure_2d('10nm', '1um', '1GPa'):.4g} Pa"
     '4.443e+07 Pa'
     """
-    quantities = Quantities()
-    given = {"amplitude": amplitude, "wavelength": wavelength, "modulus": modulus}
-    numbers = [quantities.read(name, value) for name, value in given.items()]
-    quantities.are_si()
+    numbers, _ = _asperity.in_si([("amplitude", amplitude), ("wavelength", wavelength), ("modulus", modulus)])
     return _asperity.closing_pressure_2d(*numbers)

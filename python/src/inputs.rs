@@ -3,10 +3,13 @@
 use asperity::{Grid, Surface};
 use asperity_maps::surface_with_absent;
 use asperity_scene::allowed::Range;
-use asperity_scene::dimension_of_key;
+use asperity_scene::quantity::Quantity;
+use asperity_scene::{Measured, Quantities, Skin, dimension_of_key};
 use numpy::ndarray::Array2;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use serde::de::DeserializeOwned;
 use serde_pyobject::from_pyobject;
 
@@ -32,12 +35,49 @@ pub fn has_dimension(key: &str) -> bool {
 /// The number in SI units of a text with a unit.
 #[pyfunction]
 pub fn quantity(key: &str, text: &str) -> PyResult<f64> {
+    Ok(measured(key, text)?.value)
+}
+
+/// The values of keywords, with numbers in SI units in the place of texts with units, which all quantities have or none
+/// has, and whether they have.
+#[pyfunction]
+pub fn in_si<'py>(given: Vec<(String, Bound<'py, PyAny>)>) -> PyResult<(Vec<Bound<'py, PyAny>>, bool)> {
+    let mut found = Vec::new();
+    let values = given.iter().map(|(key, value)| read(key, value, &mut found)).collect::<PyResult<_>>()?;
+    let quantities: Quantities = found.into_iter().collect();
+    quantities.check(Skin::Keywords).map_err(PyValueError::new_err)?;
+    Ok((values, quantities.is_si()))
+}
+
+/// The value of a keyword, whose quantities are `found`.
+fn read<'py>(key: &str, value: &Bound<'py, PyAny>, found: &mut Vec<Measured>) -> PyResult<Bound<'py, PyAny>> {
+    if value.is_none() || value.is_instance_of::<PyBytes>() || !has_dimension(key) {
+        return Ok(value.clone());
+    }
+    if let Ok(text) = value.extract::<String>() {
+        let quantity = measured(key, &text)?;
+        found.push(Measured::of(key, vec![text], &[quantity], false));
+        return quantity.value.into_bound_py_any(value.py());
+    }
+    if let Ok(items) = value.try_iter() {
+        let items = items.map(|item| read(key, &item?, found)).collect::<PyResult<Vec<_>>>()?;
+        return items.into_bound_py_any(value.py());
+    }
+    // zero is zero in all units
+    if value.ne(0)? {
+        found.push(Measured::of(key, vec![value.repr()?.to_string()], &[Quantity::bare(f64::NAN)], false));
+    }
+    Ok(value.clone())
+}
+
+/// The quantity of a text with a unit.
+pub fn measured(key: &str, text: &str) -> PyResult<Quantity> {
     let refused = |expected| PyValueError::new_err(format!("{key} is {text}: {expected}"));
     let dimension =
         dimension_of_key(key).ok_or_else(|| refused("it must be a number, which has no unit".to_owned()))?;
     let found = dimension.within(Range::FINITE)(text).map_err(refused)?;
     let number = || refused(format!("give a number, or a string with a unit of {}", dimension.what));
-    if found.has_unit { Ok(found.value) } else { Err(number()) }
+    if found.has_unit { Ok(found) } else { Err(number()) }
 }
 
 /// The map of a problem.

@@ -1,7 +1,6 @@
 //! What was given for the keys of a scene, as keywords.
 
-use asperity_scene::numbers::plain;
-use asperity_scene::{Given, KEYWORDS, Key, Measured, Quantities, Skin, Typed, Values, worded};
+use asperity_scene::{Given, KEYWORDS, Key, Quantities, Skin, Typed, Values, worded};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -75,16 +74,6 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
     })
 }
 
-/// The quantities of a law.
-pub fn quantities(law: &Law) -> Quantities {
-    let of = |(key, text): (&String, String)| {
-        let numbers = Key::named(key)?.any_value(&text).ok()?.numbers;
-        Some(Measured::of(key, vec![text], &numbers, false))
-    };
-    let texts = law.given.texts.iter().map(|(key, text)| (key, text.clone()));
-    texts.chain(law.given.bare.iter().map(|(key, value)| (key, plain(*value)))).filter_map(of).collect()
-}
-
 /// What was given for the keys of a problem.
 #[pyclass(frozen, module = "asperity._asperity")]
 pub struct Keywords {
@@ -103,7 +92,10 @@ impl Keywords {
         // numbers of a solution in SI units, next to strings, say nothing of units
         let quantities = match is_si {
             true => Quantities::default(),
-            false => Quantities::all([given.quantities(), law.as_ref().map(quantities).unwrap_or_default()]),
+            false => Quantities::all([
+                given.quantities(),
+                law.as_ref().map(|law| law.given.quantities()).unwrap_or_default(),
+            ]),
         };
         quantities.check(Skin::Keywords).map_err(reason)?;
         Ok(Self { given, law, quantities })

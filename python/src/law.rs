@@ -7,7 +7,7 @@ use std::sync::Arc;
 use asperity::adhesion::{Formula, Values, check_functions};
 use asperity::{AdhesionLaw, adhesion};
 use asperity_scene::numbers::plain;
-use asperity_scene::{Adhesion, Scalar, Wall, dimension_of_key};
+use asperity_scene::{Adhesion, Key, Measured, Quantities, Scalar, Skin, Wall, dimension_of_key};
 use numpy::ndarray::ArrayD;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
@@ -54,13 +54,18 @@ impl Given {
                 value
             }
         };
-        match (&self.bare, self.texts.first()) {
-            (Some((key, value)), Some((with, text))) => Err(PyValueError::new_err(format!(
-                "{key} is {}, without a unit, but {with} {text} has one: give both units, or neither",
-                plain(*value)
-            ))),
-            _ => Ok(value),
-        }
+        self.quantities().check(Skin::Keywords).map_err(PyValueError::new_err)?;
+        Ok(value)
+    }
+
+    /// The quantities among them.
+    pub fn quantities(&self) -> Quantities {
+        let of = |(key, text): (&String, String)| {
+            let numbers = Key::named(key)?.any_value(&text).ok()?.numbers;
+            Some(Measured::of(key, vec![text], &numbers, false))
+        };
+        let texts = self.texts.iter().map(|(key, text)| (key, text.clone()));
+        texts.chain(self.bare.iter().map(|(key, value)| (key, plain(*value)))).filter_map(of).collect()
     }
 }
 

@@ -7,7 +7,7 @@ use crate::key::{
 };
 
 /// The dimensions of the columns that tables alone have.
-const COLUMNS: [(&str, Dimension); 12] = [
+const COLUMNS: [(&str, Dimension); 14] = [
     ("closure from_gap to_gap distance", LENGTH),
     ("from_pressure to_pressure pull_off_pressure lost_pressure limit_pressure", PRESSURE),
     ("pull_off_force limit_force", FORCE),
@@ -18,9 +18,11 @@ const COLUMNS: [(&str, Dimension); 12] = [
     ("electrical_conductance", ELECTRICAL_CONDUCTANCE),
     ("thermal_conductance", THERMAL_CONDUCTANCE),
     ("transmissivity_x_lower transmissivity_x_upper transmissivity_y_lower transmissivity_y_upper", TRANSMISSIVITY),
-    // of a surface, and of two bodies whose moduli are Young's
-    ("fourier_unit", LENGTH),
+    // of a surface, of two bodies whose moduli are Young's, and of closed forms
+    ("fourier_unit half_width wavelength", LENGTH),
     ("young other_young", PRESSURE),
+    ("load", FORCE),
+    ("rms_curvature", PER_LENGTH),
 ];
 
 /// The dimension of a column of a table, or of a figure of a report, under loads of this kind; none for shares, numbers
