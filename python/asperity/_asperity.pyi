@@ -120,7 +120,9 @@ class Keywords:
 class Problem:
     def __new__(
         cls,
-        map: dict[str, Any],
+        map: Topography,
+        against: tuple[str, tuple[float, float]] | None,
+        hardness: _Field | None,
         keywords: Keywords,
         symbol: tuple[Callable[..., Any], str, bool] | None,
         is_kept: bool,

@@ -598,7 +598,7 @@ class Contact:
         keys = {key: value for key, value in keywords.items() if value is not None}
         if "modulus" not in keys:
             raise TypeError("modulus is missing: give the contact modulus E*, a pressure, as modulus=1.0 or '70GPa'")
-        self.whole, self.branch = keys.get("whole", False), keys.get("branch")
+        self.branch = keys.get("branch")
         against, body = keys.pop("against", None), keys.pop("body", None)
         law = keys.pop("law") if not isinstance(keys.get("law"), str | None) else None
         #: the law as an object
@@ -645,25 +645,14 @@ class Contact:
             raise ValueError(
                 f"shift is {keys['shift']!r}, but there is no surface on the other side: give against, or leave it out"
             )
-        # with a free boundary the images belong to the body
-        part = "whole" if self.whole or boundary != "periodic" else "original"
-        self._map = {
-            "heights": self.topography.heights,
-            "lengths": sides(self.topography),
-            "against": facing,
-            "original": self.topography.original,
-            "part": None if self.topography.original is None else part,
-            "unit": self.topography.unit,
-            "source": self.topography.source,
-            "scars_removed": self.topography.scars_removed,
-            "hardness": None if hardness is None else field_of(hardness, "hardness", order).copy(),
-        }
-        self._is_kept = is_kept
-        self.problem = _asperity.Problem(self._map, self._given, symbol(body), is_kept)
+        # refused where they are unknown
+        sides(self.topography)
+        self._facing, self._is_kept = facing, is_kept
+        self._hardness = None if hardness is None else field_of(hardness, "hardness", order).copy()
+        self.problem = self._problem(self.topography, self._given, is_kept)
         if not isinstance(heights, Topography | str | os.PathLike) and against is None:
             # the array may change before the heights are asked for
             self.topography = replace(self.topography, heights=self.topography.heights.copy())
-            self._map["heights"] = self.topography.heights
         #: why theories do not know of it
         self.beyond_theory = self.problem.beyond_theory
         moduli = [self._given.numbers(key) for key in ("modulus", "against_modulus")]
@@ -685,7 +674,7 @@ class Contact:
     @described(SolveKeywords)
     def solve(self, **keywords: Unpack[SolveKeywords]) -> Solution:
         """Finds the equilibrium under a load, as `asperity.solve`."""
-        start, observe, keys = self._split(keywords)
+        start, observe, keys = self._split(keywords, is_solve=True)
         _springs(keys)
         found = self.problem.solve(keys, self._start(start), observe)
         plan = found["plan"]
@@ -711,7 +700,6 @@ class Contact:
     def pull_off(self, **keywords: Unpack[OfPullOffKeywords]) -> PullOff:
         """Finds the pull-off, as `asperity.pull_off`."""
         start, observe, keys = self._split(keywords)
-        self._has_one_branch()
         if "accuracy" in keys and start is not None:
             raise ValueError("an accuracy takes finer grids, which have no start: leave out start, or accuracy")
         found = self.problem.pull_off(keys, self._start(start), observe)
@@ -726,7 +714,6 @@ class Contact:
     def viscoelastic(self, **keywords: Unpack[ViscoelasticKeywords]) -> Viscoelastic:
         """Follows a viscoelastic body over time, as `asperity.viscoelastic`."""
         start, observe, keys = self._split(keywords)
-        self._has_one_branch()
         return Viscoelastic(self, keys, start, observe)
 
     @described(StabilityKeywords)
@@ -744,24 +731,25 @@ class Contact:
         return Stability(**{**found, "mode": solution.part_of(found["mode"])})
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "problem": None, "body": None, "_map": None, "_given": None}
+        return {**self.__dict__, "problem": None, "body": None, "_hardness": None, "_given": None}
 
-    def _split(self, keywords: Any) -> tuple[Start, Any, dict[str, Any]]:
+    def _problem(self, topography: Topography, given: _asperity.Keywords, is_kept: bool) -> _asperity.Problem:
+        """The problem of a map, as the compiled core has it."""
+        return _asperity.Problem(topography, self._facing, self._hardness, given, symbol(self.body), is_kept)
+
+    def _split(self, keywords: Any, *, is_solve: bool = False) -> tuple[Start, Any, dict[str, Any]]:
         """The start, the observer, and the keys of a call."""
         keys = {key: value for key, value in keywords.items() if value is not None}
         start, observe = keys.pop("start", None), keys.pop("observe", None) or by_default()
         if self.branch is not None and start is not None:
             raise ValueError("start chooses the branch: leave out branch, or start")
-        return start, observe, keys
-
-    def _has_one_branch(self) -> None:
-        if self.branch == "both":
+        if self.branch == "both" and not is_solve:
             raise ValueError("branch is both: that compares two solves under one load: use solve, or give one branch")
+        return start, observe, keys
 
     def _rows(self, kind: type[R], way: str, keywords: Any) -> R:
         """The rows of a table, with a problem of their own, as they are solved when they are asked for."""
         start, observe, keys = self._split(keywords)
-        self._has_one_branch()
         file = (keys.pop("out", None), keys.pop("fields", None), keys.pop("force", False))
         springs = keys.pop("springs", None)
         parts = [keys]
@@ -778,7 +766,7 @@ class Contact:
         contact = self
         if self._is_kept:
             contact = copy.copy(self)
-            contact.problem, contact._warned = _asperity.Problem(self._map, self._given, symbol(self.body), False), set()
+            contact.problem, contact._warned = self._problem(self.topography, self._given, False), set()
         return kind(contact, way, parts, start, observe, file)
 
     def _start(self, start: Start) -> str | NDArray[np.float64] | None:
@@ -798,7 +786,7 @@ class Contact:
             keys.pop("branch", None)
         contact, given = copy.copy(self), _asperity.Keywords(keys, self.own_law)
         contact.topography = replace(self.topography, heights=heights)
-        problem = _asperity.Problem({**self._map, "heights": heights}, given, symbol(self.body), False)
+        problem = self._problem(contact.topography, given, False)
         return contact._solution(problem.solve(load, self._start(start), observe))
 
     def _solution(self, found: dict[str, Any]) -> Solution:

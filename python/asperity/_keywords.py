@@ -171,8 +171,9 @@ def described(kind: Any, *, without: tuple[str, ...] = ()) -> Callable[[F], F]:
         there = {name for names_of, _ in entries for name in names_of}
         for name in order:
             said = kept.get(name) or _ENTRIES.get("solve", {}).get(name)
-            if name in known:
-                said = said or f" : {_typed(kind.__annotations__[name])}, optional\n{_filled(meanings[name][1])}"
+            if name in known and not said:
+                meaning = textwrap.fill(f"{meanings[name][1]}.", 120, initial_indent="    ", subsequent_indent="    ")
+                said = f" : {_typed(kind.__annotations__[name])}, optional\n{meaning}"
             if said and name not in there:
                 entries.append(((name,), said))
         entries.sort(key=lambda one: order.index(one[0][0]))
@@ -188,10 +189,6 @@ def _typed(annotation: Any) -> str:
     text = str(getattr(annotation, "__forward_arg__", annotation)).removesuffix(" | None")
     text = re.sub(r"Literal\[(.*?)\]", r"{\1}", text).replace("'", '"')
     return text.replace("Quantity", "float | str").replace(" | ", " or ")
-
-
-def _filled(text: str) -> str:
-    return textwrap.fill(f"{text}.", 120, initial_indent="    ", subsequent_indent="    ")
 
 
 def _entries(text: str) -> list[tuple[tuple[str, ...], str]]:

@@ -24,6 +24,7 @@ from ._laws import JKR
 from ._solution import Solution, Start
 from ._topography import field_of, mirrored
 from ._units import number
+from ._words import PLURALS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from ._contact import Contact
 
 #: The loads of moments by the keywords of their lists.
-LOADS = {"mean_pressures": "mean_pressure", "mean_gaps": "mean_gap", "normal_forces": "normal_force", "approaches": "approach"}
+LOADS = {many: PLURALS[many] for many in ("mean_pressures", "mean_gaps", "normal_forces", "approaches")}
 
 #: The columns that are numbers of the solutions.
 _OF_SOLUTIONS = ("status", "relative_error", "mean_pressure", "normal_force", "mean_gap", "contact_fraction")
@@ -280,7 +281,8 @@ def _refuse(contact: Contact) -> None:
             "law is jkr, whose range is that of the grid: the speed of an edge depends on the range: give a law that has one, "
             "as asperity.Exponential(work_of_adhesion, range)"
         )
-    given = [key for key in ELASTIC if contact._keys.get(key) is not None or contact._map.get(key) is not None]
+    given = [key for key in ELASTIC if contact._keys.get(key) is not None]
+    given += ["hardness"] * (contact._hardness is not None)
     for name in [*given, *["symbol"] * isinstance(contact.body, Symbol)]:
         raise ValueError(
             f"{name} is given: it does not relax as the modulus does; a viscoelastic body is a half-space or a Layer, and the "

@@ -14,7 +14,7 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 #: The names of loads by the keywords of their sequences.
-_PLURALS = {
+PLURALS = {
     "mean_pressures": "mean_pressure",
     "mean_gaps": "mean_gap",
     "normal_forces": "normal_force",
@@ -33,8 +33,8 @@ def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
 
 
 def _meant(word: str, known: Sequence[str]) -> str:
-    one = _PLURALS.get(word)
-    many = next((plural for plural, single in _PLURALS.items() if single == word), None)
+    one = PLURALS.get(word)
+    many = next((plural for plural, single in PLURALS.items() if single == word), None)
     if one in known:
         return f"give {one}, or many loads to asperity.sweep, as {word}=[...]"
     if many in known:

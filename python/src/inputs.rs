@@ -80,22 +80,16 @@ pub fn measured(key: &str, text: &str) -> PyResult<Quantity> {
     if found.has_unit { Ok(found) } else { Err(number()) }
 }
 
-/// The map of a problem.
+/// The map of a problem, of which Python gives the attributes.
 #[derive(FromPyObject)]
-#[pyo3(from_item_all)]
 pub struct Map<'py> {
     pub heights: Field<'py>,
     pub lengths: (f64, f64),
-    /// The name of the surface on the other side, and its shift
-    pub against: Option<(String, (f64, f64))>,
-    /// The nodes of the original of a mirrored one, and the part of it that results are of
+    /// The nodes of the original of a mirrored one
     pub original: Option<(usize, usize)>,
-    pub part: Option<String>,
     pub unit: Option<String>,
     pub source: Option<String>,
     pub scars_removed: Option<f64>,
-    /// The hardness at its nodes
-    pub hardness: Option<Field<'py>>,
 }
 
 /// The gap from which to start as Python passes it: a word for it, or an array.

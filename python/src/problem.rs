@@ -96,10 +96,13 @@ fn session<T: Scalar>(at: &At<'_>, scene: &Scene, input: Input, inputs: Inputs) 
 
 #[pymethods]
 impl Problem {
+    /// The problem of a map, with the name and the shift of the surface on the other side, and the hardness at its nodes.
     #[new]
     fn new(
         py: Python<'_>,
         map: Map<'_>,
+        against: Option<(String, (f64, f64))>,
+        hardness: Option<Field<'_>>,
         keywords: &Keywords,
         symbol: Option<(Py<PyAny>, String, bool)>,
         is_kept: bool,
@@ -110,7 +113,9 @@ impl Problem {
         let at = At { py, pool: Pool::of(given.threads())?, observer: None };
         let surface = surface(map.heights.to_array()?, map.lengths, given.absent_missing())?;
         let original = map.original.map(|nodes| Original::new(surface.grid(), nodes)).transpose().map_err(refusal)?;
-        let hardness = map.hardness.map(|hardness| hardness.to_array()).transpose()?;
+        // with a free boundary the images belong to the body
+        let is_whole = given.whole() || scene.elastic.boundary == Boundary::Free;
+        let hardness = hardness.map(|hardness| hardness.to_array()).transpose()?;
         scene.adhesion.hardness_map = hardness.as_ref().map(|_| "array".to_owned());
         let formula = match law {
             Some(Law { formula, adhesion, .. }) => {
@@ -129,9 +134,9 @@ impl Problem {
         scene.elastic.body().map_err(refusal)?;
         let inputs = Inputs {
             heights: map.source,
-            shift: map.against.as_ref().map(|(_, shift)| *shift),
-            against: map.against.map(|(name, _)| name),
-            part: map.part.clone(),
+            shift: against.as_ref().map(|(_, shift)| *shift),
+            against: against.map(|(name, _)| name),
+            part: original.map(|_| if is_whole { "whole" } else { "original" }.to_owned()),
             length_unit: map.unit,
             pressure_unit: quantities.is_si().then(|| PRESSURE.si.to_owned()),
             given: quantities.given(),
@@ -144,7 +149,7 @@ impl Problem {
             surface,
             formula,
             hardness,
-            original: original.filter(|_| map.part.as_deref() == Some("original")),
+            original: original.filter(|_| !is_whole),
             converted_from: None,
             scars_removed: map.scars_removed,
             is_strict: false,
