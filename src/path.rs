@@ -188,6 +188,11 @@ impl<T: Real> Path<T> {
         self.course.end_leg();
     }
 
+    /// The greatest tension of the states so far, a pressure; zero if there was none.
+    pub fn greatest_tension(&self) -> f64 {
+        self.course.account.tension.max(0.0)
+    }
+
     /// The share of the way that is behind, from 0 to 1: all legs alike, and the present one by its load, or by its mean
     /// gap past a limit point, where the share may fall. A leg that is [ended](Self::end_leg) is behind at once.
     pub fn share(&self) -> f64 {

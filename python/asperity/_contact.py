@@ -313,7 +313,8 @@ def cycle(
 ) -> Cycle:
     """Follows a branch of equilibria through turning points, in steps that adapt themselves, and locates its jumps.
 
-    A withdrawal ends once the surfaces are apart. Parameters that are not here are those of `solve`.
+    A withdrawal ends once the surfaces do not touch, and hardly attract each other: below a thousandth of the greatest
+    tension. Parameters that are not here are those of `solve`.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use super::refine::{refined, twice};
+use super::refine::{is_of_interpolation, overshoots, refined, twice};
 use super::{GridError, Quantity, resolves_adhesion};
 use crate::adhesion::{AdhesionLaw, SharedLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Wall};
@@ -42,7 +42,7 @@ const DOUBT: f64 = 3.0;
 /// its place; with a free boundary continued by its mirror images).
 ///
 /// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
-/// absent nodes and a law that varies from node to node are not refined.
+/// absent nodes, one with steps, and a law that varies from node to node are not refined.
 ///
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
@@ -98,7 +98,8 @@ pub struct AccurateSolution<T: Real> {
     pub error: Option<GridError>,
     /// Whether the estimate, with the error of the solver, meets the accuracy.
     pub reached: bool,
-    /// Whether the surface and the law are known on finer grids.
+    /// Whether the surface and the law are known on finer grids. At steps and between plateaus interpolated heights are a
+    /// guess that decides the contact: then this is false, and the solution is that on the given grid.
     pub refinable: bool,
     /// The next finer grid and its memory in bytes, if that was too much.
     pub unaffordable: Option<((usize, usize), f64)>,
@@ -281,13 +282,35 @@ impl Accuracy {
         control: Control,
         observe: GridObserver<'_>,
     ) -> Result<AccurateSolution<T>> {
+        let mut refinable = is_refinable(surface, &**law);
+        loop {
+            let found = self.refine_if(refinable, solver, surface, operators, law, control, &mut *observe)?;
+            if let Some(found) = found {
+                return Ok(found);
+            }
+            refinable = false;
+        }
+    }
+
+    /// None if the answer on a refined grid is that of the interpolation.
+    fn refine_if<T: Real>(
+        &self,
+        refinable: bool,
+        solver: &mut Solver<dyn ContactConstraint<T>>,
+        surface: &Surface,
+        operators: &mut dyn OnGrids<T>,
+        law: &SharedLaw<T>,
+        control: Control,
+        observe: GridObserver<'_>,
+    ) -> Result<Option<AccurateSolution<T>>> {
         let (Solved { mut solution, mut whole, .. }, mut levels) =
             self.nested.run(solver, Box::new(surface), operators, law, control, &mut *observe)?;
         self.of.check_in(solution.report.boundary)?;
         let periodic = solution.report.boundary == Boundary::Periodic;
         let mut waves = surface.nodes_per_wave(solution.report.boundary);
-        let mut surface = surface.clone();
-        let refinable = is_refinable(&surface, &**law);
+        let (mut surface, given) = (surface.clone(), surface.grid().shape());
+        // that of a law with the range of the grid, or one that the grid does not resolve, changes by it too
+        let resolved = !law.hints().of_grid && resolves_adhesion(solution.report.mu_rho, 1.0);
         let (error, reached, unaffordable) = loop {
             let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
             let report = &solution.report;
@@ -315,8 +338,14 @@ impl Accuracy {
                 solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
             let stiffness = self.nested.stiffness_of(solver, &mut problem, &solution)?;
             levels.push(Level { stiffness, ..Level::of(&solution)? });
+            if let [.., before, level] = &levels[..]
+                && surface.grid().shape() == given
+                && if resolved { is_of_interpolation(level, before) } else { overshoots(&fine, &surface) }
+            {
+                return Ok(None);
+            }
             (surface, waves) = (fine, 2.0 * waves);
         };
-        Ok(AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable })
+        Ok(Some(AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable }))
     }
 }

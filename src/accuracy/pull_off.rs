@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::goal::{NUMBERS, is_refinable};
-use super::refine::{refined, twice};
+use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, GridError, observed_order};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw};
 use crate::constraint::ContactConstraint;
@@ -44,6 +44,8 @@ pub struct AccuratePullOff<T: Real> {
     pub error: Option<GridError>,
     /// Whether the estimate meets the accuracy.
     pub reached: bool,
+    /// Whether the surface and the law are known on finer grids, as in [`AccurateSolution`](super::AccurateSolution).
+    pub refinable: bool,
     /// The next finer grid and its memory in bytes, if that was too much.
     pub unaffordable: Option<((usize, usize), f64)>,
 }
@@ -66,7 +68,8 @@ impl<T: Real> FoundPullOff<T> {
         let report = &self.solution.report;
         let (tension, by_energy) = (-report.mean_pressure, report.adhesive_contact_fraction);
         let area = ContactArea::of_solution(&self.solution)?.jkr_contact_fraction;
-        let is_closed = report.approach.is_none() && by_energy > Some(CLOSED);
+        let facing = 1.0 - report.absent_nodes as f64 / self.solution.grid.nodes() as f64;
+        let is_closed = report.approach.is_none() && by_energy.is_some_and(|share| share * facing > CLOSED);
         let share = area.zip(by_energy).filter(|_| !is_closed).map(|(area, by_energy)| area / by_energy);
         Ok(share.filter(|share| tension > 0.0 && share.is_finite()).map(|share| share * tension))
     }
@@ -161,7 +164,7 @@ impl Accuracy {
             }
         }
         let mut surface = surface.clone();
-        let refinable = refines && is_refinable(&surface, &**law);
+        let mut refinable = is_refinable(&surface, &**law);
         loop {
             let (found, limit, nodes, boundary) = find(&surface, law.clone())?;
             let waves = surface.nodes_per_wave(boundary);
@@ -173,12 +176,15 @@ impl Accuracy {
             let shape = twice(surface.grid().shape());
             let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
             let bytes = 8.0 * NUMBERS * nodes as f64 * growth;
-            if reached || stopped || !found.reached || limit.is_none() || !refinable || bytes > self.memory {
+            let ends = reached || stopped || !found.reached || limit.is_none() || !refinable || bytes > self.memory;
+            let fine = if ends { None } else { Some(refined(&surface, boundary == Boundary::Periodic)?) };
+            refinable &= !fine.as_ref().is_some_and(|fine| overshoots(fine, &surface));
+            let Some(fine) = fine.filter(|_| refinable) else {
                 let unaffordable =
                     (!reached && found.reached && refinable && bytes > self.memory).then_some((shape, bytes));
-                return Ok(AccuratePullOff { found, surface, levels, error, reached, unaffordable });
-            }
-            surface = refined(&surface, boundary == Boundary::Periodic)?;
+                return Ok(AccuratePullOff { found, surface, levels, error, reached, refinable, unaffordable });
+            };
+            surface = fine;
         }
     }
 }

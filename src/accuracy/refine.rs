@@ -1,8 +1,20 @@
 use ndarray::{Axis, Slice};
 
 use crate::error::Result;
+use crate::field::ordered;
 use crate::grid::Grid;
+use crate::nested::Level;
 use crate::surface::{Surface, mirror, refine};
+use crate::vector::range;
+
+/// How far interpolated heights may exceed the given ones, as a share of their span: those of a step by a tenth or more.
+const OVERSHOOT: f64 = 0.1;
+
+/// The ratio of the contact areas on the given grid and on one of twice as many nodes, beyond which the heights in between
+/// decide, and what it may have more, over the root of the nodes in contact. That of white noise is 1.27 with 268 of them
+/// and 1.67 with 37, that of other rough surfaces at most 1.1, and that of plateaus with flanks of eight nodes 1.46 with 137.
+const DECIDED: f64 = 1.35;
+const SCATTER: f64 = 5.0;
 
 /// The surface on twice as many nodes along its sides, by Fourier interpolation; unless periodic, mirrored.
 pub(super) fn refined(surface: &Surface, periodic: bool) -> Result<Surface> {
@@ -18,6 +30,20 @@ pub(super) fn refined(surface: &Surface, periodic: bool) -> Result<Surface> {
         fine
     };
     Surface::new(Grid::new(shape, surface.grid().lengths())?, fine)
+}
+
+/// Whether interpolated heights exceed those of a surface, as they do next to steps.
+pub(super) fn overshoots(fine: &Surface, surface: &Surface) -> bool {
+    let [(_, fine), (low, high)] = [fine, surface].map(|surface| range(&ordered(surface.heights().view())));
+    fine - high > OVERSHOOT * (high - low)
+}
+
+/// Whether the contact on a refined grid is of the interpolation and not of the given surface.
+pub(super) fn is_of_interpolation(fine: &Level, given: &Level) -> bool {
+    let [fine, given] = [fine, given].map(|level| level.area);
+    let ratio = given.corrected_contact_fraction / fine.corrected_contact_fraction;
+    let most = DECIDED.max(1.0 + SCATTER / (given.contact_nodes as f64).sqrt());
+    ratio > most
 }
 
 /// Twice as many nodes along both sides, or along the only one.

@@ -49,6 +49,29 @@ fn truth(seed: u64, control: Control) -> Level {
     levels_of(Nested::default().stiffness(1e-5), &surface(512, seed), control).pop().unwrap()
 }
 
+/// Plateaus of radius 0.1, with flanks of a few cells, whose interpolation between the nodes has ripples.
+fn plateau(flank: f64) -> Surface {
+    let height = |x: f64, y: f64| -0.01 * ((x.hypot(y) - 0.1) / flank).clamp(0.0, 1.0);
+    Surface::from_fn(Grid::square(64, 1.0).unwrap(), height).unwrap()
+}
+
+#[test]
+fn plateaus_are_not_refined_to_ripples() {
+    for flank in [1e-9, 0.03, 0.06, 0.12] {
+        let surface = plateau(flank);
+        let load = Control::MeanPressure(5e-5);
+        let given = levels_of(Nested::default(), &surface, load).pop().unwrap().area;
+        assert!(given.contact_fraction > 0.02, "{flank}");
+        let found = solve(Accuracy::new(0.01, Quantity::Area), &surface, load);
+        assert_eq!((found.reached, found.refinable, found.unaffordable), (false, false, None), "{flank}");
+        assert_eq!(found.levels.last().unwrap().area.contact_nodes, given.contact_nodes, "{flank}");
+    }
+    let law = Jkr::new(1e-6).unwrap();
+    let wanted = Accuracy::new(0.01, Quantity::Area);
+    let found = wanted.pull_off(&mut Solver::default(), &plateau(1e-9), half_space, law, &PullOff::default()).unwrap();
+    assert_eq!((found.reached, found.refinable, found.surface.grid().shape()), (false, false, (64, 64)));
+}
+
 #[test]
 fn an_accuracy_of_each_quantity_is_reached_and_true() {
     for (seed, target) in [(1, 0.02), (2, 0.015)] {

@@ -225,6 +225,19 @@ fn a_flat_punch_and_a_cone_come_off_as_they_do_in_the_limit() {
 }
 
 #[test]
+fn pillars_that_repeat_have_a_limit_of_their_pull_off() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let heights = grid.sample(|x, y| if x.hypot(y) <= 0.15 { 0.0 } else { f64::NAN });
+    let deep = Surface::new(grid, heights.mapv(|height| if height.is_nan() { -1.0 } else { height })).unwrap();
+    let limits = [deep, surface_with_absent(grid, heights).unwrap()].map(|surface| {
+        let half_space = Westergaard::new(grid, 1.0).unwrap();
+        let mut problem = Problem::new(&surface, half_space, Jkr::new(1e-4).unwrap()).unwrap();
+        found(&mut problem, 3e-3).limit().unwrap().unwrap()
+    });
+    assert!((limits[0] / limits[1] - 1.0).abs() < 0.01, "{limits:?}");
+}
+
+#[test]
 fn works_of_adhesion_that_vary_have_the_range_of_the_strongest() {
     let grid = Grid::square(64, 1.0).unwrap();
     let surface = Surface::paraboloid(grid, 2.0).unwrap();

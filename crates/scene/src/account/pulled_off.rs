@@ -6,6 +6,7 @@ use asperity::{Branch, PullOff, Real, Report, Status};
 use serde::Serialize;
 
 use crate::account::Account;
+use crate::account::sentences::UNREFINABLE;
 use crate::key::{FORCE, Goal, LENGTH, PRESSURE, Skin, Units, record, worded};
 use crate::numbers::percent;
 
@@ -33,6 +34,9 @@ record! {
         limit_error: Option<f64> = accurate.and_then(|found| found.error).map(|error| error.relative),
         /// The relative error that was asked for, if one was.
         accuracy: Option<f64> = accurate.and(goal).map(|goal| goal.accuracy),
+        /// Whether a finer grid could be taken.
+        #[serde(skip)]
+        refinable: bool = accurate.is_some_and(|found| found.refinable),
         /// The least tension under which the surfaces came apart.
         lost_pressure: Option<f64> = found.lost,
         /// Whether the two are as close as the tolerance.
@@ -71,9 +75,10 @@ impl PulledOff {
         }
         if let Some(accuracy) = self.accuracy.filter(|_| is_narrow) {
             let estimate = self.limit_error.map_or("unknown".to_owned(), |error| format!("{} %", percent(error)));
+            let remedy =
+                if self.refinable { "give {memory} for a finer grid, or a larger {accuracy}" } else { UNREFINABLE };
             let text = format!(
-                "the accuracy of {accuracy} of the pull-off is not reached: the estimate is {estimate}: give {{memory}} for \
-                 a finer grid, or a larger {{accuracy}}"
+                "the accuracy of {accuracy} of the pull-off is not reached: the estimate is {estimate}: {remedy}"
             );
             return Some(worded(&text, skin));
         }

@@ -61,17 +61,17 @@ fn unconverged(account: &Account) -> String {
     format!("not converged ({status}): {missed} after {iterations} iterations, tolerance {tolerance:e}; {remedy}")
 }
 
+/// Why a grid is not refined.
+pub(super) const UNREFINABLE: &str = "a single node, absent nodes, steps and plateaus, and a work of adhesion that varies \
+                                      are known on this grid alone: give a finer one";
+
 /// The reason why an accuracy was not reached, with a remedy.
 fn inaccurate(account: &Account, reached: &Reached) -> String {
     let reason = match reached.unaffordable {
         Some(((nx, ny), size)) => {
             format!("{nx} x {ny} nodes would be next, and take {}: raise {{memory}}, or ask for less", bytes(size))
         }
-        None if !reached.refinable => {
-            "a single node, absent nodes, and a work of adhesion that varies are known on this grid alone: give a finer \
-             one"
-                .to_owned()
-        }
+        None if !reached.refinable => UNREFINABLE.to_owned(),
         None => "the solve has not converged".to_owned(),
     };
     let (Reached { wanted, of, .. }, estimate) = (reached, estimate(account));

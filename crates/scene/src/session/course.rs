@@ -293,8 +293,8 @@ impl<T: Scalar> Course<T> {
         session.followed(found, &self.after).map(Some)
     }
 
-    /// The row of the state that was found last, with its account, which a look completes. A withdrawal in which it is
-    /// apart ends there.
+    /// The row of the state that was found last, with its account, which a look completes. A withdrawal ends with a state
+    /// that is apart and under hardly any of the greatest tension.
     ///
     /// # Errors
     /// Those of [`Sight::look`](crate::Sight::look).
@@ -309,12 +309,16 @@ impl<T: Scalar> Course<T> {
         let apart = found.step.as_ref().is_some_and(|step| step.direction == WITHDRAWAL) && shares == [Some(0.0); 2];
         if let Strategy::Cycle(path) = &mut self.place.strategy
             && apart
+            && -account.mean_pressure <= FAINT * path.greatest_tension()
         {
             path.end_leg();
         }
         Ok(Row::of(found, &account, &statistics.cluster_sizes, self.touch, seed))
     }
 }
+
+/// The share of the greatest tension at which a withdrawal may end.
+const FAINT: f64 = 1e-3;
 
 /// The kind of some loads, with all that they have in common.
 fn kind(loads: &[Control]) -> String {
