@@ -60,7 +60,7 @@ def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
     assert last.dissipated > 0 and abs(last.imbalance) < 0.05 * last.dissipated
     assert np.isclose(last.dissipated, sum(event["energy_drop"] or 0.0 for event in cycle.events))
     # jumps that are not looked for are in no energy
-    with pytest.warns(asperity.AccuracyWarning, match=r"misses \d+\.\d % of the work: take more steps"):
+    with pytest.warns(asperity.AccuracyWarning, match=r"misses \d+\.\d % of the greatest work on the way: take more steps"):
         asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=3, imbalance=1.0).run()
 
 

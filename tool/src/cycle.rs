@@ -171,7 +171,12 @@ impl Options {
                 }
                 say(&format!("work done by the load   {} ± {}", told(last, "work"), told(last, "work_error")));
                 let share = 100.0 * (imbalance / most).abs();
-                say(&format!("imbalance of energy     {}, {share:.1} % of the work", told(last, "imbalance")));
+                let greatest = rows.iter().find(|row| number(row, "work").abs() == most).unwrap_or(last);
+                let of = columns.number("work", columns.value(greatest, "work").abs());
+                let imbalance = told(last, "imbalance");
+                say(&format!(
+                    "imbalance of energy     {imbalance}, {share:.1} % of the greatest work on the way, {of}"
+                ));
             }
         }
         if let Some(text) = unbalanced(most, imbalance, Skin::Options) {

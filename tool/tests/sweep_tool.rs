@@ -362,6 +362,11 @@ fn a_cycle_has_its_jumps_and_a_picture() {
     let energy = |row: usize| value(row, "elastic_energy") + value(row, "adhesive_energy");
     let missing = number("work") - number("dissipated") + number("imbalance") - (energy(last) - energy(1));
     assert!(missing.abs() < 1e-9 * number("dissipated"), "{missing}");
+    // what the share of the imbalance is of
+    let greatest = (1..=last).map(|row| value(row, "work").abs()).fold(0.0, f64::max);
+    let share = format!("{:.1} % of the greatest work on the way, ", 100.0 * number("imbalance").abs() / greatest);
+    let told: f64 = said.split_once(&share).expect(&said).1.lines().next().unwrap().parse().unwrap();
+    assert!((told / greatest - 1.0).abs() < 1e-3, "{told} {greatest}");
     // both legs are named, and the second ends where the surfaces are apart
     assert_eq!(
         ["start", "approach", "withdrawal"]

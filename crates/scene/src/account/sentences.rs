@@ -158,7 +158,8 @@ pub fn unbalanced(greatest_work: f64, imbalance: f64, skin: Skin) -> Option<Stri
     let text = || {
         let missed = 100.0 * share;
         format!(
-            "the balance of energy misses {missed:.1} % of the work: take more {{steps}}, or a smaller {{imbalance}}"
+            "the balance of energy misses {missed:.1} % of the greatest work on the way: take more {{steps}}, or a smaller \
+             {{imbalance}}"
         )
     };
     (share > MOST_IMBALANCE).then(|| worded(&text(), skin))
