@@ -321,12 +321,15 @@ class Solution:
         return self._looked[1]
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Writes the fields and the report into a folder, as ``asperity solve --out``; `asperity.load` reads it.
+        """Writes the fields, the heights and the report into a folder; `asperity.load` reads it.
+
+        Fields and report are those of ``asperity solve --out``, for ``asperity contact`` and the other commands that read
+        results. The program writes no heights, but the scene, ``scene.toml``, and pictures.
 
         Parameters
         ----------
         folder : str or path
-            Folder, which is made if it is not there: ``gap.npy`` and so on, ``report.json``, and ``heights.npy``.
+            Folder, which is made if it is not there: ``gap.npy`` and so on, ``heights.npy`` and ``report.json``.
         """
         from . import _folder
 
