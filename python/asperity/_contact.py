@@ -38,7 +38,7 @@ from ._keywords import (
     described,
     names,
 )
-from ._laws import Varying
+from ._laws import FORMULAS, Varying
 from ._measured import Measured
 from ._pair import along_both, between
 from ._progress import by_default
@@ -543,6 +543,16 @@ def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stabilit
     keys: dict[str, Any] = {key: report.get(key) for key in names(ContactKeywords) if key not in ("shift", "against")}
     if not isinstance(solution.law, str | None):
         keys.update(dict.fromkeys(_OF_LAWS), law=solution.law)
+    elif report["work_of_adhesion_map"] is not None:
+        raise ValueError(
+            "the solution was loaded from a folder, which does not keep works of adhesion that vary: give the law anew, as "
+            "asperity.load(folder, law=asperity.Varying(law, work_of_adhesion))"
+        )
+    elif solution.law not in (None, "none", *FORMULAS):
+        raise ValueError(
+            f"the solution was loaded from a folder, which keeps no values of the law {solution.law}: give it anew, as "
+            "asperity.load(folder, law=asperity.Tabulated(gaps, tractions)), or law= and one of your own"
+        )
     elif solution.law == "jkr":
         # that of the report is of the grid
         keys["range"] = None

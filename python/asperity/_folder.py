@@ -14,13 +14,14 @@ from . import _asperity
 from ._body import Coating, Layer
 from ._solution import ContactStatistics, Solution
 from ._topography import Heights, Topography, field_of, found, mirrored
+from ._types import OwnLaw
 
 #: The fields of a folder that every solve leaves, and those that some do.
 _FIELDS = ("gap", "pressure", "contact_pressure")
 _OTHERS = ("plastic_depth", "mode", "displacement", "against_displacement", "heights")
 
 
-def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solution:
+def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: OwnLaw | None = None) -> Solution:
     """Reads a solution of the folder in which `Solution.save` or ``asperity solve --out`` has left it.
 
     Its numbers are those of the report, in which infinite ones are None. Of a mirrored map the whole gap is that of the
@@ -33,11 +34,15 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
     heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file, optional
         Heights that were solved, of the shape of the fields. `Solution.save` keeps them; a folder of the program has
         none, and without them the solution has no ``heights``, ``topography`` and ``displacement``.
+    law : object, optional
+        Adhesion law that was solved, for `stability`. A folder has the numbers of a law, but no works of adhesion of
+        `Varying`, no values of `Tabulated`, and no law of your own.
 
     Returns
     -------
     Solution
-        As it was, but for the objects of adhesion laws, of which there is the name, and of symbols.
+        As it was, but for symbols, and for the object of an adhesion law, in the place of which there is its name unless
+        it is given.
 
     Raises
     ------
@@ -77,7 +82,8 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None) -> Solu
         map_of = mirrored(np.asarray(fields["heights"], np.float64), whole)
         source, unit, nodes = told["heights"], told["length_unit"], None if is_whole else shape
         of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
-    law = None if told["law"] == "none" else told["law"]
+    if law is None and told["law"] != "none":
+        law = told["law"]
     taken = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
     solution = Solution(of, (_body(told), law), told, {**taken, "look": None, "displacements": None})
     sizes, _ = _asperity.clusters(solution.contact.reshape(shape), solution.flow_boundary == "periodic")

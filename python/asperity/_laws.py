@@ -238,6 +238,10 @@ class VanDerWaals(_Formula):
     _name = "van-der-waals"
 
 
+#: The names of the laws that are formulas, whose numbers are all in a report.
+FORMULAS = tuple(kind._name for kind in _Formula.__subclasses__())
+
+
 class Tabulated(_Described):
     """A law of which the traction is a monotone cubic through the points of a table.
 

@@ -11,6 +11,8 @@ from ._types import AxisOrder
 
 __all__ = ["Exponential", "JKR", "LennardJones", "MaugisDugdale", "Morse", "PowerLaw", "VanDerWaals"]
 
+FORMULAS: tuple[str, ...]
+
 # laws that are formulas
 @final
 class Exponential(Law):

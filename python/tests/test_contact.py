@@ -3,6 +3,7 @@
 import json
 import pickle
 import subprocess
+import types
 
 import numpy as np
 import pytest
@@ -165,6 +166,23 @@ def test_a_folder_of_the_program_is_loaded(rough, tmp_path, tool, files):
         found.displacement  # noqa: B018
     with pytest.raises(ValueError, match=r"heights have shape \(3, 3\)"):
         asperity.load(folder, heights=np.zeros((3, 3)))
+
+
+def test_a_law_that_no_folder_keeps_is_given_anew(rough, tmp_path):
+    gaps, own = np.linspace(0.0, 0.05, 60), asperity.Exponential(1e-5, 8e-3)
+    own = types.SimpleNamespace(energy=own.energy, traction=own.traction, slope=own.slope, work_of_adhesion=1e-5, range=8e-3)
+    works = np.linspace(1e-5, 2e-5, rough.heights.size).reshape(rough.heights.shape)
+    for law, told in (
+        (asperity.Varying(asperity.Exponential(1.0, 8e-3), works), r"keep works of adhesion that vary: .*load\(folder, law="),
+        (asperity.Tabulated(gaps, 1e-3 * (1 - gaps / 0.05)), "keeps no values of the law table: give it anew"),
+        (own, "keeps no values of the law SimpleNamespace: give it anew"),
+    ):
+        solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01, law=law)
+        solution.save(tmp_path)
+        with pytest.raises(ValueError, match=told):
+            asperity.stability(asperity.load(tmp_path))
+        again = asperity.load(tmp_path, law=law)
+        assert asperity.stability(again).eigenvalue == asperity.stability(solution).eigenvalue
 
 
 def test_what_is_no_folder_of_a_solve_is_refused(rough, tmp_path):
