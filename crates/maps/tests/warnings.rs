@@ -167,6 +167,10 @@ fn a_body_that_ends_is_told_and_no_surface_that_goes_on() {
             grid.sample(|x, y| if x.hypot(y) > 0.6 { f64::NAN } else { 0.01 * (std::f64::consts::TAU * x).sin() });
         assert!(!codes(&surface_with_absent(grid, hole).unwrap()).contains(&"ends"), "hole {n}");
     }
+    let pillar = Grid::square(32, 1.0).unwrap().sample(|x, y| if x.hypot(y) < 0.3 { 0.0 } else { f64::NAN });
+    let pillar = surface_with_absent(Grid::square(32, 1.0).unwrap(), pillar).unwrap();
+    let message = Warning::of_surface(&pillar)[0].message();
+    assert!(message.contains("except for an array of pillars"), "{message}");
     let message = Warning::of_surface(&Surface::paraboloid(Grid::square(64, 1.0).unwrap(), 2.0).unwrap())[0].message();
     // −(31/64)²/4 against −1/24 on average
     assert!(["by 0.017 or more", "free boundary"].iter().all(|part| message.contains(part)), "{message}");

@@ -131,7 +131,7 @@ fn highest_at_edges(surface: &Surface, heights: &Array2<f64>) -> f64 {
 
 /// A body that ends before the edges.
 pub(super) fn ends_within(surface: &Surface) -> Option<Warning> {
-    let text = "no node along the edges has a surface: use a free boundary";
+    let text = "no surface along the edges: use a free boundary, except for an array of pillars";
     let ends = surface.absent().is_some() && highest_at_edges(surface, surface.heights()) == f64::NEG_INFINITY;
     ends.then(|| Warning::told(WarningCode::Ends, 0.0, text, []))
 }
