@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 #: The factor of numbers into the unit of an axis, and that unit.
 Unit: TypeAlias = tuple[float, str | None]
 
+#: Pressures of one sign that are all weaker than this share of the other sign's greatest are not shown.
+_NOISE = 1e-6
+
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
@@ -104,9 +107,24 @@ def _colours(steps: NDArray[Any]) -> Any:
 
 
 def _bar(ax: Axes, image: Any, label: str, place: tuple[float, float] = (0.0, 1.0), extend: str = "neither") -> None:
-    """A colour bar on the right of a map, from one share of its height to another."""
-    low, high = place
-    ax.figure.colorbar(image, cax=ax.inset_axes((1.04, low, 0.05, high - low)), label=label, extend=extend)
+    """A colour bar on the right of a map, from one share of its height to another, and further down than a low map for
+    labels that are longer than the bars."""
+    from matplotlib.transforms import Bbox, TransformedBbox
+
+    figure: Any = ax.figure
+    bar = ax.inset_axes((1.04, 0.0, 0.05, 1.0))
+
+    def located(_: Any, renderer: Any) -> Any:
+        longest = max(other.yaxis.label.get_window_extent(renderer).height for other in ax.child_axes)
+        # a tenth beyond a bar does not reach the label of the other one
+        stretch = max(1.0, 0.9 * longest / ((place[1] - place[0]) * ax.bbox.height))
+        low, high = (1.0 - stretch * (1.0 - end) for end in place)
+        # beside the last number of the axis below the map
+        left = 1.04 if stretch == 1.0 else 1.09
+        return TransformedBbox(Bbox.from_extents(left, low, left + 0.05, high), ax.transAxes - figure.transSubfigure)
+
+    bar.set_axes_locator(located)
+    figure.colorbar(image, cax=bar, label=label, extend=extend)
 
 
 def contact(
@@ -144,21 +162,24 @@ def pressure(
     steps = _palette("diverging")
     middle = len(steps) // 2
     low, high = limits or (None, None)
-    # of each sign its name, the end that is given, the colours, and the place of its bar
-    signs = [(1.0, "compression" if adhesive else "pressure", high, steps[middle:], (0.0, 1.0))]
-    if adhesive and low != 0.0:
-        signs[0] = (*signs[0][:-1], (0.53, 1.0))
-        signs.append((-1.0, "tension", None if low is None else -low, steps[:middle], (0.0, 0.47)))
+    # of each sign its name, the end that is given, and the colours
+    signs = [(1.0, "compression" if adhesive else "pressure", high, steps[middle:])]
+    if adhesive:
+        signs.append((-1.0, "tension", None if low is None else -low, steps[:middle]))
+    # without a sign that no node has but for rounding, unless its end is given
+    noise = _NOISE * np.nanmax(np.abs(field), initial=0.0)
+    signs = [each for each in signs if each[2] or each[2] is None and (each[0] * field > noise).any()] or signs[:1]
+    places = [(0.53, 1.0), (0.0, 0.47)] if len(signs) == 2 else [(0.0, 1.0)]
     ax.set_facecolor(steps[middle])
     captions = []
-    for sign, name, given, colours, place in signs:
+    for (sign, name, given, colours), place in zip(signs, places):
         end, greatest, beyond = _asperity.load_scale(sign * field, given)
         factor, unit = _scaled(end, pressure_unit)
         ends = sorted([0.0, sign * (factor * end or 1.0)])
         there = np.ma.masked_less_equal(sign * field, 0.0)
         image = _map(ax, sign * factor * there, lengths, length_unit, cmap=_colours(colours), vmin=ends[0], vmax=ends[1])
         if beyond > 0.0:
-            load = "load" if len(signs) == 1 else name
+            load = name if adhesive else "load"
             share = f"{100 * beyond:.2g} %" if beyond > 1e-3 else "less than 0.1 %"
             captions.append(f"{share} of the {load} beyond, to {sign * factor * greatest:.3g} {unit}".rstrip())
         _bar(ax, image, _label(name, unit), place, "neither" if beyond == 0.0 else "max" if sign > 0.0 else "min")

@@ -65,6 +65,23 @@ def test_without_adhesion_there_is_no_scale_of_tension(rough):
     assert [bar.get_ylabel() for bar in axes[1].child_axes] == ["pressure"]
 
 
+def test_a_sign_that_no_node_has_has_no_scale(rough, law):
+    apart = asperity.solve(rough, modulus=1.0, mean_gap=0.08, law=law)
+    assert apart.pressure.max() < 0.0
+    (bar,) = apart.plot()[1].child_axes
+    assert bar.get_ylabel().startswith("tension")
+    # but for one of which the end is given
+    assert len(apart.plot(colour_limits=(-1.0, 1.0))[1].child_axes) == 2
+
+
+def test_labels_of_scales_are_apart_beside_a_low_map(rough, law):
+    low = asperity.Topography(np.concatenate([rough.heights] * 4), (4.0, 1.0))
+    right = asperity.solve(low, modulus=1.0, mean_pressure=0.01, law=law).plot(pressure_unit="mPa")[1]
+    right.figure.draw_without_rendering()
+    compression, tension = (bar.yaxis.label.get_window_extent() for bar in right.child_axes)
+    assert tension.y1 < compression.y0
+
+
 def test_a_scale_ends_where_most_of_the_load_is_carried(rough):
     heights = np.array(rough)
     highest = np.unravel_index(heights.argmax(), heights.shape)
