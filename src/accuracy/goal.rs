@@ -283,69 +283,52 @@ impl Accuracy {
         observe: GridObserver<'_>,
     ) -> Result<AccurateSolution<T>> {
         let mut refinable = is_refinable(surface, &**law);
-        loop {
-            let found = self.refine_if(refinable, solver, surface, operators, law, control, &mut *observe)?;
-            if let Some(found) = found {
-                return Ok(found);
-            }
-            refinable = false;
+        'given: loop {
+            let (Solved { mut solution, mut whole, .. }, mut levels) =
+                self.nested.run(solver, Box::new(surface), operators, law, control, &mut *observe)?;
+            self.of.check_in(solution.report.boundary)?;
+            let periodic = solution.report.boundary == Boundary::Periodic;
+            let mut waves = surface.nodes_per_wave(solution.report.boundary);
+            let (mut surface, given) = (surface.clone(), surface.grid().shape());
+            // that of a law with the range of the grid, or one that the grid does not resolve, changes by it too
+            let resolved = !law.hints().of_grid && resolves_adhesion(solution.report.mu_rho, 1.0);
+            let (error, reached, unaffordable) = loop {
+                let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
+                let report = &solution.report;
+                let enough = |error: &GridError| error.relative + report.relative_error <= self.target;
+                let converged = report.status == Status::Converged;
+                if !converged || !refinable || error.as_ref().is_some_and(enough) {
+                    break (error, converged && error.as_ref().is_some_and(enough), None);
+                }
+                let shape = twice(surface.grid().shape());
+                // the operator's grid grows as that of the surface
+                let nodes = whole.as_ref().map_or(surface.grid(), |(grid, _)| grid).nodes() as f64;
+                let bytes = 8.0 * NUMBERS * nodes * (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
+                if bytes > self.memory {
+                    break (error, false, Some((shape, bytes)));
+                }
+                let half_space = operators.on(Grid::new(shape, surface.grid().lengths())?)?;
+                let fine = refined(&surface, periodic)?;
+                let touching = Touching::of(solver.constraint.wall());
+                let coarse = Deformed::of(&surface, solution.gap, whole);
+                let start = coarse.prolonged(&fine, half_space.grid(), touching);
+                let mut problem = Problem::of(&fine, half_space, law.clone())?;
+                let grid = *fine.grid();
+                let begin = Begin::Prolonged(start);
+                Solved { solution, whole, .. } =
+                    solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
+                let stiffness = self.nested.stiffness_of(solver, &mut problem, &solution)?;
+                levels.push(Level { stiffness, ..Level::of(&solution)? });
+                if let [.., before, level] = &levels[..]
+                    && surface.grid().shape() == given
+                    && if resolved { is_of_interpolation(level, before) } else { overshoots(&fine, &surface) }
+                {
+                    refinable = false;
+                    continue 'given;
+                }
+                (surface, waves) = (fine, 2.0 * waves);
+            };
+            return Ok(AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable });
         }
-    }
-
-    /// None if the answer on a refined grid is that of the interpolation.
-    fn refine_if<T: Real>(
-        &self,
-        refinable: bool,
-        solver: &mut Solver<dyn ContactConstraint<T>>,
-        surface: &Surface,
-        operators: &mut dyn OnGrids<T>,
-        law: &SharedLaw<T>,
-        control: Control,
-        observe: GridObserver<'_>,
-    ) -> Result<Option<AccurateSolution<T>>> {
-        let (Solved { mut solution, mut whole, .. }, mut levels) =
-            self.nested.run(solver, Box::new(surface), operators, law, control, &mut *observe)?;
-        self.of.check_in(solution.report.boundary)?;
-        let periodic = solution.report.boundary == Boundary::Periodic;
-        let mut waves = surface.nodes_per_wave(solution.report.boundary);
-        let (mut surface, given) = (surface.clone(), surface.grid().shape());
-        // that of a law with the range of the grid, or one that the grid does not resolve, changes by it too
-        let resolved = !law.hints().of_grid && resolves_adhesion(solution.report.mu_rho, 1.0);
-        let (error, reached, unaffordable) = loop {
-            let error = GridError::of(&levels, self.of, waves, solution.report.mu_rho);
-            let report = &solution.report;
-            let enough = |error: &GridError| error.relative + report.relative_error <= self.target;
-            let converged = report.status == Status::Converged;
-            if !converged || !refinable || error.as_ref().is_some_and(enough) {
-                break (error, converged && error.as_ref().is_some_and(enough), None);
-            }
-            let shape = twice(surface.grid().shape());
-            // the operator's grid grows as that of the surface
-            let nodes = whole.as_ref().map_or(surface.grid(), |(grid, _)| grid).nodes() as f64;
-            let bytes = 8.0 * NUMBERS * nodes * (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
-            if bytes > self.memory {
-                break (error, false, Some((shape, bytes)));
-            }
-            let half_space = operators.on(Grid::new(shape, surface.grid().lengths())?)?;
-            let fine = refined(&surface, periodic)?;
-            let touching = Touching::of(solver.constraint.wall());
-            let coarse = Deformed::of(&surface, solution.gap, whole);
-            let start = coarse.prolonged(&fine, half_space.grid(), touching);
-            let mut problem = Problem::of(&fine, half_space, law.clone())?;
-            let grid = *fine.grid();
-            let begin = Begin::Prolonged(start);
-            Solved { solution, whole, .. } =
-                solver.run(problem.parts(), control, begin, &mut |iteration| observe(&grid, iteration))?;
-            let stiffness = self.nested.stiffness_of(solver, &mut problem, &solution)?;
-            levels.push(Level { stiffness, ..Level::of(&solution)? });
-            if let [.., before, level] = &levels[..]
-                && surface.grid().shape() == given
-                && if resolved { is_of_interpolation(level, before) } else { overshoots(&fine, &surface) }
-            {
-                return Ok(None);
-            }
-            (surface, waves) = (fine, 2.0 * waves);
-        };
-        Ok(Some(AccurateSolution { solution, surface, levels, error, reached, refinable, unaffordable }))
     }
 }
