@@ -5,8 +5,7 @@
 //! The first table has the cycles with the settings of the tool. The second one has other settings, each against cycles
 //! of steps that are much more closely balanced: the sum of all operator applications, the greatest error of the
 //! largest tension, and the root mean square and the median of the error of the work on the surfaces that dissipate more
-//! than 0.2 % of the work of adhesion. On every other node of a surface along its sides an application counts as the
-//! share of the nodes that are left.
+//! than 0.2 % of the work of adhesion.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +14,6 @@ use asperity::surface::Amplitude;
 use asperity::{Control, Exponential, Grid, Problem, SelfAffine, Settings, Solver, Surface, Westergaard};
 use clap::Parser;
 use common::{Outcome, arguments, quantile};
-use ndarray::{Axis, Slice};
 
 /// The least dissipated energy of a cycle whose error is told, as a share of the work of adhesion.
 const HYSTERETIC: f64 = 2e-3;
@@ -77,17 +75,6 @@ struct Cycle {
     mu_rho: f64,
 }
 
-/// Every other node of a scene along its sides, and the share of the nodes that are left.
-fn halved(scene: &Scene) -> asperity::Result<(Scene, f64)> {
-    let (surface, heights) = (&scene.surface, scene.surface.heights());
-    let [x, y] = [0, 1].map(|axis| if heights.len_of(Axis(axis)) > 1 { 2 } else { 1 });
-    let every = |step| Slice::from(..).step_by(step);
-    let few = heights.slice_axis(Axis(0), every(x)).slice_axis(Axis(1), every(y)).to_owned();
-    let share = few.len() as f64 / heights.len() as f64;
-    let surface = Surface::new(Grid::new(few.dim(), surface.grid().lengths())?, few)?;
-    Ok((Scene { surface, name: scene.name.clone(), ..*scene }, share))
-}
-
 fn cycle(scene: &Scene, settings: PathSettings, tolerance: Option<f64>) -> asperity::Result<Cycle> {
     let grid = *scene.surface.grid();
     let law = Exponential::new(scene.work, scene.range)?;
@@ -118,14 +105,6 @@ fn main() -> Outcome<()> {
     let usual = PathSettings::default();
     let all = |settings: PathSettings, tolerance| -> asperity::Result<Vec<Cycle>> {
         scenes.iter().map(|scene| cycle(scene, settings, tolerance)).collect()
-    };
-    let on_half = |settings: PathSettings, tolerance| -> asperity::Result<Vec<Cycle>> {
-        let solved = |scene: &Scene| {
-            let (few, share) = halved(scene)?;
-            let found = cycle(&few, settings, tolerance)?;
-            Ok(Cycle { applications: (share * found.applications as f64) as usize, ..found })
-        };
-        scenes.iter().map(solved).collect()
     };
     let reference = all(usual.imbalance(1e-6).smallest_step(1e-5), Some(1e-6))?;
 
@@ -164,10 +143,6 @@ fn main() -> Outcome<()> {
     tell("`--imbalance 1e-5`", &all(usual.imbalance(1e-5), None)?);
     tell("`--tolerance 1e-6`", &all(usual, Some(1e-6))?);
     tell("`--smallest-step 1e-2`", &all(usual.smallest_step(1e-2), None)?);
-    tell("half the nodes", &on_half(usual, None)?);
-    tell("half the nodes, `--imbalance 1e-5`", &on_half(usual.imbalance(1e-5), None)?);
-    tell("half the nodes, `--tolerance 1e-6`", &on_half(usual, Some(1e-6))?);
-    tell("half the nodes, `--imbalance 1e-3`", &on_half(usual.imbalance(1e-3), None)?);
     tell("the reference", &reference);
     Ok(())
 }
