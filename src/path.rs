@@ -188,7 +188,7 @@ impl<T: Real> Path<T> {
         self.course.end_leg();
     }
 
-    /// The greatest tension of the states so far, a pressure; zero if there was none.
+    /// The greatest tension of the states after the first, a pressure; zero if there was none.
     pub fn greatest_tension(&self) -> f64 {
         self.course.account.tension.max(0.0)
     }

@@ -10,6 +10,13 @@ from ._equilibria import Array
 _FEWEST = 8
 
 
+def noise_of(force: Array) -> float:
+    """The standard deviation of the noise of forces."""
+    # by second differences, which a curve hardly has from point to point; of few digits more than half may be zero
+    rough = np.abs(np.diff(force, 2))
+    return float(np.median(rough) / 0.6745 or rough.std()) / np.sqrt(6.0)
+
+
 def ordered(z: Array, force: Array) -> tuple[Array, Array, str]:
     """Positions and forces with the approach in front of the withdrawal, and what speaks against this order."""
     if z.size < 2 * _FEWEST:
@@ -28,8 +35,7 @@ def ordered(z: Array, force: Array) -> tuple[Array, Array, str]:
     grows = [bool(where[-1] > where[0]) for where, _ in branches]
     # how far the force falls below that far from contact
     depths = [float(np.median(load[where <= np.quantile(where, 0.25)]) - load.min()) for where, load in branches]
-    noise = float(np.median(np.abs(np.diff(force, 2)))) / 0.6745 / np.sqrt(6.0)
-    is_clear = abs(depths[0] - depths[1]) > max(8.0 * noise, 0.1 * max(depths))
+    is_clear = abs(depths[0] - depths[1]) > max(8.0 * noise_of(force), 0.1 * max(depths))
     deeper = int(depths[1] > depths[0])
     withdrawal = grows.index(False) if grows[0] != grows[1] else deeper if is_clear else 1
     against = ""

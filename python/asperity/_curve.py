@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ._branches import noise_of
 from ._equilibria import TABOR, Array, Equilibria, Tip, fold, scipy
 
 Direction: TypeAlias = Literal["approach", "withdrawal"]
@@ -48,9 +49,7 @@ class Curve:
             self.turn = 0 if self.turn == 1 else self.turn
         self.approaching = np.arange(z.size) < self.turn
         columns = [np.ones(z.size), z] + [np.linspace(0.0, 1.0, z.size)] * (0 < self.turn < z.size)
-        # by second differences, which a curve hardly has from point to point; of few digits more than half may be zero
-        rough = np.abs(np.diff(force, 2))
-        self.noise = float(np.median(rough) / 0.6745 or rough.std()) / np.sqrt(6.0)
+        self.noise = noise_of(force)
         self._least = 1e-9 * float(np.ptp(force))
         # of each jump its direction, its place, and the force that a shift by a length weighs as much as
         self.jumps: list[tuple[bool, float, float]] = []

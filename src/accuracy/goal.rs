@@ -307,8 +307,12 @@ impl Accuracy {
                 if bytes > self.memory {
                     break (error, false, Some((shape, bytes)));
                 }
-                let half_space = operators.on(Grid::new(shape, surface.grid().lengths())?)?;
                 let fine = refined(&surface, periodic)?;
+                if !resolved && overshoots(&fine, &surface) {
+                    refinable = false;
+                    break (error, false, None);
+                }
+                let half_space = operators.on(*fine.grid())?;
                 let touching = Touching::of(solver.constraint.wall());
                 let coarse = Deformed::of(&surface, solution.gap, whole);
                 let start = coarse.prolonged(&fine, half_space.grid(), touching);
@@ -320,8 +324,9 @@ impl Accuracy {
                 let stiffness = self.nested.stiffness_of(solver, &mut problem, &solution)?;
                 levels.push(Level { stiffness, ..Level::of(&solution)? });
                 if let [.., before, level] = &levels[..]
+                    && resolved
                     && surface.grid().shape() == given
-                    && if resolved { is_of_interpolation(level, before) } else { overshoots(&fine, &surface) }
+                    && is_of_interpolation(level, before)
                 {
                     refinable = false;
                     continue 'given;

@@ -4,6 +4,7 @@ use crate::error::Result;
 use crate::field::ordered;
 use crate::grid::Grid;
 use crate::nested::Level;
+use crate::solver::Status;
 use crate::surface::{Surface, mirror, refine};
 use crate::vector::range;
 
@@ -40,10 +41,9 @@ pub(super) fn overshoots(fine: &Surface, surface: &Surface) -> bool {
 
 /// Whether the contact on a refined grid is of the interpolation and not of the given surface.
 pub(super) fn is_of_interpolation(fine: &Level, given: &Level) -> bool {
-    let [fine, given] = [fine, given].map(|level| level.area);
-    let ratio = given.corrected_contact_fraction / fine.corrected_contact_fraction;
-    let most = DECIDED.max(1.0 + SCATTER / (given.contact_nodes as f64).sqrt());
-    ratio > most
+    let ratio = given.area.corrected_contact_fraction / fine.area.corrected_contact_fraction;
+    let most = DECIDED.max(1.0 + SCATTER / (given.area.contact_nodes as f64).sqrt());
+    fine.status == Status::Converged && ratio > most
 }
 
 /// Twice as many nodes along both sides, or along the only one.

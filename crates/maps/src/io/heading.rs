@@ -165,8 +165,9 @@ impl Heading {
             Some(columns) if columns.iter().all(String::is_empty) => *columns = units(line).unwrap_or_default(),
             Some(_) => {}
             None => {
-                self.columns = columns(line, "x y z").or_else(|| columns(line, "y x z"));
-                self.is_swapped = columns(line, "y x z").is_some();
+                let swapped = columns(line, "y x z");
+                self.is_swapped = swapped.is_some();
+                self.columns = columns(line, "x y z").or(swapped);
             }
         }
     }

@@ -13,6 +13,7 @@ const RESOLVED: f64 = Report::RESOLVED_MU_RHO;
 
 /// The least length w/E* over the sides: of a hard solid it is 1e-15 m, and of maps the sides are below 10 mm.
 const LEAST_WORK: f64 = 1e-13;
+
 /// The greatest one: strains by adhesion, √(w/(E* L)), exceed one beyond it.
 const MOST_WORK: f64 = 1.0;
 
