@@ -14,7 +14,7 @@ def noise_of(force: Array) -> float:
     """The standard deviation of the noise of forces."""
     # by second differences, which a curve hardly has from point to point; of few digits more than half may be zero
     rough = np.abs(np.diff(force, 2))
-    return float(np.median(rough) / 0.6745 or rough.std()) / np.sqrt(6.0)
+    return float((np.median(rough) / 0.6745 or rough.std()) / np.sqrt(6.0))
 
 
 def ordered(z: Array, force: Array) -> tuple[Array, Array, str]:
