@@ -283,7 +283,7 @@ impl Preparation {
         if let Some(&[nx, ny]) = self.resample.as_deref() {
             let before = rms(&map);
             map = map.resample((nx, ny))?;
-            log.tell_change("resample", described(&map), &map, &before);
+            log.tell("resample", format!("{} from {before}", described(&map)));
         }
         if let Some(holes) = holes(&map) {
             log.tell("left", format!("points are missing still, {holes}: fill them before solving"));
