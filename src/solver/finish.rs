@@ -19,6 +19,9 @@ use crate::vector::sums;
 /// The share of the largest traction above which one at the edge of the window matters.
 const EDGE: f64 = 1e-3;
 
+/// The share of a noticeable traction below which bodies that are apart hardly attract each other.
+const LAST: f64 = 1e-4;
+
 found! {
     /// The sums over the fields of a solution.
     struct Borne {
@@ -124,8 +127,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let nominal = flat.window.as_ref().map_or(nodes, |window| window.grid().nodes() as f64);
         let mu_rho = mu_rho(law, operator.grid(), modulus);
         let given = self.sums.detached.unwrap_or(mean);
-        // the mean of the displacement is no wave
-        let of_mean = 0.5 * flat.boundary.mean_compliance() * net.powi(2);
+        // the mean of the displacement is no wave; its pressure is that at which the energy is least
+        let of_mean = 0.5 * flat.boundary.mean_compliance() * mean.powi(2);
         // to the surface as it is now, compared with that as it was before the solve
         let facing_mean = if flat.window.is_some() { carried.gap / facing } else { self.mean_gap() };
         let deeper = plastic.map_or(0.0, |plastic| plastic.depth_mean - flat.mean_depth() * nodes / facing);
@@ -209,7 +212,7 @@ impl<T: Real> Solution<T> {
         let [at_edge, largest] = tractions.map(|own| grid.each(own).into_iter().fold(0.0, f64::max));
         let share = if at_edge == 0.0 { 0.0 } else { at_edge / largest };
         // bodies that are apart say nothing here: only the last of their attraction, or rounding, reaches the edge
-        let attract = !law.hints().zero && largest > noticeable(law);
+        let attract = !law.hints().zero && largest > LAST * noticeable(law);
         let apart = report.status == Status::Detached || report.contact_nodes == 0 && !attract;
         // what the tolerance leaves of the pressures
         let noise = report.tolerance * flat.stiffness * flat.rms_height;

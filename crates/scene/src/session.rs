@@ -12,9 +12,10 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, Weak};
 
 use asperity::adhesion::Formula;
-use asperity::contact::{ContactStatistics, Original};
+use asperity::contact::{ContactStatistics, Original, Region};
 use asperity::solver::Iteration;
 use asperity::{AdhesionLaw, Grid, PullOff, Real, Result, Solver, Status, Surface};
+use asperity_maps::warning::WarningCode;
 use ndarray::Array2;
 use serde_json::json;
 
@@ -260,13 +261,16 @@ impl<T: Scalar> Session<T> {
 
     /// The warnings of the input and of a state.
     fn look(&mut self, found: &Found<T>) -> Outcome<Vec<Told>> {
-        let new = match is_whole(&self.grid) {
-            true => {
-                let of_input = (self.warnings.of_input(), self.scars_removed);
-                warnings_of(&*found.solution.whole(), found.sight.original, of_input)?
+        let mut new = Vec::new();
+        if is_whole(&self.grid) {
+            let (solution, of_input) = (found.solution.whole(), (self.warnings.of_input(), self.scars_removed));
+            new = warnings_of(&*solution, found.sight.original, of_input)?;
+            // a cycle goes from afar to afar, where the force is a small part of that in contact
+            let is_apart = || solution.regions().iter().all(|region| matches!(region, Region::Apart | Region::Absent));
+            if found.step.is_some() && solution.report.contact_nodes == 0 && is_apart() {
+                new.retain(|warning| warning.code != WarningCode::WindowEdge);
             }
-            false => Vec::new(),
-        };
+        }
         self.warnings.add(new.iter().map(|warning| self.units.told(warning)).collect())
     }
 

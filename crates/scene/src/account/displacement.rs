@@ -1,7 +1,7 @@
 //! The displacements of two elastic bodies under the pressure between them.
 
 use asperity::elastic::Boundary;
-use asperity::{ElasticOperator, Real, Result};
+use asperity::{ElasticOperator, Real, Result, Solution};
 use ndarray::{Array2, ArrayView2};
 
 use crate::account::Sight;
@@ -17,6 +17,22 @@ impl<T: Real> Sight<T> {
     pub fn displacements(&self, elastic: &Elastic, pressure: ArrayView2<'_, T>) -> Result<Option<[Array2<f64>; 2]>> {
         let Some(other) = elastic.other() else { return Ok(None) };
         Ok(Some([self.displacement(&elastic.alone(), pressure)?, self.displacement(&other, pressure)?]))
+    }
+
+    /// How far the mean of the waves of the displacement over the nodes that face the surface is from that of all, which
+    /// is zero: without absent nodes it is the same. With them one process has to have all of a periodic grid.
+    ///
+    /// # Errors
+    /// Those of [`Elastic::operator`].
+    pub(crate) fn facing_displacement(&self, elastic: &Elastic, solution: &Solution<T>) -> Result<f64> {
+        if solution.report.absent_nodes == 0 {
+            return Ok(0.0);
+        }
+        let mut displaced = Array2::zeros(solution.gap.dim());
+        elastic.operator::<T>(self.grid)?.displacement(solution.pressure.view(), displaced.view_mut())?;
+        let facing = solution.gap.iter().zip(&displaced).filter(|(gap, _)| gap.is_finite());
+        let (sum, count) = facing.fold((0.0, 0.0), |(sum, count), (_, u)| (sum + u.widen(), count + 1.0));
+        Ok(sum / count)
     }
 
     fn displacement(&self, elastic: &Elastic, pressure: ArrayView2<'_, T>) -> Result<Array2<f64>> {

@@ -25,9 +25,14 @@ pub enum Code {
     Moose,
 }
 
-/// The mean gap at which the undeformed surfaces first touch, from which the closure counts.
+/// The mean gap at which the undeformed surfaces first touch, from which the closure counts; of the nodes that are there,
+/// which one process has to have.
 pub fn touch(surface: &Surface) -> f64 {
-    peak(surface) - surface.mean()
+    let Some(absent) = surface.absent() else { return peak(surface) - surface.mean() };
+    let facing = surface.heights().iter().zip(absent).filter(|(_, absent)| !**absent);
+    let facing: Vec<f64> = facing.map(|(height, _)| *height).collect();
+    let peak = facing.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    facing.iter().map(|height| peak - height).sum::<f64>() / facing.len() as f64
 }
 
 /// A function of one argument, by points with growing arguments.

@@ -313,7 +313,13 @@ impl<T: Scalar> Course<T> {
         {
             path.end_leg();
         }
-        Ok(Row::of(found, &account, &statistics.cluster_sizes, self.touch, seed))
+        // absent nodes are lower than the others
+        let lower = |touch| {
+            let lower = found.sight.facing_displacement(&account.inputs.elastic, &found.solution)?;
+            asperity::Result::Ok(touch + lower)
+        };
+        let touch = self.touch.map(lower).transpose()?;
+        Ok(Row::of(found, &account, &statistics.cluster_sizes, touch, seed))
     }
 }
 

@@ -77,7 +77,16 @@ impl<T: Scalar> Session<T> {
             return Err(Error::Value { name, value, requirement }.into());
         }
         let afar = if start.is_none() { self.start_afar(loads) } else { None };
-        let touch = if is_interface { Some(touch(&*self.surface()?)) } else { None };
+        let touch = match is_interface {
+            true => {
+                let surface = self.surface()?;
+                if surface.absent_nodes() > 0 {
+                    self.processes.alone("the closure of a surface with absent nodes")?;
+                }
+                Some(touch(&surface))
+            }
+            false => None,
+        };
         let mut course = Course::new(way, after, touch, |load| self.on_whole(load))?;
         course.expect(self)?;
         let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;
