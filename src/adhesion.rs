@@ -138,6 +138,11 @@ pub enum Discretisation<T> {
     Smooth(T),
 }
 
+impl<T> Discretisation<T> {
+    /// The compliance with which solves and paths smooth a law, in Δx/E*: a node has 1.1, the nodes along an edge some 3.
+    pub const SMOOTHING: f64 = 5.0;
+}
+
 macro_rules! forward {
     ($($type:ty),*) => {$(
         impl<T: Real, L: AdhesionLaw<T> + ?Sized> AdhesionLaw<T> for $type {

@@ -25,9 +25,6 @@ use flat::check_law;
 pub(crate) use window::Window;
 pub(crate) use yielded::Yielded;
 
-/// The compliance with which jumps of a law are smoothed, in Δx/E*: a node has 1.1, the nodes along an edge some 3.
-const SMOOTHING: f64 = 5.0;
-
 /// A contact problem: a rough surface, an elastic operator and an adhesion law.
 ///
 /// Only the pressure K⁻¹h that would press the surface flat is kept of it. A problem can be solved many times, under
@@ -79,7 +76,7 @@ pub(crate) fn smoothed_law<T: Real>(
     operator: &dyn ElasticOperator<T>,
     law: &dyn AdhesionLaw<T>,
 ) -> Option<Arc<dyn AdhesionLaw<T>>> {
-    let compliance = SMOOTHING * operator.grid().largest_spacing() / operator.modulus();
+    let compliance = Discretisation::<T>::SMOOTHING * operator.grid().largest_spacing() / operator.modulus();
     law.adapted(Discretisation::Smooth(T::lit(compliance)))
 }
 

@@ -48,6 +48,26 @@ fn the_slope_of_the_pressure_is_the_stiffness_to_its_error() {
     assert!(rows.iter().all(|row| row["status"] == "converged" && row["branch"].is_null()));
 }
 
+/// Absent nodes are left out of the mean gap, and the displacement has a mean over the others.
+#[test]
+fn the_closure_counts_from_first_touch_with_absent_nodes_too() {
+    let bench = Bench::new();
+    let height = |i: usize, j: usize| match i.abs_diff(16).pow(2) + j.abs_diff(16).pow(2) < 40 {
+        true => "nan".to_owned(),
+        false => (0.01 * (0.6 * i as f64).sin() * (0.4 * (j * j) as f64).cos()).to_string(),
+    };
+    let lines = (0..32).map(|i| (0..32).map(|j| height(i, j)).collect::<Vec<_>>().join(" ") + "\n");
+    bench.write("rough.txt", &lines.collect::<String>());
+    let loads = "--mean-pressures 1e-9,0.0099,0.01,0.0101 --tolerance 1e-9";
+    bench.said(&format!("interface --heights rough.txt --lengths 1 --absent-missing {loads} --quiet --out h.csv"));
+    let rows = rows(&bench, "h.csv");
+    let [closure, pressure, stiffness] =
+        ["closure", "mean_pressure", "contact_stiffness"].map(|name| column(&rows, name));
+    assert!(closure[0].abs() < 1e-6, "{closure:?}");
+    let slope = (pressure[3] - pressure[1]) / (closure[3] - closure[1]);
+    assert!((slope / stiffness[2] - 1.0).abs() < 0.02, "{slope} {stiffness:?}");
+}
+
 #[test]
 fn each_code_gets_the_table_as_it_reads_it() {
     let bench = Bench::new();

@@ -325,6 +325,22 @@ fn a_range_beyond_the_heights_or_below_the_grid_is_told() {
 }
 
 #[test]
+fn a_cycle_that_jumps_in_too_early_is_told() {
+    let grid = Grid::square(64, 1.0).unwrap();
+    let told = |law: &dyn AdhesionLaw<f64>, smooth| {
+        Warning::of_cycle(law, &grid, 1.0, smooth).map(|warning| short(&warning).to_string())
+    };
+    // the width of the smoothed fall is 5 wΔx/(E* ρ), half of it beyond the range
+    let blunt = |range: f64| told(&MaugisDugdale::new(1e-5, range).unwrap(), true);
+    assert!(blunt(1e-3).unwrap().contains("reaches 39 % farther"), "{:?}", blunt(1e-3));
+    assert_eq!(blunt(2e-3), None);
+    assert_eq!(told(&MaugisDugdale::new(1e-5, 1e-3).unwrap(), false), None);
+    assert!(told(&Jkr::new(1e-5).unwrap(), true).unwrap().contains("too little"));
+    assert_eq!(told(&Exponential::new(1e-5, 1e-3).unwrap(), true), None);
+    assert_eq!(told(&NoAdhesion, true), None);
+}
+
+#[test]
 fn a_contact_pressure_above_the_modulus_is_told() {
     let grid = Grid::square(16, 1.0).unwrap();
     let surface = Surface::wave_2d(grid, 0.5, 1).unwrap();

@@ -1,8 +1,8 @@
 //! The warnings about adhesion: its range is too short for the grid, or exceeds the heights, and its work is not one of
 //! such a body.
 
-use asperity::adhesion::mu_rho;
-use asperity::{AdhesionLaw, Real, Report, Surface};
+use asperity::adhesion::{Discretisation, mu_rho};
+use asperity::{AdhesionLaw, Grid, Real, Report, Surface};
 
 use super::extremes::Extremes;
 use super::part::Part::{Figure, Length, Word};
@@ -17,7 +17,30 @@ const LEAST_WORK: f64 = 1e-13;
 /// The greatest one: strains by adhesion, √(w/(E* L)), exceed one beyond it.
 const MOST_WORK: f64 = 1.0;
 
+/// The share of its range by which a smoothed law may reach farther.
+const FARTHER: f64 = 0.1;
+
 impl Warning {
+    /// Why a cycle with `law` on a body of contact `modulus` E* jumps into contact too early, and so dissipates too little:
+    /// its range is that of the grid, or its traction that jumps is smoothed by the grid.
+    pub fn of_cycle<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64, smooth: bool) -> Option<Self> {
+        let (dx, dy) = grid.spacing();
+        let spacing = if grid.is_line() { dx } else { dx.max(dy) };
+        if law.hints().zero {
+            return None;
+        }
+        if law.hints().of_grid {
+            let range = law.on_nodes(T::lit(spacing / modulus))?.hints().range.widen();
+            let text = "by jkr a cycle jumps in {} early and dissipates too little: give a range";
+            return Some(Self::told(WarningCode::Range, range / spacing, text, [Length(range)]));
+        }
+        let farther = f64::min(0.5 * Discretisation::<T>::SMOOTHING * mu_rho(law, grid, modulus).powi(2), 1.0);
+        let is_smoothed = smooth && law.adapted(Discretisation::Smooth(T::infinity())).is_some();
+        let text = "smoothed, the law reaches {} % farther and cycles dissipate less: refine the map";
+        let told = || Self::told(WarningCode::Range, farther, text, [Figure(100.0 * farther)]);
+        (is_smoothed && farther > FARTHER).then(told)
+    }
+
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
     /// [`Range`](WarningCode::Range), and in its work of adhesion: [`Work`](WarningCode::Work). Nothing without adhesion.
     pub fn of_law<T: Real>(law: &dyn AdhesionLaw<T>, surface: &Surface, modulus: f64) -> Vec<Self> {

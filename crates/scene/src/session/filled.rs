@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use asperity::solver::Iteration;
 use asperity::{Error, Status};
+use asperity_maps::warning::Warning;
 use ndarray::Array2;
 use serde_json::Value;
 
@@ -87,6 +88,11 @@ impl<T: Scalar> Session<T> {
             }
             false => None,
         };
+        if let Way::Cycle(_, settings) = &way {
+            let modulus = self.scene.elastic.body()?.modulus_on(&self.grid);
+            let found = Warning::of_cycle(&*self.law, &self.grid, modulus, settings.smooth);
+            self.warnings.add_of_input(found.iter().map(|warning| self.units.told(warning)).collect())?;
+        }
         let mut course = Course::new(way, after, touch, |load| self.on_whole(load))?;
         course.expect(self)?;
         let identity = file.as_ref().map(|file| self.identity(file, start.as_ref())).transpose()?;

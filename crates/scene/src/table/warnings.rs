@@ -73,6 +73,12 @@ impl Warnings {
         Ok(warnings)
     }
 
+    /// Keeps further warnings of the input; an error, if warnings are.
+    pub(crate) fn add_of_input(&mut self, new: Vec<Told>) -> Outcome<()> {
+        self.of_input = self.add(new)?;
+        Ok(())
+    }
+
     /// Keeps the warnings of a state, which come behind those of the input; an error, if warnings are.
     pub(crate) fn add(&mut self, new: Vec<Told>) -> Outcome<Vec<Told>> {
         // earlier rows of a table may have said the same without it
