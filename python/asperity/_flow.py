@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from . import _asperity
 from ._solution import Constriction, Solution
 from ._summary import summarised
-from ._topography import _lengths, field_of
+from ._topography import Heights, Topography, field_of, taken
 from ._types import Boundary, Lengths, Quantity
-from ._units import number
+from ._units import given, number
 from ._warnings import ConvergenceWarning, warn
 from ._words import checked
 
@@ -69,7 +69,7 @@ class Leakage(NamedTuple):
 
 @checked
 def leakage(
-    gap: Solution | ArrayLike,
+    gap: Solution | Heights,
     lengths: Lengths | None = None,
     *,
     boundary: Boundary | None = None,
@@ -86,11 +86,12 @@ def leakage(
 
     Parameters
     ----------
-    gap : Solution or array_like, shape (Nx, Ny)
-        Solution, or an array of gaps. The gap is open at nodes where it is positive, and a node is absent where it is
-        not finite. An array with negative values is refused, as heights are.
+    gap : Solution, array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file
+        Solution, or gaps, shape (Nx, Ny). The gap is open at nodes where it is positive, and a node is absent where it
+        is not finite. Gaps with negative values are refused, as heights are.
     lengths : float or (float, float), optional
-        Side lengths; Lx alone means square cells. 1 by 1 by default. A solution has its own.
+        Side lengths; Lx alone means square cells. Those of the gaps by default, or 1 by 1 if they bring none. A solution
+        has its own.
     boundary : {"periodic", "free"}, optional
         What is beyond the map. With a free boundary the fluid enters along one side and leaves along the opposite one,
         and the two other sides are tight. By default the boundary is that of the solution, and periodic for an array.
@@ -98,7 +99,8 @@ def leakage(
     absent_gap : float or str, optional
         Gap of absent nodes. They are closed by default.
     viscosity : float or str, optional
-        Dynamic viscosity, for example "1mPas". The report then has ``flow_per_pressure``.
+        Dynamic viscosity, for example "1mPas". The report then has ``flow_per_pressure``. With units all results are in
+        SI units, and the gaps are converted to metres.
     tolerance : float
         Distance of the bounds, relative to the upper one, at which the iteration ends.
     max_iterations : int
@@ -120,17 +122,23 @@ def leakage(
     >>> found.y.grid_error < 1e-3
     True
     """
+    absent = None if absent_gap is None else number("absent_gap", absent_gap)
+    viscous = None if viscosity is None else number("viscosity", viscosity)
     solved = isinstance(gap, Solution)
     own: Boundary = "periodic"
     if isinstance(gap, Solution):
         if lengths is not None:
             raise ValueError("the solution has its side lengths: leave lengths out")
-        field, sides, own = field_of(gap.gap, "gaps"), gap.lengths, gap.flow_boundary
-    else:
-        field = field_of(gap, "gaps")
-        sides = (1.0, 1.0) if lengths is None else _lengths(lengths, field.shape)
-    absent = None if absent_gap is None else number("absent_gap", absent_gap)
-    viscous = None if viscosity is None else number("viscosity", viscosity)
+        unit, own = gap._told["length_unit"], gap.flow_boundary
+        if unit is None and given.get():
+            name, value = ("absent_gap", absent) if viscous is None else ("viscosity", viscous)
+            raise ValueError(
+                f"{name} is {value:g} in SI units, but the lengths of the solution have no unit: give a number in the units "
+                "of the solution"
+            )
+        gap = Topography(field_of(gap.gap, "gaps"), gap.lengths, unit)
+    topography = taken(gap, lengths, name="gaps")
+    field, sides = topography.heights, topography.lengths or (1.0, 1.0)
     found = _asperity.leakage(field, solved, sides, boundary or own, absent, viscous, tolerance, max_iterations)
     if found["shortfall"] is not None:
         warn(found["shortfall"], ConvergenceWarning)

@@ -218,10 +218,10 @@ def plain(keys: dict[str, Any]) -> dict[str, Any]:
 
 
 def taken(
-    heights: Heights, lengths: Any = None, axes: AxisOrder | None = None, si: bool | None = None
+    heights: Heights, lengths: Any = None, axes: AxisOrder | None = None, si: bool | None = None, name: str = "heights"
 ) -> Topography:
     """The map of whatever holds heights, with the side lengths that are given for it; in metres with units."""
-    topography = found(heights, axes)
+    topography = found(heights, axes, name)
     if units.get() if si is None else si:
         topography = _in_metres(topography)
     return topography if lengths is None else replace(topography, lengths=_lengths(lengths, topography.heights.shape))
@@ -234,7 +234,7 @@ def _in_metres(topography: Topography) -> Topography:
     return replace(topography, **_asperity.in_metres(topography))
 
 
-def found(heights: Heights, axes: AxisOrder | None) -> Topography:
+def found(heights: Heights, axes: AxisOrder | None, name: str = "heights") -> Topography:
     """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
     if axes is not None and knows_axes(heights):
         raise ValueError(f"axes is {axes!r}, but a file or a map knows its axes: leave it out, or give an array")
@@ -244,10 +244,10 @@ def found(heights: Heights, axes: AxisOrder | None) -> Topography:
         return read(heights)
     if _is_topography(heights):
         return from_topography(heights)
-    heights = _labelled(heights, axes)
+    heights = _labelled(heights, axes, name)
     if _is_data_array(heights):
         return _from_data_array(heights, axes)
-    array, is_line = array_of(heights, axes=axes)
+    array, is_line = array_of(heights, name, axes)
     return Topography(array, _is_line=is_line)
 
 

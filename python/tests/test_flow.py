@@ -97,6 +97,38 @@ def test_units_and_refusals(solution):
         asperity.leakage(wavy, max_iterations=2, tolerance=1e-9)
 
 
+def test_gaps_with_a_unit_leak_in_metres(solution):
+    rough = solution.topography
+    microns = asperity.Topography(rough.heights, rough.lengths, "um")
+    pressed = asperity.solve(microns, modulus=1e3, mean_pressure=10.0, tolerance=1e-9)
+    strings = asperity.solve(microns, modulus="1GPa", mean_pressure="10MPa", tolerance=1e-9)
+    found, same = (asperity.leakage(one, viscosity="1mPas", tolerance=1e-10) for one in (pressed, strings))
+    for axis in ("x", "y"):
+        flow, other = (one.report["flow_per_pressure"][axis]["upper"] for one in (found, same))
+        assert flow == pytest.approx(other, rel=1e-9)
+    gap = pressed.gap.copy()
+    gap[:4, :4] = np.inf
+    holed = asperity.Topography(gap, pressed.lengths, "um")
+    of_metres = asperity.leakage(holed, absent_gap="50nm").x.upper
+    assert of_metres == pytest.approx(1e-18 * asperity.leakage(holed, absent_gap=0.05).x.upper, rel=1e-9)
+    with pytest.raises(ValueError, match="viscosity is 0.001 in SI units, but .* no unit: give a number in the units of"):
+        asperity.leakage(solution, viscosity="1mPas")
+    with pytest.raises(ValueError, match="absent_gap is 5e-08 in SI units"):
+        asperity.leakage(solution, absent_gap="50nm")
+
+
+def test_gaps_bring_their_sides(tmp_path):
+    gap = asperity.Topography(np.full((32, 32), 2.0), (100.0, 50.0), "um")
+    np.savez(tmp_path / "gap.npz", heights=gap.heights, lengths=(100.0, 50.0), unit="m")
+    for of in (gap, tmp_path / "gap.npz"):
+        found = asperity.leakage(of)
+        assert found.x.upper == pytest.approx(1 / 3, rel=1e-5) and found.y.upper == pytest.approx(4 / 3, rel=1e-5)
+    assert asperity.leakage(gap, 50.0).x.upper == pytest.approx(2 / 3, rel=1e-5)
+    assert asperity.leakage(gap, viscosity="1mPas").y.upper == pytest.approx(4e-18 / 3, rel=1e-5)
+    with pytest.raises(TypeError, match="gaps are an array of complex"):
+        asperity.leakage(np.ones((3, 3), complex))
+
+
 def test_absent_nodes_are_closed_or_open():
     gap = np.ones((8, 8))
     gap[3] = np.nan
