@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from . import _asperity
 from ._body import Coating, Layer
 from ._solution import ContactStatistics, Solution
-from ._topography import Heights, Topography, field_of, found, mirrored
+from ._topography import Heights, Topography, mirrored, taken
 from ._types import OwnLaw
 
 #: The fields of a folder that every solve leaves, and those that some do.
@@ -32,8 +32,9 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     folder : str or path
         Folder with ``report.json``, and the fields as ``.npy`` or in ``fields.npz``.
     heights : array_like, Topography, SurfaceTopography, DataArray, DataFrame or path of a file, optional
-        Heights that were solved, of the shape of the fields. `Solution.save` keeps them; a folder of the program has
-        none, and without them the solution has no ``heights``, ``topography`` and ``displacement``.
+        Heights that were solved, of the shape of the fields; those with a unit are converted to metres if the solve was
+        in metres. `Solution.save` keeps them; a folder of the program has none, and without them the solution has no
+        ``heights``, ``topography`` and ``displacement``.
     law : object, optional
         Adhesion law that was solved, for `stability`. A folder has the numbers of a law, but no works of adhesion of
         `Varying`, no values of `Tabulated`, and no law of your own.
@@ -68,9 +69,10 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     # absent nodes have no gap
     fields["gap"] = np.where(np.isnan(fields["gap"]), np.inf, fields["gap"])
     if heights is not None:
-        fields["heights"] = field_of(found(heights, None), "heights")
+        fields["heights"] = taken(heights, si=told["length_unit"] == "m").heights
         if fields["heights"].shape != shape:
             raise ValueError(f"heights have shape {fields['heights'].shape}: those that were solved have {shape}")
+        _check_heights(fields, told)
     is_whole = told["solved_shape"] is None
     whole = shape if is_whole else tuple(told["solved_shape"])
     lengths: Any = tuple(told["lengths"])
@@ -84,8 +86,8 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
         of = Topography(map_of, lengths, unit, source=source, original=nodes, _is_line=is_line)
     if law is None and told["law"] != "none":
         law = told["law"]
-    taken = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
-    solution = Solution(of, (_body(told), law), told, {**taken, "look": None, "displacements": None})
+    fields = {name: None if field is None else mirrored(field, whole) for name, field in fields.items()}
+    solution = Solution(of, (_body(told), law), told, {**fields, "look": None, "displacements": None})
     sizes, _ = _asperity.clusters(solution.contact.reshape(shape), solution.flow_boundary == "periodic")
     apart = 1.0 - told["repulsive_fraction"] - told["attractive_fraction"]
     counted = {**told, "cluster_sizes": sizes, "apart_fraction": apart}
@@ -93,7 +95,7 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
         counted["corrected_contact_fraction"] = np.nan
     statistics = ContactStatistics(*(counted[name] for name in ContactStatistics._fields))
     rows = _asperity.figures_of(json.dumps(told))
-    both: list[Any] = [taken[name] for name in ("displacement", "against_displacement")]
+    both: list[Any] = [fields[name] for name in ("displacement", "against_displacement")]
     parts = None if both[1] is None else tuple(map(solution.part_of, both))
     solution.__dict__.update(_looked=(statistics, told, rows), _displacements=parts)
     return solution
@@ -184,6 +186,28 @@ def _field(folder: str | os.PathLike[str], name: str, shape: tuple[int, ...]) ->
     if field is not None and field.shape != shape:
         raise ValueError(f"{name} in {os.fspath(folder)} has shape {field.shape}, the report says {shape}")
     return field
+
+
+def _check_heights(fields: dict[str, Any], told: Any) -> None:
+    """Refuses heights that are not those of the fields: with the pressures they give another elastic energy."""
+    depth, present = fields["plastic_depth"], np.isfinite(fields["gap"])
+    if told["hardness"] is not None and depth is None:
+        return
+    gap, pressure, heights = (np.asarray(fields[name][present], np.float64) for name in ("gap", "pressure", "heights"))
+    displacement = gap + heights - (0.0 if depth is None else depth[present])
+    if told["approach"] is None:
+        pressure -= pressure.mean()
+    else:
+        displacement += told["approach"] - heights.max()
+    energy = present.mean() * np.mean(pressure * displacement) / 2
+    scale = present.mean() * np.mean(abs(pressure) * (gap + abs(heights)))
+    # where pressures of absent nodes are left out, the energy is that of the fields up to the error of the solve
+    error = 0.0 if told["approach"] is None and present.all() else 100.0 * (told["relative_error"] or np.inf)
+    if not abs(energy - told["elastic_energy"]) <= (1e-6 + error) * scale:
+        raise ValueError(
+            f"heights give an elastic energy of {energy:.6g} per area, and the report says {told['elastic_energy']:.6g}: "
+            f"give the map that was solved, its axes as they were, in {told['length_unit'] or 'the unit of the solve'}"
+        )
 
 
 def _body(told: Any) -> Layer | Coating | None:

@@ -168,6 +168,27 @@ def test_a_folder_of_the_program_is_loaded(rough, tmp_path, tool, files):
         asperity.load(folder, heights=np.zeros((3, 3)))
 
 
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {"mean_pressure": "10MPa"},
+        {"mean_pressure": "10MPa", "hardness": "40MPa", "precision": "f32"},
+        {"normal_force": "1uN", "boundary": "free"},
+    ],
+    ids=str,
+)
+@pytest.mark.filterwarnings("ignore:window-edge")
+def test_heights_that_were_not_solved_are_refused(rough, tmp_path, scene):
+    microns = asperity.Topography(rough.heights, rough.lengths, "um")
+    solution = asperity.solve(microns, modulus="1GPa", **scene)
+    solution.save(tmp_path)
+    for heights in (microns, solution.heights, solution.heights.astype("f4")):
+        assert np.allclose(asperity.load(tmp_path, heights=heights).heights, solution.heights, rtol=1e-6, atol=0)
+    for wrong in (rough.heights, solution.heights[::-1], solution.heights.T, 0.9 * solution.heights):
+        with pytest.raises(ValueError, match=r"elastic energy of .* report says .*: give the map that was solved, .*, in m$"):
+            asperity.load(tmp_path, heights=wrong)
+
+
 def test_a_law_that_no_folder_keeps_is_given_anew(rough, tmp_path):
     gaps, own = np.linspace(0.0, 0.05, 60), asperity.Exponential(1e-5, 8e-3)
     own = types.SimpleNamespace(energy=own.energy, traction=own.traction, slope=own.slope, work_of_adhesion=1e-5, range=8e-3)
