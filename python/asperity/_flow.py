@@ -12,7 +12,7 @@ from ._solution import Constriction, Solution
 from ._summary import summarised
 from ._topography import Heights, Topography, field_of, taken
 from ._types import Boundary, Lengths, Quantity
-from ._units import given, number
+from ._units import number
 from ._warnings import ConvergenceWarning, warn
 from ._words import checked
 
@@ -129,13 +129,8 @@ def leakage(
     if isinstance(gap, Solution):
         if lengths is not None:
             raise ValueError("the solution has its side lengths: leave lengths out")
-        unit, own = gap._told["length_unit"], gap.flow_boundary
-        if unit is None and given.get():
-            name, value = ("absent_gap", absent) if viscous is None else ("viscosity", viscous)
-            raise ValueError(
-                f"{name} is {value:g} in SI units, but the lengths of the solution have no unit: give a number in the units "
-                "of the solution"
-            )
+        name, value = ("absent_gap", absent) if viscous is None else ("viscosity", viscous)
+        unit, own = gap._unit_beside(name, value), gap.flow_boundary
         gap = Topography(field_of(gap.gap, "gaps"), gap.lengths, unit)
     topography = taken(gap, lengths, name="gaps")
     field, sides = topography.heights, topography.lengths or (1.0, 1.0)

@@ -14,7 +14,9 @@ from ._accuracy import Plan
 from ._optional import package
 from ._summary import summarised
 from ._topography import Topography, field_of
-from ._types import Boundary, Report, Status
+from ._types import Boundary, Quantity, Report, Status
+from ._units import given, in_unit
+from ._words import checked
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -272,7 +274,8 @@ class Solution:
         x, y = (None if along is None else Constriction(*along) for along in found)
         return Percolation(x, y)
 
-    def conductance(self, resistivities: tuple[float, float]) -> Conductance:
+    @checked
+    def conductance(self, resistivities: tuple[Quantity, Quantity]) -> Conductance:
         """Conductance of the contact between two half-spaces, by its stiffness at fixed spots (Barber's identity).
 
         1/R = 2 (dF/dδ)/(E* (ρ₁ + ρ₂)), whatever the shape and number of the spots; a circle of radius a has 4a/(ρ₁ + ρ₂).
@@ -280,8 +283,9 @@ class Solution:
 
         Parameters
         ----------
-        resistivities : (float, float)
-            Resistivities ρ of both bodies; for heat, reciprocal conductivities.
+        resistivities : (float, float) or (str, str)
+            Resistivities ρ of both bodies; for heat, reciprocal conductivities. With units, such as "17nOhm m", the
+            conductance is in SI units.
 
         Returns
         -------
@@ -304,13 +308,15 @@ class Solution:
         first, second = (float(one) for one in resistivities)
         gap = field_of(self.whole_gap, "gaps")
         shares = zip(self.lengths, gap.shape, self._told["shape"], strict=True)
-        lx, ly = (length if nodes == part else length / part * nodes for length, nodes, part in shares)
+        unit = self._unit_beside("resistivities", (first, second))
+        metre = in_unit("length_unit", unit) if given.get() else 1.0
+        lx, ly = (metre * (length if nodes == part else length / part * nodes) for length, nodes, part in shares)
         per_area, _, error = _asperity.conductance(gap <= 0, (lx, ly), self.boundary, (first, second))
         grids = self.report["grid_error"] if self._told["law"] == "none" else None
         grid = None if grids is None else grids["stiffness"]
         lx, ly = self.lengths
         of_grid = None if grid is None else grid["relative"]
-        return Conductance(per_area, per_area * lx * ly, None if of_grid is None else error + of_grid)
+        return Conductance(per_area, per_area * lx * ly * metre**2, None if of_grid is None else error + of_grid)
 
     @cached_property
     def report(self) -> Report:
@@ -369,6 +375,16 @@ class Solution:
         """Side lengths (Lx, Ly)."""
         lx, ly = self._told["lengths"]
         return (lx, ly)
+
+    def _unit_beside(self, name: str, value: Any) -> str | None:
+        """The unit of lengths, without which a solution refuses a quantity with a unit."""
+        unit = self._told["length_unit"]
+        if unit is None and given.get():
+            raise ValueError(
+                f"{name} is {value} in SI units, but the lengths of the solution have no unit: give a number in the units of "
+                "the solution"
+            )
+        return unit
 
     @cached_property
     def _displacements(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:

@@ -157,6 +157,18 @@ def test_the_conductance_is_that_of_the_stiffness(solution):
         solution.conductance((-1.0, 1.0))
 
 
+def test_resistivities_have_units_as_those_of_a_solve(solution):
+    rough = solution.topography
+    microns = asperity.Topography(rough.heights, rough.lengths, "um")
+    load = {"modulus": "1GPa", "mean_pressure": "10MPa", "stiffness": True}
+    told = asperity.solve(microns, resistivities=("17nOhm m", "24nOhm m"), **load).report["conductance"]
+    for pressed in (asperity.solve(microns, **load), asperity.solve(microns, modulus=1e3, mean_pressure=10.0)):
+        found = pressed.conductance(("17nOhm m", "24nOhm m"))
+        assert found.per_area == pytest.approx(told["value"], rel=1e-3) and found.whole == pytest.approx(told["whole"], rel=1e-3)
+    with pytest.raises(ValueError, match=r"resistivities is \(1e-09, 2.0\) in SI units, but .* no unit: give a number"):
+        solution.conductance(("1nOhm m", "2Ohm m"))
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
