@@ -22,7 +22,7 @@ RemovedForm: TypeAlias = Literal["sphere", "cylinder"]
 
 Status: TypeAlias = Literal["converged", "iteration-limit", "stalled", "detached", "stopped"]
 
-Shape: TypeAlias = int | tuple[int, int]
+Shape: TypeAlias = int | tuple[int] | tuple[int, int]
 #: A number, or a string with a unit, such as "70GPa".
 Quantity: TypeAlias = float | str
 Lengths: TypeAlias = Quantity | tuple[Quantity, Quantity]

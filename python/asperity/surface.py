@@ -115,8 +115,8 @@ def self_affine(
 
     Parameters
     ----------
-    shape : int or (int, int)
-        Numbers of nodes (Nx, Ny); one alone for a square.
+    shape : int or (int, int) or (int,)
+        Numbers of nodes (Nx, Ny); one alone for a square, and (N,) for a line.
     lengths : float or (float, float)
         Side lengths; one alone for square cells.
     rms_height, rms_slope : float
@@ -222,12 +222,18 @@ def _made(
     seed: int | None = None,
     **body: Any,
 ) -> Topography:
-    nodes = (shape, shape) if isinstance(shape, int) else shape
+    nodes, is_line = _nodes(shape)
     both = _lengths(lengths, nodes)
     body["tilt"] = None if tilt is None else np.ravel(tilt)
     heights = _asperity.made(nodes, both, plain(body), None if roughness is None else plain(roughness))
     unit = "m" if given.get() else None
-    return Topography(heights, both, unit, periodic, seed=seed)
+    return Topography(heights, both, unit, periodic, seed=seed, _is_line=is_line)
+
+
+def _nodes(shape: Shape) -> tuple[Any, bool]:
+    """Numbers of nodes along both sides, and whether they are those of a line."""
+    nodes = (shape, shape) if isinstance(shape, int) else tuple(shape)
+    return (nodes[0], 1) if len(nodes) == 1 else nodes, len(nodes) == 1
 
 
 @checked
@@ -267,7 +273,7 @@ def fourier(
     """
     if given.get() and fourier_unit is None:
         raise ValueError("the side lengths have a unit, but the coefficients have none: give fourier_unit, as '0.1mm'")
-    nodes = (shape, shape) if isinstance(shape, int) else shape
+    nodes, is_line = _nodes(shape)
     both = _lengths(lengths, nodes)
     source = os.fspath(coefficients) if isinstance(coefficients, str | os.PathLike) else None
     rows: Any = source or np.atleast_2d(np.asarray(coefficients, dtype=np.float64))
@@ -275,7 +281,8 @@ def fourier(
         columns = "they must be qX, qY, and the real and the imaginary part"
         raise ValueError(f"coefficients have {rows.shape[1]} columns: {columns}")
     heights = _asperity.fourier(rows, nodes, both, 1.0 if fourier_unit is None else float(fourier_unit))
-    return Topography(heights, both, "m" if given.get() else None, periodic=True, source=source)
+    unit = "m" if given.get() else None
+    return Topography(heights, both, unit, periodic=True, source=source, _is_line=is_line)
 
 
 @checked

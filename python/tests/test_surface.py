@@ -21,6 +21,15 @@ def test_a_surface_has_the_slope_that_is_asked_for():
         surface.self_affine(64, 1.0, rms_slope=0.1)
 
 
+def test_a_shape_of_one_number_is_a_line():
+    line = surface.self_affine((256,), 1.0, rms_slope=0.1, seed=1)
+    same = surface.self_affine((256, 1), 1.0, rms_slope=0.1, seed=1)
+    assert line.shape == (256,) and line.lengths == same.lengths and np.array_equal(line.heights, same.heights)
+    assert asperity.solve(line, modulus=1.0, mean_pressure=0.01).gap.shape == (256,)
+    for made in (surface.wave((16,), 1.0, amplitude=0.1), surface.fourier([[3, 0, 0.5, 0.0]], (16,), 1.0)):
+        assert made.shape == (16,)
+
+
 def test_spectra_add_up_to_the_variance(rough):
     psd = surface.spectrum(rough)
     total = (psd.densities * psd.waves).sum() * psd.cell
