@@ -49,18 +49,20 @@ class Rows(Iterator[T]):
         # a table travels complete, and without its view of the memory of this process
         return {**self.run().__dict__, "_observe": None}
 
-    def _solve(self) -> Solution:
-        """The next solution, whose row is kept."""
-        found = None if self._ended else self._contact.problem.next(self._observe)
-        if found is None:
-            self._ended, self._seconds_left, self._observe = True, None, None
-            raise StopIteration
-        if found["raised"] is None:
-            self.rows.append(self._row(found["row"]))
-            # ended by the observer: it goes no further
-            self._ended = found["row"]["status"] == "stopped"
-        self._keep(found["pace"])
-        return self._contact._solution(found)
+    def _solve(self) -> tuple[Solution, dict[str, Any]]:
+        """The next solution, and its row, which is kept."""
+        with self._contact.turns:
+            found = None if self._ended else self._contact.problem.next(self._observe)
+            if found is None:
+                self._ended, self._seconds_left, self._observe = True, None, None
+                raise StopIteration
+            row = self._row(found["row"]) if found["raised"] is None else {}
+            if row:
+                self.rows.append(row)
+                # ended by the observer: it goes no further
+                self._ended = row["status"] == "stopped"
+            self._keep(found["pace"])
+            return self._contact._solution(found), row
 
     def _row(self, found: dict[str, Any]) -> dict[str, Any]:
         """The columns of a row."""

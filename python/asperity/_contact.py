@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import copy
 import os
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import groupby
@@ -565,11 +566,36 @@ def stability(solution: Solution, **load: Unpack[StabilityKeywords]) -> Stabilit
     return contact.stability(solution, **load)
 
 
+class Turns:
+    """Calls of a problem one at a time: those of other threads wait, and one from within another is refused."""
+
+    def __init__(self) -> None:
+        self._lock, self._is_within = threading.RLock(), False
+
+    def __enter__(self) -> None:
+        self._lock.acquire()
+        if self._is_within:
+            self._lock.release()
+            raise RuntimeError(
+                "the contact is being solved, and its observer cannot solve it in between: make another asperity.Contact"
+            )
+        self._is_within = True
+
+    def __exit__(self, *_: object) -> None:
+        self._is_within = False
+        self._lock.release()
+
+    def __reduce__(self) -> tuple[type[Turns], tuple[()]]:
+        # a lock does not travel between processes
+        return Turns, ()
+
+
 class Contact:
     """A contact problem: heights, bodies, adhesion and solver, which is solved under loads.
 
     It holds the problem, so that a further solve does not read and copy the heights again. `solve`, `sweep`, `cycle`,
     `interface`, `pull_off` and `viscoelastic` are short for a contact and one call of it, with the same results.
+    Solves of one contact in several threads wait for each other.
 
     Parameters
     ----------
@@ -660,7 +686,7 @@ class Contact:
         sides(self.topography)
         self._facing, self._is_kept = facing, is_kept
         self._hardness = None if hardness is None else field_of(hardness, "hardness", order).copy()
-        self.problem = self._problem(self.topography, self._given, is_kept)
+        self.problem, self.turns = self._problem(self.topography, self._given, is_kept), Turns()
         if not isinstance(heights, Topography | str | os.PathLike) and against is None:
             # the array may change before the heights are asked for
             self.topography = replace(self.topography, heights=self.topography.heights.copy())
@@ -687,7 +713,8 @@ class Contact:
         """Finds the equilibrium under a load, as `asperity.solve`."""
         start, observe, keys = self._split(keywords, is_solve=True)
         _springs(keys)
-        found = self.problem.solve(keys, self._start(start), observe)
+        with self.turns:
+            found = self.problem.solve(keys, self._start(start), observe)
         plan = found["plan"]
         return self._solution({**found, "plan": None if plan is None else Plan(*plan)})
 
@@ -713,7 +740,8 @@ class Contact:
         start, observe, keys = self._split(keywords)
         if "accuracy" in keys and start is not None:
             raise ValueError("an accuracy takes finer grids, which have no start: leave out start, or accuracy")
-        found = self.problem.pull_off(keys, self._start(start), observe)
+        with self.turns:
+            found = self.problem.pull_off(keys, self._start(start), observe)
         solution = self._solution(found)
         if found["shortfall"] is not None:
             warn(found["shortfall"], ConvergenceWarning)
@@ -738,8 +766,15 @@ class Contact:
             spring = {"spring_stiffness": stiffness, "spring_position": value}
             keys = spring if name == "spring" else {name: value}
         gap = np.asarray(solution.whole_gap, dtype=np.float64).reshape(self.topography.heights.shape)
-        found = self.problem.stability(keys, gap, solution.relative_error)
+        with self.turns:
+            found = self.problem.stability(keys, gap, solution.relative_error)
         return Stability(**{**found, "mode": solution.part_of(found["mode"])})
+
+    def __copy__(self) -> Contact:
+        # one that stays in this process has all of it
+        contact = Contact.__new__(Contact)
+        contact.__dict__.update(self.__dict__)
+        return contact
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "problem": None, "body": None, "_hardness": None, "_given": None}
@@ -777,7 +812,8 @@ class Contact:
         contact = self
         if self._is_kept:
             contact = copy.copy(self)
-            contact.problem, contact._warned = self._problem(self.topography, self._given, False), set()
+            contact.problem, contact.turns = self._problem(self.topography, self._given, False), Turns()
+            contact._warned = set()
         return kind(contact, way, parts, start, observe, file)
 
     def _start(self, start: Start) -> str | NDArray[np.float64] | None:

@@ -62,7 +62,7 @@ class Cycle(Rows[Step]):
     def __next__(self) -> Step:
         has_ended = self._ended
         try:
-            return Step(self._solve(), self.rows[-1])
+            return Step(*self._solve())
         except StopIteration:
             most = max((abs(row["work"]) for row in self.rows), default=0.0)
             if not has_ended and most > 0.0:

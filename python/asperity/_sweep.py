@@ -24,7 +24,7 @@ class Sweep(Rows[Solution]):
         return len(self.rows) if self._ended else self._loads
 
     def __next__(self) -> Solution:
-        return self._solve()
+        return self._solve()[0]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({len(self.rows)} of {len(self)} loads solved)"

@@ -1,5 +1,6 @@
 """Many solves: in threads, in processes, and one after the other."""
 
+import copy
 import multiprocessing
 import pickle
 import resource
@@ -22,6 +23,30 @@ def test_a_pool_of_threads_finds_the_same(threads):
     expected = [share(seed) for seed in range(40)]
     with ThreadPoolExecutor(8) as pool:
         assert list(pool.map(share, range(40), [threads] * 40)) == expected
+
+
+def test_solves_of_one_contact_wait_for_each_other(rough, law):
+    contact = asperity.Contact(rough, modulus=1.0, law=law, body=asperity.Layer(0.2, 0.3, "bonded"))
+    loads = [0.01, 0.02, 0.03, 0.04] * 4
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(lambda load: contact.solve(mean_pressure=load), loads))
+        assert [one.mean_gap for one in found] == [contact.solve(mean_pressure=load).mean_gap for load in loads]
+        table = contact.sweep(mean_pressures=loads)
+        solved = [one for one in pool.map(lambda _: next(table, None), range(20)) if one is not None]
+    assert len(table.rows) == len(solved) == len(loads) and {type(one.body) for one in solved} == {asperity.Layer}
+    assert pickle.loads(pickle.dumps(table)).rows == table.rows
+    assert copy.copy(contact).solve(mean_pressure=0.01).gap.tobytes() == contact.solve(mean_pressure=0.01).gap.tobytes()
+
+
+def test_an_observer_does_not_solve_its_own_contact(rough):
+    contact = asperity.Contact(rough, modulus=1.0)
+    table = contact.sweep(mean_pressures=[0.01, 0.02], observe=lambda _: next(table))
+    refused = "its observer cannot solve it in between: make another asperity.Contact"
+    with pytest.raises(RuntimeError, match=refused):
+        contact.solve(mean_pressure=0.01, observe=lambda _: contact.solve(mean_pressure=0.02))
+    with pytest.raises(RuntimeError, match=refused):
+        next(table)
+    assert contact.solve(mean_pressure=0.01).converged
 
 
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
