@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
+from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,9 @@ File = tuple[str | os.PathLike[str] | None, str | os.PathLike[str] | None, bool]
 T = TypeVar("T")
 R = TypeVar("R", bound="Rows[Any]")
 
+#: The last tables of this process by their files.
+_TABLES: WeakValueDictionary[str, Rows[Any]] = WeakValueDictionary()
+
 
 class Rows(Iterator[T]):
     """An iterator over states, of which the numbers are kept, and not the fields."""
@@ -35,10 +39,19 @@ class Rows(Iterator[T]):
             raise ValueError("fields and force are of the table in a file: give out, too")
         self._contact, self._observe, self._ended = contact, observe, False
         kept = fields if fields is None else os.path.abspath(fields)
-        table = None if out is None else (os.path.abspath(out), kept, force, *_law.fields(contact.own_law))
-        (names, rows), self._loads = contact.problem.begin(
-            way, keys, contact._start(start), (contact.topography.seed, table)
-        )
+        path = None if out is None else os.path.abspath(out)
+        table = None if path is None else (path, kept, force, *_law.fields(contact.own_law))
+        try:
+            (names, rows), self._loads = contact.problem.begin(
+                way, keys, contact._start(start), (contact.topography.seed, table)
+            )
+        except ValueError as refused:
+            own = _TABLES.get(path or "")
+            if own is None or "another run is writing there" not in str(refused):
+                raise
+            raise ValueError(f"{path} is held by a table of this process, {own!r}: run() that, or delete it by del") from None
+        if path is not None:
+            _TABLES[path] = self
         #: the names of the columns, as in the tool's table
         self.names = tuple(names)
         self.rows: list[dict[str, Any]] = [self._row(row) for row in rows]

@@ -230,8 +230,14 @@ def test_a_file_has_one_writer_and_a_table_without_rows_leaves_none(folder, roug
     out = folder / "sweep.csv"
     first = sweep(folder, out)
     next(first)
-    with pytest.raises(ValueError, match="another run is writing there: wait until it has ended, or choose another out"):
+    with pytest.raises(ValueError, match=r"held by a table of this process, Sweep\(1 of 3 loads solved\): run\(\) that, or del"):
         sweep(folder, out)
+    code = f"import asperity; asperity.sweep('heights.npy', 1.0, modulus=1.0, mean_pressures={PRESSURES}, out='sweep.csv')"
+    other = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, check=False)
+    assert "another run is writing there: wait until it has ended, or choose another out" in other.stderr
+    del first
+    first = sweep(folder, out)
+    assert len(first.rows) == 1
     first.run()
     assert len(sweep(folder, out).rows) == 3
     before = sorted(os.listdir(folder))
