@@ -1,5 +1,7 @@
 //! Conductance, percolation and leakage after a solve, end to end.
 
+use serde_json::Value;
+
 use crate::bench::Bench;
 
 const ROUGH: &str = "surface --size 64 --lengths 20um --k-l 2 --k-s 8 --rms-height 0.1um --quiet --out heights.npz";
@@ -88,6 +90,24 @@ fn percolation_is_told_with_its_constriction() {
         assert_eq!(report[key], leak[key]);
     }
     assert!(report["transmissivity"].is_null() && report["conductance"].is_null());
+}
+
+#[test]
+fn springs_that_end_at_a_rigid_wall_seal_as_it_does() {
+    let bench = Bench::new();
+    bench.said("surface --size 64 --k-l 2 --k-s 16 --rms-slope 0.1 --seed 1 --quiet --out heights.npy");
+    for pressure in [0.01, 0.06] {
+        let [hard, ends_rigid] = ["hard", "uzawa --wall-stiffness 50"].map(|wall| {
+            let solve = format!("solve --heights heights.npy --mean-pressure {pressure} --wall {wall}");
+            bench.reported(&format!("{solve} --leakage 1e-6"))
+        });
+        assert_eq!(ends_rigid["percolates"], hard["percolates"]);
+        for axis in ["x", "y"] {
+            let upper = |report: &Value| report["transmissivity"][axis]["upper"].as_f64().unwrap();
+            let (found, expected) = (upper(&ends_rigid), upper(&hard));
+            assert!((found - expected).abs() <= 1e-4 * expected, "{axis}: {found} {expected}");
+        }
+    }
 }
 
 #[test]
