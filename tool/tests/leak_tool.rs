@@ -73,6 +73,10 @@ fn a_solve_leaks_with_its_sides_and_units_and_leaves_files() {
     let said = bench.said("leak pressed --viscosity 1mPas --picture-format svg --force --out leakage");
     assert!(said.contains("µm³/(Pa·s)") && !said.contains("e-"), "{said}");
     assert!(said.contains("results in leakage") && said.contains("flow_y.svg"), "{said}");
+    // a viscosity whose unit is unknown leaves a number
+    let said = bench.said("leak pressed --viscosity 0.001");
+    let row = said.lines().find(|line| line.contains("flow per pressure")).unwrap();
+    assert!(row.rsplit(' ').next().unwrap().parse::<f64>().is_ok(), "{row}");
     // the same gap from its file, in a cell of the same shape
     let alone = bench.reported("leak pressed/gap.npy --lengths 20um");
     assert_eq!(alone["transmissivity"], report["transmissivity"]);

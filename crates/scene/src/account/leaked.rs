@@ -158,9 +158,9 @@ impl Leaked {
             if upper <= 0.0 {
                 return "0".to_owned();
             }
-            let unit = unit.unwrap_or_default();
             let is_si = units.length.as_deref() == Some(LENGTH.si);
-            let (power, unit) = scale(upper, &unit).filter(|_| is_si).unwrap_or((0, unit));
+            let scaled = unit.as_ref().filter(|_| is_si).and_then(|unit| scale(upper, unit));
+            let (power, unit) = scaled.unwrap_or_else(|| (0, unit.unwrap_or_default()));
             // rounded outwards, so that the bounds hold as they are printed
             let number = |bound, round: fn(f64) -> f64| plain(times_ten_to(-power, outwards(bound, round)));
             format!("{} to {} {unit}", number(lower, f64::floor), number(upper, f64::ceil)).trim_end().to_owned()
