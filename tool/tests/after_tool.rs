@@ -90,6 +90,8 @@ fn percolation_is_told_with_its_constriction() {
         assert_eq!(report[key], leak[key]);
     }
     assert!(report["transmissivity"].is_null() && report["conductance"].is_null());
+    let said = bench.said(&format!("solve {PRESSED} --mean-pressure 4MPa --leakage"));
+    assert!(said.contains("transmissivity along x") && said.contains("nm³"), "{said}");
 }
 
 #[test]

@@ -107,6 +107,13 @@ record! {
     }
 }
 
+impl Transmissivity {
+    /// The bounds in words.
+    pub(crate) fn in_words(&self, units: &Units) -> String {
+        between(self.lower, self.upper, units.of(TRANSMISSIVITY), units)
+    }
+}
+
 impl LeakAsked {
     /// The leakage through a gap, with the flow, and as its report has it.
     ///
@@ -154,33 +161,35 @@ impl Leaked {
     /// The rows of its summary.
     pub fn rows(&self, units: &Units) -> Vec<(String, String)> {
         let mut rows = Vec::new();
-        let between = |lower: f64, upper: f64, unit: Option<String>| {
-            if upper <= 0.0 {
-                return "0".to_owned();
-            }
-            let is_si = units.length.as_deref() == Some(LENGTH.si);
-            let scaled = unit.as_ref().filter(|_| is_si).and_then(|unit| scale(upper, unit));
-            let (power, unit) = scaled.unwrap_or_else(|| (0, unit.unwrap_or_default()));
-            // rounded outwards, so that the bounds hold as they are printed
-            let number = |bound, round: fn(f64) -> f64| plain(times_ten_to(-power, outwards(bound, round)));
-            format!("{} to {} {unit}", number(lower, f64::floor), number(upper, f64::ceil)).trim_end().to_owned()
-        };
         for axis in Axis::BOTH {
             let constriction = Narrowest::in_words(self.constriction.along(axis).as_ref(), units);
             rows.push((format!("along {}", axis.name()), constriction));
-            let Transmissivity { lower, upper, grid_error, .. } = *self.transmissivity.along(axis);
-            rows.push(("  transmissivity".to_owned(), between(lower, upper, units.of(TRANSMISSIVITY))));
-            if let Some(error) = grid_error {
+            let transmissivity = self.transmissivity.along(axis);
+            rows.push(("  transmissivity".to_owned(), transmissivity.in_words(units)));
+            if let Some(error) = transmissivity.grid_error {
                 rows.push(("  error of the grid".to_owned(), format!("{} %", percent(error))));
             }
             if let Some(Enclosed { lower, upper }) = *self.flow_per_pressure.along(axis) {
                 let viscous = units.of(VISCOSITY).zip(units.length.as_ref());
                 let volume = viscous.map(|(viscosity, length)| format!("{length}³/({viscosity})"));
-                rows.push(("  flow per pressure".to_owned(), between(lower, upper, volume)));
+                rows.push(("  flow per pressure".to_owned(), between(lower, upper, volume, units)));
             }
         }
         rows
     }
+}
+
+/// Two bounds in words, with their unit as far as it is known.
+fn between(lower: f64, upper: f64, unit: Option<String>, units: &Units) -> String {
+    if upper <= 0.0 {
+        return "0".to_owned();
+    }
+    let is_si = units.length.as_deref() == Some(LENGTH.si);
+    let scaled = unit.as_ref().filter(|_| is_si).and_then(|unit| scale(upper, unit));
+    let (power, unit) = scaled.unwrap_or_else(|| (0, unit.unwrap_or_default()));
+    // rounded outwards, so that the bounds hold as they are printed
+    let number = |bound, round: fn(f64) -> f64| plain(times_ten_to(-power, outwards(bound, round)));
+    format!("{} to {} {unit}", number(lower, f64::floor), number(upper, f64::ceil)).trim_end().to_owned()
 }
 
 /// A number to seven digits, rounded by a function to whole numbers.

@@ -99,8 +99,9 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         Some(format!("{}{error}", units.number(found.value, found.conductors.dimension())))
     });
     for axis in Axis::BOTH {
-        let name = format!("gap along {}", axis.name());
-        row(&name, &|s| Some(Narrowest::in_words(s.constriction?.along(axis).as_ref(), units)));
+        let name = |what| format!("{what} along {}", axis.name());
+        row(&name("gap"), &|s| Some(Narrowest::in_words(s.constriction?.along(axis).as_ref(), units)));
+        row(&name("transmissivity"), &|s| Some(s.transmissivity?.along(axis).in_words(units)));
     }
     if adhesive {
         row("branch", &|s| of_branch(s.branch));
