@@ -260,7 +260,8 @@ impl Job<'_> {
         printing.report(|| json!(account));
         warn("", &account);
         let reached = account.accuracy.as_ref().is_none_or(|reached| reached.reached)
-            && account.search.as_ref().is_none_or(|search| search.reached);
+            && account.search.as_ref().is_none_or(|search| search.reached)
+            && account.transmissivity.is_none_or(|found| found.reached());
         Ok(account.status == Status::Converged && reached)
     }
 

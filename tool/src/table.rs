@@ -3,9 +3,11 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use asperity::{Control, Error, Status, Surface};
+use asperity::{Control, Error, Surface};
 use asperity_scene::theories::Theories;
-use asperity_scene::{Account, After, Boundary, Format, Load, Precision, Row, Scene, Session, TableFile, Way};
+use asperity_scene::{
+    Account, After, Boundary, Format, Load, Precision, Row, Scene, Session, Skin, TableFile, Way, shortfalls,
+};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
@@ -213,10 +215,9 @@ impl<T: Scalar> Table<'_, T> {
         while let Some(row) = self.extend()? {
             let (rows, account) = (self.session.rows(), &row.account);
             printing.say(&format!("{rows:>width$}/{count}  {}", self.brief(account)));
-            let converged = account.status == Status::Converged;
-            if let Some(searched) = account.search.filter(|searched| converged && !searched.reached) {
-                complain("warning", &format!("row {rows}: {}", searched.jump()));
-            }
+            // rows that have not converged are counted at the end
+            let short = shortfalls(account, Skin::Options).into_iter().filter(|(what, _)| *what != "convergence");
+            short.for_each(|(_, text)| complain("warning", &format!("row {rows}: {text}")));
         }
         printing.say(&format!("{count} rows in {}", name(out)));
         self.session.read()

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::bench::Bench;
+use crate::bench::{Bench, text};
 
 const ROUGH: &str = "surface --size 64 --lengths 20um --k-l 2 --k-s 8 --rms-height 0.1um --quiet --out heights.npz";
 const PRESSED: &str = "--heights heights.npz --modulus 1GPa";
@@ -92,6 +92,23 @@ fn percolation_is_told_with_its_constriction() {
     assert!(report["transmissivity"].is_null() && report["conductance"].is_null());
     let said = bench.said(&format!("solve {PRESSED} --mean-pressure 4MPa --leakage"));
     assert!(said.contains("transmissivity along x") && said.contains("nm³"), "{said}");
+}
+
+#[test]
+fn bounds_of_a_transmissivity_that_are_too_far_apart_are_told() {
+    let bench = Bench::new();
+    bench.said(ROUGH);
+    let told = |command: &str, code: i32| {
+        let output = bench.run(&format!("{command} --quiet --leakage 1e-16"));
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{told}");
+        assert!(
+            told.contains("the bounds of the transmissivity hold, but are ") && told.contains("raise --leakage"),
+            "{told}"
+        );
+    };
+    told(&format!("solve {PRESSED} --mean-pressure 4MPa"), 2);
+    told(&format!("sweep {PRESSED} --mean-pressures 4MPa --out table.csv"), 0);
 }
 
 #[test]

@@ -107,6 +107,20 @@ record! {
     }
 }
 
+impl Along<Transmissivity> {
+    /// Whether all bounds are as close as the tolerance.
+    pub fn reached(&self) -> bool {
+        self.x.reached && self.y.reached
+    }
+
+    /// How far the bounds are apart, if that is further than the tolerance, in words.
+    pub(crate) fn apart(&self) -> Option<String> {
+        let width = |Transmissivity { lower, upper, .. }| if upper > 0.0 { (upper - lower) / upper } else { 0.0 };
+        let widest = percent(f64::max(width(self.x), width(self.y)));
+        (!self.reached()).then(|| format!("the bounds of the transmissivity hold, but are {widest} % apart"))
+    }
+}
+
 impl Transmissivity {
     /// The bounds in words.
     pub(crate) fn in_words(&self, units: &Units) -> String {
@@ -142,20 +156,8 @@ impl LeakAsked {
 impl Leaked {
     /// The shortfall of bounds that are further apart than the tolerance, with a remedy, in the words of a skin.
     pub fn shortfall(&self, skin: Skin) -> Option<String> {
-        if self.reached {
-            return None;
-        }
-        let width = |axis| {
-            let Transmissivity { lower, upper, .. } = *self.transmissivity.along(axis);
-            if upper > 0.0 { (upper - lower) / upper } else { 0.0 }
-        };
-        let widest = Axis::BOTH.map(width).into_iter().fold(0.0, f64::max);
-        let text = format!(
-            "the bounds of the transmissivity hold, but are {} % apart, not {} %: raise {{max_iterations}} or {{tolerance}}",
-            percent(widest),
-            percent(self.tolerance)
-        );
-        Some(worded(&text, skin))
+        let (apart, wanted) = (self.transmissivity.apart()?, percent(self.tolerance));
+        Some(worded(&format!("{apart}, not {wanted} %: raise {{max_iterations}} or {{tolerance}}"), skin))
     }
 
     /// The rows of its summary.

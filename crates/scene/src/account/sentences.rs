@@ -12,16 +12,20 @@ use crate::numbers::percent;
 const MOST_IMBALANCE: f64 = 0.05;
 
 /// The shortfalls of an answer with their remedies, in the words of a skin: each with what was not reached, which is
-/// `"convergence"`, `"contact fraction"`, `"accuracy"` or `"stability"`.
+/// `"convergence"`, `"contact fraction"`, `"accuracy"`, `"stability"` or `"leakage"`.
 pub fn shortfalls(account: &Account, skin: Skin) -> Vec<(&'static str, String)> {
     let converged = account.status == Status::Converged;
     let search = account.search.as_ref().filter(|search| converged && !search.reached);
     let accuracy = account.accuracy.as_ref().filter(|reached| converged && !reached.reached);
+    let apart = account.transmissivity.and_then(|found| found.apart());
+    let leakage =
+        apart.map(|apart| format!("{apart}: raise {{leakage}}, the share of the upper bound that may lie between"));
     let all = [
         ("convergence", (!converged).then(|| unconverged(account))),
         ("contact fraction", search.map(Search::jump)),
         ("accuracy", accuracy.map(|reached| inaccurate(account, reached))),
         ("stability", unstable(account)),
+        ("leakage", leakage),
     ];
     all.into_iter().filter_map(|(what, text)| Some((what, worded(&text?, skin)))).collect()
 }
