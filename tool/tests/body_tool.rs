@@ -68,6 +68,8 @@ fn a_body_without_its_parameters_is_refused() {
     ] {
         bench.refused_with(&format!("{PRESSED} {arguments} --out none"), parts);
     }
+    let told = bench.refused(&format!("{PRESSED} --base sliding --out none"));
+    assert!(told.contains("--base is sliding") && told.contains("or give --layer, a thickness"), "{told}");
 }
 
 #[test]

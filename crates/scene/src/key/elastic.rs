@@ -123,6 +123,13 @@ struct BodyKind {
     told: fn(&Elastic, &Units) -> String,
 }
 
+impl BodyKind {
+    /// Whether a key is one of its parameters.
+    fn has(&self, key: &str) -> bool {
+        self.needs.contains(&key) || self.takes.contains(&key)
+    }
+}
+
 /// The kinds of elastic bodies besides the half-space.
 static BODIES: [BodyKind; 4] = [
     BodyKind {
@@ -236,16 +243,18 @@ impl Elastic {
     pub fn check(&self) -> std::result::Result<(), String> {
         let Some(kind) = self.kind() else {
             return self.own().next().map_or(Ok(()), |(key, value)| {
+                let bodies = BODIES.iter().filter(|kind| kind.has(key)).map(|kind| format!("{{{}}}", kind.key));
                 Err(format!(
                     "{{{key}}} is {value}, but the body is a half-space, whose {{modulus}} is E/(1 - nu^2): leave it out, \
-                     or give {{layer}} or {{coating}}, a thickness"
+                     or give {}, a thickness",
+                    bodies.collect::<Vec<_>>().join(" or ")
                 ))
             });
         };
         if let Some(missing) = kind.needs.iter().find(|key| self.own().all(|(given, _)| given != **key)) {
             return Err(format!("{{{}}} needs {{{missing}}} as well: give both", kind.key));
         }
-        let foreign = |key: &str| key != kind.key && !kind.needs.contains(&key) && !kind.takes.contains(&key);
+        let foreign = |key: &str| key != kind.key && !kind.has(key);
         if let Some((key, value)) = self.own().find(|(key, _)| foreign(key)) {
             return Err(format!("{{{key}}} is {value}, but a body with {{{}}} has none: leave it out", kind.key));
         }
