@@ -94,6 +94,7 @@ fn laws_that_lack_something_or_have_too_much_are_refused() {
     bench.write("unsorted.txt", "0 1\n2 0.5\n1 0\n");
     bench.write("three.txt", "0 1 2\n1 0.5 2\n2 0 1\n");
     bench.write("negative.txt", &format!("{}\n", ["-1"; 16].join(" ")).repeat(16));
+    bench.write("repels.txt", "0 -0.05\n2e-3 0\n4e-3 0.03\n1e-2 0.01\n2e-2 0\n");
     bench.write("small.txt", "1e-5 1e-5\n1e-5 1e-5\n");
     let (w, range) = ("--work-of-adhesion 2e-5", "--range 0.01");
     for (law, parts) in [
@@ -113,6 +114,7 @@ fn laws_that_lack_something_or_have_too_much_are_refused() {
             ["cut-off distance is 0.008", "equilibrium separation"],
         ),
         (format!("exponential {w} {range} --wall none"), ["does not repel", "--wall hard"]),
+        ("table --law-table repels.txt --wall none".to_owned(), ["--law table ends at a gap of 0", "or --wall hard"]),
         (format!("exponential {w} {range} --work-of-adhesion-map works.txt"), ["every node", "leave one of them out"]),
         ("none --work-of-adhesion-map works.txt".to_owned(), ["there is no adhesion", "leave it out"]),
         (format!("exponential {range} --work-of-adhesion-map small.txt"), ["--work-of-adhesion-map", "2 x 2"]),

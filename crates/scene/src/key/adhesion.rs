@@ -172,9 +172,11 @@ impl Adhesion {
         if wall == Wall::None && !self.law().is_none_or(|law| law.repels) {
             let repel: Vec<_> = LAWS.iter().filter(|law| law.repels).map(|law| law.name).collect();
             let repel = repel.join(" or ");
+            // a table may repel before its end
+            let reason =
+                if law == "table" { "ends at a gap of 0, below which nothing repels" } else { "does not repel" };
             return Err(format!(
-                "{{wall}} none leaves the surfaces to the law, but {{law}} {law} does not repel: choose {repel}, or {{wall}} \
-                 hard"
+                "{{wall}} none leaves the surfaces to the law, but {{law}} {law} {reason}: choose {repel}, or {{wall}} hard"
             ));
         }
         if let (Some(_), Some(_)) = (self.hardness, &self.hardness_map) {
