@@ -359,6 +359,35 @@ fn a_study_of_solves_has_the_rows_of_sweeps_with_one_load() {
 }
 
 #[test]
+fn cases_with_different_columns_share_a_table() {
+    let bench = Bench::new();
+    for format in ["csv", "jsonl"] {
+        let study = MADE.replace("study.csv", &format!("study.{format}"));
+        // the law without a range has two columns more than any other
+        bench.write("study.toml", &format!("{study}[[vary.adhesion]]\nlaw = \"jkr\"\nwork-of-adhesion = 1e-4\n"));
+        assert_eq!(bench.reported("study study.toml")["rows"], 18);
+    }
+    let rows = bench.read("study.jsonl");
+    let rows: Vec<serde_json::Value> = rows.lines().map(|row| serde_json::from_str(row).unwrap()).collect();
+    let known = rows.iter().map(|row| row.as_object().unwrap()["jkr_contact_fraction"].is_f64());
+    assert!(known.eq(rows.iter().map(|row| row["law"] == "jkr")));
+    let table = bench.read("study.csv");
+    let table = cells(&table);
+    let names: Vec<_> = rows[0].as_object().unwrap().keys().collect();
+    assert_eq!(table[0], names);
+    assert!(table.iter().all(|row| row.len() == names.len()));
+    assert!(table[1].ends_with(&["", ""]) && !table[18].ends_with(&[""]), "{table:?}");
+    // but not with numbers in different units
+    let units =
+        "[[vary.adhesion]]\nlaw = \"exponential\"\nwork-of-adhesion = \"1J/m2\"\nrange = \"2cm\"\nmodulus = \"1kPa\"\n";
+    let study = MADE.replace("mean-pressures", "reduced-pressures").replace("[vary]\nseed = \"1:2:2\"\n", "");
+    let begin = study.find("[[vary.adhesion]]\nlaw = \"exponential\"").unwrap();
+    bench.write("units.toml", &format!("{}{units}", &study[..begin]));
+    let told = ["has control_value [Pa] and not control_value", "in all cases, or in none"];
+    bench.refused_with("study units.toml --quiet --out units.csv", &told);
+}
+
+#[test]
 fn a_study_of_pull_offs_has_the_keys_of_their_reports() {
     let bench = Bench::new();
     let study = MADE.replace("sweep", "pull-off").replace("[loads]\nmean-pressures = \"1e-3:1e-2:3:log\"\n", "");

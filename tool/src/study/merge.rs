@@ -1,6 +1,8 @@
 //! The table of a study: the rows of its cases, after what varies between them.
 
 use std::fs::{self, File};
+use std::path::Path;
+use std::str::Lines;
 
 use asperity::Error;
 use asperity_scene::{Format, Told};
@@ -15,22 +17,12 @@ use crate::warnings::{read_beside, write_beside};
 /// Writes the table of a study whose cases are all done; the number of its rows, and of those that did not converge.
 pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
     let (mut table, mut count, mut unconverged) = (String::new(), 0, 0);
-    let (format, mut columns) = (study.format, None);
+    let (format, columns) = (study.format, columns(study)?);
     for (k, Case { rows, values, .. }) in study.cases.iter().enumerate() {
-        let text = fs::read_to_string(rows).map_err(|e| Error::unreadable(rows, e))?;
-        let mut lines = text.lines();
-        let names = match format {
-            Format::Csv => csv::names(lines.next().unwrap_or_default()),
-            Format::Jsonl => {
-                let first: Map<_, _> = serde_json::from_str(lines.clone().next().unwrap_or("{}"))?;
-                first.into_iter().map(|(name, _)| name).collect()
-            }
-        };
-        if *columns.get_or_insert_with(|| names.clone()) != names {
-            return Err(Error::file(rows, "has other columns than the first case: vary nothing that adds some").into());
-        }
-        // what varies, but for what is a column of the rows, where a unit may stand behind the name
-        let is_column = |name: &String| names.iter().any(|column| column.split(" [").next() == Some(name));
+        let text = read(rows)?;
+        let (names, lines) = parts(format, &text)?;
+        // what varies, but for what is a column of the rows
+        let is_column = |name: &String| columns.iter().any(|column| bare(column) == name);
         let own = study.columns.iter().zip(values).filter(|(name, _)| !is_column(name));
         let own: Map<_, _> =
             own.map(|(name, value)| (name.clone(), value.as_ref().map_or(Value::Null, cell))).collect();
@@ -39,9 +31,10 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
             let converged = row.get("status").is_some_and(|status| status == "converged");
             unconverged += usize::from(!converged || row.get("reached") == Some(&Value::Bool(false)));
             // the name of a surface that was made is that of no file
-            row.retain(|name, _| study.cases[0].words.len() == 1 || name != "heights");
+            let told = columns.iter().filter(|name| study.cases[0].words.len() == 1 || *name != "heights");
+            let cells = told.map(|name| (name.clone(), row.remove(name).unwrap_or_default()));
             let number = std::iter::once(("case".to_owned(), (k + 1).into()));
-            let row = number.chain(own.clone()).chain(row).collect::<Map<_, _>>();
+            let row = number.chain(own.clone()).chain(cells).collect::<Map<_, _>>();
             if count == 0 {
                 table = format.header(&row.keys().collect::<Vec<_>>());
             }
@@ -57,6 +50,47 @@ pub fn merge(study: &Study) -> Outcome<(usize, usize)> {
     })?;
     write_beside(&study.out, &warnings(study)?)?;
     Ok((count, unconverged))
+}
+
+/// The columns of all cases, those of the first one before those that others add.
+fn columns(study: &Study) -> Outcome<Vec<String>> {
+    let mut columns: Vec<String> = Vec::new();
+    for Case { rows, .. } in &study.cases {
+        for name in parts(study.format, &read(rows)?)?.0 {
+            match columns.iter().find(|column| bare(column) == bare(&name)) {
+                Some(column) if *column != name => {
+                    let reason =
+                        format!("has {name} and not {column}: give numbers with units in all cases, or in none");
+                    return Err(Error::file(rows, reason).into());
+                }
+                Some(_) => {}
+                None => columns.push(name),
+            }
+        }
+    }
+    Ok(columns)
+}
+
+fn read(rows: &Path) -> Outcome<String> {
+    Ok(fs::read_to_string(rows).map_err(|e| Error::unreadable(rows, e))?)
+}
+
+/// The names of the columns of rows, and the lines of the rows.
+fn parts(format: Format, text: &str) -> Outcome<(Vec<String>, Lines<'_>)> {
+    let mut lines = text.lines();
+    let names = match format {
+        Format::Csv => csv::names(lines.next().unwrap_or_default()),
+        Format::Jsonl => {
+            let first: Map<_, _> = serde_json::from_str(lines.clone().next().unwrap_or("{}"))?;
+            first.into_iter().map(|(name, _)| name).collect()
+        }
+    };
+    Ok((names, lines))
+}
+
+/// The name of a column without its unit.
+fn bare(column: &str) -> &str {
+    column.split(" [").next().unwrap_or_default()
 }
 
 /// The warnings of all cases: of each code the worst, with the numbers of its cases if these are not all, and of the
