@@ -57,8 +57,8 @@ fn python() -> String {
 fn document() -> String {
     let mut text = String::from(
         "# Keys of a scene\n\nOptions of the program, keywords of Python and entries of scene files have these names, with \
-         hyphens in options. Quantities are numbers in consistent units, or all have units. The table is made from the \
-         lists of keys in `crates/scene`.\n",
+         hyphens in options. Quantities are numbers in consistent units, or all have units. Python has no default of \
+         `modulus`. The table is made from the lists of keys in `crates/scene`.\n",
     );
     for (_, about, list) in KEYWORDS {
         let _ = write!(text, "\n## {about}\n\n| Key | Unit | Default | Meaning |\n|---|---|---|---|\n");
