@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use crate::heights::{self, check_room, converted, warn_of_unread};
 use crate::outcome::Outcome;
 use crate::pictures::{PictureFormat, Resolution};
-use crate::printing::{Printing, aligned, complain, name, warn};
+use crate::printing::{Printing, aligned, complain, in_options, name, warn};
 use crate::quantity::LENGTH;
 use crate::report;
 use crate::results::{self, Contents, REPORT, Results, write_report};
@@ -84,7 +84,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
     let read = || if gap.is_dir() { Solved::files(gap, &[GAP]) } else { vec![gap.clone()] };
     results.iter().try_for_each(|results| results.check(read()))?;
-    let (map, boundary) = options.read(scene.is_si())?;
+    let (map, boundary) = options.read(scene)?;
     check_room(map.heights.dim())?;
     let grid = Grid::new(map.heights.dim(), map.lengths.unwrap_or((1.0, 1.0)))?;
     let asked = options.leak.0.leak(boundary);
@@ -120,13 +120,20 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
 
 impl Options {
     /// The gap, with the side lengths as far as they are known, and what is beyond it.
-    fn read(&self, si: bool) -> Outcome<(Topography, Boundary)> {
-        let path = &self.gap;
+    fn read(&self, scene: &SceneFile) -> Outcome<(Topography, Boundary)> {
+        let (path, si) = (&self.gap, scene.is_si());
         if path.is_dir() {
             let solved = Solved::read(path)?;
             let (map, boundary) = (solved.map(GAP)?, solved.boundary());
             if self.lengths.0.first().is_some() {
                 return Err(format!("{}: the folder has the side lengths: leave --lengths out", name(path)).into());
+            }
+            let given = scene.given().filter(|_| map.unit.is_none());
+            if let Some((key, value)) = given.as_ref().and_then(|given| given.as_object()?.iter().next()) {
+                let (folder, value) = (name(path), value.as_str().unwrap_or_default());
+                return in_options(Err(format!(
+                    "{folder}: was solved without units, but {{{key}}} is {value}: give a number in the units of the solve"
+                )));
             }
             return Ok((if si { converted(path, map, LENGTH.si)? } else { map }, boundary));
         }

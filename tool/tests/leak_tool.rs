@@ -150,6 +150,10 @@ fn what_has_no_gap_is_refused_by_name() {
     }
     bench.said("solve --heights heights.npy --mean-gap 0.02 --quiet --no-pictures --out solved");
     bench.refused_with("leak solved --lengths 2", &["solved", "leave --lengths out"]);
+    for given in ["viscosity 1mPas", "absent-gap 50nm"] {
+        let told = format!("--{}: give a number", given.replace(' ', " is "));
+        bench.refused_with(&format!("leak solved --{given}"), &["solved: was solved without units", &told]);
+    }
     bench.said("leak solved --quiet --out leaked");
     bench.refused_with("leak leaked", &["leaked", "another command"]);
 }
