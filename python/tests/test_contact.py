@@ -247,6 +247,7 @@ def test_results_go_on_in_pandas_and_xarray(rough):
     assert fields["gap"].dims == ("x", "y") and fields.attrs["status"] == "converged"
 
 
+@pytest.mark.filterwarnings("ignore:range")
 def test_a_cycle_smooths_jumps_unless_it_is_told_not_to():
     x = np.arange(32) / 32 - 0.5
     law = asperity.MaugisDugdale(work_of_adhesion=1e-4, range=4e-3)

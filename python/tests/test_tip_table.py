@@ -103,7 +103,7 @@ def test_a_sphere_on_a_thin_layer_is_one_on_springs(base, poisson):
 
 
 # the tip is steep at the edge of the map, as a paraboloid of 20 nm is
-@pytest.mark.filterwarnings("ignore:steep", "ignore:hardness")
+@pytest.mark.filterwarnings("ignore:steep", "ignore:hardness", "ignore:range")
 def test_a_table_of_a_paraboloid_is_that_of_maugis():
     tip = asperity.surface.paraboloid(64, 28e-9, radius=RADIUS)
     law = asperity.MaugisDugdale(work_of_adhesion=1.5 * WORK, range=2 * LENGTH)
