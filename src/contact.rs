@@ -72,7 +72,7 @@ impl<T: Real> Solution<T> {
     ///
     /// This is the contact of reports, statistics, clusters, distributions and pictures. Under
     /// [`Projection`](crate::Projection) some nodes in contact may carry no pressure, and under
-    /// [`Uzawa`](crate::Uzawa) some are pressed at a gap that is a little below zero.
+    /// [`Uzawa`](crate::Uzawa) some are pressed at a gap that is not quite zero.
     pub fn contact_map(&self) -> Array2<bool> {
         contact_map(self.gap.view(), self.contact_pressure.view())
     }

@@ -1,6 +1,6 @@
 //! The end of a solve.
 
-use ndarray::{Array2, Zip};
+use ndarray::Array2;
 
 use super::passes::Fields;
 use super::posed::Posed;
@@ -56,15 +56,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             let share = T::lit((mean * self.posed.nodes() - carried.pressure) / self.posed.facing());
             self.fields.pressure.nodes_mut().iter_mut().for_each(|p| *p += share);
         }
-        let [mut gap, pressure] = [self.fields.gap, self.fields.pressure].map(Field::into_array);
-        if self.posed.constraint.ends_rigid() {
-            // what the last round leaves of a gap under pressure is no opening
-            Zip::from(&mut gap).and(&contact_pressure).for_each(|gap, p| {
-                if *p > T::zero() {
-                    *gap = gap.min(T::zero());
-                }
-            });
-        }
+        let [gap, pressure] = [self.fields.gap, self.fields.pressure].map(Field::into_array);
         let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law };
         let (mut solution, gap) = match &flat.window {
             None => (solution, None),

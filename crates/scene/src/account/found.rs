@@ -85,16 +85,24 @@ impl Waves {
 /// The statistics of the contact, and the least and the greatest elastic pressure.
 pub(crate) type Seen = (ContactStatistics, (f64, f64));
 
+/// The name of a wall of springs in reports.
+const SPRINGS: &str = "springs";
+
 impl<T: Real> Found<T> {
-    /// A solution by a solve that began at a time; numbers are of the `original`, if there is one.
+    /// A solution by a solve that began at a time; numbers are of the `original`, if there is one. Where springs press that
+    /// end at a rigid wall, what their last round leaves of a gap is no opening.
     pub(crate) fn new(
-        solution: Solution<T>,
+        mut solution: Solution<T>,
         law: Arc<dyn AdhesionLaw<T>>,
         original: Option<Original>,
         clock: Instant,
     ) -> Result<Self> {
         let seconds = clock.elapsed().as_secs_f64();
         let original = original.map(|original| original.on(&solution.grid)).transpose()?;
+        if solution.report.wall == SPRINGS {
+            let pressed = solution.gap.iter_mut().zip(&solution.contact_pressure).filter(|(_, p)| **p > T::zero());
+            pressed.for_each(|(gap, _)| *gap = gap.min(T::zero()));
+        }
         let (grid, report) = (solution.grid, solution.report.clone());
         let sight = Sight { law, original, grid, report, open: None, errors: None, seen: None };
         Ok(Self::of(solution, sight, seconds))
