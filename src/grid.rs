@@ -198,7 +198,7 @@ impl Grid {
     }
 
     /// The larger of Δx and Δy; that along the other side where one side has a single node.
-    pub(crate) fn largest_spacing(&self) -> f64 {
+    pub fn largest_spacing(&self) -> f64 {
         let (dx, dy) = self.spacing();
         match self.shape() {
             (_, 1) => dx,

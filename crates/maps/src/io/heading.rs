@@ -166,8 +166,7 @@ impl Heading {
             Some(_) => {}
             None => {
                 let swapped = columns(line, "y x z");
-                self.is_swapped = swapped.is_some();
-                self.columns = columns(line, "x y z").or(swapped);
+                (self.is_swapped, self.columns) = (swapped.is_some(), columns(line, "x y z").or(swapped));
             }
         }
     }

@@ -24,12 +24,11 @@ impl Warning {
     /// Why a cycle with `law` on a body of contact `modulus` E* jumps into contact too early, and so dissipates too little:
     /// its range is that of the grid, or its traction that jumps is smoothed by the grid.
     pub fn of_cycle<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64, smooth: bool) -> Option<Self> {
-        let (dx, dy) = grid.spacing();
-        let spacing = if grid.is_line() { dx } else { dx.max(dy) };
         if law.hints().zero {
             return None;
         }
         if law.hints().of_grid {
+            let spacing = grid.largest_spacing();
             let range = law.on_nodes(T::lit(spacing / modulus))?.hints().range.widen();
             let text = "by jkr a cycle jumps in {} early and dissipates too little: give a range";
             return Some(Self::told(WarningCode::Range, range / spacing, text, [Length(range)]));

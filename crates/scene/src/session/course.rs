@@ -313,12 +313,11 @@ impl<T: Scalar> Course<T> {
         {
             path.end_leg();
         }
-        // absent nodes are lower than the others
-        let lower = |touch| {
-            let lower = found.sight.facing_displacement(&account.inputs.elastic, &found.solution)?;
-            asperity::Result::Ok(touch + lower)
+        let touch = match self.touch {
+            // the nodes that face the surface bear the load, and give way by more than the mean of all
+            Some(touch) => Some(touch + found.sight.facing_displacement(&account.inputs.elastic, &found.solution)?),
+            None => None,
         };
-        let touch = self.touch.map(lower).transpose()?;
         Ok(Row::of(found, &account, &statistics.cluster_sizes, touch, seed))
     }
 }
