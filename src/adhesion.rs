@@ -21,6 +21,7 @@ mod morse;
 mod none;
 mod power_law;
 mod tabulated;
+mod touched;
 mod values;
 mod varying;
 
@@ -37,6 +38,7 @@ pub use morse::Morse;
 pub use none::NoAdhesion;
 pub use power_law::PowerLaw;
 pub use tabulated::{Functions, Tabulated, check_functions};
+pub(crate) use touched::{Neighbourhood, Touched, Weakened};
 pub use values::Values;
 pub use varying::Varying;
 

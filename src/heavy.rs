@@ -26,7 +26,7 @@ use crate::real::Real;
 use crate::search::{ContactSearch, FoundContact};
 use crate::slab::Slab;
 use crate::solver::{Job, Observer, Solution, Solved, Solver, Start, in_double, in_single};
-use crate::stability::{ContactStiffness, Departure, Stability, StabilityTest};
+use crate::stability::{ContactStiffness, Departure, Near, Stability, StabilityTest};
 use crate::surface::Surface;
 use crate::sweep::Sweep;
 
@@ -127,7 +127,7 @@ heavy! {
     /// A test of stability.
     fn stability(
         test: &StabilityTest, problem: ProblemMut<'_, Self>, constraint: &dyn ContactConstraint<Self>, control: Control,
-        gap: &Array2<Self>, relative_error: f64,
+        gap: (&Array2<Self>, Near<'_>), relative_error: f64,
     ) -> Result<Stability<Self>> = [within] StabilityTest::judge;
     /// The departure from a saddle.
     fn leave(

@@ -3,12 +3,12 @@
 use std::borrow::Borrow;
 use std::ops::ControlFlow;
 
-use crate::adhesion::{AdhesionLaw, Discretisation, Jkr, SharedLaw, mu_rho};
+use crate::adhesion::{AdhesionLaw, Discretisation, Jkr, NoAdhesion, SharedLaw, Weakened, mu_rho};
 use crate::constraint::ContactConstraint;
 use crate::elastic::OnGrids;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::problem::{Control, Problem};
+use crate::problem::{Control, Problem, ProblemMut};
 use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{Begin, Branch, Iteration, Method, Report, Settings, Solution, Solved, Solver, Start, Status};
@@ -34,6 +34,11 @@ pub(crate) type Heights<'a> = Box<dyn Borrow<Surface> + 'a>;
 
 /// The least number of nodes for which nested grids pay at a given load or approach, and at a given mean gap.
 const PAYS: (usize, usize) = (1 << 16, 1 << 18);
+
+/// The share of the work of adhesion with which the grid of half as many nodes leads to the finest one, and the grid before
+/// it to that one; the wall alone leads to others. The area of contact exceeds the area of the limit by the process zone,
+/// which is longer on coarser grids, and what has touched too early sticks.
+const WEAKER: [f64; 2] = [0.95, 0.65];
 
 /// The relative load error at and above which a coarse solution is not used as a start.
 const CARRIED: f64 = 0.5;
@@ -206,7 +211,8 @@ impl Nested {
         };
         let (mut levels, coarser) = self.solve_coarser(solver, surface, operators, law, control, &mut watch)?;
         let mut half_space = operators.on(finest)?;
-        let (rigid, touching) = (solver.constraint.wall().is_rigid(), Touching::of(solver.constraint.wall()));
+        let wall = solver.constraint.wall();
+        let (rigid, touching) = (wall.is_rigid(), Touching::of(wall, &**law));
         let prolonged = coarser.map(|coarser| coarser.prolonged(surface, half_space.grid(), touching));
         let started = prolonged.is_some();
         let mut watch = |iteration: &Iteration| watch(&finest, iteration);
@@ -220,14 +226,11 @@ impl Nested {
         let mut problem = Problem::of(surface, half_space, law.clone())?;
         drop(heights);
         let mut spent = part.as_ref().map_or(0, |part| part.applications);
-        let wall = solver.constraint.wall();
-        let load = problem.flat.load(control, wall)?;
-        let default = Begin::At(Start::Default);
-        let branch = Branch::of_start(&default, &solver.settings, problem.law_on_grid(), (load, wall), &problem.flat)?;
+        let (default, branch) = (Begin::At(Start::Default), default_branch(solver, &problem, control)?);
         let begin = match (part.filter(|part| part.leads(unique)), prolonged) {
             (Some(part), _) => {
                 spent += 1;
-                Begin::Found(part.whole(problem.parts())?)
+                Begin::Found(part.whole(problem.parts())?.into())
             }
             (None, Some(prolonged)) => Begin::Prolonged(prolonged),
             (None, None) => default,
@@ -263,7 +266,7 @@ impl Nested {
     ) -> Result<(Vec<Level>, Option<Deformed<T>>)> {
         let varies = law.hints().shape.is_some();
         let alike = !varies && solver.constraint.wall().is_rigid();
-        let touching = Touching::of(solver.constraint.wall());
+        let touching = Touching::of(solver.constraint.wall(), &**law);
         let tolerance = self.coarse_tolerance.max(solver.settings.tolerance_in::<T>());
         let (mut levels, mut coarser): (Vec<Level>, Option<Deformed<T>>) = (Vec::new(), None);
         let mut surfaces = coarsened(surface, self.coarsest, !varies)?;
@@ -274,13 +277,13 @@ impl Nested {
             let coarse_law = if here <= Report::RESOLVED_MU_RHO {
                 law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).map_or_else(|| law.clone(), SharedLaw)
             } else if alike && finest <= Report::RESOLVED_MU_RHO {
-                SharedLaw::new(Jkr::new(law.hints().work_of_adhesion.widen())?)
+                SharedLaw::new(Jkr::with_range_of_grid(law.hints().work_of_adhesion.widen())?)
             } else {
                 continue;
             };
             let mut problem = Problem::of(&coarse, half_space, coarse_law)?;
             let prolonged = coarser.take().map(|coarser| coarser.prolonged(&coarse, problem.operator.grid(), touching));
-            let begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
+            let mut begin = prolonged.map_or(Begin::At(Start::Default), Begin::Prolonged);
             let mut smoothed = false;
             let mut watch = |iteration: &Iteration| {
                 let next = watch(coarse.grid(), iteration);
@@ -289,14 +292,26 @@ impl Nested {
                 smoothed = iteration.smoothed;
                 if done { ControlFlow::Break(()) } else { next }
             };
+            let mut weaker = None;
+            let loading = default_branch(solver, &problem, control)? == Some(Branch::Loading);
+            if loading && problem.law_on_grid().hints().touches() {
+                let solved = solver.to(tolerance, |solver| {
+                    weaken(&mut problem, surfaces.len(), |parts| solver.run(parts, control, begin, &mut watch))
+                })?;
+                begin = Begin::Found(solved.place());
+                weaker = Some(solved);
+            }
             let Solved { solution, whole, .. } =
                 solver.to(tolerance, |solver| solver.run(problem.parts(), control, begin, &mut watch))?;
             let stiffness = self.stiffness_of(solver, &mut problem, &solution)?;
-            levels.push(Level { stiffness, ..Level::of(&solution)? });
+            let level = Level::of(&solution)?;
+            let spent = weaker.as_ref().map_or(0, |weaker| weaker.solution.report.operator_applications);
+            levels.push(Level { stiffness, operator_applications: level.operator_applications + spent, ..level });
             let yielded = solution.report.plastic.map_or(0.0, |plastic| plastic.fraction);
             if levels.len() == 1 && levels[0].area.contact_fraction - yielded > self.closed {
                 break;
             }
+            let (solution, whole) = weaker.map_or((solution, whole), |weaker| (weaker.solution, weaker.whole));
             let Solution { gap, report, .. } = solution;
             // a coarse grid that does not carry its load says nothing of a finer one
             if report.load_error < CARRIED && report.status != Status::Detached {
@@ -314,5 +329,25 @@ impl Nested {
     ) -> Result<Option<ContactStiffness>> {
         let find = |tolerance| ContactStiffness::of_constrained(problem, &solver.constraint, solution, tolerance);
         self.stiffness.filter(|_| solution.report.status != Status::Stopped).map(find).transpose()
+    }
+}
+
+/// The branch of the default start of a problem.
+fn default_branch<T: Real>(
+    solver: &Solver<dyn ContactConstraint<T>>,
+    problem: &Problem<T>,
+    control: Control,
+) -> Result<Option<Branch>> {
+    let (wall, flat, begin) = (solver.constraint.wall(), &problem.flat, Begin::At(Start::Default));
+    let load = flat.load(control, wall)?;
+    Branch::of_start(&begin, &solver.settings, problem.law_on_grid(), (load, wall), flat)
+}
+
+/// Solves a problem with the share of its adhesion that leads to the finest grid, with so many grids in between.
+fn weaken<T: Real, R>(problem: &mut Problem<T>, between: usize, solve: impl FnOnce(ProblemMut<'_, T>) -> R) -> R {
+    let parts = problem.parts();
+    match WEAKER.get(between) {
+        None => solve(ProblemMut { law: &NoAdhesion, ..parts }),
+        Some(&share) => solve(ProblemMut { law: &Weakened { law: parts.law, share: T::lit(share) }, ..parts }),
     }
 }

@@ -13,8 +13,8 @@ use crate::error::{Error, Result};
 use crate::problem::{Control, Problem, ProblemMut, smoothed_law};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Criterion, Iteration, Observer, Report, Solution, Solved, Solver, Start, Status, check_hardness, check_wall,
-    refuse_springs,
+    Begin, Criterion, Iteration, Observer, Place, Report, Solution, Solved, Solver, Start, Status, check_hardness,
+    check_wall, refuse_springs,
 };
 use crate::stability::Watch;
 
@@ -123,9 +123,9 @@ pub struct Path<T> {
     start: Option<Array2<T>>,
     course: Course,
     /// the last gaps on the grid of the operator, the latest last: at most two
-    gaps: Vec<Array2<T>>,
+    places: Vec<Place<T>>,
     /// the gap at the end of the shortest step that was taken back, from which the state there is found anew
-    ahead: Option<Array2<T>>,
+    ahead: Option<Place<T>>,
     /// the plastic depth of the last state, on the grid of the operator
     depth: Option<Array2<T>>,
     watch: Watch<T>,
@@ -170,7 +170,7 @@ impl<T: Real> Path<T> {
             settings,
             start: None,
             course: Course::default(),
-            gaps: Vec::new(),
+            places: Vec::new(),
             ahead: None,
             depth: None,
             watch: Watch::default(),
@@ -202,7 +202,14 @@ impl<T: Real> Path<T> {
     /// The last gaps, one ahead and the plastic depth, on the grid of the operator, and the softest mode, on that of the
     /// surface: processes that share a grid gather these of a path that they keep.
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
-        self.gaps.iter_mut().chain(&mut self.ahead).chain(&mut self.depth).chain(&mut self.watch.mode)
+        let gaps = self.places.iter_mut().chain(&mut self.ahead).map(|place| &mut place.gap);
+        gaps.chain(&mut self.depth).chain(&mut self.watch.mode)
+    }
+
+    /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
+    /// grid of the operator: processes that share a grid gather these as they do the fields.
+    pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
+        self.places.iter_mut().chain(&mut self.ahead).filter_map(|place| place.not_parted.as_mut())
     }
 
     /// Refuses loads that the problem does not have, as the first step does.
@@ -263,7 +270,7 @@ impl<T: Real> Path<T> {
             self.check(bench.solver, bench.problem)?;
             return self.begin(bench, load);
         }
-        for field in self.gaps.iter().chain(&self.ahead).chain(&self.depth) {
+        for field in self.places.iter().chain(&self.ahead).map(|place| &place.gap).chain(&self.depth) {
             bench.problem.operator.grid().fits("field of the path", field.dim())?;
         }
         self.watch.check(bench.problem.grid())?;
@@ -306,10 +313,13 @@ impl<T: Real> Path<T> {
         match self.start.take() {
             Some(start) => self.solve(bench, control, Begin::At(Start::From(&start))),
             None if jumps => {
-                let (_, sharp) = self.solve(bench, control, Begin::At(Start::Default))?.with_gap();
+                let (_, sharp) = self.solve(bench, control, Begin::At(Start::Default))?.with_place();
                 self.solve(bench, control, Begin::Found(sharp))
             }
-            None => self.solve(bench, control, Begin::At(Start::Default)),
+            None => {
+                let begin = Begin::of_series(problem.law_on_grid(), &bench.solver.settings);
+                self.solve(bench, control, begin)
+            }
         }
     }
 
@@ -338,12 +348,12 @@ impl<T: Real> Path<T> {
         let (target, smallest) = self.course.next_target(&self.settings);
         let control = self.course.control(target);
         let start = self.predict(bench, target);
-        let mut solved = self.solve(bench, control, Begin::Found(start))?;
+        let mut solved = self.solve(bench, control, start)?;
         // a long way after a jump may need another run-up
         for _ in 0..RETRIES {
             let short = matches!(solved.solution.report.status, Status::Stalled | Status::IterationLimit);
             if smallest && short && !solved.is_settled() {
-                solved = self.solve(bench, control, Begin::Found(solved.with_gap().1))?;
+                solved = self.solve(bench, control, Begin::Found(solved.with_place().1))?;
             }
         }
         let (settled, report) = (solved.is_settled(), &solved.solution.report);
@@ -361,7 +371,7 @@ impl<T: Real> Path<T> {
         let noise = (rounding, left);
         let scale = (self.settings.imbalance, 1e-3 * w);
         let judge = |course: &Course, report: &Report| {
-            let trial = course.judge(target, report, scale, noise);
+            let trial = course.judge(target, report, scale, noise, hints.touches());
             // only adhesion makes surfaces jump
             if hints.zero { Balance { jumped: false, located: false, ..trial } } else { trial }
         };
@@ -374,7 +384,7 @@ impl<T: Real> Path<T> {
             self.course.halve(report, trial, &self.settings);
             // the place of the jump does matter where it is asked for, and at the largest tension
             let kept = settled && self.settings.smallest_step.is_none() && !trial.peaks;
-            self.ahead = kept.then(|| solved.with_gap().1);
+            self.ahead = kept.then(|| solved.with_place().1);
             return Ok(None);
         }
         let detached = report.status == Status::Detached;
@@ -405,9 +415,9 @@ impl<T: Real> Path<T> {
         let event = self.course.accept(target, report, trial, way, &self.settings);
         self.course.on_saddle = on_saddle;
         if way.is_new() {
-            self.gaps.clear();
-        } else if self.gaps.len() == 2 {
-            self.gaps.remove(0);
+            self.places.clear();
+        } else if self.places.len() == 2 {
+            self.places.remove(0);
         }
         if self.course.taken_back().is_none() {
             self.ahead = None;
@@ -419,13 +429,13 @@ impl<T: Real> Path<T> {
     /// Keeps the gap of a state, and how far the surface has yielded: gaps are to the surface as it is now.
     fn keep(&mut self, problem: &mut Problem<T>, solved: Solved<T>) -> Result<Solution<T>> {
         let stays = solved.is_settled();
-        let (solution, mut gap) = solved.with_gap();
+        let (solution, mut place) = solved.with_place();
         if let Some(depth) = &solution.plastic_depth {
-            let lowered = problem.lower(depth.view(), stays, &mut gap)?;
-            self.gaps.iter_mut().chain(&mut self.ahead).for_each(|gap| *gap += &lowered);
+            let lowered = problem.lower(depth.view(), stays, &mut place.gap)?;
+            self.places.iter_mut().chain(&mut self.ahead).for_each(|place| place.gap += &lowered);
         }
         self.depth = problem.yielded().cloned();
-        self.gaps.push(gap);
+        self.places.push(place);
         Ok(solution)
     }
 

@@ -145,7 +145,7 @@ impl PullOff {
         search.branch = begin.is_default().then_some(branch);
         let mut held = search.solve(solver, problem, first, begin)?;
         if preload.is_some_and(|preload| preload != 0.0) && held.is_settled() {
-            let gap = Begin::Found(held.gap().clone());
+            let gap = Begin::Found(held.place());
             held = search.solve(solver, problem, Control::MeanPressure(0.0), gap)?;
         }
         if !held.is_settled() {
@@ -166,7 +166,7 @@ impl PullOff {
         let mut bracket = Bracket { borne: vec![Held::of(&held.solution.report)], lost: None, from: 0.0 };
         while !bracket.is_narrow(tolerance) && search.solves < MOST {
             let tension = bracket.next(FIRST * attraction, tolerance);
-            let begin = Begin::Found(held.gap().clone());
+            let begin = Begin::Found(held.place());
             let solved = search.solve(solver, problem, Control::MeanPressure(-tension), begin)?;
             let report = &solved.solution.report;
             if solved.is_settled() {

@@ -10,7 +10,7 @@ use crate::elastic::Boundary;
 use crate::error::{Error, Result};
 use crate::problem::{Control, PressedFlat, Problem};
 use crate::real::Real;
-use crate::solver::{Begin, Branch, Iteration, Method, Observer, Solution, Solved, Solver, Start, Status};
+use crate::solver::{Begin, Branch, Iteration, Method, Observer, Place, Solution, Solved, Solver, Start, Status};
 
 /// The relative error of the contact fraction at which a search ends.
 const TOLERANCE: f64 = 0.01;
@@ -76,8 +76,8 @@ const CLOSEST: f64 = 0.01;
 pub struct ContactSearch<T> {
     /// The given gap from which solves start until one replaces it, on the grid of the surface.
     start: Option<Array2<T>>,
-    /// The gap from which they start otherwise, on the grid of the operator; beyond a window the displacement.
-    gap: Option<Array2<T>>,
+    /// The place from which they start otherwise; beyond a window its gap is the displacement.
+    place: Option<Place<T>>,
     /// The last two results, the latest last.
     points: Vec<Point>,
 }
@@ -178,7 +178,7 @@ impl Axis {
 
 impl<T> Default for ContactSearch<T> {
     fn default() -> Self {
-        Self { start: None, gap: None, points: Vec::new() }
+        Self { start: None, place: None, points: Vec::new() }
     }
 }
 
@@ -191,7 +191,13 @@ impl<T: Real> ContactSearch<T> {
     /// The gap from which the next search starts, on the grid of the operator: processes that share a grid gather this of
     /// a search that they keep.
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
-        self.gap.iter_mut()
+        self.place.iter_mut().map(|place| &mut place.gap)
+    }
+
+    /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
+    /// grid of the operator: processes that share a grid gather these as they do the fields.
+    pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
+        self.place.iter_mut().filter_map(|place| place.not_parted.as_mut())
     }
 
     /// The state in which a share of the nodes is in contact.
@@ -234,8 +240,8 @@ impl<T: Real> ContactSearch<T> {
             let reason = "without a wall there is no contact to be counted: give a pressure or a gap";
             return Err(Error::Unsuited { what: "contact-fraction", reason });
         }
-        if let Some(gap) = &self.gap {
-            problem.operator.grid().fits("gap of the search", gap.dim())?;
+        if let Some(place) = &self.place {
+            problem.operator.grid().fits("gap of the search", place.gap.dim())?;
         }
         let adhesion = !problem.law_on_grid().hints().zero;
         let axis = Axis::of(&problem.flat, adhesion)?;
@@ -272,9 +278,9 @@ impl<T: Real> ContactSearch<T> {
         let (mut solves, mut applications, mut stopped) = (0, 0, false);
         let rigid = solver.constraint.wall().is_rigid();
         let reached = loop {
-            let begin = match (&self.start, &self.gap) {
+            let begin = match (&self.start, &self.place) {
                 (Some(gap), _) => Begin::At(Start::From(gap)),
-                (None, Some(gap)) if !anew && !self.is_long_way(x, adhesion) => Begin::Found(gap.clone()),
+                (None, Some(place)) if !anew && !self.is_long_way(x, adhesion) => Begin::Found(place.clone()),
                 (None, _) => branch.map_or(Begin::At(Start::Default), Begin::On),
             };
             let distance = |nodes: usize| (nodes as f64 - wanted).abs();
@@ -302,7 +308,7 @@ impl<T: Real> ContactSearch<T> {
             let below = (count as f64) < wanted;
             // with adhesion a state beyond the wanted one is on the way back already
             if !adhesion || *from_below.get_or_insert(below) == below {
-                (self.start, self.gap) = (None, Some(solved.gap().clone()));
+                (self.start, self.place) = (None, Some(solved.place()));
             }
             bracket.add(point, wanted);
             if nearest.as_ref().is_none_or(|(kept, _)| distance(count) <= distance(kept.nodes)) {
@@ -319,15 +325,15 @@ impl<T: Real> ContactSearch<T> {
             return Err(Error::Value { name: "contact fraction", value: fraction, requirement: "found by a solve" });
         };
         if solved.solution.report.status == Status::Stopped && !stopped {
-            let begin = Begin::Found(solved.gap().clone());
+            let begin = Begin::Found(solved.place());
             solved = solver.run(problem.parts(), axis.control(point.x), begin, &mut *observe)?;
             solves += 1;
             applications += solved.solution.report.operator_applications;
         }
         self.remember(point);
-        let (mut solution, gap) = solved.with_gap();
+        let (mut solution, place) = solved.with_place();
         solution.report.branch = branch;
-        (self.start, self.gap) = (None, Some(gap));
+        (self.start, self.place) = (None, Some(place));
         let share = |point: Point| point.nodes as f64 / facing;
         Ok(FoundContact {
             solution,
@@ -343,7 +349,7 @@ impl<T: Real> ContactSearch<T> {
     /// and where springs stand for the wall.
     fn branch(&self, solver: &Solver<dyn ContactConstraint<T>>) -> Option<Branch> {
         let Solver { settings, constraint } = solver;
-        let begins = self.points.is_empty() && self.start.is_none() && self.gap.is_none();
+        let begins = self.points.is_empty() && self.start.is_none() && self.place.is_none();
         let usual = settings.method != Method::Rey2017 && constraint.wall().is_rigid();
         settings.branch.or(usual.then_some(Branch::Loading)).filter(|_| begins)
     }

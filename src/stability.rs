@@ -5,11 +5,12 @@
 
 use ndarray::Array2;
 
-use crate::adhesion::AdhesionLaw;
+use crate::adhesion::{AdhesionLaw, Neighbourhood, Touched};
+
 use crate::constraint::{ContactConstraint, Projection, Wall};
+use crate::elastic::{Boundary, ElasticOperator};
 use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, Minimum, Reducer, ordered, write};
-use crate::grid::Grid;
 use crate::names::names;
 use crate::par::{self, Parts as _};
 use crate::problem::{Control, Problem, ProblemMut, Window, smoothed_law};
@@ -176,7 +177,8 @@ impl StabilityTest {
     ) -> Result<Stability<T>> {
         solution.check(&problem.parts(), constraint)?;
         let control = self.control.unwrap_or(solution.report.control);
-        self.of_gap(problem, constraint, control, &solution.gap, solution.report.relative_error)
+        let (gap, near) = (&solution.gap, Near::Of(solution.touched.as_ref()));
+        T::stability(self, problem.parts(), constraint, control, (gap, near), solution.report.relative_error)
     }
 
     /// Tests a gap that was kept with its [`Report::relative_error`](crate::Report::relative_error), under a control.
@@ -191,7 +193,7 @@ impl StabilityTest {
         gap: &Array2<T>,
         relative_error: f64,
     ) -> Result<Stability<T>> {
-        T::stability(self, problem.parts(), constraint, control, gap, relative_error)
+        T::stability(self, problem.parts(), constraint, control, (gap, Near::Contacts), relative_error)
     }
 
     pub(crate) fn judge<T: Real>(
@@ -199,7 +201,7 @@ impl StabilityTest {
         problem: ProblemMut<'_, T>,
         constraint: &dyn ContactConstraint<T>,
         control: Control,
-        gap: &Array2<T>,
+        (gap, near): (&Array2<T>, Near<'_>),
         relative_error: f64,
     ) -> Result<Stability<T>> {
         Error::positive("tolerance", self.tolerance)?;
@@ -210,7 +212,7 @@ impl StabilityTest {
         let (load, window) = (flat.load(kind, constraint.wall())?, flat.window.as_ref());
         let smoothed = smoothed_law(&*operator, law);
         let law = smoothed.as_deref().unwrap_or(law);
-        let slopes = slopes(gap, (law, constraint), (operator.grid(), window))?;
+        let slopes = slopes(gap, (law, constraint), near, (&*operator, window))?;
         let smoothed = smoothed.is_some();
         let hessian = Hessian::new(operator, slopes, load);
         let mut stability = self.verdict(hessian, control, relative_error, smoothed)?;
@@ -282,21 +284,50 @@ fn check_gap<T: Real>(
     problem.grid().slab().agreed(refused)
 }
 
+/// Where surfaces attract each other by a law that [does so next to contacts alone](crate::adhesion::Hints::touching).
+#[derive(Clone, Copy)]
+pub enum Near<'a> {
+    /// Next to the contacts of the gap.
+    Contacts,
+    /// At the nodes of a solution, or everywhere.
+    Of(Option<&'a Array2<bool>>),
+}
+
 /// φ'' at every node of the operator's grid, infinite where a rigid wall is touched, or springs press that end as one.
 fn slopes<T: Real>(
     gap: &Array2<T>,
     (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
-    (grid, window): (&Grid, Option<&Window>),
+    near: Near<'_>,
+    (operator, window): (&dyn ElasticOperator<T>, Option<&Window>),
 ) -> Result<Field<T>> {
+    let grid = operator.grid();
     let slab = window.map_or(grid.slab(), Window::held);
-    let local = Potential::new(law, constraint, None);
     let gap = window.map_or_else(|| gap.view().into(), |window| window.hold(gap.view()));
     let gaps = ordered(gap.view());
     let mut slopes = Field::zeros(gap.dim());
     let touches = |node, gap| match constraint.wall() {
         Wall::Springs(springs) => constraint.ends_rigid() && springs.traction(node, gap) < T::zero(),
-        _ => local.projects() && gap <= T::zero(),
+        wall => wall.projects() && gap <= T::zero(),
     };
+    let near = match near {
+        Near::Contacts => law.hints().touches().then_some(None),
+        Near::Of(touched) => touched.map(Some),
+    };
+    let touched = near.map(|touched| {
+        let grid = (window.map_or(grid, Window::grid), slab);
+        let mut neighbourhood = Neighbourhood::none(grid, operator.boundary() == Boundary::Periodic);
+        if let Some(touched) = touched {
+            let held = window.map_or_else(|| touched.view().into(), |window| window.hold(touched.view()));
+            neighbourhood.add(&Field::of(held));
+        } else {
+            let nodes = neighbourhood.contact.nodes_mut().iter_mut().zip(&*gaps).zip(slab.first_node()..);
+            nodes.for_each(|((contact, &gap), node)| *contact = touches(node, gap));
+            neighbourhood.grow();
+        }
+        Touched { law, neighbourhood }
+    });
+    let law = touched.as_ref().map_or(law, |touched| touched);
+    let local = Potential::new(law, constraint, None);
     let wrong = Reducer::new(slab).run(par::chunks(&gaps, CHUNK).zip(write(&mut slopes)), |first, (gap, slopes)| {
         let mut wrong = f64::INFINITY;
         local.evaluate(Of::Slope, first, gap, slopes);

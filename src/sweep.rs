@@ -9,7 +9,8 @@ use crate::error::Result;
 use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{
-    Begin, Branch, Iteration, Least, Observer, Potential, Solution, Solved, Solver, Start, check_hardness, extrapolated,
+    Begin, Branch, Iteration, Least, Nearness, Observer, Place, Potential, Solution, Solved, Solver, Start,
+    check_hardness, extrapolated,
 };
 
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
@@ -60,7 +61,7 @@ pub struct Sweep<T> {
     start: Option<Array2<T>>,
     /// the loads and gaps of the next start, the latest last: at most two, and three with adhesion; on the grid of the
     /// operator, beyond a window the displacement
-    history: Vec<(Control, Array2<T>)>,
+    history: Vec<(Control, Place<T>)>,
     /// the plastic depth after the last load, on the grid of the operator
     depth: Option<Array2<T>>,
     /// whether the last load, from a default start, was on the branch of loading
@@ -92,7 +93,13 @@ impl<T: Real> Sweep<T> {
     /// The gaps and the plastic depth from which the next load starts, on the grid of the operator: processes that share
     /// a grid gather these of a sweep that they keep.
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
-        self.history.iter_mut().map(|(_, gap)| gap).chain(&mut self.depth)
+        self.history.iter_mut().map(|(_, place)| &mut place.gap).chain(&mut self.depth)
+    }
+
+    /// Where surfaces have not parted, of a law that attracts [next to contacts alone](crate::adhesion::Hints::touching), on the
+    /// grid of the operator: processes that share a grid gather these as they do the fields.
+    pub fn marks(&mut self) -> impl Iterator<Item = &mut Array2<bool>> {
+        self.history.iter_mut().filter_map(|(_, place)| place.not_parted.as_mut())
     }
 
     /// The solution under the next load.
@@ -130,7 +137,7 @@ impl<T: Real> Sweep<T> {
         load: Control,
         observe: Observer<'_>,
     ) -> Result<Solution<T>> {
-        for gap in self.history.iter().map(|(_, gap)| gap).chain(&self.depth) {
+        for gap in self.history.iter().map(|(_, place)| &place.gap).chain(&self.depth) {
             problem.operator.grid().fits("field of the sweep", gap.dim())?;
         }
         // a load that is refused leaves the sweep as it is
@@ -138,32 +145,39 @@ impl<T: Real> Sweep<T> {
         check_hardness(law, problem.flat.load(load, wall)?, &problem.flat, wall)?;
         let least = Potential::new(law, &solver.constraint, None).least();
         problem.yield_to(self.depth.as_ref())?;
-        let next = self.next_start(problem, least, load);
-        let start = self.start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
-        let solved = solver.run(problem.parts(), load, next.unwrap_or(Begin::At(start)), observe)?;
-        self.start = None;
+        let given = self.start.take();
+        let first = given.as_ref().map_or_else(
+            || Begin::of_series(problem.law_on_grid(), &solver.settings),
+            |gap| Begin::At(Start::From(gap)),
+        );
+        let begin = self.next_start(problem, least, load).unwrap_or(first);
+        let solved = solver.run(problem.parts(), load, begin, observe);
+        if solved.is_err() {
+            self.start = given;
+        }
+        let solved = solved?;
         self.keep(problem, load, solved)
     }
 
     /// Keeps a solution's gap for the next start, and how far the surface has yielded.
     fn keep(&mut self, problem: &mut Problem<T>, load: Control, solved: Solved<T>) -> Result<Solution<T>> {
         let stays = solved.is_settled();
-        let (solution, mut gap) = solved.with_gap();
+        let (solution, mut place) = solved.with_place();
         self.loads = solution.report.branch == Some(Branch::Loading);
         if let Some(depth) = &solution.plastic_depth {
-            problem.lower(depth.view(), stays, &mut gap)?;
+            problem.lower(depth.view(), stays, &mut place.gap)?;
             self.history.clear();
         }
         self.depth = problem.yielded().cloned();
-        self.history.push((load, gap));
+        self.history.push((load, place));
         Ok(solution)
     }
 
     /// The start under a load to which the history leads; of its gaps only those stay that the start after it needs.
-    fn next_start(&mut self, problem: &Problem<T>, least: Least<T>, load: Control) -> Option<Begin<'static, T>> {
+    fn next_start(&mut self, problem: &Problem<T>, least: Least<T>, load: Control) -> Option<Begin<'_, T>> {
         let adheres = !problem.law_on_grid().hints().zero;
         let ahead = |two, load| ahead(problem, least, two, load);
-        let (before, last) = self.history.last()?;
+        let (before, _) = self.history.last()?;
         let anew = (self.loads || !adheres) && self.depth.is_none() && is_far(*before, load);
         let ahead = match &self.history[..] {
             _ if anew => None,
@@ -178,14 +192,14 @@ impl<T: Real> Sweep<T> {
             [.., before, last] if !adheres => ahead([before, last], load),
             _ => None,
         };
-        let start = match ahead {
-            Some(gap) => Begin::Ahead(gap),
-            None if anew => Begin::At(Start::Default),
-            None => Begin::Found(last.clone()),
-        };
         let kept = if adheres { 2 } else { 1 };
         self.history.drain(..self.history.len().saturating_sub(kept));
-        Some(start)
+        let (_, last) = self.history.last()?;
+        Some(match ahead {
+            Some(gap) => Begin::Ahead { gap, last, nearness: Nearness::Ahead },
+            None if anew => Begin::At(Start::Default),
+            None => Begin::Found(last.clone()),
+        })
     }
 }
 
@@ -193,7 +207,7 @@ impl<T: Real> Sweep<T> {
 fn ahead<T: Real>(
     problem: &Problem<T>,
     least: Least<T>,
-    [before, last]: [&(Control, Array2<T>); 2],
+    [before, last]: [&(Control, Place<T>); 2],
     load: Control,
 ) -> Option<Array2<T>> {
     let steps = match (before.0, last.0, load) {
@@ -217,7 +231,7 @@ fn ahead<T: Real>(
         return None;
     }
     let on = (problem.flat.window.as_ref(), *problem.operator.grid());
-    Some(extrapolated([&before.1, &last.1], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
+    Some(extrapolated([&before.1.gap, &last.1.gap], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
 }
 
 /// Whether a load presses by so much more than the one before that its gap says little.
@@ -231,10 +245,10 @@ fn is_far(before: Control, load: Control) -> bool {
 }
 
 /// Whether a gap was foretold, without a jump: it is closer to the one that was than the one before.
-fn foretells<T: Real>(problem: &Problem<T>, foretold: &Array2<T>, [before, last]: [&(Control, Array2<T>); 2]) -> bool {
+fn foretells<T: Real>(problem: &Problem<T>, foretold: &Array2<T>, [before, last]: [&(Control, Place<T>); 2]) -> bool {
     let apart = |gap: &Array2<T>| {
         let square = |a: T, b: T| (a - b).widen().powi(2);
-        problem.operator.grid().mean_of_both(gap.view(), last.1.view(), square).sqrt()
+        problem.operator.grid().mean_of_both(gap.view(), last.1.gap.view(), square).sqrt()
     };
-    apart(foretold) < FORETOLD * apart(&before.1)
+    apart(foretold) < FORETOLD * apart(&before.1.gap)
 }

@@ -312,8 +312,15 @@ impl Accuracy {
                     refinable = false;
                     break (error, false, None);
                 }
+                if law.hints().touches() {
+                    // what touches on this grid at its adhesion may not touch on a finer one, and would stick there
+                    (Solved { solution, whole, .. }, levels) =
+                        self.nested.run(solver, Box::new(&fine), operators, law, control, &mut *observe)?;
+                    (surface, waves) = (fine, 2.0 * waves);
+                    continue;
+                }
                 let half_space = operators.on(*fine.grid())?;
-                let touching = Touching::of(solver.constraint.wall());
+                let touching = Touching::of(solver.constraint.wall(), &**law);
                 let coarse = Deformed::of(&surface, solution.gap, whole);
                 let start = coarse.prolonged(&fine, half_space.grid(), touching);
                 let mut problem = Problem::of(&fine, half_space, law.clone())?;

@@ -20,6 +20,9 @@ pub struct Hints<T> {
     pub zero: bool,
     /// Whether the range is that of the grid, [`AdhesionLaw::on_nodes`]; before a grid is known it is zero.
     pub of_grid: bool,
+    /// Whether surfaces attract each other next to contacts alone, as in the limit of no range: within four nodes of a
+    /// contact, or where they have not parted since. Otherwise they attract each other wherever the gap is small.
+    pub touching: bool,
     /// The shape (Nx, Ny) of the only grid of a law that varies over the surface; none for a law of the gap alone.
     pub shape: Option<(usize, usize)>,
 }
@@ -27,7 +30,17 @@ pub struct Hints<T> {
 impl<T: Real> Hints<T> {
     /// A law of the gap alone with a work of adhesion w and a range ρ, which only attracts.
     pub fn new(work_of_adhesion: T, range: T) -> Self {
-        Self { name: "", work_of_adhesion, range, rest: None, concave: false, zero: false, of_grid: false, shape: None }
+        Self {
+            name: "",
+            work_of_adhesion,
+            range,
+            rest: None,
+            concave: false,
+            zero: false,
+            of_grid: false,
+            touching: false,
+            shape: None,
+        }
     }
 
     /// The work of adhesion w = −φ(0) and the range w/φ'(0) of a law, which is ρ for an exponential and a constant
@@ -41,6 +54,11 @@ impl<T: Real> Hints<T> {
     pub fn far(&self) -> T {
         // a law that has the range of the grid is looked at with any
         if self.of_grid { T::one() } else { self.rest.unwrap_or_else(T::zero) + T::lit(10.0) * self.range }
+    }
+
+    /// Whether a law that is not zero attracts next to contacts alone.
+    pub(crate) fn touches(&self) -> bool {
+        self.touching && !self.zero
     }
 
     /// The name by which a solution knows the law: that of no adhesion for every law that is zero.

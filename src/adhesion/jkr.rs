@@ -37,6 +37,8 @@ pub struct Jkr {
     work_of_adhesion: f64,
     /// the range ρ on a grid; zero before
     range: f64,
+    /// whether it attracts next to contacts alone
+    touching: bool,
 }
 
 impl Jkr {
@@ -46,7 +48,12 @@ impl Jkr {
     /// [`Error::Value`] if w is negative or not finite.
     pub fn new(work_of_adhesion: f64) -> Result<Self> {
         Error::non_negative("work of adhesion", work_of_adhesion)?;
-        Ok(Self { work_of_adhesion, range: 0.0 })
+        Ok(Self { work_of_adhesion, range: 0.0, touching: true })
+    }
+
+    /// The law in the place of one with a range, which attracts wherever the gap is smaller.
+    pub(crate) fn with_range_of_grid(work_of_adhesion: f64) -> Result<Self> {
+        Ok(Self { touching: false, ..Self::new(work_of_adhesion)? })
     }
 
     /// The work of adhesion w.
@@ -94,7 +101,12 @@ impl<T: Real> AdhesionLaw<T> for Jkr {
     }
     fn hints(&self) -> Hints<T> {
         let [w, range] = [self.work_of_adhesion, self.range].map(T::lit);
-        Hints { zero: w == T::zero(), of_grid: true, ..Hints::new(w, range).named("jkr").concave() }
+        Hints {
+            zero: w == T::zero(),
+            of_grid: true,
+            touching: self.touching,
+            ..Hints::new(w, range).named("jkr").concave()
+        }
     }
     fn evaluate(&self, _: usize, gaps: &[T], values: Values<'_, T>) {
         if self.range > 0.0 {

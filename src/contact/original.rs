@@ -143,12 +143,14 @@ impl Original {
             ..solution.report.clone()
         };
         let plastic_depth = solution.plastic_depth.as_ref().map(|depth| self.of(depth.view())).transpose()?;
+        let touched = solution.touched.as_ref().map(|touched| self.of(touched.view())).transpose()?;
         let (pressure, contact_pressure) = (pressure?, contact_pressure?);
         Ok(Solution {
             gap,
             pressure,
             contact_pressure,
             plastic_depth,
+            touched,
             grid: self.grid,
             report,
             law: solution.law.clone(),

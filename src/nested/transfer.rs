@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use ndarray::Array2;
 
+use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::Result;
 use crate::field::{Field, contiguous, ordered};
@@ -18,6 +19,9 @@ use crate::vector::vectors;
 
 /// The share of the exact ratio of gaps: the best start has a little more contact.
 const WIDER: f64 = 0.77;
+
+/// A gap above zero that is none, in either precision.
+const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
 /// The surface on a coarser grid; nothing if all of its nodes are absent.
 pub(super) fn coarsen(surface: &Surface, shape: (usize, usize)) -> Result<Option<Surface>> {
@@ -130,36 +134,41 @@ fn places(from: Side, to: Side) -> Vec<Stencil> {
     (0..to.whole).map(place).collect()
 }
 
-/// What nodes in contact keep where a gap is interpolated.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Touching {
-    /// Nothing: any gap is feasible.
-    Free,
-    /// A gap of zero, and no node apart a negative one.
-    Zero,
-    /// As [`Zero`](Self::Zero), but for those between nodes that yield.
-    Yielding,
+/// What nodes keep where a gap is interpolated.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touching {
+    /// whether any gap is feasible
+    free: bool,
+    /// whether nodes between nodes that yield may have a gap below zero; nodes in contact have a gap of zero otherwise
+    yields: bool,
+    /// the least gap of nodes that do not touch
+    least: f64,
 }
 
 impl Touching {
-    pub(crate) fn of<T>(wall: Wall<'_, T>) -> Self {
-        match wall {
-            Wall::Rigid => Self::Zero,
-            Wall::Capped(_) => Self::Yielding,
-            Wall::Springs(_) | Wall::None => Self::Free,
+    /// A rigid wall alone.
+    #[cfg(test)]
+    const ZERO: Self = Self { free: false, yields: false, least: 0.0 };
+
+    pub(crate) fn of<T: Real>(wall: Wall<'_, T>, law: &dyn AdhesionLaw<T>) -> Self {
+        Self {
+            free: matches!(wall, Wall::Springs(_) | Wall::None),
+            yields: matches!(wall, Wall::Capped(_)),
+            // surfaces stick where they touch
+            least: if law.hints().touches() { LEAST } else { 0.0 },
         }
     }
 
     /// The gap at a place, from that by interpolation, and the gaps of the four nodes about it.
     #[inline(always)]
     fn gap(self, place: &Stencil, interpolated: f64, gap: impl Fn(usize) -> f64) -> f64 {
-        if self == Self::Free {
+        if self.free {
             return interpolated;
         }
         if !place.touches(&gap) {
-            return interpolated.max(0.0);
+            return interpolated.max(self.least);
         }
-        let yields = self == Self::Yielding && gap(1) < 0.0 && (place.is_node() || gap(2) < 0.0);
+        let yields = self.yields && gap(1) < 0.0 && (place.is_node() || gap(2) < 0.0);
         if yields { interpolated.min(0.0) } else { 0.0 }
     }
 }
@@ -272,7 +281,7 @@ mod tests {
                 Array2::from_shape_fn((nx, ny), |(i, j)| 2.0 + turn(i, nx).sin() * turn(j, ny).cos())
             };
             let (gap, exact) = (wave(coarse.grid()) - coarse.heights(), wave(&grid) - surface.heights());
-            let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::Zero);
+            let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::ZERO);
             // the error of the cubic in the middle, 3/128 of the fourth derivative, along both sides
             let spacing = std::f64::consts::TAU / 16.0;
             let worst = (&fine - &exact).iter().fold(0.0_f64, |worst, e| worst.max(e.abs()));
@@ -286,7 +295,7 @@ mod tests {
         let surface = Surface::wave_2d(grid, 0.1, 3).unwrap();
         let coarse = coarsen(&surface, (8, 8)).unwrap().unwrap();
         let gap = Array2::from_shape_fn((8, 8), |(i, _)| if i < 4 { 0.0_f32 } else { 1.0 });
-        let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::Zero);
+        let fine = Deformed::of(&coarse, gap, None).prolonged(&surface, &grid, Touching::ZERO);
         assert!(fine.rows().into_iter().take(7).all(|row| row.iter().all(|&g| g == 0.0)));
         assert!(fine.rows().into_iter().skip(8).step_by(2).all(|row| row.iter().all(|&g| g > 0.0)));
     }

@@ -8,6 +8,10 @@ use crate::solver::Report;
 /// The share of the energy of a jump to which the work of the load in its step is known.
 const LOCATED: f64 = 0.2;
 
+/// The same as a share of what all jumps have dissipated, of a law that attracts next to contacts alone: there the energy
+/// that a loop dissipates is known to the grid, and not to where in its step a jump is.
+const LOCATED_OF_ALL: f64 = 0.02;
+
 /// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
 /// compared with all before are not located one by one.
 const MANY: f64 = 20.0;
@@ -42,6 +46,8 @@ pub(super) struct Balance {
     pub(super) excess: f64,
     /// what a jump anywhere in it dissipates
     pub(super) drop: f64,
+    /// what jumps have dissipated before, of a law that attracts next to contacts alone; infinite of others
+    pub(super) before: f64,
     /// the factor by which the next step may be longer
     pub(super) growth: f64,
 }
@@ -50,7 +56,8 @@ impl Balance {
     /// Whether a jump is located by a step, from the product of the step and the change of the load: its work lies
     /// within half of that, as the jump may be anywhere in the step.
     pub(super) fn locates(&self, product: f64) -> bool {
-        0.5 * product.abs() <= self.allowed.max(LOCATED * self.drop)
+        let known = (LOCATED * self.drop).min(LOCATED_OF_ALL * (self.before + self.drop));
+        0.5 * product.abs() <= self.allowed.max(known)
     }
 }
 
@@ -63,6 +70,7 @@ impl Course {
         report: &Report,
         (imbalance, least): (f64, f64),
         (noise, left): (f64, f64),
+        touching: bool,
     ) -> Balance {
         let (here, next) = (self.here(), Figures::of(report).held_by(self.mode));
         let ((from, before), (_, after)) = (here.slope(self.mode), next.slope(self.mode));
@@ -95,6 +103,7 @@ impl Course {
             work: energy - excess,
             excess,
             drop,
+            before: if touching { self.account.dissipated } else { f64::INFINITY },
             growth: if growth.is_nan() { GROWTH } else { growth.clamp(0.5, GROWTH) },
         };
         let stays = self.bracket.is_some_and(|bracket| bracket.keeps(drop));

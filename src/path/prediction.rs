@@ -1,10 +1,8 @@
 //! The gap from which the next state of a path is sought.
 
-use ndarray::Array2;
-
 use super::{Bench, Path};
 use crate::real::Real;
-use crate::solver::{Least, Potential, extrapolated};
+use crate::solver::{Begin, Least, Nearness, Potential, Start, extrapolated};
 use crate::sweep::MOST_STEPS;
 
 /// The number of gaps at which a law without a wall is asked whether it bears a pressure.
@@ -34,21 +32,22 @@ impl<T: Real> Bench<'_, T> {
 
 impl<T: Real> Path<T> {
     /// The gap at `target`: that of a state that was found there, or extrapolated from the last two gaps.
-    pub(super) fn predict(&self, bench: &Bench<'_, T>, target: f64) -> Array2<T> {
+    pub(super) fn predict(&self, bench: &Bench<'_, T>, target: f64) -> Begin<'_, T> {
         if let (Some(ahead), Some(end)) = (&self.ahead, self.course.taken_back())
             && end == target
         {
-            return ahead.clone();
+            return Begin::Found(ahead.clone());
         }
-        match &self.gaps[..] {
+        match &self.places[..] {
             [before, last] => {
                 let steps = self.course.extrapolation(target).clamp(-MOST_STEPS, MOST_STEPS);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
                 let on = (bench.problem.flat.window.as_ref(), *bench.problem.operator.grid());
-                extrapolated([before, last], steps, (bench.least(), false), on)
+                let gap = extrapolated([&before.gap, &last.gap], steps, (bench.least(), false), on);
+                Begin::Ahead { gap, last, nearness: Nearness::Loaded }
             }
-            [.., last] => last.clone(),
-            [] => Array2::zeros(bench.problem.operator.grid().field_shape()),
+            [.., last] => Begin::Found(last.clone()),
+            [] => Begin::At(Start::Default),
         }
     }
 }

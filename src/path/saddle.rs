@@ -6,8 +6,8 @@ use super::{Bench, Path};
 use crate::error::Result;
 use crate::problem::{Control, ProblemMut, smoothed_law};
 use crate::real::Real;
-use crate::solver::{Begin, Solution, Solved, Start, Status};
-use crate::stability::{PERTURBATION, Saddle};
+use crate::solver::{Begin, Place, Solution, Solved, Start, Status};
+use crate::stability::{Near, PERTURBATION, Saddle};
 
 /// The share of the mode in the last change of the gap above which the state jumps; below, a symmetry breaks.
 const DRAWN: f64 = 0.1;
@@ -22,7 +22,7 @@ impl<T: Real> Path<T> {
         let ProblemMut { operator, law, flat, .. } = bench.problem.parts();
         let smoothed = if self.settings.smooth { smoothed_law(&*operator, law) } else { None };
         let followed = smoothed.as_deref().unwrap_or(law);
-        let gap = (&solution.gap, flat.window.as_ref());
+        let gap = (&solution.gap, Near::Of(solution.touched.as_ref()), flat.window.as_ref());
         self.watch.look(operator, (followed, &bench.solver.constraint), gap, load)
     }
 
@@ -35,7 +35,7 @@ impl<T: Real> Path<T> {
         control: Control,
     ) -> Result<(Option<Solved<T>>, bool)> {
         let grid = *bench.problem.grid();
-        let moved = self.gaps.last().map(|last| {
+        let moved = self.places.last().map(|Place { gap: last, .. }| {
             let window = bench.problem.flat.window.as_ref();
             let last = window.map_or(last.view().into(), |window| CowArray::from(window.crop(last, T::infinity())));
             let mut moved = from.gap.clone();

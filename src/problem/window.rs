@@ -7,6 +7,7 @@ use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 use crate::error::Result;
 use crate::field::{Field, all_finite_in, ordered};
 use crate::grid::Grid;
+use crate::ranks::Sent;
 use crate::real::Real;
 use crate::slab::Slab;
 use crate::surface::Surface;
@@ -106,7 +107,7 @@ impl Window {
     }
 
     /// A field of the surface's grid in the rows of the operator's slab.
-    pub(crate) fn hold<'a, T: Real>(&self, field: impl Into<CowArray<'a, T, Ix2>>) -> CowArray<'a, T, Ix2> {
+    pub(crate) fn hold<'a, A: Sent>(&self, field: impl Into<CowArray<'a, A, Ix2>>) -> CowArray<'a, A, Ix2> {
         self.grid.slab().moved(field.into(), &self.held)
     }
 
@@ -145,7 +146,7 @@ impl Window {
         self.held.moved(self.cut(field, absent).into_array().into(), &self.grid.slab()).into_owned()
     }
 
-    pub(crate) fn cut<T: Real>(&self, field: &Array2<T>, absent: T) -> Field<T> {
+    pub(crate) fn cut<A: Copy + Default + 'static>(&self, field: &Array2<A>, absent: A) -> Field<A> {
         let mut cut = Field::filled(self.held.held(), absent);
         let field = ordered(field.view());
         for (nodes, own) in self.places() {
@@ -155,7 +156,7 @@ impl Window {
     }
 
     /// A field of the surface's grid, in the rows of the operator's slab, on the operator's grid.
-    pub(crate) fn place<T: Real>(&self, field: &Field<T>, elsewhere: T) -> Field<T> {
+    pub(crate) fn place<A: Copy + Default + 'static>(&self, field: &Field<A>, elsewhere: A) -> Field<A> {
         let mut placed = Field::filled(self.whole.field_shape(), elsewhere);
         for (nodes, own) in self.places() {
             placed.nodes_mut()[nodes].copy_from_slice(&field.nodes()[own]);
@@ -163,8 +164,13 @@ impl Window {
         placed
     }
 
+    /// A field of the surface's grid in the rows of its own slab, from the rows of the operator's.
+    pub(crate) fn release<A: Sent>(&self, held: Field<A>) -> Field<A> {
+        Field::of(self.held.moved(held.into_array().into(), &self.grid.slab()))
+    }
+
     /// The places of this process's runs on the operator's grid and on the surface's.
-    fn places(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+    pub(crate) fn places(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
         let [start, first] = [self.whole.slab(), self.held].map(|slab| slab.first_node());
         self.runs.iter().map(move |run| {
             let own = run.first - first;

@@ -68,7 +68,7 @@ impl Branch {
         let wanted = match *begin {
             Begin::At(Start::Default) | Begin::Prolonged(_) => settings.branch,
             Begin::On(branch) => Some(branch),
-            Begin::At(Start::From(_) | Start::Near(_)) | Begin::Found(_) | Begin::Ahead(_) => return Ok(None),
+            Begin::At(Start::From(_) | Start::Near(_)) | Begin::Found(_) | Begin::Ahead { .. } => return Ok(None),
         };
         let paper = settings.method == Method::Rey2017;
         if paper && wanted == Some(Self::Loading) {

@@ -4,6 +4,7 @@ use super::driver::{End, Observer};
 use super::minimisation::Goal;
 use super::report::Status;
 use super::state::{SCALED, State};
+use super::touch::TOUCHING;
 use crate::constraint::Wall;
 use crate::error::Result;
 use crate::problem::Load;
@@ -149,6 +150,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             Goal::Wall => WALL,
             Goal::Hold => HOLD,
             Goal::Start => START,
+            Goal::Solution if self.posed.spreads => TOUCHING,
             Goal::Solution if self.posed.leads_on => {
                 return Some(self.posed.constraint.round_tolerance()).filter(|&round| round > tolerance);
             }

@@ -69,6 +69,7 @@ fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_
         if state.is_adrift() {
             return Ok(End::Adrift);
         }
+        let contact = state.sums.tally.contact;
         let moved = state.step()?;
         if !moved && !state.may_renew() {
             return Ok(End::Stalled);
@@ -76,6 +77,7 @@ fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_
         if !moved {
             state.renew()?;
         }
+        state.follow_contacts(contact);
     }
 }
 
@@ -94,6 +96,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         operators,
         adhesion: law,
         smoothed: smoothed.as_deref(),
+        touched: None,
+        spreads: false,
         given,
         flat,
         constraint,
@@ -117,7 +121,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     } else if posed.by_wall {
         posed.goal = Goal::Start;
     }
-    let mut state = State::new(posed, begin)?;
+    let touches = law.hints().touches() && !begin.is_default() && branch != Some(Branch::Unloading);
+    let mut state = State::new(posed, begin, touches)?;
     for phase in phases.into_iter().flatten() {
         state.enter(phase);
         let end = minimise(&mut state, &mut *observe)?;
@@ -135,6 +140,8 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
             continue;
         }
         match end {
+            End::Converged if state.touches_more() => state.posed.spreads = true,
+            End::Converged if std::mem::take(&mut state.posed.spreads) => state.restart(),
             End::Converged => match state.update_constraint() {
                 Update::Done => return state.finish(Status::Converged),
                 Update::Again => {}

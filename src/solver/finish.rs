@@ -49,7 +49,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
         let (plastic_depth, plastic) = yielded.map(|(depth, figures, _)| (depth, figures)).unzip();
         let report = self.report(status, [mean, net, load_error], &carried, plastic);
-        let (on_grid, flat, at_floor) = (self.posed.law(), self.posed.flat, self.is_at_floor());
+        let (on_grid, flat, at_floor) = (self.posed.formula(), self.posed.flat, self.is_at_floor());
+        let (touched, not_parted) = (self.touched(), self.not_parted());
         let (grid, yields, law) = (*self.posed.operators.state().grid(), plastic.is_some(), self.posed.given.clone());
         if flat.window.is_some() && report.status == Status::Converged {
             // the nodes that face no surface have their part of the residual: in balance the others bear the load
@@ -57,7 +58,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             self.fields.pressure.nodes_mut().iter_mut().for_each(|p| *p += share);
         }
         let [gap, pressure] = [self.fields.gap, self.fields.pressure].map(Field::into_array);
-        let solution = Solution { gap, pressure, contact_pressure, plastic_depth, grid, report, law };
+        let touched =
+            touched.map(|near| flat.window.as_ref().map_or(near.clone(), |window| window.release(near)).into_array());
+        let solution = Solution { gap, pressure, contact_pressure, plastic_depth, touched, grid, report, law };
         let (mut solution, gap) = match &flat.window {
             None => (solution, None),
             Some(window) => solution.through(window),
@@ -70,7 +73,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if flat.boundary != Boundary::Periodic {
             solution.watch_edge(on_grid, flat);
         }
-        Ok(Solved { solution, whole: gap.map(|gap| (grid, gap)), at_floor })
+        Ok(Solved { solution, whole: gap.map(|gap| (grid, gap)), not_parted, at_floor })
     }
 
     /// The certificate and the work of the fields as they are.

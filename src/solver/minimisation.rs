@@ -35,7 +35,7 @@ pub(super) struct Totals {
 
 /// What the start of a solve knows of the solution, in ascending order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-pub(super) enum Nearness {
+pub enum Nearness {
     #[default]
     Afar,
     /// the contacts of another load, whose stiffness and places are like those of the solution

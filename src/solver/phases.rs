@@ -80,6 +80,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             self.each_gap(|gap| gap + lift);
         }
         let load = self.posed.flat.load(self.posed.control, self.posed.constraint.wall())?;
+        if self.posed.adhesion.hints().touches() {
+            if matches!(load, Load::Pressure(_)) {
+                self.close_up();
+            }
+            self.posed.touch(&self.fields.gap, None);
+        }
         self.adhere(load, Goal::Solution)
     }
 

@@ -9,7 +9,7 @@ use super::operators::Operators;
 use super::potential::Potential;
 use super::tension::Hold;
 use super::{Branch, Method, Settings, rey2017};
-use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw};
+use crate::adhesion::{AdhesionLaw, NoAdhesion, SharedLaw, Touched};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::Result;
 use crate::field::Field;
@@ -30,6 +30,10 @@ pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) adhesion: &'a dyn AdhesionLaw<T>,
     /// the law with its jumps smoothed
     pub(super) smoothed: Option<&'a dyn AdhesionLaw<T>>,
+    /// the law where surfaces attract each other next to their contacts alone
+    pub(super) touched: Option<Touched<'a, T>>,
+    /// whether they may touch at further nodes, before which a round need not be solved to the tolerance
+    pub(super) spreads: bool,
     /// the law of the problem, as it was given
     pub(super) given: &'a SharedLaw<T>,
     pub(super) flat: &'a PressedFlat<T>,
@@ -71,8 +75,16 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         (self.goal, self.load) = (Goal::Wall, self.load.of_wall(separation.widen()));
     }
 
-    /// The law of the present goal.
-    pub(super) fn law(&self) -> &'a dyn AdhesionLaw<T> {
+    /// The law of the present goal, where surfaces touch.
+    pub(super) fn law(&self) -> &dyn AdhesionLaw<T> {
+        match &self.touched {
+            Some(touched) if self.goal != Goal::Wall => touched,
+            _ => self.formula(),
+        }
+    }
+
+    /// The law of the present goal, as a function of the gap.
+    pub(super) fn formula(&self) -> &'a dyn AdhesionLaw<T> {
         match (self.goal, self.smoothed) {
             (Goal::Wall, _) => &NoAdhesion,
             (Goal::Start, Some(smoothed)) => smoothed,

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use ndarray::Array2;
 
+use super::place::Place;
 use super::{Branch, Criterion, Method};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::ContactConstraint;
@@ -252,6 +253,9 @@ pub struct Solution<T: Real> {
     pub contact_pressure: Array2<T>,
     /// The plastic depth by which the surface has yielded, at a [`Hardness`](crate::Hardness); zero at absent nodes.
     pub plastic_depth: Option<Array2<T>>,
+    /// Where the surfaces attract each other, by a law that does so next to contacts alone, as [`Jkr`](crate::Jkr); none of
+    /// other laws, and where they do so everywhere, as on the branch of [unloading](crate::Branch).
+    pub touched: Option<Array2<bool>>,
     /// The grid of the surface, and of the fields.
     pub grid: Grid,
     /// The account of the solve.
@@ -270,9 +274,10 @@ impl<T: Real> Solution<T> {
 impl<T: Real> PartialEq for Solution<T> {
     /// Of fields, grid and report, which names the law.
     fn eq(&self, other: &Self) -> bool {
-        let Self { gap, pressure, contact_pressure, plastic_depth, grid, report, law: _ } = self;
+        let Self { gap, pressure, contact_pressure, plastic_depth, touched, grid, report, law: _ } = self;
         (gap, pressure, contact_pressure) == (&other.gap, &other.pressure, &other.contact_pressure)
-            && (plastic_depth, grid, report) == (&other.plastic_depth, &other.grid, &other.report)
+            && (plastic_depth, touched) == (&other.plastic_depth, &other.touched)
+            && (grid, report) == (&other.grid, &other.report)
     }
 }
 
@@ -281,6 +286,8 @@ pub struct Solved<T: Real> {
     pub(crate) solution: Solution<T>,
     /// the gap on the operator's grid, with that grid, if not all of its nodes face the surface, or some may yield
     pub(crate) whole: Option<(Grid, Array2<T>)>,
+    /// where surfaces that attract each other next to contacts alone have not parted, on the operator's grid
+    pub(crate) not_parted: Option<Array2<bool>>,
     /// whether the residual is at the rounding floor
     pub(crate) at_floor: bool,
 }
@@ -297,13 +304,15 @@ impl<T: Real> Solved<T> {
 }
 
 impl<T: Real> Solved<T> {
-    pub(crate) fn gap(&self) -> &Array2<T> {
-        self.whole.as_ref().map_or(&self.solution.gap, |(_, gap)| gap)
+    /// The place in which the solve has ended.
+    pub(crate) fn place(&self) -> Place<T> {
+        let gap = self.whole.as_ref().map_or(&self.solution.gap, |(_, gap)| gap).clone();
+        Place { gap, not_parted: self.not_parted.clone() }
     }
 
-    pub(crate) fn with_gap(self) -> (Solution<T>, Array2<T>) {
+    pub(crate) fn with_place(self) -> (Solution<T>, Place<T>) {
         let gap = self.whole.map_or_else(|| self.solution.gap.clone(), |(_, gap)| gap);
-        (self.solution, gap)
+        (self.solution, Place { gap, not_parted: self.not_parted })
     }
 }
 
@@ -316,8 +325,9 @@ impl<T: Real> Solution<T> {
         let whole = |field: &Array2<T>| self.grid.whole(field).into_owned();
         let [gap, pressure, contact_pressure] = [&self.gap, &self.pressure, &self.contact_pressure].map(whole);
         let (plastic_depth, grid) = (self.plastic_depth.as_ref().map(whole), self.grid.alone());
+        let touched = self.touched.as_ref().map(|touched| self.grid.whole(touched).into_owned());
         let (report, law) = (self.report.clone(), self.law.clone());
-        Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, grid, report, law })
+        Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, touched, grid, report, law })
     }
 
     /// Refuses an adhesion law of another name or work of adhesion than that under which the solution was found.

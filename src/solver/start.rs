@@ -1,10 +1,13 @@
 //! The start of a solve.
 
+use std::borrow::Cow;
+
 use ndarray::{Array2, ArrayRef2, CowArray, Ix2};
 
-use super::Branch;
 use super::minimisation::Nearness;
+use super::place::Place;
 use super::potential::{Least, bounded};
+use super::{Branch, Method, Settings};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::Wall;
 use crate::error::{Error, Result};
@@ -65,21 +68,44 @@ pub(crate) enum Begin<'a, T> {
     /// At the gap of another grid's solution, as [`Start::Near`], but with all nodes of the operator's grid.
     Prolonged(Array2<T>),
     /// At the gap of another load or of a part, on the operator's grid.
-    Found(Array2<T>),
-    /// At a gap to which those of other loads lead, on the operator's grid.
-    Ahead(Array2<T>),
+    Found(Place<T>),
+    /// At a gap to which gaps of other loads lead, on the operator's grid, with the contacts of the last of them.
+    Ahead {
+        gap: Array2<T>,
+        last: &'a Place<T>,
+        nearness: Nearness,
+    },
 }
 
-impl<T> Begin<'_, T> {
+impl<'a, T> Begin<'a, T> {
+    /// The start at the first of several loads: from afar, if the law attracts next to contacts alone.
+    pub(crate) fn of_series(law: &dyn AdhesionLaw<T>, settings: &Settings) -> Self
+    where
+        T: Real,
+    {
+        let from_afar = law.hints().touches() && settings.method != Method::Rey2017;
+        if from_afar { Self::On(settings.branch.unwrap_or(Branch::Loading)) } else { Self::At(Start::Default) }
+    }
+
     pub(crate) fn is_default(&self) -> bool {
         matches!(self, Self::At(Start::Default) | Self::On(_))
+    }
+
+    /// The gap that has the contacts before, if that is not the gap of the start, and the nodes that have not parted since,
+    /// which are taken out.
+    pub(super) fn last(&mut self) -> (Option<&'a Array2<T>>, Option<Cow<'a, Array2<bool>>>) {
+        match self {
+            Self::Found(place) => (None, place.not_parted.take().map(Cow::Owned)),
+            Self::Ahead { last, .. } => (Some(&last.gap), last.not_parted.as_ref().map(Cow::Borrowed)),
+            _ => (None, None),
+        }
     }
 
     pub(super) fn nearness(&self) -> Nearness {
         match self {
             Self::At(Start::Near(_)) | Self::Prolonged(_) => Nearness::Near,
             Self::Found(_) => Nearness::Loaded,
-            Self::Ahead(_) => Nearness::Ahead,
+            Self::Ahead { nearness, .. } => *nearness,
             Self::At(Start::Default | Start::From(_)) | Self::On(_) => Nearness::Afar,
         }
     }
@@ -106,7 +132,7 @@ pub(super) fn given_start<T: Real>(
         Begin::At(Start::Default) | Begin::On(_) => return Ok(None),
         Begin::At(Start::From(gap)) => (gap.view().into(), false),
         Begin::At(Start::Near(gap)) => (gap.into(), false),
-        Begin::Prolonged(gap) | Begin::Found(gap) | Begin::Ahead(gap) => (gap.into(), true),
+        Begin::Prolonged(gap) | Begin::Found(Place { gap, .. }) | Begin::Ahead { gap, .. } => (gap.into(), true),
     };
     let start = match window {
         Some(window) if !whole => window.start(given.view())?.into(),

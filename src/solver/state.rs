@@ -30,8 +30,9 @@ pub(super) struct State<'a, T: Real, Lo> {
 }
 
 impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
-    pub(super) fn new(mut posed: Posed<'a, T, Lo>, begin: Begin<'_, T>) -> Result<Self> {
+    pub(super) fn new(mut posed: Posed<'a, T, Lo>, mut begin: Begin<'_, T>, touches: bool) -> Result<Self> {
         posed.prepare()?;
+        let (last, not_parted) = begin.last();
         let Posed { flat, load, .. } = posed;
         let grid = posed.operators.state().grid();
         let (grid, shape) = (*grid, grid.field_shape());
@@ -45,6 +46,9 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             }
             None => (Field::filled(shape, T::lit(uniform_start(posed.law(), flat, load))), flat.pressure.clone()),
         };
+        if touches {
+            posed.touch(last.unwrap_or(&gap), not_parted.as_deref());
+        }
         let coarse = Coarse::of(posed.operators.corrections());
         let mut state = Self {
             posed,
@@ -197,7 +201,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.compute_residual();
     }
 
-    fn compute_residual(&mut self) {
+    pub(super) fn compute_residual(&mut self) {
         let working = self.working_set(0.0);
         let found = passes::residual(&mut self.fields, &self.posed.potential(), working);
         self.sums.residual.difference = found.difference;

@@ -3,7 +3,7 @@
 use super::edge::EdgeError;
 use super::hessian::Hessian;
 use super::tangent::Tangent;
-use super::{check_gap, slopes};
+use super::{Near, check_gap, slopes};
 use crate::constraint::{ContactConstraint, Projection, Wall};
 use crate::error::{Error, Result};
 use crate::field::Field;
@@ -125,7 +125,8 @@ impl ContactStiffness {
         let window = flat.window.as_ref();
         let smoothed = smoothed_law(&*operator, law);
         let followed = smoothed.as_deref().unwrap_or(law);
-        let slopes = slopes(&solution.gap, (followed, constraint), (operator.grid(), window))?;
+        let near = Near::Of(solution.touched.as_ref());
+        let slopes = slopes(&solution.gap, (followed, constraint), near, (&*operator, window))?;
         let rigid = matches!(constraint.wall(), Wall::Rigid) && window.is_none();
         let at_edge = rigid && solution.report.contact_nodes > 0;
         let smoothed = smoothed.is_some();

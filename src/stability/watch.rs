@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::eigenpair::{Eigenpair, UNCERTAIN, lowest_from, normalise};
 use super::hessian::Hessian;
-use super::slopes;
+use super::{Near, slopes};
 use crate::adhesion::AdhesionLaw;
 use crate::constraint::ContactConstraint;
 use crate::elastic::ElasticOperator;
@@ -62,13 +62,13 @@ impl<T: Real> Watch<T> {
         &mut self,
         operator: &mut dyn ElasticOperator<T>,
         (law, constraint): (&dyn AdhesionLaw<T>, &dyn ContactConstraint<T>),
-        (gap, window): (&Array2<T>, Option<&Window>),
+        (gap, near, window): (&Array2<T>, Near<'_>, Option<&Window>),
         load: Load,
     ) -> Result<Option<Saddle>> {
         if Potential::new(law, constraint, None).is_zero() {
             return Ok(None);
         }
-        let slopes = slopes(gap, (law, constraint), (operator.grid(), window))?;
+        let slopes = slopes(gap, (law, constraint), near, (&*operator, window))?;
         let mut hessian = Hessian::new(operator, slopes, load);
         if hessian.simple_bound() > 0.0 || hessian.dimension() == 0 {
             return Ok(None);

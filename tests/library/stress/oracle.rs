@@ -32,6 +32,8 @@ pub struct Judge<'a, T: Real> {
     /// what the law and the springs of a wall do at each node: tractions
     tractions: Vec<f64>,
     springs: Vec<f64>,
+    /// the share of the law at each node: that of its work of adhesion, and none where surfaces do not attract each other
+    share: Vec<f64>,
     /// the pressure that rounding makes of a gap
     rounding: f64,
     /// the same as an energy norm
@@ -73,8 +75,12 @@ impl<'a, T: Real> Judge<'a, T> {
         let soft = scene.constraint == Constraint::None;
         let within = |g: f64| T::lit(if soft { g } else { g.max(0.0) });
         let faces = || dense.faces.iter().zip(&gap);
+        let touched =
+            |node: usize| solution.touched.as_ref().is_none_or(|near| near.as_slice().expect("in rows")[node]);
+        let share = |&node: &usize| if touched(node) { scene.law.share(node) } else { 0.0 };
+        let share: Vec<f64> = dense.faces.iter().map(share).collect();
         let tractions: Vec<f64> =
-            faces().map(|(&i, &g)| scene.law.share(i) * law.traction(within(g)).widen()).collect();
+            share.iter().zip(&gap).map(|(share, &g)| share * law.traction(within(g)).widen()).collect();
         let springs: Vec<f64> = match wall {
             asperity::constraint::Wall::Springs(springs) => {
                 faces().map(|(&i, &g)| springs.traction(i, T::lit(g)).widen()).collect()
@@ -128,6 +134,7 @@ impl<'a, T: Real> Judge<'a, T> {
             contact,
             tractions,
             springs,
+            share,
             rounding,
             noise,
             scale,
@@ -300,13 +307,13 @@ impl<'a, T: Real> Judge<'a, T> {
             return Ok(());
         }
         let (law, epsilon) = (scene.law.of_gap::<T>(), Self::epsilon());
-        let energy = |(&node, &g): (&usize, &f64)| {
+        let energy = |(share, &g): (&f64, &f64)| {
             let inside = if scene.constraint == Constraint::None { 0.0 } else { g.min(0.0) };
             let bent = if inside < 0.0 { inside * law.traction(T::zero()).widen() } else { 0.0 };
             let energy = law.energy(T::lit(g - inside)).widen() + bent;
-            scene.law.share(node) * energy
+            share * energy
         };
-        let energies: Vec<f64> = dense.faces.iter().zip(gap).map(energy).collect();
+        let energies: Vec<f64> = self.share.iter().zip(gap).map(energy).collect();
         let steep: f64 = self.tractions.iter().zip(gap).map(|(t, g)| (t * g).abs()).sum();
         let size = energies.iter().map(|e| e.abs()).sum::<f64>() + 4.0 * steep;
         let decay = (largest(gap) / scene.law.range).min(100.0);
@@ -436,7 +443,7 @@ impl<'a, T: Real> Judge<'a, T> {
     /// The traction and the slope of a node's energy, in `f64`.
     fn local<'b>(&'b self, law: &'b dyn AdhesionLaw<f64>) -> impl Fn(usize, f64) -> [f64; 2] + 'b {
         move |i, gap| {
-            let share = self.scene.law.share(self.dense.faces[i]);
+            let share = self.share[i];
             let soft = self.scene.constraint == Constraint::None;
             let [traction, slope] =
                 if soft || gap >= 0.0 { [law.traction(gap), law.slope(gap)] } else { [law.traction(0.0), 0.0] };

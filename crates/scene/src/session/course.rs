@@ -69,6 +69,15 @@ impl<T: Real> Place<T> {
         }
     }
 
+    /// Where surfaces have not parted, on the grid of the operator.
+    fn marks(&mut self) -> Vec<&mut Array2<bool>> {
+        match &mut self.strategy {
+            Strategy::Sweep(sweep) => sweep.marks().collect(),
+            Strategy::Search(search) => search.marks().collect(),
+            Strategy::Cycle(path) => path.marks().collect(),
+        }
+    }
+
     /// The place with whole fields, where processes share a grid; all of them have to ask.
     pub(crate) fn whole(&self, grid: &Grid) -> Cow<'_, Self> {
         if !grid.is_shared() {
@@ -78,15 +87,20 @@ impl<T: Real> Place<T> {
         for field in place.fields() {
             *field = grid.whole(&*field).into_owned();
         }
+        for marks in place.marks() {
+            *marks = grid.whole(&*marks).into_owned();
+        }
         Cow::Owned(place)
     }
 
     /// The place with the rows of this process, of whole fields.
     pub(crate) fn shared(mut self, grid: &Grid) -> Self {
         if grid.is_shared() {
-            self.fields()
-                .into_iter()
-                .for_each(|field| *field = field.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned());
+            fn share<A: Clone>(field: &mut Array2<A>, grid: &Grid) {
+                *field = field.slice_axis(Axis(0), Slice::from(grid.rows())).to_owned();
+            }
+            self.fields().into_iter().for_each(|field| share(field, grid));
+            self.marks().into_iter().for_each(|marks| share(marks, grid));
         }
         self
     }
