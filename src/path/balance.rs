@@ -10,7 +10,7 @@ const LOCATED: f64 = 0.2;
 
 /// The same as a share of what all jumps have dissipated, of a law that attracts next to contacts alone: there the energy
 /// that a loop dissipates is known to the grid, and not to where in its step a jump is.
-const LOCATED_OF_ALL: f64 = 0.02;
+const LOCATED_OF_ALL: f64 = 0.01;
 
 /// The share of the dissipated energy in the scale of an imbalance: where there are many jumps, those that are small
 /// compared with all before are not located one by one.
