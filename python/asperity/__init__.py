@@ -20,18 +20,15 @@ from ._asperity import Iteration, Law, check_law
 from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
 from ._cycle import Cycle, Step
-from ._fit import CurveFit, fit_curve
 from ._flow import Flow, Leakage, leakage
 from ._folder import load, report
 from ._interface import Interface
-from ._likelihood import Estimate, ModelFit
 from ._laws import *
 from ._laws import CutOff, Tabulated, Varying
 from ._pair import contact_modulus
 from ._prepare import prepare
 from ._progress import progress
 from ._pull_off import PullOff
-from ._read_curve import ForceCurve, read_curve
 from ._solution import (
     Conductance,
     Constriction,
@@ -42,12 +39,12 @@ from ._solution import (
 )
 from ._stability import Stability
 from ._sweep import Sweep
-from ._tip_table import TipTable
 from ._topography import Topography, from_topography, read
 from ._types import OwnLaw, Report
 from ._viscoelastic import Moment, Viscoelastic
 from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
+from .curves import CurveFit, Estimate, ForceCurve, ModelFit, TipTable, fit_curve, read_curve
 
 __all__ = [
     "AccuracyWarning",

@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _asperity
-from ._branches import ordered
-from ._equilibria import Array
-from ._instruments import told
-from ._words import checked
+from .. import _asperity
+from .._instruments import told
+from .._words import checked
+from .branches import ordered
+from .tips import Array
 
 #: The name of a column, and its unit in parentheses, brackets, or behind a slash.
 _HEADING = re.compile(r"^(.*?)[\s_]*(?:\(([^()]*)\)|\[([^\[\]]*)\]|/\s*(\S+))$")
@@ -34,6 +34,9 @@ class ForceCurve(NamedTuple):
 
     z: Array
     force: Array
+
+
+ForceCurve.__module__ = "asperity"
 
 
 @checked

@@ -7,16 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _asperity, _plot
-from ._branches import ordered
-from ._curve import Curve, Direction, all_fits
-from ._equilibria import Array, Paraboloid, scipy
-from ._likelihood import Estimate, Likelihood, ModelFit
-from ._tip_table import TipTable
-from ._types import Quantity
-from ._units import given, in_unit, number
-from ._warnings import InputWarning, warn
-from ._words import checked
+from .. import _asperity, _plot
+from .._types import Quantity
+from .._units import given, in_unit, number
+from .._warnings import InputWarning, warn
+from .._words import checked
+from .branches import ordered
+from .curve import Curve, Direction
+from .likelihood import LEVEL, UNLIKELY, Estimate, Likelihood, ModelFit
+from .search import search
+from .tip_table import TipTable
+from .tips import Array, Paraboloid, Tip, scipy
 
 
 class CurveFit:
@@ -32,10 +33,10 @@ class CurveFit:
     young : Estimate or None
         Young's modulus E = E* (1 − ν²) under a rigid tip, if Poisson's ratio was given.
     work_of_adhesion : Estimate or None
-        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out. None with a table
-        without adhesion.
+        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out. None without adhesion.
     tabor_parameter : Estimate or None
-        Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out. None with a table, as `range`.
+        Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out. None with a table or a model
+        that was given, as `range`.
     range : Estimate or None
         Range ρ of the adhesion after Maugis and Dugdale, a length.
     contact_point : Estimate
@@ -50,7 +51,8 @@ class CurveFit:
     names : tuple of str
         Rows of the covariance: modulus, work_of_adhesion, contact_point, offset, slope, and drift.
     models : dict
-        `ModelFit` of Hertz, DMT, Maugis and JKR by these names, with a table of ``"no adhesion"`` and ``"adhesion"``.
+        `ModelFit` of Hertz, DMT, Maugis and JKR by these names, with a table of ``"no adhesion"`` and ``"adhesion"``; the
+        one that was given alone.
     verdict : str
         Which of these the curve tells apart, in a sentence, with the table, its limits and its error.
     z, force, fitted, residuals : ndarray
@@ -149,6 +151,7 @@ def fit_curve(
     spring_stiffness: Quantity | None = None,
     poisson: float | None = None,
     direction: Direction | None = None,
+    model: str | None = None,
     jumps: bool = True,
     length_unit: str | None = None,
     force_unit: str | None = None,
@@ -180,6 +183,8 @@ def fit_curve(
     direction : {"approach", "withdrawal"}, optional
         The only direction that was recorded. By default points up to the greatest z are the approach, and those behind it
         are the withdrawal. With a direction the order may be either.
+    model : {"hertz", "dmt", "maugis", "jkr"}, optional
+        The only model to fit, quicker than all; of a table ``"no adhesion"`` or ``"adhesion"``.
     jumps : bool
         Whether to fit the places of jumps, which are where an equilibrium ends. Vibrations may bring a jump early: then
         False takes from a jump only on which side of it a point is.
@@ -238,10 +243,106 @@ def fit_curve(
             warn(against, InputWarning)
     elif (z[-1] > z[0]) != (direction == "approach"):
         z, force = z[::-1], force[::-1]
-    scipy("optimize")
+    scipy("special")
     _refuse_saturated(force)
-    curve = Curve(z, force, direction, tip or Paraboloid(_positive("radius", radius)), compliance, jumps)
-    return CurveFit(**Likelihood(curve, all_fits(curve)).told(poisson, si))
+    shape: Tip = tip or Paraboloid(_positive("radius", radius))
+    models = _models(shape, model)
+    curve = Curve(z, force, direction, shape, compliance)
+    return _told(Likelihood(curve, search(curve, models, jumps)), poisson, si)
+
+
+CurveFit.__module__ = "asperity"
+
+
+def _models(tip: Tip, model: str | None) -> list[str]:
+    """The models to be fitted, in their order."""
+    if model is None:
+        return list(tip.fewer)
+    found = [name for name in tip.fewer if name.lower() == str(model).lower()]
+    if not found:
+        raise ValueError(f"model is {model!r}: it must be one of {', '.join(map(repr, map(str.lower, tip.fewer)))}, or left out for all")
+    return found
+
+
+def _told(found: Likelihood, poisson: float | None, is_si: bool) -> CurveFit:
+    """All numbers by their names, or the refusal of a curve that does not tell them."""
+    curve, fits, best = found.curve, found.fits, found.best
+    line = float(np.sum(curve.cleared(curve.force) ** 2))
+    if found.special.fdtrc(4, found.freedom, max(line - found.least, 0.0) / found.variance / 4.0) > 1e-4:
+        curve.refuse_empty()
+    modulus = found.modulus()
+    if not modulus.upper < 10.0 * modulus.lower:
+        curve.refuse_vague(modulus.lower, modulus.upper)
+    models = {name: found.model(name) for name in found.names}
+    least = min(model.aic for model in models.values())
+    ratio = None if poisson is None else _asperity.contact_modulus([(1.0, number("poisson", poisson))])
+    load = fits.load[best, : curve.z.size]
+    fitted = load + curve.columns @ np.array(curve.baseline(load))[: curve.columns.shape[1]]
+    approach = float((curve.z - fits.point[best] - curve.compliance * load).max())
+    tabor, work = found.tabor(), found.work()
+    curve.tip.check_reach(modulus.value, 0.0 if work is None else work.upper, approach)
+    alike, by_chance = found.likeness(best)
+    if by_chance < UNLIKELY:
+        warn(
+            f"residuals of neighbouring points have a correlation of {alike:.2f}: the curve is not that of "
+            f"{curve.tip.what}, or its noise is slow, and the intervals are too narrow; plot() shows it",
+            InputWarning,
+        )
+    offset, slope, *drift = found.line()
+    return CurveFit(
+        modulus=modulus,
+        young=None if ratio is None else Estimate(*(end / ratio for end in modulus)),
+        work_of_adhesion=work,
+        tabor_parameter=tabor,
+        range=found.range(),
+        contact_point=found.point(),
+        offset=offset,
+        slope=slope,
+        drift=drift[0] if drift else None,
+        covariance=found.covariance(),
+        names=("modulus", "work_of_adhesion", "contact_point", "offset", "slope") + ("drift",) * len(drift),
+        models={name: model._replace(aic=model.aic - least) for name, model in models.items()},
+        verdict=_verdict(found, models, tabor, work, by_chance < UNLIKELY, is_si),
+        z=curve.z,
+        force=curve.force,
+        fitted=fitted,
+        residuals=curve.force - fitted,
+        noise=float(np.sqrt(found.least / found.freedom)),
+        _turn=curve.turn,
+        _is_si=is_si,
+    )
+
+
+def _verdict(
+    found: Likelihood,
+    models: dict[str, ModelFit],
+    tabor: Estimate | None,
+    work: Estimate | None,
+    is_unlikely: bool,
+    is_si: bool,
+) -> str:
+    """Which models the curve tells apart, in a sentence."""
+    what, nearest = found.curve.tip.what, str(found.fits.model[found.best])
+    if is_unlikely:
+        count = {1: "This model does not fit", 2: "Neither model fits"}.get(len(models), "None of the four models fits")
+        return f"{count}: residuals of neighbouring points are alike. The nearest is {nearest}."
+    if len(models) == 1:
+        return f"By {nearest} alone, for {what}." if work is not None else f"By {what}, without adhesion."
+    bare, model = next(iter(models.items()))
+    if found.is_bare and work is not None:
+        unit = " J/m²" if is_si else ""
+        told = "the tip without it" if tabor is None else bare
+        return f"No adhesion is seen: {told} fits as well, and the work of adhesion is at most {work.upper:.3g}{unit}."
+    if tabor is None:
+        return f"Adhesion is seen, by {what}."
+    fits = [name for name in ("DMT", "JKR") if models[name].p_value >= LEVEL or name == nearest]
+    if len(fits) == 2:
+        return "Adhesion is seen, but the curve cannot tell DMT from JKR: both fit as well as Maugis."
+    if fits == ["DMT"]:
+        return f"DMT fits as well as Maugis, with a Tabor parameter of at most {tabor.upper:.2g}; JKR is ruled out."
+    if fits == ["JKR"]:
+        return f"JKR fits as well as Maugis, with a Tabor parameter of at least {tabor.lower:.2g}; DMT is ruled out."
+    return f"Maugis, with a Tabor parameter from {tabor.lower:.2g} to {tabor.upper:.2g}; Hertz, DMT and JKR are ruled out."
 
 
 def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tuple[Array, Array]:

@@ -9,14 +9,14 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 
-from . import _asperity
-from ._body import Layer
-from ._contact import Contact, cycle
-from ._equilibria import Array, Equilibria, scipy
-from ._topography import Heights
-from ._types import AxisOrder, Lengths, OwnLaw, Quantity
-from ._units import number
-from ._warnings import InputWarning, warn
+from .. import _asperity
+from .._body import Layer
+from .._contact import Contact, cycle
+from .._topography import Heights
+from .._types import AxisOrder, Lengths, OwnLaw, Quantity
+from .._units import number
+from .._warnings import InputWarning, warn
+from .tips import Array, flat, scipy
 
 #: Distances and forces.
 Pair: TypeAlias = tuple[Array, Array]
@@ -117,9 +117,9 @@ class TipTable:
             # of moduli that are not those of the body
             warnings.filterwarnings("ignore", "hardness", InputWarning)
             found = self._table([*pool.map(ways, roots)])
-        self._bare = found[0]
+        self._bare, self._core = found[0], None
         self.fewer, self.tabor = {"no adhesion": 1}, np.ones(0)
-        self.ratio, self.error, self.radius = 0.0, 0.0, high
+        self.ratio, self.error, self.radius, self.is_smooth = 0.0, 0.0, high, False
         if contact.adheres:
             self.fewer, self.tabor = {"no adhesion": 1, "adhesion": 0}, np.ones(1)
             row = contact.sweep(**self._loads([low])).run().rows[0]
@@ -129,7 +129,8 @@ class TipTable:
                 work = -np.mean(own.energy(np.zeros(contact.topography.heights.shape)))
             self.ratio, self._law = float(work) / softest, row["law"]
             between = scipy("interpolate").PchipInterpolator
-            self._between = between(roots, found)
+            self._roots, self._rows = roots, found
+            self._slopes = between(roots, found).derivative()(roots)
             pull, far = -found[-1, :-2].min(), -found[-1, 0]
             self.radius = float(pull / (1.75 * np.pi * self.ratio))
             self.error = _error(between(roots[::2], found[::2]), roots[1::2], found[1::2])
@@ -199,35 +200,57 @@ class TipTable:
 
         return np.array([row(both, *pair) for both, pair in zip(ways, places)])
 
-    def _equilibria(self, modulus: float, root: float) -> tuple[Array, Array]:
-        """Approaches and loads of both ways."""
-        pieces = self._between(min(root, 1.1)) if root else self._bare
+    def __getstate__(self) -> dict[str, Any]:
+        # the compiled core makes its equilibria anew
+        return {**self.__dict__, "_core": None}
+
+    @property
+    def size(self) -> float:
+        """The greatest w/E*."""
+        return self.ratio or 1.0
+
+    @property
+    def equilibria(self) -> Any:
+        """The equilibria without adhesion, and those over the cubic root of w/E* over the greatest."""
+        if self._core is None:
+            zero = np.zeros_like(self._bare)
+            there, back = (np.concatenate(pair, 1) for pair in zip(self._ways(self._bare), self._ways(zero, is_slope=True)))
+            models: list[Any] = [(np.zeros(1), there[None], back[None])]
+            if self.ratio:
+                pairs = [
+                    [np.concatenate(pair, 1) for pair in zip(self._ways(row), self._ways(slope, is_slope=True))]
+                    for row, slope in zip(self._rows, self._slopes)
+                ]
+                models.append((self._roots, *(np.array(way) for way in zip(*pairs))))
+            self._core = _asperity.Equilibria(models)
+        return self._core
+
+    def _ways(self, pieces: Array, is_slope: bool = False) -> tuple[Array, Array]:
+        """Approaches and loads over E* of both ways, or how they change with the root."""
+        low, high = (0.0, 0.0) if is_slope else (self.low, self.high)
         tail, behind, drawn, (place, off) = np.split(pieces, np.arange(1, 4) * _ROOTS.size)
-        before = place - (place - self.low) * _ROOTS[::-1] ** 2
-        apart = before < off
+        far = -_ROOTS[::-1] ** 2
 
-        def way(start: float, first: Array, force: Array, then: Array) -> Array:
-            where = np.append(first, start + (self.high - start) * _ROOTS**2)
-            load = np.append(force, then)
-            # a fit may look beyond the table, and what it finds there is refused
-            slope = (load[-1] - load[-2]) / (where[-1] - where[-2])
-            span = 9.0 * (self.high - self.low)
-            return np.stack([np.append(where, where[-1] + span), modulus * np.append(load, load[-1] + span * slope)])
+        def way(start: float, before: Array, force: Array, then: Array) -> Array:
+            where = np.append(before, start + (high - start) * _ROOTS**2)
+            return np.stack([where, np.append(force, then)], 1)
 
-        return way(place, before, tail, behind), way(off, before[apart], tail[apart], drawn)
+        before = place + (place - low) * far
+        return way(place, before, tail, behind), way(off, off + (off - low) * far, tail, drawn)
 
-    def limit(self, name: str) -> Equilibria:
-        return lambda modulus, work: self._equilibria(modulus, 0.0)
+    def adheres(self, name: str) -> bool:
+        return name == "adhesion"
 
-    def at(self, log_tabor: float) -> Equilibria:
-        return lambda modulus, work: self._equilibria(modulus, (work / modulus / self.ratio) ** (1.0 / 3.0))
+    def _loading(self) -> tuple[Array, Array]:
+        """Approaches and loads over E* of the approach without adhesion, in contact."""
+        where, load = self._ways(self._bare)[0][_ROOTS.size :].T
+        return where, load
 
     def load(self, approach: Array) -> Array:
-        where, loads = self._equilibria(1.0, 0.0)[0]
-        return np.asarray(np.interp(approach, where, loads))
+        return np.asarray(np.interp(approach, *self._loading()))
 
     def approach(self, load: Array) -> Array:
-        where, loads = self._equilibria(1.0, 0.0)[0][:, _ROOTS.size :]
+        where, loads = self._loading()
         return np.asarray(np.interp(load, loads, where))
 
     def least_work(self, modulus: float, approach: float) -> float:
@@ -235,6 +258,9 @@ class TipTable:
 
     def holds(self, modulus: float, work: float, tabor: float, before: float) -> bool:
         return work <= 1.001 * self.ratio * modulus
+
+    def greatest_work(self, modulus: float, tabor: float, before: float) -> float:
+        return np.inf
 
     def check_reach(self, modulus: float, work: float, approach: float) -> None:
         if work > 1.001 * self.ratio * modulus:
@@ -247,6 +273,9 @@ class TipTable:
                 f"the curve goes to an approach of {approach:.3g}, and the table to {self.high:.3g}: make one that goes "
                 "further, or leave out points"
             )
+
+
+TipTable.__module__ = "asperity"
 
 
 def _jump(approach: Array, load: Array, jumps: Array) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._equilibria import Array
+from .tips import Array
 
 #: The fewest points of a branch.
 _FEWEST = 8

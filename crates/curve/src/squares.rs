@@ -1,0 +1,370 @@
+//! The least squares of a curve: what a contact predicts at its points, and the steps to the best parameters.
+
+use crate::tip::{Chain, Contact, Knot, Model, Scale};
+use crate::ways::{Place, Way};
+
+/// Parameters of a fit: the logarithm of the modulus over its scale, the root of the work of adhesion over its scale, the
+/// contact point less its origin over its scale, and the logarithm of the Tabor parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// ln(E*/E₀)
+    pub log_modulus: f64,
+    /// p of the work of adhesion w = w₀(p² + a floor)
+    pub root_work: f64,
+    /// (z − z₀)/L
+    pub point: f64,
+    /// ln μ
+    pub log_tabor: f64,
+}
+
+impl Parameters {
+    fn to_array(self) -> [f64; 4] {
+        [self.log_modulus, self.root_work, self.point, self.log_tabor]
+    }
+
+    fn from_array([log_modulus, root_work, point, log_tabor]: [f64; 4]) -> Self {
+        Self { log_modulus, root_work, point, log_tabor }
+    }
+}
+
+/// Scales of the parameters of a curve.
+#[derive(Clone, Copy, Debug)]
+pub struct Scales {
+    /// contact modulus E₀
+    pub modulus: f64,
+    /// work of adhesion w₀
+    pub work: f64,
+    /// the least work over its scale
+    pub floor: f64,
+    /// contact point z₀
+    pub point: f64,
+    /// length L
+    pub length: f64,
+}
+
+/// The side of a jump on which a point is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// on neither
+    Free,
+    /// before contact, or after it
+    Apart,
+    /// in contact
+    Contact,
+}
+
+/// Where a jump was seen, and the force that a shift of it by a length weighs as much as.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seen {
+    /// its position
+    pub place: f64,
+    /// force per length; none counts it not
+    pub weight: f64,
+}
+
+/// On which sides of jumps the points are, and where the jumps of approach and withdrawal were seen; no sides without any.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sides {
+    /// for each point
+    pub sides: Vec<Side>,
+    /// on the approach and on the withdrawal
+    pub seen: [Seen; 2],
+}
+
+/// A force curve, and what a fit of it has to know.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// positions in the order of time, greater as the bodies come closer
+    pub z: Vec<f64>,
+    /// forces, compression positive
+    pub force: Vec<f64>,
+    /// the first point of the withdrawal
+    pub turn: usize,
+    /// compliance of the spring
+    pub compliance: f64,
+    /// an orthonormal basis of the baseline, one column after the other
+    pub baseline: Vec<Vec<f64>>,
+    /// standard deviation of the noise
+    pub noise: f64,
+    /// scales of the parameters
+    pub scales: Scales,
+    /// the scaling of the tip
+    pub scale: Scale,
+    /// points of approach and withdrawal in the order of their positions
+    pub order: [Vec<usize>; 2],
+}
+
+/// A fit of a model.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// the number of its model
+    pub model: usize,
+    /// its parameters
+    pub parameters: Parameters,
+    /// which of these vary
+    pub free: [bool; 4],
+    /// the sides of its points
+    pub sides: Sides,
+    /// the sum of the squares of its residuals
+    pub squares: f64,
+}
+
+/// What a fit predicts, and room for it.
+#[derive(Debug, Default)]
+pub struct Prediction {
+    /// loads at the points
+    pub load: Vec<f64>,
+    /// their derivatives by the parameters
+    pub load_by: Vec<[f64; 4]>,
+    /// how far the jumps of approach and withdrawal are off, as forces
+    pub off: [f64; 2],
+    /// their derivatives
+    pub off_by: [[f64; 4]; 2],
+    knots: [Vec<Knot>; 2],
+    pub(crate) ways: [Way; 2],
+    rest: Vec<f64>,
+}
+
+const LOWEST: [f64; 4] = [-14.0, 1e-4, -400.0, f64::NEG_INFINITY];
+const HIGHEST: [f64; 4] = [14.0, 50.0, 400.0, f64::INFINITY];
+const LONGEST: [f64; 4] = [0.7, 1.0, 10.0, 1.0];
+
+impl Prediction {
+    pub(crate) fn knots_of(&self, way: usize) -> &[Knot] {
+        &self.knots[way]
+    }
+}
+
+impl Curve {
+    /// A curve with its points in the order of their positions.
+    #[must_use]
+    pub fn ordered(mut self) -> Self {
+        let sorted = |range: std::ops::Range<usize>| {
+            let mut order: Vec<_> = range.collect();
+            order.sort_by(|&a, &b| self.z[a].total_cmp(&self.z[b]));
+            order
+        };
+        self.order = [sorted(0..self.turn), sorted(self.turn..self.z.len())];
+        self
+    }
+
+    /// The contact of parameters.
+    #[must_use]
+    pub fn contact(&self, parameters: &Parameters) -> Contact {
+        Contact {
+            modulus: self.scales.modulus.ln() + parameters.log_modulus,
+            work: (self.scales.work * (parameters.root_work.powi(2) + self.scales.floor)).ln(),
+            tabor: parameters.log_tabor,
+        }
+    }
+
+    /// Takes from values what a baseline explains.
+    pub(crate) fn clear(&self, values: &mut [f64]) {
+        for column in &self.baseline {
+            let share: f64 = column.iter().zip(&*values).map(|(a, b)| a * b).sum();
+            values.iter_mut().zip(column).for_each(|(value, a)| *value -= share * a);
+        }
+    }
+
+    /// The equilibria of parameters and the ways along them; the shift of the contact point.
+    pub(crate) fn follow(&self, model: &Model, parameters: &Parameters, room: &mut Prediction) -> (f64, Chain) {
+        let (length, force, shape, chain) = self.scale.of(self.contact(parameters));
+        model.at(shape, length, force, &mut room.knots);
+        room.ways[0].follow(&room.knots[0], self.compliance, false);
+        room.ways[1].follow(&room.knots[usize::from(model.has_two_ways())], self.compliance, true);
+        (self.scales.point + self.scales.length * parameters.point, chain)
+    }
+
+    /// What a fit predicts.
+    pub fn predict(&self, model: &Model, parameters: &Parameters, sides: &Sides, room: &mut Prediction) {
+        let (point, chain) = self.follow(model, parameters, room);
+        let (points, two) = (self.z.len(), usize::from(model.has_two_ways()));
+        room.load.resize(points, 0.0);
+        room.load_by.resize(points, [0.0; 4]);
+        let root = parameters.root_work;
+        let by_root = 2.0 * root / (root * root + self.scales.floor);
+        let c = self.compliance;
+        let ends = [room.ways[0].end_position(), room.ways[1].end_position()];
+        for (branch, order) in self.order.iter().enumerate() {
+            let mut from = 0;
+            for &i in order {
+                let z = self.z[i] - point;
+                let side = sides.sides.get(i).copied().unwrap_or(Side::Free);
+                let mut way = branch;
+                let other = match (side, ends) {
+                    (Side::Apart, [Some(_), Some(last)]) if branch == 0 || z > last => Some((0, room.ways[0].apart(z))),
+                    (Side::Contact, [Some(first), Some(_)]) if branch == 1 || z < first => {
+                        Some((1, room.ways[1].contact(z)))
+                    }
+                    _ => None,
+                };
+                let place = match other {
+                    Some((on, Some(place))) => {
+                        way = on;
+                        place
+                    }
+                    _ => room.ways[way].place(z, &mut from),
+                };
+                let knots = &room.knots[way * two];
+                let (load, by) = at(knots, place, c, &chain);
+                room.load[i] = load;
+                room.load_by[i] = [by[0], by[1] * by_root, by[3] * self.scales.length, by[2]];
+            }
+        }
+        for branch in 0..2 {
+            let (seen, end) = (sides.seen[branch], room.ways[branch].end());
+            (room.off[branch], room.off_by[branch]) = (0.0, [0.0; 4]);
+            if let (true, Some(end)) = (seen.weight > 0.0, end) {
+                let knot = &room.knots[branch * two][end];
+                room.off[branch] = (point + room.ways[branch].positions[end] - seen.place) * seen.weight;
+                let by = |parameter| {
+                    let (approach, load) = chain.moved(knot, parameter);
+                    (approach + c * load) * seen.weight
+                };
+                room.off_by[branch] = [by(0), by(1) * by_root, self.scales.length * seen.weight, by(2)];
+            }
+        }
+    }
+
+    /// The variance of the logarithm of the Tabor parameter for residuals of variance one.
+    pub(crate) fn variance_of_tabor(&self, model: &Model, fit: &Fit, room: &mut Prediction) -> f64 {
+        let (_, normal, _) = self.equations(model, fit, room);
+        solved(normal, [0.0, 0.0, 0.0, 1.0]).map_or(f64::INFINITY, |column| column[3].max(0.0))
+    }
+
+    /// Sum of squares, normal matrix and gradient of a fit.
+    fn equations(&self, model: &Model, fit: &Fit, room: &mut Prediction) -> (f64, [[f64; 4]; 4], [f64; 4]) {
+        self.predict(model, &fit.parameters, &fit.sides, room);
+        let mut rest = std::mem::take(&mut room.rest);
+        rest.clear();
+        rest.extend(self.force.iter().zip(&room.load).map(|(force, load)| force - load));
+        self.clear(&mut rest);
+        let mut squares: f64 = rest.iter().map(|one| one * one).sum();
+        let (mut normal, mut gradient) = ([[0.0; 4]; 4], [0.0; 4]);
+        for (by, one) in room.load_by.iter().zip(&rest) {
+            for j in 0..4 {
+                gradient[j] += by[j] * one;
+                for k in 0..=j {
+                    normal[j][k] += by[j] * by[k];
+                }
+            }
+        }
+        for column in &self.baseline {
+            let mut across = [0.0; 4];
+            for (by, a) in room.load_by.iter().zip(column) {
+                for j in 0..4 {
+                    across[j] += by[j] * a;
+                }
+            }
+            for j in 0..4 {
+                for k in 0..=j {
+                    normal[j][k] -= across[j] * across[k];
+                }
+            }
+        }
+        for (off, by) in room.off.iter().zip(&room.off_by) {
+            squares += off * off;
+            for j in 0..4 {
+                gradient[j] -= by[j] * off;
+                for k in 0..=j {
+                    normal[j][k] += by[j] * by[k];
+                }
+            }
+        }
+        for j in 0..4 {
+            if !fit.free[j] {
+                gradient[j] = 0.0;
+                normal[j] = [0.0; 4];
+                normal.iter_mut().for_each(|row| row[j] = 0.0);
+                normal[j][j] = 1.0;
+            }
+            for k in 0..j {
+                normal[k][j] = normal[j][k];
+            }
+        }
+        room.rest = rest;
+        (squares, normal, gradient)
+    }
+
+    /// Goes to the parameters of least squares near to those of a fit, by the method of Levenberg and Marquardt.
+    ///
+    /// The last step changes the squares by less than a part of the variance of the noise.
+    pub fn improve(&self, models: &[Model], fit: &mut Fit, part: f64, least: f64, room: &mut Prediction) {
+        let model = &models[fit.model];
+        let (mut squares, mut normal, mut gradient) = self.equations(model, fit, room);
+        let mut damping = 1e-3;
+        for _ in 0..40 {
+            let mut damped = normal;
+            (0..4).for_each(|j| damped[j][j] += damping * normal[j][j].max(f64::MIN_POSITIVE));
+            let Some(mut step) = solved(damped, gradient) else { break };
+            let gain: f64 = step.iter().zip(&gradient).map(|(a, b)| a * b).sum();
+            let cut = step.iter().zip(LONGEST).map(|(one, most)| most / one.abs().max(f64::MIN_POSITIVE));
+            let cut = cut.fold(1.0, f64::min);
+            step.iter_mut().for_each(|one| *one *= cut);
+            let old = fit.parameters.to_array();
+            let new = |j: usize| (old[j] + step[j]).clamp(LOWEST[j], HIGHEST[j]);
+            let mut trial = Fit { parameters: Parameters::from_array([new(0), new(1), new(2), new(3)]), ..fit.clone() };
+            if fit.free[3] {
+                let (low, high) = model.ends();
+                trial.parameters.log_tabor = trial.parameters.log_tabor.clamp(low, high);
+            }
+            let found = self.equations(model, &trial, room);
+            let small = gain < part * (squares / self.z.len() as f64).max(least * least);
+            if found.0 <= squares {
+                (squares, normal, gradient) = found;
+                fit.parameters = trial.parameters;
+                damping = (0.2 * damping).max(1e-9);
+            } else {
+                damping *= 5.0;
+            }
+            if small || damping > 1e6 {
+                break;
+            }
+        }
+        fit.squares = squares;
+    }
+}
+
+/// The load at a place, and its derivatives by the logarithms of modulus, work and Tabor parameter, and by the contact point.
+fn at(knots: &[Knot], place: Place, compliance: f64, chain: &Chain) -> (f64, [f64; 4]) {
+    let (a, b) = (&knots[place.knot], &knots[place.knot + 1]);
+    let between: Knot = std::array::from_fn(|i| a[i] + place.share * (b[i] - a[i]));
+    let (rise, run) = (b[1] - a[1], b[0] - a[0] + compliance * (b[1] - a[1]));
+    let slope = if place.clamped || run == 0.0 { 0.0 } else { rise / run };
+    let by = |parameter| {
+        let (approach, load) = chain.moved(&between, parameter);
+        load - slope * (approach + compliance * load)
+    };
+    (between[1], [by(0), by(1), by(2), -slope])
+}
+
+/// The solution of a symmetric positive system, if it is one.
+fn solved(mut matrix: [[f64; 4]; 4], mut right: [f64; 4]) -> Option<[f64; 4]> {
+    let scale: [f64; 4] = std::array::from_fn(|j| matrix[j][j].sqrt());
+    if scale.iter().any(|one| !(one.is_finite() && *one > 0.0)) {
+        return None;
+    }
+    for j in 0..4 {
+        right[j] /= scale[j];
+        for k in 0..4 {
+            matrix[j][k] /= scale[j] * scale[k];
+        }
+    }
+    for j in 0..4 {
+        for k in 0..j {
+            let sum: f64 = (0..k).map(|l| matrix[j][l] * matrix[k][l]).sum();
+            matrix[j][k] = (matrix[j][k] - sum) / matrix[k][k];
+        }
+        let sum: f64 = (0..j).map(|l| matrix[j][l] * matrix[j][l]).sum();
+        matrix[j][j] = (matrix[j][j] - sum).max(1e-14).sqrt();
+    }
+    for j in 0..4 {
+        let sum: f64 = (0..j).map(|l| matrix[j][l] * right[l]).sum();
+        right[j] = (right[j] - sum) / matrix[j][j];
+    }
+    for j in (0..4).rev() {
+        let sum: f64 = (j + 1..4).map(|l| matrix[l][j] * right[l]).sum();
+        right[j] = (right[j] - sum) / matrix[j][j];
+    }
+    Some(std::array::from_fn(|j| right[j] / scale[j]))
+}
