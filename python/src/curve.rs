@@ -72,8 +72,8 @@ impl Curve {
         let [modulus, work, floor, point, length] = scales;
         let scales = Scales { modulus, work, floor, point, length };
         let scale = if smooth { Scale::Paraboloid(size) } else { Scale::Table(size) };
-        let order = Default::default();
-        Ok(Self(Points { z, force, turn, compliance, baseline, noise, scales, scale, order }.ordered()))
+        let (farthest, order) = Default::default();
+        Ok(Self(Points { z, force, turn, compliance, baseline, noise, scales, scale, farthest, order }.ordered()))
     }
 
     /// The best fits of models, in the order of rows of a model and a logarithm of the Tabor parameter.

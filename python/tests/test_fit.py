@@ -73,7 +73,7 @@ def test_the_best_of_several_minima_is_found():
 
 
 def test_a_soft_spring_does_not_tell_the_limits_apart():
-    fit = fitted(2.0, 2.0, noise=0.05)
+    fit = fitted(2.0, 2.0, noise=0.05, points=100)
     assert "cannot tell DMT from JKR" in fit.verdict and fit.tabor_parameter[1:] == (0.0, np.inf)
     assert covers(fit.modulus, MODULUS) and covers(fit.work_of_adhesion, WORK)
 

@@ -46,7 +46,7 @@ impl Curve {
     pub(crate) fn own_sides(&self, model: &Model, fit: &Fit, weigh: bool, least: f64, room: &mut Prediction) -> Sides {
         let noise = self.noise_or(least);
         self.predict(model, &fit.parameters, &fit.sides, room);
-        if room.ways.iter().all(|way| way.size < CLEAR * noise) {
+        if room.greatest_jump() < CLEAR * noise {
             return Sides::default();
         }
         let point = self.scales.point + self.scales.length * fit.parameters.point;
@@ -70,9 +70,7 @@ impl Curve {
                     _ if branch == 0 && first.is_some_and(|first| z > first) => (0, room.ways[0].contact(z)),
                     _ => (1, room.ways[1].contact(z)),
                 };
-                let (knots, place) = (room.knots_of(way * two), place?);
-                let (a, b) = (knots[place.knot][1], knots[place.knot + 1][1]);
-                Some(a + place.share * (b - a))
+                Some(room.load_at(way * two, place?))
             };
             let sides = |&i: &usize| Some([load(i, Side::Apart)?, load(i, Side::Contact)?]);
             let Some(loads) = order.iter().map(sides).collect::<Option<Vec<_>>>() else { continue };

@@ -5,11 +5,15 @@ use crate::tip::Model;
 
 /// The most points by which fits choose their beginnings.
 const FEW: usize = 150;
+/// Of so many fits along the Tabor parameter one has a beginning of its own.
+const NEIGHBOURS: usize = 8;
 /// The most rounds in which fits take their own jumps, and those of their neighbours.
 const ROUNDS: usize = 4;
 /// The parts of a variance of the noise that the last step of a fit may change: on the way, and in the end.
 const ROUGH: f64 = 0.1;
 const FINE: f64 = 1e-3;
+/// The width of a likelihood over the logarithm of the Tabor parameter for which the rows are close enough.
+const WIDE: f64 = 1.0;
 /// Places about the best Tabor parameter at which the likelihood is asked, in deviations.
 const AROUND: [f64; 12] = [-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 
@@ -18,8 +22,8 @@ const AROUND: [f64; 12] = [-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.5, 1.0, 1.5, 2.
 pub struct Asked<'a> {
     /// the models
     pub models: &'a [Model],
-    /// the models of the fits and their logarithms of the Tabor parameter, with those of one model beside each other, and
-    /// from the least range to the greatest or back
+    /// the models of the fits and their logarithms of the Tabor parameter, with those of one model beside each other, in
+    /// their order
     pub rows: Vec<(usize, f64)>,
     /// for each model whether its work of adhesion varies
     pub adheres: Vec<bool>,
@@ -43,8 +47,8 @@ impl Asked<'_> {
         for (k, &(model, log_tabor)) in self.rows.iter().enumerate() {
             // neighbours along the Tabor parameter begin with the parameters of the last
             let begins = match fits.last() {
-                Some(last) if k % 4 != 0 && last.model == model => vec![last.parameters],
-                _ => self.begun(&few, model, log_tabor, &fits, &mut room),
+                Some(last) if k % NEIGHBOURS != 0 && last.model == model => vec![last.parameters],
+                _ => self.begun(&few, model, log_tabor, &fits, steps.is_some(), &mut room),
             };
             let begins = begins.into_iter().map(|parameters| {
                 let free = [true, self.adheres[model], true, false];
@@ -66,18 +70,27 @@ impl Asked<'_> {
                 break;
             }
         }
-        curve.noise = curve.noise_of(&fits);
+        let mut best = self.freed(&curve, &fits, &mut room);
+        for _ in 0..ROUNDS {
+            let noise = curve.noise_of(best.as_ref().map_or(&fits, std::slice::from_ref));
+            let changed = (noise / curve.noise - 1.0).abs() > 0.05;
+            curve.noise = noise;
+            let Some(best) = best.as_mut().filter(|_| changed) else { break };
+            self.settle(&curve, best, FINE, &mut room);
+        }
         for fit in &mut fits {
             self.settle(&curve, fit, FINE, &mut room);
         }
-        self.refine(&curve, &mut fits, &mut room);
+        if let Some(best) = best {
+            self.surround(&curve, &mut fits, best, &mut room);
+        }
         fits
     }
 
     /// Parameters to begin with, by the squares of some points over moduli and contact points that fit each: the best, and
     /// the softest of those that fit about as well, as a soft spring hardly tells a hard contact from a rigid one; and those
     /// of a fit without adhesion.
-    fn begun(&self, few: &Curve, model: usize, log_tabor: f64, fits: &[Fit], room: &mut Prediction) -> Vec<Parameters> {
+    fn begun(&self, few: &Curve, model: usize, log_tabor: f64, fits: &[Fit], jumps: bool, room: &mut Prediction) -> Vec<Parameters> {
         let trials: Vec<(f64, Parameters)> = self
             .begins
             .iter()
@@ -89,7 +102,7 @@ impl Asked<'_> {
         let Some(best) = trials.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { return Vec::new() };
         let mut found = vec![best.1];
         found.extend(trials.iter().find(|trial| trial.0 < 2.0 * best.0).map(|trial| trial.1).filter(|one| *one != best.1));
-        let bare = fits.iter().find(|fit| !fit.free[1] && self.adheres[model]);
+        let bare = fits.iter().find(|fit| !fit.free[1] && self.adheres[model] && !jumps);
         found.extend(bare.map(|fit| Parameters { root_work: 0.3, ..fit.parameters }));
         found
     }
@@ -148,35 +161,37 @@ impl Asked<'_> {
         gained
     }
 
-    /// Finds the best Tabor parameter, and fits at others about it.
-    fn refine(&self, curve: &Curve, fits: &mut Vec<Fit>, room: &mut Prediction) {
-        let Some(full) = self.full else { return };
-        let inner: Vec<usize> = (0..fits.len()).filter(|&k| fits[k].model == full).collect();
-        let squares = |k: usize| fits[inner[k]].squares;
+    /// The fit with the best Tabor parameter, if that is between the rows.
+    fn freed(&self, curve: &Curve, fits: &[Fit], room: &mut Prediction) -> Option<Fit> {
+        let full = self.full?;
+        let inner: Vec<&Fit> = fits.iter().filter(|fit| fit.model == full).collect();
+        let squares = |k: usize| inner.get(k).map_or(f64::INFINITY, |fit| fit.squares);
         let mut least: Vec<usize> = (0..inner.len())
-            .filter(|&k| (k == 0 || squares(k) <= squares(k - 1)) && (k + 1 == inner.len() || squares(k) <= squares(k + 1)))
+            .filter(|&k| squares(k) <= squares(k + 1) && (k == 0 || squares(k) <= squares(k - 1)))
             .collect();
         least.sort_by(|&a, &b| squares(a).total_cmp(&squares(b)));
-        let mut best: Option<Fit> = None;
-        for &k in least.iter().take(4) {
-            let mut fit = Fit { free: [true; 4], ..fits[inner[k]].clone() };
+        let unit = curve.noise.max(self.least).powi(2);
+        // minima that are hardly worse than the best are of one flat likelihood
+        let flat = squares(*least.first()?) + 4.0 * unit;
+        let others = least.iter().skip(1).filter(|&&k| squares(k) > flat).take(3);
+        let freed = least.iter().take(1).chain(others).map(|&k| {
+            let mut fit = Fit { free: [true; 4], ..inner[k].clone() };
             self.settle(curve, &mut fit, FINE, room);
-            if best.as_ref().is_none_or(|best| fit.squares < best.squares) {
-                best = Some(fit);
-            }
-        }
-        let Some(best) = best else { return };
-        let Some(&first) = least.first() else { return };
-        if best.squares >= squares(first) {
-            return;
-        }
+            fit
+        });
+        let best = freed.min_by(|a, b| a.squares.total_cmp(&b.squares))?;
+        (best.squares < squares(least[0])).then_some(best)
+    }
+
+    /// Adds the fit with the best Tabor parameter, and fits at others about it.
+    fn surround(&self, curve: &Curve, fits: &mut Vec<Fit>, best: Fit, room: &mut Prediction) {
+        let model = &self.models[best.model];
         let freedom = curve.z.len().saturating_sub(4 + curve.baseline.len()).max(1) as f64;
-        let width = (curve.variance_of_tabor(&self.models[full], &best, room) * best.squares / freedom).sqrt();
-        let (low, high) = self.models[full].ends();
-        let ends = self.rows.iter().filter(|row| row.0 == full).map(|row| row.1);
-        let low = ends.clone().fold(high, f64::min).max(low);
-        let high = ends.fold(low, f64::max).min(high);
-        let around = AROUND.iter().map(|one| best.parameters.log_tabor + width.min(1.0) * one);
+        let width = (curve.variance_of_tabor(model, &best, room) * best.squares / freedom).sqrt();
+        let rows = || self.rows.iter().filter(|row| row.0 == best.model).map(|row| row.1);
+        let (low, high) = rows().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), one| (low.min(one), high.max(one)));
+        // the rows themselves are as close where the likelihood is wide
+        let around = AROUND.iter().filter(|_| width <= WIDE).map(|one| best.parameters.log_tabor + width * one);
         for log_tabor in around.filter(|&one| one > low && one < high) {
             let parameters = Parameters { log_tabor, ..best.parameters };
             let mut fit = Fit { parameters, free: [true, true, true, false], ..best.clone() };
@@ -184,13 +199,8 @@ impl Asked<'_> {
             fits.push(fit);
         }
         fits.push(best);
-        let rank = |fit: &Fit| self.rows.iter().position(|row| row.0 == fit.model).unwrap_or(0);
-        let falls = self.rows.iter().filter(|row| row.0 == full).map(|row| row.1).is_sorted_by(|a, b| a >= b);
-        let sign = if falls { -1.0 } else { 1.0 };
-        fits.sort_by(|a, b| {
-            let along = (sign * a.parameters.log_tabor).total_cmp(&(sign * b.parameters.log_tabor));
-            rank(a).cmp(&rank(b)).then(along)
-        });
+        let rank = |fit: &Fit| self.rows.iter().position(|row| row.0 == fit.model);
+        fits.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.parameters.log_tabor.total_cmp(&b.parameters.log_tabor)));
     }
 }
 

@@ -90,6 +90,8 @@ pub struct Curve {
     pub scales: Scales,
     /// the scaling of the tip
     pub scale: Scale,
+    /// the greatest position
+    pub farthest: f64,
     /// points of approach and withdrawal in the order of their positions
     pub order: [Vec<usize>; 2],
 }
@@ -120,7 +122,11 @@ pub struct Prediction {
     pub off: [f64; 2],
     /// their derivatives
     pub off_by: [[f64; 4]; 2],
+    /// the knots of both ways, and the model and the shape to which they belong
     knots: [Vec<Knot>; 2],
+    known: Option<(usize, f64)>,
+    /// the force of their loads
+    force: f64,
     pub(crate) ways: [Way; 2],
     rest: Vec<f64>,
 }
@@ -130,8 +136,15 @@ const HIGHEST: [f64; 4] = [14.0, 50.0, 400.0, f64::INFINITY];
 const LONGEST: [f64; 4] = [0.7, 1.0, 10.0, 1.0];
 
 impl Prediction {
-    pub(crate) fn knots_of(&self, way: usize) -> &[Knot] {
-        &self.knots[way]
+    /// The load at a place of a way.
+    pub(crate) fn load_at(&self, way: usize, place: Place) -> f64 {
+        let (a, b) = (self.knots[way][place.knot][1], self.knots[way][place.knot + 1][1]);
+        self.force * (a + place.share * (b - a))
+    }
+
+    /// How much the load changes at the greatest jump.
+    pub(crate) fn greatest_jump(&self) -> f64 {
+        self.force * self.ways.iter().map(|way| way.size).fold(0.0, f64::max)
     }
 }
 
@@ -145,6 +158,7 @@ impl Curve {
             order
         };
         self.order = [sorted(0..self.turn), sorted(self.turn..self.z.len())];
+        self.farthest = self.z.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         self
     }
 
@@ -167,17 +181,25 @@ impl Curve {
     }
 
     /// The equilibria of parameters and the ways along them; the shift of the contact point.
-    pub(crate) fn follow(&self, model: &Model, parameters: &Parameters, room: &mut Prediction) -> (f64, Chain) {
+    pub(crate) fn follow(&self, model: &Model, parameters: &Parameters, room: &mut Prediction) -> (f64, Scaled) {
         let (length, force, shape, chain) = self.scale.of(self.contact(parameters));
-        model.at(shape, length, force, &mut room.knots);
-        room.ways[0].follow(&room.knots[0], self.compliance, false);
-        room.ways[1].follow(&room.knots[usize::from(model.has_two_ways())], self.compliance, true);
-        (self.scales.point + self.scales.length * parameters.point, chain)
+        let known = Some((model.number(), shape));
+        if room.known != known {
+            model.at(shape, &mut room.knots);
+            room.known = known;
+        }
+        room.force = force;
+        let point = self.scales.point + self.scales.length * parameters.point;
+        let (compliance, farthest) = (self.compliance * force, self.farthest - point);
+        room.ways[0].follow(&room.knots[0], length, compliance, farthest, false);
+        room.ways[1].follow(&room.knots[usize::from(model.has_two_ways())], length, compliance, farthest, true);
+        (point, Scaled { length, force, chain })
     }
 
     /// What a fit predicts.
     pub fn predict(&self, model: &Model, parameters: &Parameters, sides: &Sides, room: &mut Prediction) {
-        let (point, chain) = self.follow(model, parameters, room);
+        let shaped = model.shapes() > 1;
+        let (point, scaled) = self.follow(model, parameters, room);
         let (points, two) = (self.z.len(), usize::from(model.has_two_ways()));
         room.load.resize(points, 0.0);
         room.load_by.resize(points, [0.0; 4]);
@@ -206,7 +228,7 @@ impl Curve {
                     _ => room.ways[way].place(z, &mut from),
                 };
                 let knots = &room.knots[way * two];
-                let (load, by) = at(knots, place, c, &chain);
+                let (load, by) = scaled.at(knots, place, c, shaped);
                 room.load[i] = load;
                 room.load_by[i] = [by[0], by[1] * by_root, by[3] * self.scales.length, by[2]];
             }
@@ -218,7 +240,7 @@ impl Curve {
                 let knot = &room.knots[branch * two][end];
                 room.off[branch] = (point + room.ways[branch].positions[end] - seen.place) * seen.weight;
                 let by = |parameter| {
-                    let (approach, load) = chain.moved(knot, parameter);
+                    let (approach, load) = scaled.moved(knot, parameter);
                     (approach + c * load) * seen.weight
                 };
                 room.off_by[branch] = [by(0), by(1) * by_root, self.scales.length * seen.weight, by(2)];
@@ -325,17 +347,42 @@ impl Curve {
     }
 }
 
-/// The load at a place, and its derivatives by the logarithms of modulus, work and Tabor parameter, and by the contact point.
-fn at(knots: &[Knot], place: Place, compliance: f64, chain: &Chain) -> (f64, [f64; 4]) {
-    let (a, b) = (&knots[place.knot], &knots[place.knot + 1]);
-    let between: Knot = std::array::from_fn(|i| a[i] + place.share * (b[i] - a[i]));
-    let (rise, run) = (b[1] - a[1], b[0] - a[0] + compliance * (b[1] - a[1]));
-    let slope = if place.clamped || run == 0.0 { 0.0 } else { rise / run };
-    let by = |parameter| {
-        let (approach, load) = chain.moved(&between, parameter);
-        load - slope * (approach + compliance * load)
-    };
-    (between[1], [by(0), by(1), by(2), -slope])
+/// The units of knots, and how they change.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scaled {
+    length: f64,
+    force: f64,
+    chain: Chain,
+}
+
+impl Scaled {
+    /// How approach and load of a knot change by a logarithm of the contact.
+    fn moved(&self, knot: &Knot, by: usize) -> (f64, f64) {
+        let (approach, load) = self.chain.moved(knot, by);
+        (self.length * approach, self.force * load)
+    }
+
+    /// The load at a place, and its derivatives by the logarithms of modulus, work and Tabor parameter, and by the contact
+    /// point; knots of several shapes change with these.
+    fn at(&self, knots: &[Knot], place: Place, compliance: f64, shaped: bool) -> (f64, [f64; 4]) {
+        let (a, b) = (&knots[place.knot], &knots[place.knot + 1]);
+        let mixed = |i: usize| a[i] + place.share * (b[i] - a[i]);
+        let rise = self.force * (b[1] - a[1]);
+        let run = self.length * (b[0] - a[0]) + compliance * rise;
+        let slope = if place.clamped || run == 0.0 { 0.0 } else { rise / run };
+        let (approach, load) = (self.length * mixed(0), self.force * mixed(1));
+        let chain = &self.chain;
+        let held = 1.0 - slope * compliance;
+        let mut by: [f64; 4] = [0, 1, 2, 3].map(|parameter| match parameter {
+            3 => -slope,
+            _ => held * chain.force[parameter] * load - slope * chain.length[parameter] * approach,
+        });
+        if shaped {
+            let shape = held * self.force * mixed(3) - slope * self.length * mixed(2);
+            by.iter_mut().zip(chain.shape).for_each(|(one, part)| *one += part * shape);
+        }
+        (load, by)
+    }
 }
 
 /// The solution of a symmetric positive system, if it is one.

@@ -1,5 +1,7 @@
 //! Equilibria of a tip: approaches and loads at knots, over modulus, work of adhesion and Tabor parameter.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 /// Approach, load, and their derivatives by the shape of the branch.
 pub type Knot = [f64; 4];
 
@@ -21,7 +23,12 @@ pub struct Model {
     approach: Vec<Vec<Knot>>,
     /// for each shape the knots of the withdrawal; none where it goes along the same equilibria
     withdrawal: Vec<Vec<Knot>>,
+    /// which of all models it is
+    number: usize,
 }
+
+/// The number of models that were made.
+static MADE: AtomicUsize = AtomicUsize::new(0);
 
 /// What a contact has, in logarithms.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +99,7 @@ impl Model {
         if shapes.is_empty() || !even(&approach) || !(withdrawal.is_empty() || even(&withdrawal)) {
             return Err("a table of equilibria needs as many knots, three or more, at each shape");
         }
-        Ok(Self { shapes, approach, withdrawal })
+        Ok(Self { shapes, approach, withdrawal, number: MADE.fetch_add(1, Ordering::Relaxed) })
     }
 
     /// Whether the withdrawal has equilibria of its own.
@@ -101,28 +108,38 @@ impl Model {
         !self.withdrawal.is_empty()
     }
 
+    /// Which of all models it is.
+    pub(crate) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// The number of shapes.
+    pub(crate) fn shapes(&self) -> usize {
+        self.shapes.len()
+    }
+
     /// The first and the last shape.
     pub(crate) fn ends(&self) -> (f64, f64) {
         (self.shapes[0], self.shapes[self.shapes.len() - 1])
     }
 
-    /// The knots of both ways at a shape, with lengths and forces in units of these.
-    pub(crate) fn at(&self, shape: f64, length: f64, force: f64, ways: &mut [Vec<Knot>; 2]) {
-        let scaled = |[a, p, da, dp]: Knot| [length * a, force * p, length * da, force * dp];
+    /// The knots of both ways at a shape.
+    pub(crate) fn at(&self, shape: f64, ways: &mut [Vec<Knot>; 2]) {
+        let last = self.shapes.len() - 1;
+        let shape = shape.clamp(self.shapes[0], self.shapes[last]);
+        let k = self.shapes.partition_point(|&knot| knot < shape).clamp(usize::from(last > 0), last);
         for (way, found) in [&self.approach, &self.withdrawal].into_iter().zip(ways) {
             found.clear();
             if way.is_empty() {
                 continue;
             }
-            let last = self.shapes.len() - 1;
-            let shape = shape.clamp(self.shapes[0], self.shapes[last]);
-            let k = self.shapes.partition_point(|&knot| knot < shape).clamp(usize::from(last > 0), last);
             if last == 0 || self.shapes[k] == shape {
-                found.extend(way[k].iter().copied().map(scaled));
+                found.extend_from_slice(&way[k]);
                 continue;
             }
             // of Hermite
-            let (width, t) = (self.shapes[k] - self.shapes[k - 1], (shape - self.shapes[k - 1]) / (self.shapes[k] - self.shapes[k - 1]));
+            let width = self.shapes[k] - self.shapes[k - 1];
+            let t = (shape - self.shapes[k - 1]) / width;
             let (t2, u) = (t * t, 1.0 - t);
             let values = [(1.0 + 2.0 * t) * u * u, t2 * (3.0 - 2.0 * t), width * t * u * u, -width * t2 * u];
             let rates = [-6.0 * t * u / width, 6.0 * t * u / width, u * (1.0 - 3.0 * t), t * (3.0 * t - 2.0)];
@@ -130,7 +147,7 @@ impl Model {
                 weights[0] * a[i] + weights[1] * b[i] + weights[2] * a[i + 2] + weights[3] * b[i + 2]
             };
             found.extend(way[k - 1].iter().zip(&way[k]).map(|(a, b)| {
-                scaled([mixed(&values, a, b, 0), mixed(&values, a, b, 1), mixed(&rates, a, b, 0), mixed(&rates, a, b, 1)])
+                [mixed(&values, a, b, 0), mixed(&values, a, b, 1), mixed(&rates, a, b, 0), mixed(&rates, a, b, 1)]
             }));
         }
     }

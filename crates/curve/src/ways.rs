@@ -26,11 +26,15 @@ pub(crate) struct Place {
 }
 
 impl Way {
-    /// Goes along knots, from bodies apart, or back from the last of them.
-    pub fn follow(&mut self, knots: &[Knot], compliance: f64, withdraws: bool) {
+    /// Goes along knots from bodies apart up to a position, or back from there. Positions are the approach times a length,
+    /// and the load times a compliance.
+    pub fn follow(&mut self, knots: &[Knot], length: f64, compliance: f64, farthest: f64, withdraws: bool) {
         self.withdraws = withdraws;
         self.positions.clear();
-        self.positions.extend(knots.iter().map(|knot| knot[0] + compliance * knot[1]));
+        let position = |knot: &Knot| length * knot[0] + compliance * knot[1];
+        // equilibria behind the farthest position are of no use
+        let used = knots.iter().rposition(|knot| position(knot) <= farthest).map_or(0, |knot| knot + 1);
+        self.positions.extend(knots[..(used + 1).clamp(3, knots.len())].iter().map(position));
         self.passed.clear();
         let positions = &self.positions;
         if withdraws {

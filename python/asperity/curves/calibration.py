@@ -17,6 +17,8 @@ from .tips import Array, scipy
 
 #: The number of samples, and falls of the squares, in variances, of rounding, and such that none is expected.
 _SAMPLES, _NONE, _FAR = 2000, 0.02, 60.0
+#: The square of the length over which a path is straight, in variances: behind it the next place is another fit.
+_STRAIGHT = 30.0
 
 
 @lru_cache(maxsize=1)
@@ -50,7 +52,7 @@ def falls(paths: list[Array], freedom: int) -> Array:
         mixed = np.diag(gram[here, there])
         lengths = squares[here] + squares[there] - 2.0 * mixed
         rise = across[there] - across[here] - (mixed - squares[here])[:, None]
-        share = np.clip(rise / np.maximum(lengths, 1e-300)[:, None], 0.0, 1.0)
+        share = np.clip(rise / np.maximum(lengths, 1e-300)[:, None], 0.0, (lengths < _STRAIGHT)[:, None])
         inner = part[:-1] + share * (2.0 * rise - share * lengths[:, None])
         best = np.maximum(best, inner.max(axis=0))
     # the variance is estimated: by the cube of a normal number, after Wilson and Hilferty

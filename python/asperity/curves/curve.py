@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple, NoReturn, TypeAlias
+from typing import Literal, NoReturn, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +12,6 @@ from .branches import noise_of
 from .tips import Array, Tip
 
 Direction: TypeAlias = Literal["approach", "withdrawal"]
-
-
-class Baseline(NamedTuple):
-    """A straight line over z, and its drift from the first point to the last."""
-
-    offset: float
-    slope: float
-    drift: float
 
 
 class Curve:
@@ -46,6 +38,8 @@ class Curve:
         scaled = self.columns.copy()
         scaled[:, 1] = (z - z.mean()) / np.ptp(z)
         self.orthogonal: Array = np.linalg.qr(scaled)[0]
+        norms = np.abs(self.columns).max(axis=0)
+        self._inverse: Array = np.linalg.pinv(self.columns / norms, rcond=1e-13) / norms[:, None]
         self.noise = noise_of(force)
         self.least = 1e-9 * float(np.ptp(force))
         self._scale()
@@ -83,11 +77,10 @@ class Curve:
         """Values of the points along the last axis, without what a baseline explains."""
         return np.asarray(values - (values @ self.orthogonal) @ self.orthogonal.T)
 
-    def baseline(self, load: Array) -> Baseline:
-        """The baseline that is left of the forces without this load."""
-        found = np.linalg.lstsq(self.columns / np.abs(self.columns).max(axis=0), self.force - load, rcond=None)[0]
-        found = found / np.abs(self.columns).max(axis=0)
-        return Baseline(*map(float, found), *[0.0] * (3 - found.size))
+    def baselines(self, loads: Array) -> Array:
+        """Offset, slope and drift of the baselines that are left of the forces without loads, along the last axis."""
+        found = (self.force - loads) @ self._inverse.T
+        return np.concatenate([found, np.zeros((*found.shape[:-1], 3 - found.shape[-1]))], axis=-1)
 
     def _slope(self) -> float:
         """How the force grows with z where it is greatest."""

@@ -277,7 +277,7 @@ def _told(found: Likelihood, poisson: float | None, is_si: bool) -> CurveFit:
     least = min(model.aic for model in models.values())
     ratio = None if poisson is None else _asperity.contact_modulus([(1.0, number("poisson", poisson))])
     load = fits.load[best, : curve.z.size]
-    fitted = load + curve.columns @ np.array(curve.baseline(load))[: curve.columns.shape[1]]
+    fitted = load + curve.columns @ curve.baselines(load)[: curve.columns.shape[1]]
     approach = float((curve.z - fits.point[best] - curve.compliance * load).max())
     tabor, work = found.tabor(), found.work()
     curve.tip.check_reach(modulus.value, 0.0 if work is None else work.upper, approach)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .calibration import likeness, orthonormal, probability
-from .curve import Baseline, Curve
+from .curve import Curve
 from .search import Fits
 from .tips import Array, Paraboloid, scipy
 
@@ -213,8 +213,7 @@ class Likelihood:
 
     def line(self) -> list[Estimate]:
         """Offset, slope and, where there is one, drift of the baseline."""
-        points = self.curve.z.size
-        lines = np.array([self.curve.baseline(self.fits.load[row, :points]) for row in range(len(self.fits))])
+        lines = self.curve.baselines(self.fits.load[:, : self.curve.z.size])
         found = []
         for number in range(self.curve.columns.shape[1]):
             ends = self._span(OFFSET + number, lines[:, number])
@@ -269,8 +268,9 @@ class Likelihood:
             # only limits are likely
             likely = [ends[str(fits.model[row])] for row in self.likely if str(fits.model[row]) in ends]
             return Estimate(value, min(likely, default=value), max(likely, default=value))
-        lower = 0.0 if fits.squares[self.of("DMT")] <= self.most else self._passes(inner[least::-1])
-        upper = np.inf if fits.squares[self.of("JKR")] <= self.most else self._passes(inner[least:])
+        # the ends are no places between others: the likelihood goes to one side alone
+        lower = 0.0 if self.probabilities["DMT"] >= LEVEL else self._passes(inner[least::-1])
+        upper = np.inf if self.probabilities["JKR"] >= LEVEL else self._passes(inner[least:])
         return Estimate(value, lower, upper)
 
     def _passes(self, rows: NDArray[np.int64]) -> float:
@@ -308,8 +308,7 @@ class Likelihood:
         weights = np.gradient(np.log(fits.tabor[rows])) if rows.size > 1 else np.ones(1)
         weights = weights * np.exp(-0.5 * (fits.squares[rows] - fits.squares[rows].min()) / self.variance)
         weights /= weights.sum()
-        points = curve.z.size
-        lines = np.array([curve.baseline(fits.load[row, :points]) for row in rows])[:, : curve.columns.shape[1]]
+        lines = curve.baselines(fits.load[rows, : curve.z.size])[:, : curve.columns.shape[1]]
         values = np.column_stack([fits.modulus[rows], fits.work[rows], fits.point[rows], lines])
         off = values - weights @ values
         kept = [LOG_MODULUS, ROOT_WORK, POINT, *range(OFFSET, OFFSET + lines.shape[1])]
