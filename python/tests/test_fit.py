@@ -185,6 +185,41 @@ def test_what_is_no_curve_is_refused():
         fit(z, force, radiuss=1.0)
 
 
+def test_masked_points_are_missing_and_curves_without_noise_are_none_that_are_saturated():
+    z, force = curve(1.0, 20.0)
+    wrong = np.where(np.arange(z.size) % 50 == 7, 1.0, force)
+    kept = wrong != 1.0
+    options = {"radius": RADIUS, "spring_stiffness": 20.0}
+    fits = [asperity.fit_curve(z[kept], force[kept], **options), asperity.fit_curve(z, np.ma.array(wrong, mask=~kept), **options)]
+    assert fits[0].modulus == fits[1].modulus and fits[1].z.size == kept.sum()
+    for tabor in (None, np.inf):
+        z, force = curve(tabor, 20.0, noise=0.0, slope=0.0, drift=0.0)
+        assert asperity.fit_curve(z, force, **options).modulus.value == pytest.approx(MODULUS, rel=1e-3)
+
+
+@pytest.mark.parametrize("least", [0.3, 0.9])
+def test_a_withdrawal_that_ends_in_contact_is_in_order(least):
+    # at a fixed approach JKR goes on in tension, and the withdrawal ends there or before
+    z, force = curve(np.inf, None, drift=0.0)
+    cut = z[200:][np.argmin(force[200:])] + (least - 0.9) * LENGTH
+    kept = np.append(np.full(200, True), z[200:] > cut)
+    fit = asperity.fit_curve(z[kept], force[kept], radius=RADIUS)
+    assert covers(fit.modulus, MODULUS) or fit.modulus.value == pytest.approx(MODULUS, rel=0.05)
+
+
+@pytest.mark.parametrize("model", ["hertz", "dmt", "maugis", "jkr"])
+def test_one_model_is_fitted_alone(model):
+    tabor = {"hertz": None, "dmt": 0.0, "maugis": 0.7, "jkr": np.inf}[model]
+    z, force = curve(tabor, 20.0)
+    fit = asperity.fit_curve(z, force, radius=RADIUS, spring_stiffness=20.0, model=model)
+    (name,) = fit.models
+    assert name.lower() == model and fit.models[name].p_value > 1e-3 and f"By {name} alone" in fit.verdict or model == "hertz"
+    assert fit.modulus.value == pytest.approx(MODULUS, rel=0.03)
+    assert (fit.work_of_adhesion is None) == (model == "hertz") and fit.tabor_parameter is fit.range is None
+    with pytest.raises(ValueError, match="model is 'jkrs': it must be one of 'hertz', 'dmt', 'maugis', 'jkr'"):
+        asperity.fit_curve(z, force, radius=RADIUS, model="jkrs")
+
+
 def test_one_point_may_have_the_greatest_force():
     z, force = curve(1.0, 20.0)
     fit = force < 0.6 * force.max()

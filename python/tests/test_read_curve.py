@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity._branches import ordered
+from asperity.curves.branches import ordered
 from force_curves import curve
 
 Z, FORCE = np.array([-10.5, 0.25, 2.0]), np.array([-0.5, 0.25, 3.5])
@@ -50,8 +50,17 @@ def test_columns_are_chosen(tmp_path):
         asperity.read_curve(path)
     assert asperity.read_curve(path, length_unit="um", force_unit="nN").z == pytest.approx([0.0, 2e-6])
     path.write_text("z (nm)\tDeflection (nm)\n0\t1\n1\t2\n")
-    with pytest.raises(ValueError, match="column 'Deflection' is in nm, and not in nN: .* multiply the deflection"):
+    with pytest.raises(ValueError, match="column 'Deflection' is in nm, and not in nN: .* spring_stiffness, by which"):
         asperity.read_curve(path, z=0, force=1, force_unit="nN")
+    for stiffness in (0.5, "0.5N/m"):
+        assert asperity.read_curve(path, z=0, spring_stiffness=stiffness).force == pytest.approx([0.5e-9, 1e-9])
+    path.write_text("z (nm)\tSensor (V)\n0\t1\n1\t2\n")
+    with pytest.raises(ValueError, match="column 'Sensor' is in V: give sensitivity, too"):
+        asperity.read_curve(path, spring_stiffness=0.5)
+    with pytest.raises(ValueError, match="sensitivity is '50nm': it must be a length per V, as '50nm/V'"):
+        asperity.read_curve(path, spring_stiffness=0.5, sensitivity="50nm")
+    volts = asperity.read_curve(path, spring_stiffness="0.5N/m", sensitivity="50nm/V")
+    assert volts.force == pytest.approx([25e-9, 50e-9])
     path.write_text("z (nm)\tF (nN)\n0\t1\n1\t2\n")
     with pytest.raises(ValueError, match="column 'F' is in nN, and not in N: leave force_unit out"):
         asperity.read_curve(path, force_unit="N")
@@ -75,6 +84,65 @@ def test_the_approach_comes_first_whatever_the_order_of_a_file(layout, tmp_path)
     assert ordered(*made[:, ::-1])[2].startswith(told)
 
 
+def test_pauses_are_left_out_and_told(tmp_path):
+    path, z, force = tmp_path / "curve.csv", *curve(None, 20.0, noise=0.01)
+    top = np.linspace(z[199], z[199] + 0.1 * np.ptp(z), 80)
+    where, load = np.insert(z, 200, top), np.insert(force, 200, np.full(80, force[199]))
+    told = "pause: 80 of 480 points of .* are of a pause"
+    for names in (("0", "1", "2"), ("approach", "pause", "retract"), ("Extend", "Hold", "Withdraw")):
+        parts = np.repeat(names, [200, 80, 200])
+        rows = "".join(f"{a:.9g},{b:.9g},{part}\n" for a, b, part in zip(1e9 * where, 1e9 * load, parts))
+        path.write_text("Height (nm),Force (nN),Segment\n" + rows)
+        with pytest.warns(asperity.InputWarning, match=told):
+            found = asperity.read_curve(path)
+        assert np.array(found) == pytest.approx(np.array([z, force]), rel=1e-7)
+    # a position that is held, without a word
+    where[200:280] = where[199]
+    np.savetxt(path, 1e9 * np.array([where, load]).T, header="z (nm),F (nN)", delimiter=",", comments="")
+    with pytest.warns(asperity.InputWarning, match="pause: [78]. of 480"):
+        assert abs(asperity.read_curve(path).z.size - 401) <= 1
+
+
+def test_legs_beside_each_other_are_joined(tmp_path):
+    path, z, force = tmp_path / "curve.csv", *(1e9 * np.array(curve(1.0, 20.0, noise=0.005)))
+    for one, other in (("Extend", "Retract"), ("Approach", "Withdraw"), ("Trace", "Retrace")):
+        table = np.array([z[:200], force[:200], z[200:], force[200:]]).T
+        heading = f"{one} Z (nm),{one} Force (nN),{other} Z (nm),{other} Force (nN)"
+        np.savetxt(path, table, header=heading, delimiter=",", comments="")
+        assert np.array(asperity.read_curve(path)) == pytest.approx(1e-9 * np.array([z, force]), rel=1e-12)
+        one_leg = asperity.read_curve(path, z=f"{other} Z (nm)", force=3)
+        assert np.sort(one_leg.z) == pytest.approx(1e-9 * np.sort(z[200:]))
+
+
+def test_units_may_be_in_names(tmp_path):
+    path = tmp_path / "curve.csv"
+    path.write_text("depth_nm,load_uN,time_s\n0,0,0\n0.5,0.01,1\n29.5,1.5,2\n")
+    z, force = asperity.read_curve(path)
+    assert z == pytest.approx([0, 5e-10, 2.95e-8]) and force == pytest.approx([0, 1e-8, 1.5e-6])
+
+
+def test_texts_of_instruments_are_read(tmp_path, capfd):
+    formats = pytest.importorskip("afmformats")
+    path, z, force = tmp_path / "curve.txt", *curve(None, 20.0, noise=0.01)
+    keys = {"Max load (µN)": 1, "k (N/m)": 0.5, "Piezo position (nm) (Measured)": 9, "Piezo speed  (µm/s)": 1}
+    keys |= {"Software version": 3, "Date": "01/02/2026", "Time": "10:11:12"}
+    head = "Device:\tChiaro\n" + "".join(f"{key}\t{value}\n" for key, value in keys.items())
+    names = "Time (s)\tLoad (uN)\tIndentation (nm)\tCantilever (nm)\tPiezo (nm)\tAuxiliary\n"
+    rows = "".join(f"{k}\t{1e6 * b:.12g}\t{1e9 * a:.12g}\t0\t{1e9 * a:.12g}\t0\n" for k, (a, b) in enumerate(zip(z, force)))
+    path.write_text(head + names + rows, encoding="latin-1")
+    found = asperity.read_curve(path)
+    assert np.array(found) == pytest.approx(np.array([z, force]), rel=1e-9)
+    # its own text, with a column of words
+    data = {"force": force, "height (measured)": -z, "segment": np.repeat([0, 1], 200).astype(np.uint8)}
+    tab = tmp_path / "curve.tab"
+    formats.AFMForceDistance(data, {"path": path, "enum": 0, "imaging mode": "force-distance"}).export_data(tab, fmt="tab")
+    assert np.array(asperity.read_curve(tab)) == pytest.approx(np.array([z, force]), rel=1e-4)
+    (tmp_path / "broken.jpk-force").write_bytes(b"PK\x03\x04" + bytes(100))
+    with pytest.raises(ValueError, match="is not read by afmformats"):
+        asperity.read_curve(tmp_path / "broken.jpk-force")
+    assert capfd.readouterr().err == ""
+
+
 def test_what_is_no_curve_is_refused(tmp_path, monkeypatch):
     path = tmp_path / "curve.txt"
     for text, told in (
@@ -92,7 +160,7 @@ def test_what_is_no_curve_is_refused(tmp_path, monkeypatch):
         asperity.read_curve(tmp_path / "none.txt")
     path.write_bytes(b"PK\x03\x04\x00\x00")
     monkeypatch.setitem(sys.modules, "afmformats", None)
-    with pytest.raises(ValueError, match=r"is binary: pip install 'asperity\[curves\]'"):
+    with pytest.raises(ValueError, match=r"is binary, or .*: pip install 'asperity\[curves\]'"):
         asperity.read_curve(path)
 
 

@@ -33,9 +33,14 @@ def ordered(z: Array, force: Array) -> tuple[Array, Array, str]:
     if min(split, z.size - split) < _FEWEST:
         return z, force, ""
     grows = [bool(where[-1] > where[0]) for where, _ in branches]
-    # how far the force falls below that far from contact
-    depths = [float(np.median(load[where <= np.quantile(where, 0.25)]) - load.min()) for where, load in branches]
-    is_clear = abs(depths[0] - depths[1]) > max(8.0 * noise_of(force), 0.1 * max(depths))
+    # how far the force falls below the force far from contact
+    fars = [float(np.median(load[where <= np.quantile(where, 0.25)])) for where, load in branches]
+    depths = [far - float(load.min()) for far, (_, load) in zip(fars, branches)]
+    # a branch that ends in contact, or never leaves tension, tells nothing
+    ends = [float(load[np.argsort(where)[: max(where.size // 20, 3)]].mean()) for where, load in branches]
+    apart = all(where.min() < z.min() + 0.1 * np.ptp(z) for where, _ in branches)
+    apart &= all(abs(max(fars) - end) < 0.5 * max(depths) for end in ends)
+    is_clear = apart and abs(depths[0] - depths[1]) > max(8.0 * noise_of(force), 0.1 * max(depths))
     deeper = int(depths[1] > depths[0])
     withdrawal = grows.index(False) if grows[0] != grows[1] else deeper if is_clear else 1
     against = ""

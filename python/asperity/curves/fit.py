@@ -244,7 +244,7 @@ def fit_curve(
     elif (z[-1] > z[0]) != (direction == "approach"):
         z, force = z[::-1], force[::-1]
     scipy("special")
-    _refuse_saturated(force)
+    _refuse_saturated(z, force)
     shape: Tip = tip or Paraboloid(_positive("radius", radius))
     models = _models(shape, model)
     curve = Curve(z, force, direction, shape, compliance)
@@ -347,7 +347,7 @@ def _verdict(
 
 def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tuple[Array, Array]:
     """Both columns, in SI units if their units are given."""
-    columns = []
+    columns, masks = [], []
     for name, values in (("z", z), ("force", force)):
         try:
             column = np.asarray(values, dtype=np.float64)
@@ -355,7 +355,8 @@ def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tupl
             raise TypeError(f"{name} is no array of numbers: give those of a file as numpy.loadtxt reads them") from None
         if column.ndim != 1:
             raise ValueError(f"{name} has shape {column.shape}: it must be (N,), a value for each point")
-        bad = np.flatnonzero(~np.isfinite(column))
+        masks.append(np.ma.getmaskarray(values) if np.ma.isMaskedArray(values) else np.zeros(column.shape, bool))
+        bad = np.flatnonzero(~np.isfinite(column) & ~masks[-1])
         if bad.size:
             raise ValueError(
                 f"{name} is {column[bad[0]]} at point {bad[0]}, one of {bad.size} that are not finite: leave them out of z "
@@ -364,6 +365,8 @@ def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tupl
         columns.append(column)
     if columns[0].size != columns[1].size:
         raise ValueError(f"z has {columns[0].size} points and force {columns[1].size}: they must be as many")
+    # masked points are missing
+    columns = [column[~(masks[0] | masks[1])] for column in columns]
     if columns[0].size < 20:
         raise ValueError(f"z has {columns[0].size} points: a fit of up to 7 parameters needs at least 20")
     for name, column in zip(("z", "force"), columns):
@@ -387,11 +390,15 @@ def _positive(name: str, value: Any) -> float:
     return found
 
 
-def _refuse_saturated(force: Array) -> None:
-    """Refuses forces that stay at an extreme, away from where most of them are."""
+def _refuse_saturated(z: Array, force: Array) -> None:
+    """Refuses forces that stay at an extreme while the position changes, away from where most of them are."""
+    far = z.min() + 0.02 * np.ptp(z)
     for end, word in ((float(force.max()), "largest"), (float(force.min()), "least")):
         at = np.flatnonzero(force == end)
-        run = max((piece.size for piece in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)), default=0)
+        runs = np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)
+        # a curve without noise is flat far from contact
+        runs = [run for run in runs if run.size and np.ptp(z[run]) > 0.0 and z[run].min() > far]
+        run = max((piece.size for piece in runs), default=0)
         if run >= 4 and abs(end - np.median(force)) > 0.05 * np.ptp(force):
             raise ValueError(
                 f"force is {end:.6g}, its {word} value, at {run} points in a row: the detector is saturated; leave these "

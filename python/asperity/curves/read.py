@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import importlib
 import os
-import re
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import _asperity
-from .._instruments import told
+from .._types import Quantity
 from .._words import checked
+from . import instruments, texts
 from .branches import ordered
+from .columns import Column, factor, moving
 from .tips import Array
-
-#: The name of a column, and its unit in parentheses, brackets, or behind a slash.
-_HEADING = re.compile(r"^(.*?)[\s_]*(?:\(([^()]*)\)|\[([^\[\]]*)\]|/\s*(\S+))$")
-#: A name with a unit, of headings between which there are but spaces.
-_SPACED = re.compile(r"[^()\[\]]+(?:\([^()]*\)|\[[^\[\]]*\])")
 
 
 class ForceCurve(NamedTuple):
@@ -47,25 +43,32 @@ def read_curve(
     force: int | str | None = None,
     length_unit: str | None = None,
     force_unit: str | None = None,
+    spring_stiffness: Quantity | None = None,
+    sensitivity: Quantity | None = None,
     number: int = 0,
 ) -> ForceCurve:
     """Reads the force curve of a file.
 
     A text has columns between tabs, semicolons, commas or spaces, with decimal points or commas, under headings with
-    units, such as ``Height (nm)`` and ``Force [nN]``, or a line of names and one of units. Binary files, such as
-    ``.jpk-force`` and ``.ibw``, are read by afmformats, which ``pip install 'asperity[curves]'`` brings. Positions that
-    fall towards contact are turned round, and the approach comes before the withdrawal, whatever their order in the file.
-    Points that are not finite are left out.
+    units, such as ``Height (nm)``, ``Force [nN]`` and ``load_uN``, or a line of names and one of units. Binary files, such
+    as ``.jpk-force`` and ``.ibw``, are read by afmformats, which ``pip install 'asperity[curves]'`` brings; so are texts of
+    instruments that it knows. Positions that fall towards contact are turned round, and the approach comes before the
+    withdrawal, whatever their order in the file. Columns of both beside each other, as ``Extend Z (nm)`` and ``Retract Z
+    (nm)``, are joined. Points of pauses and points that are not finite are left out.
 
     Parameters
     ----------
     path : str or path
         File; its content decides.
     z, force : int or str, optional
-        Columns of positions and forces, by number, from 0 on, or name; needed where several have a unit of length, or
-        of force. Without headings they are the first and the second.
+        Columns of positions and forces, by number, from 0 on, name, or heading; needed where several have a unit of
+        length, or of force. Without headings they are the first and the second.
     length_unit, force_unit : str, optional
         Units of a text that does not tell them.
+    spring_stiffness : float or str, optional
+        Stiffness of the cantilever, in N/m or with its unit, of a file with deflections in the place of forces.
+    sensitivity : float or str, optional
+        Deflection over the voltage of the detector, in m/V or as ``"50nm/V"``, of a file with voltages.
     number : int
         Number of the curve in a binary file of several.
 
@@ -77,6 +80,11 @@ def read_curve(
     ------
     FileNotFoundError, ValueError
         For a file that is not there, or not understood.
+
+    Warns
+    -----
+    InputWarning
+        If points of a pause are left out: how many.
 
     Examples
     --------
@@ -90,115 +98,119 @@ def read_curve(
     """
     with open(path, "rb") as file:
         content = file.read()
-    if b"\0" in content[:4096] and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        columns = _instrument(path, number)
-        z = "height (measured)" if z is None else z
-    else:
-        columns = _text(path, content)
-    found = []
-    for key, given, chosen, unit in (("approach", "z", z, length_unit), ("normal_force", "force", force, force_unit)):
-        name, own, values = _chosen(path, columns, key, given, chosen)
-        factor = _factor(key, own or unit or "")
+    reader = Reader(path, z, force, length_unit, force_unit, _given(spring_stiffness, sensitivity))
+    if instruments.knows(content):
+        return reader.instrument(instruments.chosen(path, instruments.curves(path, reader.given), number))
+    return reader.joined(*texts.read(path, content))
+
+
+def _given(spring_stiffness: Quantity | None, sensitivity: Quantity | None) -> dict[str, float | None]:
+    """Stiffness and sensitivity as numbers in SI units."""
+    found: dict[str, float | None] = {"spring_stiffness": None, "sensitivity": None}
+    for name, value, key in (("spring_stiffness", spring_stiffness, "spring_stiffness"), ("sensitivity", sensitivity, "approach")):
+        if value is None:
+            continue
+        if isinstance(value, str):
+            length, slash, volt = value.rpartition("/")
+            if name == "sensitivity" and (slash != "/" or volt.strip() != "V"):
+                raise ValueError(f"sensitivity is {value!r}: it must be a length per V, as '50nm/V'")
+            value = _asperity.quantity(key, length if name == "sensitivity" else value)
+        if not 0.0 < value < np.inf:
+            raise ValueError(f"{name} is {value!r}: it must be positive and finite")
+        found[name] = float(value)
+    return found
+
+
+class Reader(NamedTuple):
+    """What a file is read by: its path, the columns that are asked for, units, and what its forces may need."""
+
+    path: Any
+    z: int | str | None
+    force: int | str | None
+    length_unit: str | None
+    force_unit: str | None
+    given: dict[str, float | None]
+
+    def instrument(self, curve: Any) -> ForceCurve:
+        """A curve of afmformats."""
+        chosen = self._replace(z="height (measured)" if self.z is None else self.z)
+        return chosen.joined(*instruments.columns(self.path, curve))
+
+    def joined(self, columns: list[Column], parts: NDArray[np.str_] | Array | None) -> ForceCurve:
+        """The curve of columns, with approach and withdrawal behind each other."""
+        legs = [[column for column in columns if column.leg == leg] for leg in ("approach", "withdrawal")]
+        if self.z is None and self.force is None and all(len(leg) > 1 for leg in legs):
+            # of columns beside each other
+            where, load = np.concatenate([self._pair(leg) for leg in legs], axis=1)
+        else:
+            where, load = self._pair(columns)
+            kept = moving(self.path, where, parts)
+            where, load = where[kept], load[kept]
+        finite = np.isfinite(where) & np.isfinite(load)
+        where, load = where[finite], load[finite]
+        if not load.size:
+            raise ValueError(f"{self.path}: has no point with a finite position and force")
+        falls = where[load >= 0.5 * (load.max() + np.median(load))].mean() < where.mean()
+        return ForceCurve(*ordered(-where if falls else where, load)[:2])
+
+    def _pair(self, columns: list[Column]) -> Array:
+        """Positions and forces of columns, in SI units."""
+        z = self._column(columns, "approach", "z", self.z, self.length_unit)
+        name, factor = self._deflection(columns)
+        if name is not None:
+            return np.array([z, factor * name.values])
+        return np.array([z, self._column(columns, "normal_force", "force", self.force, self.force_unit)])
+
+    def _deflection(self, columns: list[Column]) -> tuple[Column | None, float]:
+        """The column of deflections in the place of forces, with its factor, if stiffness or sensitivity are given."""
+        stiffness, sensitivity = self.given["spring_stiffness"], self.given["sensitivity"]
+        if stiffness is None and sensitivity is None or "height (measured)" in {column.name for column in columns}:
+            return None, 1.0
+        fits = [column for column in columns if self.force in (column.name, column.heading, columns.index(column))]
+        if self.force is None:
+            fits = [column for column in columns if "defl" in column.name.lower() or column.unit in ("V", "mV")]
+        if len(fits) != 1 or fits[0].factor("normal_force"):
+            names = ", ".join(repr(column.name) for column in columns)
+            raise ValueError(
+                f"{self.path}: has the columns {names}, and spring_stiffness or sensitivity is given: it is not clear which "
+                "is the deflection; give force=NAME, or leave them out where forces are there"
+            )
+        volts = {"V": 1.0, "mV": 1e-3}.get(fits[0].unit)
+        if stiffness is None:
+            raise ValueError(f"{self.path}: column {fits[0].name!r} is in {fits[0].unit}: give spring_stiffness, too")
+        if volts is not None and sensitivity is None:
+            raise ValueError(f"{self.path}: column {fits[0].name!r} is in {fits[0].unit}: give sensitivity, too")
+        length = fits[0].factor("approach") if volts is None else volts * float(sensitivity or 0.0)
+        if length is None:
+            raise ValueError(f"{self.path}: column {fits[0].name!r} has no unit of length: give another force")
+        return fits[0], stiffness * length
+
+    def _column(self, columns: list[Column], key: str, given: str, asked: int | str | None, unit: str | None) -> Array:
+        """A column in SI units."""
+        found = self._chosen(columns, key, given, asked)
+        name, own = found.name, found.unit
         kind = "length" if given == "z" else "force"
-        if own and (factor is None or unit and factor != _factor(key, unit)):
-            remedy = f"leave {kind}_unit out" if factor else f"give another {given}"
-            if factor is None and given == "force":
-                remedy += ", or multiply the deflection, as a length, by the stiffness of the cantilever"
-            raise ValueError(f"{path}: column {name!r} is in {own}, and not in {unit or f'a unit of {kind}'}: {remedy}")
-        if factor is None:
-            raise ValueError(f"{path}: column {name!r} has no unit of {kind}: give {kind}_unit, or another {given}")
-        found.append(factor * values)
-    where, load = np.array(found)[:, np.isfinite(found).all(axis=0)]
-    if not load.size:
-        raise ValueError(f"{path}: has no point with a finite position and force")
-    falls = where[load >= 0.5 * (load.max() + np.median(load))].mean() < where.mean()
-    return ForceCurve(*ordered(-where if falls else where, load)[:2])
+        scale = factor(key, own or unit or "")
+        if own and (scale is None or unit and scale != factor(key, unit)):
+            remedy = f"leave {kind}_unit out" if scale else f"give another {given}"
+            if scale is None and given == "force":
+                remedy += ", or spring_stiffness, by which a deflection is multiplied"
+            raise ValueError(f"{self.path}: column {name!r} is in {own}, and not in {unit or f'a unit of {kind}'}: {remedy}")
+        if scale is None:
+            raise ValueError(f"{self.path}: column {name!r} has no unit of {kind}: give {kind}_unit, or another {given}")
+        return scale * found.values
 
-
-def _instrument(path: Any, number: int) -> list[tuple[str, str, Array]]:
-    """The columns of a binary file."""
-    try:
-        formats = importlib.import_module("afmformats")
-    except ImportError:
-        raise ValueError(f"{path}: is binary: pip install 'asperity[curves]', with which it may be read") from None
-    try:
-        curves = formats.load_data(path)
-        if not 0 <= number < len(curves):
-            raise ValueError(f"it finds {len(curves)} curves, and none of number {number}")
-        curve = curves[number]
-        names = [name for name in curve.columns if name not in ("segment", "time", "index")]
-        return [(name, "N" if name == "force" else "m", np.asarray(curve[name], np.float64)) for name in names]
-    except (Exception, formats.errors.AFMFileFormatError, formats.errors.MissingMetaDataError) as raised:
-        raise ValueError(f"{path}: is not read by afmformats: {told(raised)}") from raised
-
-
-def _text(path: Any, content: bytes) -> list[tuple[str, str, Array]]:
-    """The columns of a text: names, units, which may be empty, and values."""
-    encoding = "utf-16" if content.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig"
-    try:
-        lines = content.decode(encoding).splitlines()
-    except UnicodeDecodeError:
-        # as of instruments on Windows
-        lines = content.decode("cp1252", errors="replace").splitlines()
-    begins = ((at, separator) for at, line in enumerate(lines) for separator in "\t;, " if _numbers(line, separator))
-    first, separator = next(begins, (0, ""))
-    rows = [(at, _numbers(line, separator)) for at, line in enumerate(lines[first:], first) if line.strip(" #\t")[:1]]
-    rows = [(at, row) for at, row in rows if row or not lines[at].startswith("#")]
-    if not separator:
-        raise ValueError(f"{path}: has no line of at least two numbers")
-    count = len(rows[0][1] or ())
-    for at, row in rows:
-        if not row or len(row) != count:
-            raise ValueError(f"{path}: line {at + 1} is no row of {count} numbers: {lines[at].strip()[:40]!r}")
-    known = [cells for line in lines[:first] for cells in _headings(line, separator) if len(cells) == count]
-    names = known[-1] if known else [""] * count
-    found = [_HEADING.match(name) for name in names]
-    units = ["" if one is None else next(filter(None, one.groups()[1:]), "") for one in found]
-    names = [name if one is None else one[1] for name, one in zip(names, found)]
-    if len(known) > 1 and any(_factor("normal_force", name) for name in names):
-        names, units = known[-2], names
-    return list(zip(names, units, np.array([row for _, row in rows], np.float64).T))
-
-
-def _split(line: str, separator: str) -> list[str]:
-    cells = line.split() if separator == " " else line.rstrip(f"{separator}\r\n").split(separator)
-    return [cell.strip(' "') for cell in cells]
-
-
-def _numbers(line: str, separator: str) -> list[float] | None:
-    """The numbers of a line of at least two, with commas for points where these do not separate."""
-    try:
-        numbers = [float(cell) for cell in _split(line if separator == "," else line.replace(",", "."), separator)]
-    except ValueError:
-        return None
-    return numbers if len(numbers) > 1 else None
-
-
-def _headings(line: str, separator: str) -> list[list[str]]:
-    """What the headings of a line may be."""
-    line = re.sub(r"^#?\s*(columns:|units:)?", "", line)
-    return [[cell.strip() for cell in _SPACED.findall(line)], _split(line, separator)]
-
-
-def _chosen(path: Any, columns: list[tuple[str, str, Array]], key: str, given: str, chosen: int | str | None) -> Any:
-    """The column of a number or name, or the only one of its unit."""
-    if isinstance(chosen, int) and -len(columns) <= chosen < len(columns):
-        return columns[chosen]
-    fits = [column for column in columns if column[0] == chosen]
-    if chosen is None:
-        fits = [column for column in columns if _factor(key, column[1])]
-        if not any(unit for _, unit, _ in columns):
-            fits = [columns["z force".split().index(given)]]
-    if len(fits) != 1:
-        names = ", ".join(f"{name!r} in {unit}" if unit else f"{name!r}" for name, unit, _ in columns)
-        asked = "it is not clear which" if chosen is None else f"none of them alone is {chosen!r}"
-        raise ValueError(f"{path}: has the columns {names}: {asked} is {given}; give {given}=NAME or its number")
-    return fits[0]
-
-
-def _factor(key: str, unit: str) -> float | None:
-    """What a unit is in SI units, or None of another dimension."""
-    try:
-        return _asperity.quantity(key, f"1{unit}") if unit else None
-    except ValueError:
-        return None
+    def _chosen(self, columns: list[Column], key: str, given: str, asked: int | str | None) -> Column:
+        """The column of a number, name or heading, or the only one of its unit."""
+        if isinstance(asked, int) and -len(columns) <= asked < len(columns):
+            return columns[asked]
+        fits = [column for column in columns if asked in (column.name, column.heading)]
+        if asked is None:
+            fits = [column for column in columns if column.factor(key)]
+            if not any(column.unit for column in columns) and len(columns) > 1:
+                fits = [columns["z force".split().index(given)]]
+        if len(fits) != 1:
+            names = ", ".join(f"{one.name!r} in {one.unit}" if one.unit else f"{one.name!r}" for one in columns)
+            wrong = "it is not clear which" if asked is None else f"none of them alone is {asked!r}"
+            raise ValueError(f"{self.path}: has the columns {names}: {wrong} is {given}; give {given}=NAME or its number")
+        return fits[0]
