@@ -44,7 +44,7 @@ from ._types import OwnLaw, Report
 from ._viscoelastic import Moment, Viscoelastic
 from ._wall import Penalty, Uzawa
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
-from .curves import CurveFit, Estimate, ForceCurve, ModelFit, TipTable, fit_curve, read_curve
+from .curves import CurveFit, CurveMap, Estimate, ForceCurve, ModelFit, TipTable, fit_curve, fit_curves, read_curve
 
 __all__ = [
     "AccuracyWarning",
@@ -55,6 +55,7 @@ __all__ = [
     "ContactStatistics",
     "ConvergenceWarning",
     "CurveFit",
+    "CurveMap",
     "CutOff",
     "Cycle",
     "Estimate",
@@ -93,6 +94,7 @@ __all__ = [
     "cycle",
     "exact",
     "fit_curve",
+    "fit_curves",
     "from_topography",
     "interface",
     "leakage",

@@ -298,29 +298,3 @@ def cycle(
     ax.set(xlabel=_label(x.replace("_", " "), across_unit), ylabel=_label(y.replace("_", " "), up_unit))
     ax.legend(frameon=False)
     return ax
-
-
-def force_curve(
-    z: NDArray[Any],
-    force: NDArray[Any],
-    fitted: NDArray[Any],
-    turn: int,
-    length_unit: Unit,
-    force_unit: Unit,
-    ax: Any,
-) -> Any:
-    """A force curve with its fit over the position, and the residuals below; the withdrawal begins at the point `turn`."""
-    ax = upper, lower = two(ax, nrows=2, sharex=True, figsize=(5.2, 4.6), height_ratios=[3, 1], layout="constrained")
-    across, length = _scaled(z, length_unit)
-    up, unit = _scaled(force, force_unit)
-    rest, small = _scaled(force - fitted, force_unit)
-    for color, name, part in (("C0", "approach", slice(turn)), ("C3", "withdrawal", slice(turn, None))):
-        if z[part].size:
-            upper.plot(across * z[part], up * force[part], ".", color=color, alpha=0.4, markersize=3, label=name)
-            upper.plot(across * z[part], up * fitted[part], color=color, linewidth=1, label=f"{name}, fit")
-            lower.plot(across * z[part], rest * (force - fitted)[part], ".", color=color, alpha=0.4, markersize=3)
-    lower.axhline(0.0, color="0.7", linewidth=0.8, zorder=0)
-    upper.set_ylabel(_label("force", unit))
-    lower.set(xlabel=_label("z", length), ylabel=_label("residual", small))
-    upper.legend(frameon=False)
-    return ax

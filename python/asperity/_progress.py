@@ -7,9 +7,12 @@ import os
 import sys
 import time
 import weakref
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import Any, TypeVar
 
 from ._asperity import Iteration
+
+T = TypeVar("T")
 
 #: The seconds between two texts.
 _PAUSE = 0.1
@@ -22,6 +25,25 @@ def by_default() -> progress | None:
     """The progress of a call that takes long, on a terminal or in a notebook; None elsewhere."""
     is_seen = "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())
     return progress(_PATIENCE) if is_seen and "TQDM_DISABLE" not in os.environ else None
+
+
+def counted(found: Iterable[T], total: int, unit: str) -> Iterator[T]:
+    """What is found, one by one, with a bar where a call that takes long has one by default."""
+    observer, bar, begin, pending = by_default(), None, time.monotonic() + _PATIENCE, 0
+    for one in found:
+        yield one
+        pending += 1
+        if observer is None or bar is None and time.monotonic() < begin:
+            continue
+        if bar is None:
+            try:
+                bar = importlib.import_module("tqdm.auto").tqdm(total=total, unit=unit, mininterval=_PAUSE)
+            except ImportError:
+                bar = _Line(unit)
+        bar.update(pending)
+        pending = 0
+    if bar is not None:
+        bar.close()
 
 
 class progress:
@@ -80,8 +102,8 @@ class progress:
 class _Line:
     """A line of text in the place of a bar of tqdm."""
 
-    def __init__(self) -> None:
-        self._iterations, self._text, self._written, self._width = 0, "", 0.0, 0
+    def __init__(self, unit: str = " iterations") -> None:
+        self._iterations, self._text, self._written, self._width, self._unit = 0, "", 0.0, 0, unit
 
     def set_postfix_str(self, text: str, refresh: bool) -> None:
         self._text = text
@@ -96,7 +118,7 @@ class _Line:
             self._write("\n")
 
     def _write(self, end: str) -> None:
-        line = f"{self._iterations} iterations, {self._text}"
+        line = ", ".join(filter(None, [f"{self._iterations}{self._unit}", self._text]))
         # what is longer before it is written over
         print(f"\r{line.ljust(self._width)}", end=end, file=sys.stderr, flush=True)
         self._width = len(line)

@@ -2,7 +2,18 @@
 
 from .fit import CurveFit, fit_curve
 from .likelihood import Estimate, ModelFit
+from .maps import CurveMap, fit_curves
 from .read import ForceCurve, read_curve
 from .tip_table import TipTable
 
-__all__ = ["CurveFit", "Estimate", "ForceCurve", "ModelFit", "TipTable", "fit_curve", "read_curve"]
+__all__ = [
+    "CurveFit",
+    "CurveMap",
+    "Estimate",
+    "ForceCurve",
+    "ModelFit",
+    "TipTable",
+    "fit_curve",
+    "fit_curves",
+    "read_curve",
+]

@@ -9,15 +9,15 @@ from numpy.typing import ArrayLike
 
 from .. import _asperity, _plot
 from .._types import Quantity
-from .._units import given, in_unit, number
 from .._warnings import InputWarning, warn
 from .._words import checked
-from .branches import ordered
-from .curve import Curve, Direction
+from .asked import Asked, asked
+from .curve import Direction
 from .likelihood import LEVEL, UNLIKELY, Estimate, Likelihood, ModelFit
+from .plot import force_curve
 from .search import search
 from .tip_table import TipTable
-from .tips import Array, Paraboloid, Tip, scipy
+from .tips import Array
 
 
 class CurveFit:
@@ -130,7 +130,7 @@ class CurveFit:
         """
         own = ("m", "N") if self._is_si else (None, None)
         length, force = _plot.shown("length_unit", own[0], length_unit), _plot.shown("force_unit", own[1], force_unit)
-        return _plot.force_curve(self.z, self.force, self.fitted, self._turn, length, force, ax)
+        return force_curve(self.z, self.force, self.fitted, self._turn, length, force, ax)
 
 
 def _digits(factor: float, found: Estimate) -> list[str]:
@@ -224,48 +224,26 @@ def fit_curve(
     >>> fit.modulus.lower < 2e9 < fit.modulus.upper, fit.work_of_adhesion.lower
     (True, 0.0)
     """
-    if (radius is None) == (tip is None):
-        raise TypeError(f"radius is {radius!r}, and tip is {tip!r}: give one of them")
-    if not isinstance(tip, TipTable | None):
-        raise TypeError(f"tip is a {type(tip).__name__}: make its table first, tip=asperity.TipTable(heights, ...)")
-    si = given.get()
-    if tip is not None:
-        if spring_stiffness is not None and si != tip.is_si:
-            raise ValueError(f"spring_stiffness is {spring_stiffness!r}, and the table is {tip!r}: give all units, or none")
-        si = tip.is_si
-    z, force = _given(z, force, si, length_unit, force_unit)
-    if direction not in (None, "approach", "withdrawal"):
-        raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
-    compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
-    if direction is None:
-        z, force, against = ordered(z, force)
-        if against:
-            warn(against, InputWarning)
-    elif (z[-1] > z[0]) != (direction == "approach"):
-        z, force = z[::-1], force[::-1]
-    scipy("special")
-    _refuse_saturated(z, force)
-    shape: Tip = tip or Paraboloid(_positive("radius", radius))
-    models = _models(shape, model)
-    curve = Curve(z, force, direction, shape, compliance)
-    return _told(Likelihood(curve, search(curve, models, jumps)), poisson, si)
+    keywords = asked(radius, tip, spring_stiffness, poisson, direction, model, jumps, length_unit, force_unit)
+    found, told = fitted(z, force, keywords)
+    for message in told:
+        warn(message, InputWarning)
+    return found
 
 
 CurveFit.__module__ = "asperity"
 
 
-def _models(tip: Tip, model: str | None) -> list[str]:
-    """The models to be fitted, in their order."""
-    if model is None:
-        return list(tip.fewer)
-    found = [name for name in tip.fewer if name.lower() == str(model).lower()]
-    if not found:
-        raise ValueError(f"model is {model!r}: it must be one of {', '.join(map(repr, map(str.lower, tip.fewer)))}, or left out for all")
-    return found
+def fitted(z: ArrayLike, force: ArrayLike, asked: Asked) -> tuple[CurveFit, list[str]]:
+    """The fit of a curve, and what speaks against it."""
+    curve, told = asked.curve(z, force)
+    found = Likelihood(curve, search(curve, asked.models, asked.jumps))
+    fit, more = _told(found, asked.poisson, asked.is_si)
+    return fit, told + more
 
 
-def _told(found: Likelihood, poisson: float | None, is_si: bool) -> CurveFit:
-    """All numbers by their names, or the refusal of a curve that does not tell them."""
+def _told(found: Likelihood, poisson: float | None, is_si: bool) -> tuple[CurveFit, list[str]]:
+    """All numbers by their names, and what speaks against them, or the refusal of a curve that does not tell them."""
     curve, fits, best = found.curve, found.fits, found.best
     line = float(np.sum(curve.cleared(curve.force) ** 2))
     if found.special.fdtrc(4, found.freedom, max(line - found.least, 0.0) / found.variance / 4.0) > 1e-4:
@@ -275,21 +253,20 @@ def _told(found: Likelihood, poisson: float | None, is_si: bool) -> CurveFit:
         curve.refuse_vague(modulus.lower, modulus.upper)
     models = {name: found.model(name) for name in found.names}
     least = min(model.aic for model in models.values())
-    ratio = None if poisson is None else _asperity.contact_modulus([(1.0, number("poisson", poisson))])
+    ratio = None if poisson is None else _asperity.contact_modulus([(1.0, poisson)])
     load = fits.load[best, : curve.z.size]
     fitted = load + curve.columns @ curve.baselines(load)[: curve.columns.shape[1]]
     approach = float((curve.z - fits.point[best] - curve.compliance * load).max())
     tabor, work = found.tabor(), found.work()
-    curve.tip.check_reach(modulus.value, 0.0 if work is None else work.upper, approach)
+    told = [curve.tip.check_reach(modulus.value, 0.0 if work is None else work.upper, approach)]
     alike, by_chance = found.likeness(best)
     if by_chance < UNLIKELY:
-        warn(
+        told.append(
             f"residuals of neighbouring points have a correlation of {alike:.2f}: the curve is not that of "
-            f"{curve.tip.what}, or its noise is slow, and the intervals are too narrow; plot() shows it",
-            InputWarning,
+            f"{curve.tip.what}, or its noise is slow, and the intervals are too narrow; plot() shows it"
         )
     offset, slope, *drift = found.line()
-    return CurveFit(
+    fit = CurveFit(
         modulus=modulus,
         young=None if ratio is None else Estimate(*(end / ratio for end in modulus)),
         work_of_adhesion=work,
@@ -311,6 +288,7 @@ def _told(found: Likelihood, poisson: float | None, is_si: bool) -> CurveFit:
         _turn=curve.turn,
         _is_si=is_si,
     )
+    return fit, list(filter(None, told))
 
 
 def _verdict(
@@ -327,7 +305,7 @@ def _verdict(
         count = {1: "This model does not fit", 2: "Neither model fits"}.get(len(models), "None of the four models fits")
         return f"{count}: residuals of neighbouring points are alike. The nearest is {nearest}."
     if len(models) == 1:
-        return f"By {nearest} alone, for {what}." if work is not None else f"By {what}, without adhesion."
+        return f"By {what}, without adhesion." if len(found.curve.tip.fewer) == 1 else f"By {nearest} alone, for {what}."
     bare, model = next(iter(models.items()))
     if found.is_bare and work is not None:
         unit = " J/m²" if is_si else ""
@@ -343,64 +321,3 @@ def _verdict(
     if fits == ["JKR"]:
         return f"JKR fits as well as Maugis, with a Tabor parameter of at least {tabor.lower:.2g}; DMT is ruled out."
     return f"Maugis, with a Tabor parameter from {tabor.lower:.2g} to {tabor.upper:.2g}; Hertz, DMT and JKR are ruled out."
-
-
-def _given(z: ArrayLike, force: ArrayLike, si: bool, *units: str | None) -> tuple[Array, Array]:
-    """Both columns, in SI units if their units are given."""
-    columns, masks = [], []
-    for name, values in (("z", z), ("force", force)):
-        try:
-            column = np.asarray(values, dtype=np.float64)
-        except (TypeError, ValueError):
-            raise TypeError(f"{name} is no array of numbers: give those of a file as numpy.loadtxt reads them") from None
-        if column.ndim != 1:
-            raise ValueError(f"{name} has shape {column.shape}: it must be (N,), a value for each point")
-        masks.append(np.ma.getmaskarray(values) if np.ma.isMaskedArray(values) else np.zeros(column.shape, bool))
-        bad = np.flatnonzero(~np.isfinite(column) & ~masks[-1])
-        if bad.size:
-            raise ValueError(
-                f"{name} is {column[bad[0]]} at point {bad[0]}, one of {bad.size} that are not finite: leave them out of z "
-                "and force"
-            )
-        columns.append(column)
-    if columns[0].size != columns[1].size:
-        raise ValueError(f"z has {columns[0].size} points and force {columns[1].size}: they must be as many")
-    # masked points are missing
-    columns = [column[~(masks[0] | masks[1])] for column in columns]
-    if columns[0].size < 20:
-        raise ValueError(f"z has {columns[0].size} points: a fit of up to 7 parameters needs at least 20")
-    for name, column in zip(("z", "force"), columns):
-        if np.ptp(column) == 0.0:
-            raise ValueError(f"{name} is {float(column[0])!r} at all points: a curve has it change from point to point")
-    if (units[0] is None) != (units[1] is None) or si != (units[0] is not None):
-        raise ValueError(
-            f"length_unit is {units[0]!r}, force_unit is {units[1]!r}, and the tip has {'a' if si else 'no'} unit: give "
-            "all units, as length_unit='nm', force_unit='nN', radius='20nm', or none"
-        )
-    if si:
-        names = ("length_unit", "force_unit")
-        columns = [column * in_unit(name, unit) for name, column, unit in zip(names, columns, units)]
-    return columns[0], columns[1]
-
-
-def _positive(name: str, value: Any) -> float:
-    found = number(name, value)
-    if not 0.0 < found < np.inf:
-        raise ValueError(f"{name} is {value!r}: it must be positive and finite")
-    return found
-
-
-def _refuse_saturated(z: Array, force: Array) -> None:
-    """Refuses forces that stay at an extreme while the position changes, away from where most of them are."""
-    far = z.min() + 0.02 * np.ptp(z)
-    for end, word in ((float(force.max()), "largest"), (float(force.min()), "least")):
-        at = np.flatnonzero(force == end)
-        runs = np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)
-        # a curve without noise is flat far from contact
-        runs = [run for run in runs if run.size and np.ptp(z[run]) > 0.0 and z[run].min() > far]
-        run = max((piece.size for piece in runs), default=0)
-        if run >= 4 and abs(end - np.median(force)) > 0.05 * np.ptp(force):
-            raise ValueError(
-                f"force is {end:.6g}, its {word} value, at {run} points in a row: the detector is saturated; leave these "
-                "points out of z and force"
-            )

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _asperity
+from .._progress import counted
 from .._types import Quantity
+from .._warnings import InputWarning
 from .._words import checked
 from . import instruments, texts
 from .branches import ordered
@@ -98,13 +101,13 @@ def read_curve(
     """
     with open(path, "rb") as file:
         content = file.read()
-    reader = Reader(path, z, force, length_unit, force_unit, _given(spring_stiffness, sensitivity))
+    reader = Reader(path, z, force, length_unit, force_unit, metres_and_newtons(spring_stiffness, sensitivity))
     if instruments.knows(content):
         return reader.instrument(instruments.chosen(path, instruments.curves(path, reader.given), number))
     return reader.joined(*texts.read(path, content))
 
 
-def _given(spring_stiffness: Quantity | None, sensitivity: Quantity | None) -> dict[str, float | None]:
+def metres_and_newtons(spring_stiffness: Quantity | None, sensitivity: Quantity | None) -> dict[str, float | None]:
     """Stiffness and sensitivity as numbers in SI units."""
     found: dict[str, float | None] = {"spring_stiffness": None, "sensitivity": None}
     for name, value, key in (("spring_stiffness", spring_stiffness, "spring_stiffness"), ("sensitivity", sensitivity, "approach")):
@@ -121,6 +124,15 @@ def _given(spring_stiffness: Quantity | None, sensitivity: Quantity | None) -> d
     return found
 
 
+class CurveFile(NamedTuple):
+    """All curves of a file: pairs, or the reason why one is none, with the shape and the side lengths of their map."""
+
+    pairs: list[ForceCurve | ValueError]
+    shape: tuple[int, ...]
+    lengths: tuple[float, float] | None
+    stiffness: float | None
+
+
 class Reader(NamedTuple):
     """What a file is read by: its path, the columns that are asked for, units, and what its forces may need."""
 
@@ -135,6 +147,30 @@ class Reader(NamedTuple):
         """A curve of afmformats."""
         chosen = self._replace(z="height (measured)" if self.z is None else self.z)
         return chosen.joined(*instruments.columns(self.path, curve))
+
+    def map(self) -> CurveFile:
+        """All curves of a file of afmformats, over the grid on which they were taken."""
+        found = instruments.curves(self.path, self.given)
+        pairs: list[ForceCurve | ValueError] = []
+        with warnings.catch_warnings():
+            # the reader of each curve tells of pauses
+            warnings.simplefilter("ignore", InputWarning)
+            for curve in counted(found, len(found), " curves"):
+                try:
+                    pairs.append(self.instrument(curve))
+                except ValueError as refused:
+                    pairs.append(refused)
+        first = found[0].metadata
+        stiffness = self.given["spring_stiffness"] or first.get("spring constant")
+        grid = [int(first.get(f"grid shape {axis}", 0)) for axis in "xy"]
+        if grid[0] * grid[1] < len(pairs):
+            return CurveFile(pairs, (len(pairs),), None, stiffness)
+        missing = ValueError("the file has no curve at this place of the map")
+        placed: list[ForceCurve | ValueError] = [missing] * (grid[0] * grid[1])
+        for curve, pair in zip(found, pairs):
+            placed[int(curve.metadata["grid index x"]) * grid[1] + int(curve.metadata["grid index y"])] = pair
+        sides = [float(first.get(f"grid size {axis}", np.nan)) for axis in "xy"]
+        return CurveFile(placed, (grid[0], grid[1]), (sides[0], sides[1]) if np.isfinite(sides).all() else None, stiffness)
 
     def joined(self, columns: list[Column], parts: NDArray[np.str_] | Array | None) -> ForceCurve:
         """The curve of columns, with approach and withdrawal behind each other."""

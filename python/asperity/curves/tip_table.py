@@ -262,7 +262,7 @@ class TipTable:
     def greatest_work(self, modulus: float, tabor: float, before: float) -> float:
         return np.inf
 
-    def check_reach(self, modulus: float, work: float, approach: float) -> None:
+    def check_reach(self, modulus: float, work: float, approach: float) -> str:
         if work > 1.001 * self.ratio * modulus:
             raise ValueError(
                 f"the curve asks for w/E* of {work / modulus:.3g} or more, and the table ends at {self.ratio:.3g}: make one of a "
@@ -273,6 +273,7 @@ class TipTable:
                 f"the curve goes to an approach of {approach:.3g}, and the table to {self.high:.3g}: make one that goes "
                 "further, or leave out points"
             )
+        return ""
 
 
 TipTable.__module__ = "asperity"

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from .. import _asperity, exact
 from .._optional import package
-from .._warnings import InputWarning, warn
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -68,8 +67,8 @@ class Tip(Protocol):
     def greatest_work(self, modulus: float, tabor: float, before: float) -> float:
         """The greatest work of adhesion that so holds."""
 
-    def check_reach(self, modulus: float, work: float, approach: float) -> None:
-        """Refuses what a fit found beyond all equilibria, or warns of it."""
+    def check_reach(self, modulus: float, work: float, approach: float) -> str:
+        """Refuses what a fit found beyond all equilibria, or tells what speaks against it."""
 
 
 def _maugis(tabor: float) -> Array:
@@ -148,11 +147,11 @@ class Paraboloid:
     def greatest_work(self, modulus: float, tabor: float, before: float) -> float:
         return float(np.sqrt(max(tabor * before, 0.0) ** 3 / self.radius) * modulus)
 
-    def check_reach(self, modulus: float, work: float, approach: float) -> None:
-        """Warns of an approach that no tip has; there are equilibria of all."""
-        if approach > self.radius:
-            warn(
-                f"the greatest indentation is {approach / self.radius:.3g} times the radius of the tip: give z, force "
-                "and radius in one system of units, as m and N, or length_unit='nm', force_unit='nN' and radius='20nm'",
-                InputWarning,
-            )
+    def check_reach(self, modulus: float, work: float, approach: float) -> str:
+        """Tells of an approach that no tip has; there are equilibria of all."""
+        if approach <= self.radius:
+            return ""
+        return (
+            f"the greatest indentation is {approach / self.radius:.3g} times the radius of the tip: give z, force "
+            "and radius in one system of units, as m and N, or length_unit='nm', force_unit='nN' and radius='20nm'"
+        )
