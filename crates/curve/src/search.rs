@@ -12,6 +12,10 @@ const ROUNDS: usize = 4;
 /// The parts of a variance of the noise that the last step of a fit may change: on the way, and in the end.
 const ROUGH: f64 = 0.1;
 const FINE: f64 = 1e-3;
+/// Fits that are worse by so many variances of the noise are not likely, whatever their last digits.
+const FAR: f64 = 60.0;
+/// Squares over those of the best fit behind which its neighbours learn nothing from a fit.
+const WORSE: f64 = 4.0;
 /// The width of a likelihood over the logarithm of the Tabor parameter for which the rows are close enough.
 const WIDE: f64 = 1.0;
 /// Places about the best Tabor parameter at which the likelihood is asked, in deviations.
@@ -78,7 +82,9 @@ impl Asked<'_> {
             let Some(best) = best.as_mut().filter(|_| changed) else { break };
             self.settle(&curve, best, FINE, &mut room);
         }
-        for fit in &mut fits {
+        let least = fits.iter().chain(&best).map(|fit| fit.squares).fold(f64::INFINITY, f64::min);
+        let known = least + FAR * curve.noise.max(self.least).powi(2);
+        for fit in fits.iter_mut().filter(|fit| !fit.free[1] || fit.squares < known) {
             self.settle(&curve, fit, FINE, &mut room);
         }
         if let Some(best) = best {
@@ -146,10 +152,11 @@ impl Asked<'_> {
         let unit = curve.noise.max(self.least).powi(2);
         let adheres: Vec<usize> = (0..fits.len()).filter(|&k| fits[k].free[1]).collect();
         let mut gained = false;
+        let least = fits.iter().map(|fit| fit.squares).fold(f64::INFINITY, f64::min);
         let pairs = adheres.windows(2).map(|pair| (pair[0], pair[1]));
         let pairs: Vec<_> = pairs.clone().chain(pairs.rev().map(|(a, b)| (b, a))).collect();
         for (from, to) in pairs {
-            if fits[from].squares < fits[to].squares - unit {
+            if fits[from].squares < fits[to].squares - unit && fits[from].squares < WORSE * least {
                 let mut trial = fits[to].clone();
                 trial.parameters = Parameters { log_tabor: trial.parameters.log_tabor, ..fits[from].parameters };
                 trial.sides = fits[from].sides.clone();

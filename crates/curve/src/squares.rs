@@ -131,6 +131,8 @@ pub struct Prediction {
     rest: Vec<f64>,
 }
 
+/// The part of a variance from which on a fit is quick, and not exact.
+const QUICK: f64 = 0.05;
 const LOWEST: [f64; 4] = [-14.0, 1e-4, -400.0, f64::NEG_INFINITY];
 const HIGHEST: [f64; 4] = [14.0, 50.0, 400.0, f64::INFINITY];
 const LONGEST: [f64; 4] = [0.7, 1.0, 10.0, 1.0];
@@ -315,7 +317,7 @@ impl Curve {
         let model = &models[fit.model];
         let (mut squares, mut normal, mut gradient) = self.equations(model, fit, room);
         let mut damping = 1e-3;
-        for _ in 0..40 {
+        for _ in 0..if part < QUICK { 40 } else { 15 } {
             let mut damped = normal;
             (0..4).for_each(|j| damped[j][j] += damping * normal[j][j].max(f64::MIN_POSITIVE));
             let Some(mut step) = solved(damped, gradient) else { break };

@@ -9,6 +9,7 @@ decide.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -16,7 +17,7 @@ import numpy as np
 from .tips import Array, scipy
 
 #: The number of samples, and falls of the squares, in variances, of rounding, and such that none is expected.
-_SAMPLES, _NONE, _FAR = 2000, 0.02, 60.0
+_SAMPLES, _NONE, FAR = 2000, 0.02, 60.0
 #: The square of the length over which a path is straight, in variances: behind it the next place is another fit.
 _STRAIGHT = 30.0
 
@@ -60,15 +61,15 @@ def falls(paths: list[Array], freedom: int) -> Array:
     return np.asarray(best / np.maximum(variance, 0.01))
 
 
-def probability(fall: float, paths: list[Array], freedom: int, otherwise: float) -> float:
+def probability(fall: float, paths: list[Array], freedom: int, otherwise: Callable[[], float]) -> float:
     """The probability of a fall as large as this one; without a fall, `otherwise` is that of what else is seen."""
     special = scipy("special")
-    if fall > _FAR:
+    if fall > FAR:
         return float(special.fdtrc(2, freedom, 0.5 * fall))
     samples = falls(paths, freedom) if paths else np.zeros(_SAMPLES)
     if fall <= _NONE:
         some = float(np.mean(samples > _NONE))
-        return some + (1.0 - some) * otherwise
+        return some + (1.0 - some) * otherwise()
     least = float(np.quantile(samples, 0.98))
     if fall <= least:
         return float(np.mean(samples >= fall))

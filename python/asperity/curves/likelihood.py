@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .calibration import likeness, orthonormal, probability
+from .calibration import FAR, likeness, orthonormal, probability
 from .curve import Curve
 from .search import Fits
 from .tips import Array, Paraboloid, scipy
@@ -20,7 +20,7 @@ UNLIKELY = 1e-4
 #: Columns of the spread of a fit.
 LOG_MODULUS, ROOT_WORK, POINT, LOG_TABOR, OFFSET, SLOPE, DRIFT = range(7)
 #: The least force of adhesion that is looked for, over the noise, the greatest one over the span of the forces, and how many.
-_LEAST, _MOST, _WORKS = 0.03, 2.0, 12
+_LEAST, _MOST, _WORKS = 0.03, 2.0, 10
 
 
 class Estimate(NamedTuple):
@@ -156,7 +156,7 @@ class Likelihood:
         fall = max(float(fits.squares[row]) - least, 0.0) / self.variance
         basis = self._basis(row)
         paths: list[Array] = []
-        if others and fall <= 60.0:
+        if others and fall <= FAR:
             if self.bare[row]:
                 differences = self._adhesions(row)
             else:
@@ -167,18 +167,21 @@ class Likelihood:
             for path in differences:
                 path = path - (path @ basis) @ basis.T
                 path = path / np.sqrt(self.variance)
+                # differences that are always seen are none by chance
+                path = path[np.sum(path**2, axis=1) < FAR]
                 # a limit of the others begins with no difference
                 if len(path) > 1 and np.sum(path[0] ** 2) < 4.0:
                     path = np.concatenate([np.zeros((1, path.shape[1])), path])
-                paths.append(path)
-        return probability(fall, paths, self.freedom, self.likeness(row)[1])
+                if len(path):
+                    paths.append(path)
+        return probability(fall, paths, self.freedom, lambda: self.likeness(row)[1])
 
     def _adhesions(self, row: int) -> list[Array]:
         """How loads would change with adhesion, for works of adhesion that grow from none, by each of some models."""
         curve, fits = self.curve, self.fits
         names = list(curve.tip.fewer)
         kinds = [(names.index(str(fits.model[one])), float(np.log(fits.tabor[one]))) for one in self.family if not self.bare[one]]
-        kinds = kinds[:: max(len(kinds) // 6, 1)]
+        kinds = kinds[:: max(len(kinds) // 5, 1)]
         forces = np.geomspace(_LEAST * max(curve.noise, curve.least), _MOST * float(np.ptp(curve.force)), _WORKS)
         works = forces / (1.75 * np.pi * curve.tip.radius)
         roots = np.sqrt(np.maximum(works / curve.work - curve.floor, 0.0))
@@ -236,7 +239,7 @@ class Likelihood:
         """The greatest work of adhesion of a likely fit."""
         curve, fits = self.curve, self.fits
         rows = self.likely[~self.bare[self.likely]]
-        rows = rows[:: max(rows.size // 6, 1)]
+        rows = rows[:: max(rows.size // 3, 1)]
         names, reach = list(curve.tip.fewer), float("inf")
         found = 0.0
         for row in rows:

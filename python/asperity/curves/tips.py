@@ -18,9 +18,9 @@ TABOR = np.geomspace(0.01, 50.0, 13)
 #: Knots of the tables over the Tabor parameter.
 _KNOTS = np.geomspace(0.008, 60.0, 61)
 #: Contact radii of the tables for R = E* = w = 1: approaches up to two hundred thousand Tabor lengths.
-_RADII = 0.5 * np.sinh(np.linspace(0.0, 7.5, 1000))
+_RADII = 0.5 * np.sinh(np.linspace(0.0, 7.5, 550))
 #: Knots before contact, and the farthest distance.
-_APART, _FAR = 150, 1e6
+_APART, _FAR = 80, 1e6
 
 
 def scipy(module: str) -> Any:
