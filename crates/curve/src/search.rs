@@ -11,7 +11,7 @@ const NEIGHBOURS: usize = 8;
 const ROUNDS: usize = 4;
 /// The parts of a variance of the noise that the last step of a fit may change: on the way, and in the end.
 const ROUGH: f64 = 0.1;
-const FINE: f64 = 1e-3;
+const FINE: f64 = 1e-2;
 /// Fits that are worse by so many variances of the noise are not likely, whatever their last digits.
 const FAR: f64 = 60.0;
 /// Squares over those of the best fit behind which its neighbours learn nothing from a fit.
@@ -19,7 +19,7 @@ const WORSE: f64 = 4.0;
 /// The width of a likelihood over the logarithm of the Tabor parameter for which the rows are close enough.
 const WIDE: f64 = 1.0;
 /// Places about the best Tabor parameter at which the likelihood is asked, in deviations.
-const AROUND: [f64; 12] = [-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
+const AROUND: [f64; 4] = [0.75, 1.5, 2.25, 3.0];
 
 /// What is searched for.
 #[derive(Clone, Debug)]
@@ -198,12 +198,16 @@ impl Asked<'_> {
         let rows = || self.rows.iter().filter(|row| row.0 == best.model).map(|row| row.1);
         let (low, high) = rows().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), one| (low.min(one), high.max(one)));
         // the rows themselves are as close where the likelihood is wide
-        let around = AROUND.iter().filter(|_| width <= WIDE).map(|one| best.parameters.log_tabor + width * one);
-        for log_tabor in around.filter(|&one| one > low && one < high) {
-            let parameters = Parameters { log_tabor, ..best.parameters };
-            let mut fit = Fit { parameters, free: [true, true, true, false], ..best.clone() };
-            curve.improve(self.models, &mut fit, FINE, self.least, room);
-            fits.push(fit);
+        for sign in [-1.0, 1.0].into_iter().filter(|_| width <= WIDE) {
+            let mut last = best.clone();
+            last.free[3] = false;
+            for place in AROUND.map(|one| best.parameters.log_tabor + sign * width * one) {
+                if place > low && place < high {
+                    last.parameters.log_tabor = place;
+                    curve.improve(self.models, &mut last, FINE, self.least, room);
+                    fits.push(last.clone());
+                }
+            }
         }
         fits.push(best);
         let rank = |fit: &Fit| self.rows.iter().position(|row| row.0 == fit.model);

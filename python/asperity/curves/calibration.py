@@ -17,7 +17,9 @@ import numpy as np
 from .tips import Array, scipy
 
 #: The number of samples, and falls of the squares, in variances, of rounding, and such that none is expected.
-_SAMPLES, _NONE, FAR = 2000, 0.02, 60.0
+_SAMPLES, _NONE, FAR = 1000, 0.02, 60.0
+#: The most directions of differences that count.
+_MOST = 128
 #: The square of the length over which a path is straight, in variances: behind it the next place is another fit.
 _STRAIGHT = 30.0
 
@@ -25,7 +27,9 @@ _STRAIGHT = 30.0
 @lru_cache(maxsize=1)
 def _normal() -> Array:
     """Samples of normal numbers, as many columns as there may be differences, and one more for the variance."""
-    return np.random.default_rng(1).normal(size=(129, _SAMPLES))
+    found = np.random.default_rng(1).normal(size=(_MOST + 1, _SAMPLES))
+    found -= found.mean(axis=1)[:, None]
+    return np.asarray(found / found.std(axis=1)[:, None])
 
 
 def falls(paths: list[Array], freedom: int) -> Array:
@@ -38,6 +42,7 @@ def falls(paths: list[Array], freedom: int) -> Array:
     values, vectors = np.linalg.eigh(gram)
     kept = values > 1e-12 * values.max(initial=1e-300)
     normal = _normal()
+    kept[: -_MOST] = False
     across = (vectors[:, kept] * np.sqrt(values[kept])) @ normal[: int(kept.sum())]
     best = np.zeros(_SAMPLES)
     ends = np.cumsum([len(path) for path in paths])
