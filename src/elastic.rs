@@ -79,6 +79,11 @@ pub trait ElasticOperator<T: Real>: Send {
         Boundary::Periodic
     }
 
+    /// The [`far_compliance`](Body::far_compliance) of its body, by which a periodic body has an approach; none by default.
+    fn far_compliance(&self) -> Option<f64> {
+        None
+    }
+
     /// Whether the operator takes fields of [`Grid::field_shape`] on a grid that processes share; not by default.
     fn takes_slabs(&self) -> bool {
         false
@@ -255,6 +260,10 @@ macro_rules! delegate {
         fn boundary(&self) -> Boundary {
             let $this = self;
             $boundary
+        }
+        fn far_compliance(&self) -> Option<f64> {
+            let $this = self;
+            $inner.far_compliance()
         }
         fn takes_slabs(&self) -> bool {
             let $this = self;

@@ -118,10 +118,28 @@ def on_layer(radius, poisson):
     2/π d/ds ∫ ru/√(s² − r²) dr. N(y) is ∫ (1 − W) cos(qy) dq with the compliance W of the layer over that of a
     half-space. Under the paraboloid φ(a) is zero.
     """
+    a, b = 3 - 4 * poisson, 5 - 12 * poisson + 8 * poisson**2
+    return on_body(radius, lambda q: (a * np.sinh(2 * q) - 2 * q) / (a * np.cosh(2 * q) + 2 * q**2 + b))
+
+
+def on_coating(radius, ratio, poisson):
+    """√(Rδ)/t and F/(4/3 E₁*√(Rδ³)) of a paraboloid on a coating whose modulus is in a ratio to that of its substrate."""
+    kappa, parts = (ratio - 1) / (ratio + 3 - 4 * poisson), 3 - 4 * poisson
+    lam = 1 - 4 * (1 - poisson) / (1 + ratio * parts)
+
+    def compliance(q):
+        theta = np.exp(-2 * q)
+        above = 1 + 4 * q * kappa * theta - lam * kappa * theta**2
+        return above / (1 - (lam + kappa + 4 * kappa * q**2) * theta + lam * kappa * theta**2)
+
+    return on_body(radius, compliance)[1:]
+
+
+def on_body(radius, compliance):
+    """The same by the compliance of a body over that of a half-space, a function of qt."""
     (s, weights), (q, of_q) = (np.polynomial.legendre.leggauss(count) for count in (30, 100))
     s, weights, q, of_q = radius * (s + 1) / 2, radius * weights / 2, 10 * (q + 1), 10 * of_q
-    a, b = 3 - 4 * poisson, 5 - 12 * poisson + 8 * poisson**2
-    missing = of_q * (1 - (a * np.sinh(2 * q) - 2 * q) / (a * np.cosh(2 * q) + 2 * q**2 + b))
+    missing = of_q * (1 - compliance(q))
     places = np.append(s, radius)[:, None]
     kernel = sum(np.cos(q * distance[..., None]) @ missing for distance in (places + s, places - s)) * weights / np.pi
     right = 2 / np.pi * np.hstack([np.ones_like(places), places**2])

@@ -4,6 +4,7 @@
 mod answer;
 mod command;
 mod contact;
+mod curve;
 mod exact;
 mod flow;
 mod functions;
@@ -32,6 +33,7 @@ mod _asperity {
         answer::unbalanced,
         command::{command, figures_of, page},
         contact::{clusters, contact_picture, contact_tables, load_scale, palette, pressure_distribution},
+        curve::{Curve, Equilibria},
         exact::{
             AdhesiveWavyLine, Contact, GreenwoodWilliamson, Hertz, Jkr, MaugisDugdale, Persson, WaveContact, WavyLine,
             closing_pressure_2d,

@@ -1,6 +1,8 @@
 """Force curves of tips of any shape are fitted by tables of solves, and give what the curves were made of."""
 
+import pathlib
 import pickle
+import runpy
 
 import numpy as np
 import pytest
@@ -53,7 +55,7 @@ def test_what_is_beyond_a_table_is_refused(tip, table):
         ({"approaches": (1e-9, 2e-9)}, "they must be a negative one, before contact"),
         ({"works": 5}, "works is 5: it must be even"),
         ({"modulus": "1GPa"}, "give all units, or none"),
-        ({"body": asperity.Coating(1e-9, 1e9, 0.3, 0.3)}, "a table has one modulus"),
+        ({"body": asperity.Symbol(lambda q: q)}, "it must be a Layer or a Coating"),
     ):
         with pytest.raises((TypeError, ValueError), match=told):
             asperity.TipTable(tip, **{"approaches": (-1e-9, 2e-9), "modulus": 1e9, "law": LAW, **wrong})
@@ -133,3 +135,30 @@ def test_a_layer_that_sticks_is_fitted_back():
     fit = asperity.fit_curve(top - columns["mean_gap"] + squeezed, noisy(columns["normal_force"], 5e-3), tip=table)
     assert fit.modulus.value == pytest.approx(2.0, rel=0.02)
     assert fit.work_of_adhesion.value == pytest.approx(6e-3, rel=0.02)
+
+
+# the cell is some ten times as wide as the contact
+@pytest.mark.filterwarnings("ignore:ends", "ignore:thin-body")
+def test_a_sphere_on_a_coating_is_that_of_the_integral_equation():
+    tip, coating = asperity.surface.paraboloid(128, 8.0, radius=20.0), asperity.Coating(0.5, 0.1, 0.3, 0.3)
+    table = asperity.TipTable(tip, approaches=(-0.01, 0.05), modulus=1.0, body=coating)
+    # √(Rδ)/t is 1 and 2: the force over that of Hertz on the coating alone, by the equation of Lebedev and Ufliand
+    depth = np.array([1.0, 2.0]) ** 2 * 0.25 / 20.0
+    ratio = table.load(depth) / (4 / 3 * 0.1 * np.sqrt(20.0) * depth**1.5)
+    assert ratio == pytest.approx([coated(1.0, 0.1, 0.3), coated(2.0, 0.1, 0.3)], rel=0.01)
+    z = np.linspace(-0.02, 0.045, 120)
+    fit = asperity.fit_curve(z, noisy(3.0 * table.load(z.clip(0))), tip=table)
+    assert covers(fit.modulus, 3.0) and fit.modulus.value == pytest.approx(3.0, rel=0.02)
+
+
+def covers(found, true):
+    return found.lower <= true <= found.upper
+
+
+def coated(wanted, ratio, poisson):
+    """The force of a paraboloid at √(Rδ)/t over that on a half-space of the coating, for moduli of a ratio."""
+    path = pathlib.Path(__file__).resolve().parents[1] / "benches" / "shapes.py"
+    on_coating = runpy.run_path(str(path))["on_coating"]
+    radii = np.linspace(0.3 * wanted, 1.5 * wanted, 12)
+    roots, forces = np.transpose([on_coating(radius, ratio, poisson) for radius in radii])
+    return np.interp(wanted, roots, forces)

@@ -56,6 +56,33 @@ pub trait Body: Send + Sync {
     fn mean_compliance(&self) -> f64 {
         0.0
     }
+
+    /// The part of the approach of points far away that the waves of a periodic cell do not have, over the mean pressure
+    /// in the cell, length per pressure: that of a load on a part of the cell that is alone on the body. None if it
+    /// cannot be told, as of a body of one's own. It is right to the first order in the size of the contact over the
+    /// cell's.
+    fn far_compliance(&self, _grid: &Grid) -> Option<f64> {
+        None
+    }
+}
+
+/// How much less a half-space yields at a point load in a cell than under the load alone, over the mean pressure and
+/// 1/(πE*): the sum of 1/r over the images less the mean, after Ewald; none on lines.
+pub(crate) fn images(grid: &Grid) -> Option<f64> {
+    let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
+    if nx == 1 || ny == 1 {
+        return None;
+    }
+    let (area, split) = (lx * ly, (PI / (lx * ly)).sqrt());
+    let sum = |a: f64, b: f64, of: &dyn Fn(f64) -> f64| -> f64 {
+        // terms fall below the last digit at five units of the longer side
+        let [m, n] = [a, b].map(|side| (5.0 * a.max(b) / side).ceil() as i32);
+        let terms = (-m..=m).flat_map(|i| (-n..=n).map(move |j| (f64::from(i) * a).hypot(f64::from(j) * b)));
+        terms.filter(|&r| r > 0.0).map(of).sum()
+    };
+    let near = sum(lx, ly, &|r| libm::erfc(split * r) / r);
+    let far = sum(2.0 * PI / lx, 2.0 * PI / ly, &|q| 2.0 * PI / area * libm::erfc(0.5 * q / split) / q);
+    Some(area * (2.0 * split / PI.sqrt() + 2.0 * PI.sqrt() / (area * split) - near - far))
 }
 
 impl<B: Body + ?Sized> Body for Arc<B> {
@@ -73,6 +100,10 @@ impl<B: Body + ?Sized> Body for Arc<B> {
 
     fn mean_compliance(&self) -> f64 {
         (**self).mean_compliance()
+    }
+
+    fn far_compliance(&self, grid: &Grid) -> Option<f64> {
+        (**self).far_compliance(grid)
     }
 }
 

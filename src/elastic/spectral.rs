@@ -38,6 +38,8 @@ pub struct Spectral<T: Real> {
     convolver: Convolver<T>,
     /// whether a solve in `f64` may have its corrections in `f32`
     single: bool,
+    /// what the approach of its body has besides the waves
+    far_compliance: Option<f64>,
 }
 
 impl<T: Real> fmt::Debug for Spectral<T> {
@@ -67,7 +69,7 @@ impl<T: Real> Spectral<T> {
             check_range::<T>(range.0, range.1)?;
         }
         let (stiffness, convolver) = (Stiffness::Stored(stiffness), Convolver::new(grid.slab()));
-        Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true })
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true, far_compliance: None })
     }
 
     /// Sets whether a solve in `f64` may have its corrections by this operator in `f32`, as by default it does: gap,
@@ -91,15 +93,16 @@ impl<T: Real> Spectral<T> {
     /// # Errors
     /// As for [`Spectral::new`].
     pub fn of(grid: Grid, body: impl Body + 'static) -> Result<Self> {
-        let modulus = body.modulus_on(&grid);
-        Self::new(grid, modulus, move |qx, qy| body.stiffness(qx, qy))
+        let (modulus, far_compliance) = (body.modulus_on(&grid), body.far_compliance(&grid));
+        Ok(Self { far_compliance, ..Self::new(grid, modulus, move |qx, qy| body.stiffness(qx, qy))? })
     }
 
     pub(super) fn half_space(grid: Grid, modulus: f64) -> Result<Self> {
         Error::positive("contact modulus", modulus)?;
         let symbol: Symbol = Arc::new(move |qx, qy| 0.5 * modulus * qx.hypot(qy));
         let (stiffness, range) = T::half_space(&grid, modulus)?;
-        Ok(Self { grid, modulus, symbol, stiffness, range, convolver: Convolver::new(grid.slab()), single: true })
+        let convolver = Convolver::new(grid.slab());
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true, far_compliance: None })
     }
 
     /// The operator of a compliance that is even along both axes, without folded lines: of each column of the half
@@ -131,7 +134,7 @@ impl<T: Real> Spectral<T> {
             }
         };
         let (symbol, stiffness) = (Arc::new(symbol), Stiffness::Even(modes));
-        Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true })
+        Ok(Self { grid, modulus, symbol, stiffness, range, convolver, single: true, far_compliance: None })
     }
 
     /// The operator with a stiffness that depends on the wave number's magnitude alone.
@@ -218,6 +221,7 @@ impl<T: Real> Spectral<T> {
             range,
             convolver: Convolver::new(grid.slab()),
             single: self.single,
+            far_compliance: self.far_compliance,
         }
     }
 
@@ -315,6 +319,10 @@ impl<T: Real> ElasticOperator<T> for Spectral<T> {
 
     fn modulus(&self) -> f64 {
         self.modulus
+    }
+
+    fn far_compliance(&self) -> Option<f64> {
+        self.far_compliance
     }
 
     fn takes_slabs(&self) -> bool {

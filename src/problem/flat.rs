@@ -28,6 +28,8 @@ pub struct PressedFlat<T> {
     /// where the surface faces the body; none if everywhere
     pub(crate) window: Option<Window>,
     pub(crate) boundary: Boundary,
+    /// what the approach of a periodic body has besides the waves, over the mean pressure
+    pub(crate) far_compliance: Option<f64>,
     /// the nominal area of the surface
     pub(crate) area: f64,
     /// the area of the operator's grid over it
@@ -56,7 +58,7 @@ impl<T: Real> PressedFlat<T> {
         operator: &mut dyn ElasticOperator<T>,
         law: &dyn AdhesionLaw<T>,
     ) -> Result<Self> {
-        let boundary = operator.boundary();
+        let (boundary, far_compliance) = (operator.boundary(), operator.far_compliance());
         let (grid, expected) = match boundary {
             Boundary::Periodic => (surface.grid(), *operator.grid()),
             Boundary::Free { window, .. } => (surface.grid(), window),
@@ -130,6 +132,7 @@ impl<T: Real> PressedFlat<T> {
             height_span,
             window,
             boundary,
+            far_compliance,
             area: lx * ly,
             padding: whole.grid().nodes() as f64 / grid.nodes() as f64,
             yielded: None,
@@ -169,9 +172,10 @@ impl<T: Real> PressedFlat<T> {
                      pressure or a force",
                 );
             }
-            Control::Approach(_) if !free => {
+            Control::Approach(_) if !free && (absent || self.far_compliance.is_none()) => {
                 return refused(
-                    "bodies in a periodic cell have no approach: give a mean gap, or take a free half-space",
+                    "bodies in a periodic cell have no approach, but for a layer or a coating: give a mean gap, or take \
+                     a free half-space",
                 );
             }
             Control::MeanGap(_) if matches!(wall, Wall::None) => Load::Gap(held()?),
@@ -179,8 +183,9 @@ impl<T: Real> PressedFlat<T> {
             Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
             Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
             Control::Approach(_) => {
-                let rest = self.resting(held()?);
-                Load::Spring { stiffness: self.boundary.mean_compliance().recip(), rest }
+                let (rest, compliance) = (self.resting(held()?), self.approach_compliance());
+                // a bonded incompressible layer does not yield in the mean
+                if compliance == 0.0 { Load::Gap(rest + self.mean_depth()) } else { Load::Spring { stiffness: compliance.recip(), rest } }
             }
             Control::Spring { stiffness, rest } => {
                 Error::positive("stiffness of the spring", stiffness)?;
@@ -209,9 +214,18 @@ impl<T: Real> PressedFlat<T> {
         self.peak - if approach.abs() <= rounding { -rounding } else { approach }
     }
 
-    /// The approach at a mean gap and a mean pressure on the operator's grid; none in a periodic cell.
+    /// What the mean pressure adds to an approach, over that pressure; zero for a body without one.
+    fn approach_compliance(&self) -> f64 {
+        match self.boundary {
+            Boundary::Free { mean_compliance, .. } => mean_compliance,
+            Boundary::Periodic => self.far_compliance.unwrap_or(0.0),
+        }
+    }
+
+    /// The approach at a mean gap and a mean pressure on the operator's grid; in a periodic cell none but over a layer or
+    /// a coating.
     pub(crate) fn approach(&self, mean_gap: f64, pressure: f64) -> Option<f64> {
-        let Boundary::Free { mean_compliance, .. } = self.boundary else { return None };
-        Some(self.peak - mean_gap + mean_compliance * pressure)
+        let has = self.boundary != Boundary::Periodic || self.far_compliance.is_some() && self.window.is_none();
+        has.then(|| self.peak - mean_gap + self.approach_compliance() * pressure)
     }
 }

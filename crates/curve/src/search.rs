@@ -64,7 +64,7 @@ impl Asked<'_> {
         // the first noise is one of neighbours, which a steep curve has, too
         let mut curve = curve.clone();
         for round in 0..ROUNDS {
-            let noise = curve.noise_of(&fits);
+            let noise = curve.noise_of(fits.iter());
             let changed = (noise / curve.noise - 1.0).abs() > 0.1;
             curve.noise = noise;
             if changed {
@@ -76,7 +76,7 @@ impl Asked<'_> {
         }
         let mut best = self.freed(&curve, &fits, &mut room);
         for _ in 0..ROUNDS {
-            let noise = curve.noise_of(best.as_ref().map_or(&fits, std::slice::from_ref));
+            let noise = curve.noise_of(fits.iter().chain(&best));
             let changed = (noise / curve.noise - 1.0).abs() > 0.05;
             curve.noise = noise;
             let Some(best) = best.as_mut().filter(|_| changed) else { break };
@@ -270,8 +270,8 @@ impl Curve {
     }
 
     /// The deviation of the noise by the best of some fits.
-    fn noise_of(&self, fits: &[Fit]) -> f64 {
-        let least = fits.iter().map(|fit| fit.squares).fold(f64::INFINITY, f64::min);
+    fn noise_of<'a>(&self, fits: impl Iterator<Item = &'a Fit>) -> f64 {
+        let least = fits.map(|fit| fit.squares).fold(f64::INFINITY, f64::min);
         (least / self.z.len().saturating_sub(4 + self.baseline.len()).max(1) as f64).sqrt()
     }
 

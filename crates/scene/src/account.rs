@@ -90,7 +90,7 @@ record! {
         mean_pressure: f64 [PRESSURE] = report.mean_pressure,
         /// The normal force.
         normal_force: f64 [FORCE] = report.normal_force,
-        /// The approach, with a free boundary.
+        /// The approach, with a free boundary, and over a layer or a coating as that of points far away.
         approach: Option<f64> [LENGTH] = report.approach,
         /// The stiffness of a spring, if the load is one.
         spring_stiffness: Option<f64> [FORCE_PER_LENGTH] = stiffness(report.control),

@@ -15,6 +15,8 @@ from .tips import Array, Paraboloid, scipy
 
 #: A probability below this rules a model out, and intervals have the complement.
 LEVEL = 0.05
+#: A simpler model stays in the intervals down to this probability.
+DOUBTFUL = 0.02
 #: Below this probability neighbouring residuals are alike: no model fits.
 UNLIKELY = 1e-4
 #: Columns of the spread of a fit.
@@ -94,10 +96,17 @@ class Likelihood:
         self.probabilities = {name: self._probability(name) for name in self.names}
         #: whether adhesion is not seen
         self.is_bare = any(not tip.adheres(name) and self.probabilities[name] >= LEVEL for name in self.names)
-        seen = self.family[~self.bare[self.family] | self.is_bare]
-        self.likely = seen[fits.squares[seen] <= self.most]
-        if not self.likely.size:
-            self.likely = np.array([self.best])
+        #: fits with which intervals are made, and by how much the squares of each may grow
+        room = self.most - fits.squares
+        for name in self.names:
+            # a simpler model that is true is ruled out as often as intervals may miss: it stays in them for longer
+            if tip.fewer[name] and self.probabilities[name] >= DOUBTFUL:
+                room[self.of(name)] = self.most - self.least
+            elif not tip.adheres(name):
+                room[self.of(name)] = -1.0
+        room[self.best] = self.most - self.least
+        self.likely = self.family[room[self.family] >= 0.0]
+        self.room = np.maximum(room, 0.0)
 
     def _holds(self) -> NDArray[np.bool_]:
         """The fits for which the tip has equilibria."""
@@ -199,9 +208,10 @@ class Likelihood:
         return [np.pad(path, ((0, 0), (0, 2))) for path in loads]
 
     def _span(self, column: int, at: Array) -> tuple[float, float]:
-        """The ends of a number over all likely fits."""
-        half = np.sqrt(np.maximum(self.most - self.fits.squares[self.likely], 0.0) * self.spread[self.likely, column, column])
-        found = at[self.likely]
+        """The ends of a number over all likely fits that have it."""
+        rows = self.likely if column != ROOT_WORK else self.likely[~self.bare[self.likely]]
+        half = np.sqrt(self.room[rows] * self.spread[rows, column, column])
+        found = at[rows]
         return float((found - half).min()), float((found + half).max())
 
     def modulus(self) -> Estimate:
@@ -269,7 +279,7 @@ class Likelihood:
         value = ends.get(str(fits.model[self.best]), float(fits.tabor[self.best]))
         if fits.squares[inner[least]] > self.most:
             # only limits are likely
-            likely = [ends[str(fits.model[row])] for row in self.likely if str(fits.model[row]) in ends]
+            likely = [ends[str(fits.model[row])] for row in self.likely if fits.model[row] in ends]
             return Estimate(value, min(likely, default=value), max(likely, default=value))
         # the ends are no places between others: the likelihood goes to one side alone
         lower = 0.0 if self.probabilities["DMT"] >= LEVEL else self._passes(inner[least::-1])
@@ -298,7 +308,7 @@ class Likelihood:
                 return ends[name]
             tangent = np.array([-2.0, 4.0 / max(fits.root_work[row], 1e-9)]) / 3.0
             spread = float(tangent @ self.spread[row, :2, :2] @ tangent)
-            half = np.sqrt(max(self.most - fits.squares[row], 0.0) * spread)
+            half = np.sqrt(self.room[row] * spread)
             length = tip.length(fits.modulus[row], fits.work[row]) / float(fits.tabor[row])
             return length, length * float(np.exp(-half)), length * float(np.exp(min(half, 99.0)))
 

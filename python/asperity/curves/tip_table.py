@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import warnings
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from typing import Any, TypeAlias, cast
 
 import numpy as np
 
 from .. import _asperity
-from .._body import Layer
+from .._body import Coating, Layer
 from .._contact import Contact, cycle
 from .._topography import Heights
 from .._types import AxisOrder, Lengths, OwnLaw, Quantity
@@ -48,9 +49,11 @@ class TipTable:
         Contact modulus E* and adhesion law, as those of `solve`: those of the greatest w/E* of the curves. The range of
         the law is fixed, and best one that the grid resolves: by `JKR` a smooth tip of 64 x 64 nodes is fitted with a work
         of adhesion 7 % too small. Without a law the force is in proportion to the modulus, and any will do.
-    body : Layer, optional
-        Layer under the tip, a half-space by default. Its boundary is periodic, so that the map has to be much wider than
-        the contact.
+    body : Layer or Coating, optional
+        Layer under the tip, or coating on the half-space, which is alone by default. Its boundary is periodic, so that the
+        map has to be much wider than the contact: approaches are those of points far away, to the first order in the
+        width of the contact over the map's. Moduli of coating and half-space stay in proportion, and a fit tells the one
+        of the half-space.
     works : int
         Number of the ratios w/E* at which the tip is solved, even.
     steps : int
@@ -87,12 +90,12 @@ class TipTable:
         law: str | OwnLaw | None = None,
         work_of_adhesion: Quantity | None = None,
         range: Quantity | None = None,
-        body: Layer | None = None,
+        body: Layer | Coating | None = None,
         works: int = 12,
         steps: int = 40,
     ) -> None:
-        if not isinstance(body, Layer | None):
-            raise TypeError(f"body is {body!r}: a table has one modulus: take a Layer, or leave it out for a half-space")
+        if not isinstance(body, Layer | Coating | None):
+            raise TypeError(f"body is {body!r}: it must be a Layer or a Coating, or left out for a half-space")
         self._body, self._steps, si = body, steps, isinstance(modulus, str)
         if any(isinstance(end, str) != si for end in approaches):
             raise ValueError(f"approaches are {approaches!r}, and modulus is {modulus!r}: give all units, or none")
@@ -106,11 +109,14 @@ class TipTable:
         adhesion: dict[str, Any] = {"law": law, "work_of_adhesion": work_of_adhesion, "range": range}
         contact = Contact(heights, lengths, axes=axes, modulus=modulus, **elastic, **adhesion)
         self.topography, softest = contact.topography, contact.modulus
+        if isinstance(body, Coating):
+            hard = _asperity.quantity("modulus", body.modulus) if isinstance(body.modulus, str) else body.modulus
+            self._hardness = hard / softest
         #: the cubic roots of w/E* over the greatest: displacements by adhesion go as powers of it
         roots = np.linspace(0.0, 1.0, works + 1) if contact.adheres else np.zeros(1)
 
         def ways(root: float) -> tuple[Way, Way]:
-            keys = {**elastic, **adhesion} if root else elastic
+            keys = {**elastic, **adhesion} if root else {**elastic}
             return self._states(float(softest / (root or 1.0) ** 3), keys)
 
         with ThreadPoolExecutor(os.cpu_count()) as pool, warnings.catch_warnings():
@@ -171,13 +177,11 @@ class TipTable:
         given: Any = f"{modulus!r}Pa" if self.is_si else modulus
         # a fit asks for more than a loop
         keys = {"tolerance": 1e-6, **keys}
+        if isinstance(self._body, Coating):
+            hard = self._hardness * modulus
+            keys["body"] = replace(self._body, modulus=f"{hard!r}Pa" if self.is_si else hard)
         columns = cycle(self.topography, modulus=given, steps=self._steps, threads=1, **loads, **keys).columns
         approach, load = columns["approach"], columns["normal_force"] / modulus
-        if self._body is not None:
-            heights, body = self.topography.heights, self._body
-            free = 1.0 if body.base == "sliding" else (1.0 - 2.0 * body.poisson) / (1.0 - body.poisson) ** 2
-            squeezed = free * float(body.thickness) * columns["mean_pressure"] / modulus
-            approach = heights.max() - heights.mean() - columns["mean_gap"] + squeezed
         back = columns["direction"] == "withdrawal"
         jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
         withdrawal = approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1)

@@ -1,6 +1,9 @@
+use std::f64::consts::PI;
+
 use super::layer::{THICK, sinh_beyond};
-use super::{Body, Material};
+use super::{Body, Material, images};
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 
 /// A coating of finite thickness t that is bonded to a half-space, its substrate.
 ///
@@ -28,6 +31,8 @@ use crate::error::{Error, Result};
 pub struct Coating {
     material: Material,
     thickness: f64,
+    /// the contact modulus of the substrate
+    substrate: f64,
     /// 1 − λκ
     far: f64,
     /// (1 − κ)(1 − λ)
@@ -52,6 +57,7 @@ impl Coating {
         Ok(Self {
             material,
             thickness: Error::positive("thickness of the coating", thickness)?,
+            substrate: substrate.modulus(),
             far: m * (1.0 + b1) * (1.0 + b2) / (u * v),
             thin: (1.0 + b1).powi(2) / (u * v),
             bends: (1.0 + b1) / u * (1.0 - (m - 1.0) / v),
@@ -80,5 +86,14 @@ impl Body for Coating {
     /// The compression of the coating, over its substrate.
     fn mean_compliance(&self) -> f64 {
         self.thickness / self.material.confined_modulus()
+    }
+
+    /// That of the substrate, and 1/k of long waves beyond it.
+    fn far_compliance(&self, grid: &Grid) -> Option<f64> {
+        let Self { far, thin, bends, flows, .. } = *self;
+        // N and D of the formula and their derivatives by α, where α is zero
+        let (above, below) = (flows - bends + 4.0 * (1.0 - far), 2.0 * (far - thin));
+        let coating = 2.0 * self.thickness / self.material.modulus() * (above * thin - far * below) / (thin * thin);
+        Some(images(grid)? / (PI * self.substrate) + coating)
     }
 }

@@ -1,5 +1,6 @@
 use super::{Body, Material};
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 
 /// A layer of finite thickness t on a rigid base.
 ///
@@ -73,6 +74,14 @@ impl Body for Layer {
 
     fn mean_compliance(&self) -> f64 {
         self.thickness / self.material.confined_modulus()
+    }
+
+    /// 1/k of long waves: beside a load the layer is free sideways only where it slides.
+    fn far_compliance(&self, _grid: &Grid) -> Option<f64> {
+        Some(match self.base {
+            Base::Bonded => self.mean_compliance(),
+            Base::Sliding => self.thickness / self.material.modulus(),
+        })
     }
 }
 

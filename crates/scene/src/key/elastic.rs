@@ -284,6 +284,12 @@ impl Elastic {
         })
     }
 
+    /// Whether the body has an approach in a periodic cell: it is a layer or a coating, pressed by a rigid surface.
+    pub fn has_approach(&self) -> bool {
+        let yields = |kind: &BodyKind| matches!(kind.key, "layer" | "coating");
+        self.kind().is_some_and(yields) && self.against_modulus.is_none()
+    }
+
     /// The body by the stiffness of its waves, with the other one if that is elastic.
     ///
     /// # Errors

@@ -204,20 +204,20 @@ impl Load {
         if let Self::Fraction(fraction) = self { Some(fraction) } else { None }
     }
 
-    /// Refuses a load that a boundary does not have, and a tension between surfaces that do not adhere.
+    /// Refuses a load that a boundary does not have, or a periodic body that yields to its base or not, and a tension between surfaces that do not adhere.
     ///
     /// # Errors
     /// The reason and the remedy, for [`worded`](crate::worded).
-    pub fn check(self, boundary: Boundary, adheres: bool) -> Result<(), String> {
+    pub fn check(self, boundary: Boundary, yields: bool, adheres: bool) -> Result<(), String> {
         let control = match self {
             Self::Held(control) => control,
             Self::Reduced(pressure) => Control::MeanPressure(pressure),
             Self::Fraction(_) => return Ok(()),
         };
         let reason = match (boundary, control) {
-            (Boundary::Periodic, Control::Approach(_)) => {
-                "an approach needs {boundary=free}: in a periodic cell bodies have none, give a mean gap, a pressure or \
-                 a force"
+            (Boundary::Periodic, Control::Approach(_)) if !yields => {
+                "an approach needs {boundary=free}, or a {layer} or a {coating}: in a periodic cell other bodies have \
+                 none, give a mean gap, a pressure or a force"
             }
             (Boundary::Free, Control::MeanGap(_)) => {
                 "a mean gap needs {boundary=periodic}: a free half-space has none to be held, give an approach, a \

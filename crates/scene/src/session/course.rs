@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use asperity::path::{Path, PathSettings};
 use asperity::solver::Iteration;
-use asperity::{Branch, ContactSearch, Control, Grid, Real, Result, Sweep};
+use asperity::{Branch, ContactSearch, Control, Error, Grid, Real, Result, Sweep};
 use ndarray::{Array2, Axis, Slice};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -252,6 +252,14 @@ impl<T: Scalar> Course<T> {
     /// # Errors
     /// Those of [`Session::parts`] and [`Path::new`].
     pub fn check(&self, session: &mut Session<T>) -> Result<()> {
+        let periodic = session.scene().elastic.boundary == Boundary::Periodic;
+        if let (Way::Cycle(loads, _), true) = (&self.way, periodic)
+            && matches!(loads.first(), Some(Control::Approach(_)))
+        {
+            // the compression of the whole is no part of the energy of waves
+            let reason = "its balance of energy needs a free boundary: give mean gaps, or sweep the approaches";
+            return Err(Error::Unsuited { what: "cycle by approaches", reason });
+        }
         let (solver, problem) = session.parts()?;
         if let Strategy::Cycle(path) = &self.place.strategy { path.check(solver, problem) } else { Ok(()) }
     }

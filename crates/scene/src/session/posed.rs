@@ -86,7 +86,7 @@ impl<T: Scalar> Session<T> {
     /// Those of [`Load::check`] and [`Elastic::full_pressure`](crate::Elastic::full_pressure).
     pub fn full_pressure(&self, loads: &[Load]) -> Outcome<f64> {
         let elastic = &self.scene.elastic;
-        let check = |load: &Load| load.check(elastic.boundary, self.adheres());
+        let check = |load: &Load| load.check(elastic.boundary, elastic.has_approach(), self.adheres());
         self.worded(loads.iter().try_for_each(check))?;
         let reduced = loads.iter().any(|load| matches!(load, Load::Reduced(_)));
         if reduced { self.worded(elastic.full_pressure(&*self.surface()?)) } else { Ok(1.0) }
