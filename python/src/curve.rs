@@ -11,8 +11,7 @@ use pyo3::prelude::*;
 pub struct Equilibria(Vec<Model>);
 
 /// Shapes and knots of a model.
-type Given<'py> =
-    (PyReadonlyArray1<'py, f64>, PyReadonlyArray3<'py, f64>, Option<PyReadonlyArray3<'py, f64>>);
+type Given<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray3<'py, f64>, Option<PyReadonlyArray3<'py, f64>>);
 
 #[pymethods]
 impl Equilibria {
@@ -20,7 +19,8 @@ impl Equilibria {
     fn new(models: Vec<Given<'_>>) -> PyResult<Self> {
         let knots = |way: &PyReadonlyArray3<'_, f64>| {
             let way = way.as_array();
-            let rows = way.outer_iter().map(|row| row.outer_iter().map(|knot| std::array::from_fn(|i| knot[i])).collect());
+            let rows =
+                way.outer_iter().map(|row| row.outer_iter().map(|knot| std::array::from_fn(|i| knot[i])).collect());
             if way.shape()[2] == 4 { Ok(rows.collect()) } else { Err(PyValueError::new_err("a knot has four numbers")) }
         };
         let made = models.iter().map(|(shapes, approach, withdrawal)| {
@@ -100,9 +100,7 @@ impl Curve {
             let told = Told::of(&self.0, models, &fits);
             (fits, told)
         });
-        let table = |of: &dyn Fn(&Fit) -> [f64; 4]| {
-            Array2::from_shape_fn((fits.len(), 4), |(k, i)| of(&fits[k])[i])
-        };
+        let table = |of: &dyn Fn(&Fit) -> [f64; 4]| Array2::from_shape_fn((fits.len(), 4), |(k, i)| of(&fits[k])[i]);
         let parameters = table(&|fit| {
             let Parameters { log_modulus, root_work, point, log_tabor } = fit.parameters;
             [log_modulus, root_work, point, log_tabor]

@@ -146,7 +146,7 @@ def test_bodies_start_apart_where_that_is_asked_for(tip):
 def test_what_the_boundary_does_not_have_is_refused(tip, rough):
     for given, message in [
         ({"mean_gap": 0.01}, "a mean gap needs boundary='periodic': a free half-space has none to be held"),
-        ({"boundary": "periodic", "approach": 0.01}, "an approach needs boundary='free': in a periodic cell bodies have none"),
+        ({"boundary": "periodic", "approach": 0.01}, "an approach needs boundary='free', or a layer or a coating: in a periodic cell other bodies"),
         ({"boundary": "open", "approach": 0.01}, "boundary is open: it must be periodic or free"),
         ({"spring": (-1.0, 0.0)}, "stiffness of the spring is -1: it must be positive"),
         ({"normal_force": np.nan}, "normal_force is NaN"),

@@ -185,7 +185,11 @@ impl<T: Real> PressedFlat<T> {
             Control::Approach(_) => {
                 let (rest, compliance) = (self.resting(held()?), self.approach_compliance());
                 // a bonded incompressible layer does not yield in the mean
-                if compliance == 0.0 { Load::Gap(rest + self.mean_depth()) } else { Load::Spring { stiffness: compliance.recip(), rest } }
+                if compliance == 0.0 {
+                    Load::Gap(rest + self.mean_depth())
+                } else {
+                    Load::Spring { stiffness: compliance.recip(), rest }
+                }
             }
             Control::Spring { stiffness, rest } => {
                 Error::positive("stiffness of the spring", stiffness)?;

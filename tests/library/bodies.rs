@@ -305,3 +305,40 @@ fn a_wave_on_a_plate_closes_at_its_stiffness_times_the_amplitude() {
         assert_eq!((solution.report.status, solution.report.contact_fraction == 1.0), (Status::Converged, all));
     }
 }
+
+#[test]
+fn what_a_cell_lacks_of_an_approach_is_the_limit_of_long_waves() {
+    let grid = Grid::square(8, 2.0).unwrap();
+    let same = Coating::new(material(1.0, 0.3), 0.1, material(1.0, 0.3)).unwrap();
+    // the sum over a square lattice of charges on a background
+    assert_relative_eq!(same.far_compliance(&grid).unwrap(), 2.0 * 3.900_264_920_001_956 / PI, max_relative = 1e-12);
+    let twice = Grid::new((8, 16), (2.0, 4.0)).unwrap();
+    let turned = Grid::new((16, 8), (4.0, 2.0)).unwrap();
+    assert_relative_eq!(same.far_compliance(&twice), same.far_compliance(&turned), max_relative = 1e-12);
+    for (modulus, nu, other) in [(0.01, 0.3, 0.5), (0.1, 0.5, 0.5), (20.0, 0.2, 0.3)] {
+        let coated = Coating::new(material(modulus, nu), 0.1, material(1.0, other)).unwrap();
+        let beyond = coated.far_compliance(&grid).unwrap() - same.far_compliance(&grid).unwrap();
+        let long = |q: f64| 1.0 / stiffness(&coated, q) - 2.0 / q;
+        assert_relative_eq!(beyond, 2.0 * long(1e-4) - long(2e-4), max_relative = 1e-4, epsilon = 1e-6);
+    }
+    for layer in [bonded(0.1, 0.3), sliding(0.1)] {
+        assert_relative_eq!(layer.far_compliance(&grid).unwrap(), 1.0 / stiffness(&layer, 1e-4), max_relative = 1e-6);
+    }
+    // on lines a half-space yields without end
+    assert_eq!(same.far_compliance(&Grid::new((8, 1), (2.0, 1.0)).unwrap()), None);
+}
+
+#[test]
+fn a_sphere_on_a_layer_has_an_approach() {
+    let surface = Surface::paraboloid(Grid::square(64, 2.0).unwrap(), 20.0).unwrap();
+    let body = Spectral::<f64>::of(*surface.grid(), bonded(0.2, 0.3)).unwrap();
+    let mut problem = Problem::new(&surface, body, NoAdhesion).unwrap();
+    let held = Solver::default().solve(&mut problem, Control::Approach(2e-3)).unwrap().report;
+    assert_relative_eq!(held.approach.unwrap(), 2e-3, max_relative = 1e-9);
+    // by the gap, and the compression of the whole
+    let peak = surface.heights().iter().copied().fold(f64::NEG_INFINITY, f64::max) - surface.mean();
+    let squeezed = 0.2 / material(1.0, 0.3).confined_modulus() * held.mean_pressure;
+    assert_relative_eq!(peak - held.mean_gap + squeezed, 2e-3, max_relative = 1e-9);
+    let pressed = Solver::default().solve(&mut problem, Control::MeanPressure(held.mean_pressure)).unwrap().report;
+    assert_relative_eq!(pressed.approach.unwrap(), 2e-3, max_relative = 1e-4);
+}

@@ -125,7 +125,9 @@ impl ProblemOptions {
     /// Refuses loads that the boundary does not have.
     pub fn check_loads(&self, loads: &[Load]) -> Outcome<()> {
         let Scene { elastic, adhesion, .. } = &self.scene;
-        in_options(loads.iter().try_for_each(|load| load.check(elastic.boundary, elastic.has_approach(), adhesion.adheres())))
+        in_options(
+            loads.iter().try_for_each(|load| load.check(elastic.boundary, elastic.has_approach(), adhesion.adheres())),
+        )
     }
 
     /// Refuses findings that the problem does not have, and those that have no form for several processes.

@@ -65,7 +65,9 @@ impl Curve {
                 let z = self.z[i] - point;
                 let first = room.ways[0].end_position();
                 let (way, place) = match side {
-                    Side::Apart if branch == 1 && room.ways[1].end_position().is_some_and(|last| z <= last) => (1, room.ways[1].apart(z)),
+                    Side::Apart if branch == 1 && room.ways[1].end_position().is_some_and(|last| z <= last) => {
+                        (1, room.ways[1].apart(z))
+                    }
                     Side::Apart => (0, room.ways[0].apart(z)),
                     _ if branch == 0 && first.is_some_and(|first| z > first) => (0, room.ways[0].contact(z)),
                     _ => (1, room.ways[1].contact(z)),

@@ -57,7 +57,12 @@ impl Asked<'_> {
             let begins = begins.into_iter().map(|parameters| {
                 let free = [true, self.adheres[model], true, false];
                 let parameters = Parameters { log_tabor, ..parameters };
-                self.begin(curve, Fit { model, parameters, free, sides: Sides::default(), squares: 0.0 }, &steps, &mut room)
+                self.begin(
+                    curve,
+                    Fit { model, parameters, free, sides: Sides::default(), squares: 0.0 },
+                    &steps,
+                    &mut room,
+                )
             });
             fits.extend(begins.reduce(|a, b| if b.squares < a.squares { b } else { a }));
         }
@@ -96,7 +101,15 @@ impl Asked<'_> {
     /// Parameters to begin with, by the squares of some points over moduli and contact points that fit each: the best, and
     /// the softest of those that fit about as well, as a soft spring hardly tells a hard contact from a rigid one; and those
     /// of a fit without adhesion.
-    fn begun(&self, few: &Curve, model: usize, log_tabor: f64, fits: &[Fit], jumps: bool, room: &mut Prediction) -> Vec<Parameters> {
+    fn begun(
+        &self,
+        few: &Curve,
+        model: usize,
+        log_tabor: f64,
+        fits: &[Fit],
+        jumps: bool,
+        room: &mut Prediction,
+    ) -> Vec<Parameters> {
         let trials: Vec<(f64, Parameters)> = self
             .begins
             .iter()
@@ -107,7 +120,9 @@ impl Asked<'_> {
             .collect();
         let Some(best) = trials.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { return Vec::new() };
         let mut found = vec![best.1];
-        found.extend(trials.iter().find(|trial| trial.0 < 2.0 * best.0).map(|trial| trial.1).filter(|one| *one != best.1));
+        found.extend(
+            trials.iter().find(|trial| trial.0 < 2.0 * best.0).map(|trial| trial.1).filter(|one| *one != best.1),
+        );
         let bare = fits.iter().find(|fit| !fit.free[1] && self.adheres[model] && !jumps);
         found.extend(bare.map(|fit| Parameters { root_work: 0.3, ..fit.parameters }));
         found
@@ -196,7 +211,8 @@ impl Asked<'_> {
         let freedom = curve.z.len().saturating_sub(4 + curve.baseline.len()).max(1) as f64;
         let width = (curve.variance_of_tabor(model, &best, room) * best.squares / freedom).sqrt();
         let rows = || self.rows.iter().filter(|row| row.0 == best.model).map(|row| row.1);
-        let (low, high) = rows().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), one| (low.min(one), high.max(one)));
+        let (low, high) =
+            rows().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), one| (low.min(one), high.max(one)));
         // the rows themselves are as close where the likelihood is wide
         for sign in [-1.0, 1.0].into_iter().filter(|_| width <= WIDE) {
             let mut last = best.clone();

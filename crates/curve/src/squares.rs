@@ -302,9 +302,10 @@ impl Curve {
                 normal.iter_mut().for_each(|row| row[j] = 0.0);
                 normal[j][j] = 1.0;
             }
-            for k in 0..j {
-                normal[k][j] = normal[j][k];
-            }
+        }
+        let lower = normal;
+        for (k, row) in normal.iter_mut().enumerate() {
+            row.iter_mut().enumerate().skip(k + 1).for_each(|(j, one)| *one = lower[j][k]);
         }
         room.rest = rest;
         (squares, normal, gradient)

@@ -71,11 +71,8 @@ impl Scale {
             Self::Paraboloid(radius) => {
                 let length = (third * (2.0 * (contact.work - contact.modulus) + radius.ln())).exp();
                 let force = contact.work.exp() * radius;
-                let chain = Chain {
-                    length: [-2.0 * third, 2.0 * third, 0.0],
-                    force: [0.0, 1.0, 0.0],
-                    shape: [0.0, 0.0, 1.0],
-                };
+                let chain =
+                    Chain { length: [-2.0 * third, 2.0 * third, 0.0], force: [0.0, 1.0, 0.0], shape: [0.0, 0.0, 1.0] };
                 (length, force, contact.tabor, chain)
             }
             Self::Table(ratio) => {
@@ -95,7 +92,9 @@ impl Model {
     /// # Errors
     /// If the numbers of shapes or knots differ, or are too few.
     pub fn new(shapes: Vec<f64>, approach: Vec<Vec<Knot>>, withdrawal: Vec<Vec<Knot>>) -> Result<Self, &'static str> {
-        let even = |way: &[Vec<Knot>]| way.len() == shapes.len() && way.iter().all(|row| row.len() == way[0].len() && row.len() > 2);
+        let even = |way: &[Vec<Knot>]| {
+            way.len() == shapes.len() && way.iter().all(|row| row.len() == way[0].len() && row.len() > 2)
+        };
         if shapes.is_empty() || !even(&approach) || !(withdrawal.is_empty() || even(&withdrawal)) {
             return Err("a table of equilibria needs as many knots, three or more, at each shape");
         }

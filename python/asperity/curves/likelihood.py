@@ -22,7 +22,7 @@ UNLIKELY = 1e-4
 #: Columns of the spread of a fit.
 LOG_MODULUS, ROOT_WORK, POINT, LOG_TABOR, OFFSET, SLOPE, DRIFT = range(7)
 #: The least force of adhesion that is looked for, over the noise, the greatest one over the span of the forces, and how many.
-_LEAST, _MOST, _WORKS = 0.03, 2.0, 10
+_LEAST, _MOST, _WORKS = 0.03, 2.0, 12
 
 
 class Estimate(NamedTuple):
@@ -190,7 +190,7 @@ class Likelihood:
         curve, fits = self.curve, self.fits
         names = list(curve.tip.fewer)
         kinds = [(names.index(str(fits.model[one])), float(np.log(fits.tabor[one]))) for one in self.family if not self.bare[one]]
-        kinds = kinds[:: max(len(kinds) // 5, 1)]
+        kinds = kinds[:: max(len(kinds) // 7, 1)]
         forces = np.geomspace(_LEAST * max(curve.noise, curve.least), _MOST * float(np.ptp(curve.force)), _WORKS)
         works = forces / (1.75 * np.pi * curve.tip.radius)
         roots = np.sqrt(np.maximum(works / curve.work - curve.floor, 0.0))
