@@ -13,6 +13,8 @@ from ._topography import Topography
 __all__ = [
     "AdhesiveWavyLine",
     "Contact",
+    "Curve",
+    "Equilibria",
     "GreenwoodWilliamson",
     "Hertz",
     "Iteration",
@@ -307,6 +309,44 @@ class GreenwoodWilliamson:
     @property
     def asperities(self) -> tuple[float, float, float]: ...
     def contact_fraction(self, mean_pressure: ArrayLike) -> Any: ...
+
+@final
+class Equilibria:
+    def __new__(cls, models: list[tuple[_Field, _Field, _Field | None]]) -> Equilibria: ...
+
+@final
+class Curve:
+    def __new__(
+        cls,
+        z: _Field,
+        force: _Field,
+        turn: int,
+        compliance: float,
+        baseline: _Field,
+        noise: float,
+        scales: tuple[float, float, float, float, float],
+        size: float,
+        smooth: bool,
+    ) -> Curve: ...
+    def search(
+        self,
+        equilibria: Equilibria,
+        rows: list[tuple[int, float]],
+        adheres: list[bool],
+        full: int | None,
+        begins: list[tuple[float, float]],
+        jumps: bool,
+        least: float,
+    ) -> tuple[NDArray[np.int64], _Field, NDArray[np.bool_], _Field, _Field, _Field, _Field, _Field, _Field]: ...
+    def greatest_root(
+        self,
+        equilibria: Equilibria,
+        model: int,
+        parameters: tuple[float, float, float, float],
+        most: float,
+        least: float,
+    ) -> float: ...
+    def loads(self, equilibria: Equilibria, models: list[int], parameters: _Field) -> _Field: ...
 
 def closing_pressure_2d(amplitude: ArrayLike, wavelength: float, modulus: float) -> Any: ...
 def command(arguments: list[str]) -> int: ...

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -65,7 +65,7 @@ def asked(
         raise ValueError(f'direction is {direction!r}: it must be "approach" or "withdrawal", or left out for both')
     compliance = 0.0 if spring_stiffness is None else 1.0 / _positive("spring_stiffness", spring_stiffness)
     scipy("special")
-    shape: Tip = tip or Paraboloid(_positive("radius", radius))
+    shape = cast(Tip, tip or Paraboloid(_positive("radius", radius)))
     poisson = None if poisson is None else number("poisson", poisson)
     return Asked(shape, compliance, direction, _models(shape, model), jumps, poisson, si, length_unit, force_unit)
 

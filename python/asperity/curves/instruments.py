@@ -52,9 +52,9 @@ def curves(path: Any, given: dict[str, float | None]) -> Any:
     except formats.errors.MissingMetaDataError as raised:
         asked = [name for key, name in _METADATA.items() if key in str(raised)]
         remedy = f"; give {' and '.join(f'{name}=' for name in asked)}" if asked else ""
-        raise ValueError(f"{path}: is not read by afmformats: {told(raised)}{remedy}") from None  # type: ignore[arg-type]
+        raise ValueError(f"{path}: is not read by afmformats: {told(raised)}{remedy}") from None
     except (Exception, formats.errors.AFMFileFormatError) as raised:
-        raise ValueError(f"{path}: is not read by afmformats: {told(raised)}") from None  # type: ignore[arg-type]
+        raise ValueError(f"{path}: is not read by afmformats: {told(raised)}") from None
 
 
 def chosen(path: Any, found: Any, number: int) -> Any:

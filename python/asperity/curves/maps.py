@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,6 @@ from . import instruments
 from .asked import Asked, asked
 from .curve import Direction
 from .fit import CurveFit, fitted
-from .likelihood import Estimate
 from .plot import number_map
 from .read import Reader, metres_and_newtons
 from .tip_table import TipTable
@@ -40,13 +39,21 @@ _NUMBERS = {
 }
 
 
+class Estimates(NamedTuple):
+    """A number of each curve, and the ends of its 95 % interval."""
+
+    value: Array
+    lower: Array
+    upper: Array
+
+
 class CurveMap:
     """What the force curves of a map tell, with 95 % intervals: arrays of the shape of the map.
 
     Attributes
     ----------
-    modulus, young, work_of_adhesion, tabor_parameter, contact_point : Estimate
-        Value and ends of the interval of these numbers of `CurveFit`, as arrays; NaN where a curve has none.
+    modulus, young, work_of_adhesion, tabor_parameter, contact_point : tuple of ndarray
+        Arrays ``value``, ``lower`` and ``upper`` of these numbers of `CurveFit`; NaN where a curve has none.
     contact_height : ndarray
         Height of the surface at the contact points, −`contact_point`: z grows as the tip comes down.
     noise : ndarray
@@ -65,11 +72,11 @@ class CurveMap:
         Side lengths of the map, if they are known.
     """
 
-    modulus: Estimate
-    young: Estimate
-    work_of_adhesion: Estimate
-    tabor_parameter: Estimate
-    contact_point: Estimate
+    modulus: Estimates
+    young: Estimates
+    work_of_adhesion: Estimates
+    tabor_parameter: Estimates
+    contact_point: Estimates
     noise: Array
     best: NDArray[np.str_]
     p_values: dict[str, Array]
@@ -132,7 +139,7 @@ class CurveMap:
         if len(self.shape) != 2:
             raise ValueError(f"the curves have the shape {self.shape}: give fit_curves shape=(NX, NY), as a map has it")
         found = getattr(self, of)
-        values = np.asarray(found.value if isinstance(found, Estimate) else found)
+        values = np.asarray(found.value if isinstance(found, Estimates) else found)
         own = {**_NUMBERS, "contact_height": "m", "noise": "N"}[of] if self._is_si else unit
         lengths = self.lengths or cast(tuple[float, float], tuple(map(float, self.shape)))
         length = "m" if self._is_si and self.lengths else length_unit
@@ -253,7 +260,8 @@ def fit_curves(
     sides: Any = None
     if isinstance(curves, str | os.PathLike):
         found = Reader(curves, None, None, None, None, metres_and_newtons(spring_stiffness, sensitivity)).map()
-        pairs, shape, sides = found.pairs, found.shape, found.lengths
+        pairs: Sequence[Any] = found.pairs
+        shape, sides = found.shape, found.lengths
         stiffness = found.stiffness if spring_stiffness is None else spring_stiffness
         if tip is not None and not tip.is_si:
             raise ValueError(f"{curves} is in SI units, and the table is {tip!r}: make it with units")
@@ -282,8 +290,7 @@ def _paired(curves: Any, shape: tuple[int, ...] | None) -> tuple[Sequence[Any], 
     if isinstance(curves, np.ndarray) and curves.dtype != object:
         if curves.ndim < 3 or curves.shape[-2] != 2:
             raise ValueError(f"curves has shape {curves.shape}: it must be (..., 2, N), z and force of each curve")
-        pairs: Sequence[Any] = curves.reshape(-1, *curves.shape[-2:])
-        return pairs, shape or curves.shape[:-2]
+        return list(curves.reshape(-1, *curves.shape[-2:])), shape or curves.shape[:-2]
     pairs = list(curves)
     if not pairs:
         raise ValueError("curves has none: give pairs of z and force")
@@ -302,7 +309,8 @@ def _mapped(
         try:
             if isinstance(pair, ValueError):
                 raise pair
-            fit, told = fitted(*pair, keywords)
+            z, force = pair
+            fit, told = fitted(z, force, keywords)
         except (ValueError, TypeError) as refused:
             return None, str(refused)
         return fit, "; ".join(told)
@@ -327,7 +335,7 @@ def _mapped(
     if len(doubtful) >= 0.1 * count:
         warn(f"{len(doubtful)} of {count} curves: {doubtful[0]}", InputWarning)
     return CurveMap(
-        **{name: Estimate(*(end.reshape(shape) for end in values)) for name, values in numbers.items()},
+        **{name: Estimates(*(end.reshape(shape) for end in values)) for name, values in numbers.items()},
         noise=noise.reshape(shape),
         best=np.array(best).reshape(shape),
         p_values={name: values.reshape(shape) for name, values in p_values.items()},

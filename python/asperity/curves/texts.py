@@ -45,15 +45,15 @@ def read(path: Any, content: bytes) -> tuple[list[Column], NDArray[np.str_] | Ar
         parts.append(part)
     names, units, headings = _named(lines[:first], separator, count)
     columns, words = [], None
-    for name, unit, heading, cells in zip(names, units, headings, zip(*rows)):
-        values = [np.nan if not cell else _number(cell, separator) for cell in cells]
+    for name, unit, heading, column in zip(names, units, headings, zip(*rows)):
+        values = [np.nan if not cell else _number(cell, separator) for cell in column]
         if all(value is not None for value in values):
             columns.append(Column(name, unit, np.array(values, np.float64), heading))
-        elif sum(value is None for value in values) == 1 and not any(leg(cell) for cell in cells):
+        elif sum(value is None for value in values) == 1 and not any(leg(cell) for cell in column):
             at = first + next(k for k, value in enumerate(values) if value is None)
             raise ValueError(f"{path}: line {at + 1} is no row of {count} numbers: {lines[at].strip()[:40]!r}")
-        elif any(leg(cell) for cell in cells):
-            words = np.array(cells)
+        elif any(leg(cell) for cell in column):
+            words = np.array(column)
     numbered = next((column.values for column in columns if column.name.strip().lower() in ("segment", "part")), None)
     if words is None and any(parts):
         words = np.array(parts)

@@ -123,7 +123,7 @@ class TipTable:
             # of moduli that are not those of the body
             warnings.filterwarnings("ignore", "hardness", InputWarning)
             found = self._table([*pool.map(ways, roots)])
-        self._bare, self._core = found[0], None
+        self._bare, self._core = found[0], cast(Any, None)
         self.fewer, self.tabor = {"no adhesion": 1}, np.ones(0)
         self.ratio, self.error, self.radius, self.is_smooth = 0.0, 0.0, high, False
         if contact.adheres:
