@@ -11,6 +11,7 @@ from force_curves import curve, cycled, rough_tip
 
 import asperity
 
+MAP = runpy.run_path(str(pathlib.Path(__file__).resolve().parents[1] / "benches" / "curve_map.py"))
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python" / "recipes.md"
 RECIPES = dict(re.findall(r"^### (.*?)\n.*?^```python\n(.*?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL))
 
@@ -45,6 +46,25 @@ def a_coated_tip(found):
     assert wide.statistics.corrected_contact_fraction * (2 * side) ** 2 == pytest.approx(area, rel=0.02)
     with pytest.raises(ValueError, match="coating has no free boundary"):
         asperity.solve(tip, modulus=10e9, normal_force=1e-9, body=found["coating"], boundary="free")
+
+
+def a_soft_coating_under_an_afm(found):
+    page = re.findall(r"^\| E₁/E₂ = (0\.\d+), ν = (0\.\d) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", PAGE.read_text(), re.MULTILINE)
+    table, widths, formula = found["table"], found["widths"], np.array(list(found["table"].values()))
+    for ratio, poisson, *written in page:
+        row = np.array(table[float(ratio), float(poisson)])[[0, 2, 4]]
+        assert row == pytest.approx([float(value) for value in written], abs=6e-3)
+    # the force is that of the integral equation
+    on_coating = runpy.run_path(str(PAGE.parents[2] / "python" / "benches" / "shapes.py"))["on_coating"]
+    for (ratio, poisson), row in table.items():
+        scaled = widths * ratio ** (2 / 3) * (1 - 0.22 * poisson**2) / (1 - 1.92 * poisson**2)
+        share = 2.25 * scaled**1.5 / (1 + 2.25 * scaled**1.5)
+        exact = (1 - poisson**2) * (1 + (1 / ratio - 1) * share) / np.array(row)
+        for width, force in zip(widths, exact):
+            radii = np.linspace(0.3 * width, 1.6 * width, 12)
+            roots, forces = np.transpose([on_coating(radius, ratio, poisson) for radius in radii])
+            assert np.polyval(np.polyfit(roots, forces, 5), width) == pytest.approx(force, rel=3e-3)
+    assert len(page) == 4 and formula.min() < 0.6 and pathlib.Path("coating.png").stat().st_size > 1000
 
 
 def a_tip_on_a_thin_layer(found):
@@ -96,6 +116,13 @@ def a_force_curve(found):
     assert f"{1e3 * fit.work_of_adhesion.value:.0f}" == "50" and fit.verdict.startswith("Maugis")
     assert f"{fit.tabor_parameter.value:.1f}" == "1.0"
     assert pathlib.Path("curve.png").stat().st_size > 1000
+
+
+def a_map_of_force_curves(found):
+    map, table = found["found"], found["table"]
+    assert map.shape == (3, 3) and (map.reason == "").all() and len(table) == 9
+    assert map.young.value == pytest.approx(0.75 * MAP["made"](3, 200, 2e-5)[1], rel=0.01)
+    assert pathlib.Path("map.png").stat().st_size > 1000
 
 
 def electroadhesion(found):
@@ -251,6 +278,18 @@ def an_electrical_contact_with_adhesion(found):
     assert all(not sticky.report["under_resolved"] for _, sticky in found["found"].values())
 
 
+def write_map(path):
+    """A map of 3 x 3 force curves, in the layout of afmformats."""
+    formats, h5py = pytest.importorskip("afmformats"), pytest.importorskip("h5py")
+    metadata = {"imaging mode": "force-distance", "spring constant": MAP["STIFFNESS"], "path": path}
+    metadata |= {f"grid shape {axis}": 3 for axis in "xy"} | {f"grid size {axis}": 1e-6 for axis in "xy"}
+    with h5py.File(path, "w") as file:
+        for number, (z, force) in enumerate(MAP["made"](3, 200, 2e-5)[0].reshape(9, 2, 200)):
+            data = {"height (measured)": -z, "force": force, "segment": np.repeat([0, 1], 100).astype(np.uint8)}
+            here = {**metadata, "enum": number, "grid index x": number // 3, "grid index y": number % 3}
+            formats.AFMForceDistance(data, here).export_data(file, metadata=True, fmt="hdf5")
+
+
 @pytest.mark.parametrize("title", RECIPES)
 def test_the_recipe_runs(title, tmp_path, monkeypatch):
     pytest.importorskip("matplotlib")
@@ -259,6 +298,8 @@ def test_the_recipe_runs(title, tmp_path, monkeypatch):
     rough = asperity.surface.self_affine(96, 2e-6, rms_height=6e-9, k_l=2, k_s=12, seed=2)
     heading = {"delimiter": ",", "header": "Height (nm),Force (nN)", "comments": ""}
     np.savetxt("curve.csv", 1e9 * np.column_stack(curve(1.0, 20.0, points=400)), **heading)
+    if "map of force curves" in title:
+        write_map("map.h5")
     if "curve of a rough tip" in title:
         warnings.filterwarnings("ignore", "hardness", asperity.InputWarning)
         tip = rough_tip()

@@ -14,8 +14,8 @@ keys! {
             mean_pressure: Kind::quantity(PRESSURE, Range::FINITE, &["P"]),
             /// Normal force that is held, compression positive: the mean pressure times the area of the map
             normal_force: Kind::quantity(FORCE, Range::FINITE, &["F"]),
-            /// Approach that is held, with a free boundary: how far the bodies have moved towards each other from the
-            /// position of first touch without deformation; negative before it
+            /// Approach that is held, with a free boundary or over a layer or a coating: how far the bodies have moved
+            /// towards each other from the position of first touch without deformation; negative before it
             approach: Kind::quantity(LENGTH, Range::FINITE, &["D"]),
             /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
             /// {spring_position}
@@ -45,8 +45,8 @@ keys! {
             mean_pressures: Kind::quantities(PRESSURE, Range::FINITE),
             /// Normal forces, compression positive: a list like that of the gaps
             normal_forces: Kind::quantities(FORCE, Range::FINITE),
-            /// Approaches, with a free boundary: how far the bodies have moved towards each other from the position of
-            /// first touch without deformation, negative before it; a list like that of the gaps. A list that grows
+            /// Approaches, with a free boundary or over a layer or a coating: how far the bodies have moved towards each
+            /// other from the position of first touch without deformation, negative before it; a list like that of the gaps. A list that grows
             /// from a negative value begins with the bodies apart
             approaches: Kind::quantities(LENGTH, Range::FINITE),
             /// Stiffness of a spring in series, such as a machine or a cantilever, a force per length; needs
