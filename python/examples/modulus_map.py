@@ -72,11 +72,12 @@ sticks = found.work_of_adhesion.lower > 0
 print(f"{sticks.sum()} curves stick, of {(x + y < 0.4).sum()} that were made so")
 
 # %%
-figure, axes = plt.subplots(1, 3, figsize=(13, 3.8), layout="constrained")
+figure, axes = plt.subplots(1, 3, figsize=(14, 3.6), layout="constrained")
+figure.get_layout_engine().set(wspace=0.12)
 found.plot("young", axes[0])
 relative = 100 * (modulus.upper - modulus.lower) / modulus.value
-image = axes[1].imshow(relative.T, origin="lower", extent=(0, 10, 0, 10), cmap="cividis")
-figure.colorbar(image, ax=axes[1], label="width of the interval (%)")
+image = axes[1].imshow(relative.T, origin="lower", extent=(0, 10, 0, 10), cmap="cividis", vmax=5)
+figure.colorbar(image, ax=axes[1], label="width of the interval (%)", extend="max", fraction=0.046, pad=0.04)
 axes[1].set(xlabel="x (µm)", ylabel="y (µm)")
 found.plot("contact_height", axes[2])
 figure.savefig("modulus_map.png", dpi=150)

@@ -33,7 +33,8 @@ class CurveFit:
     young : Estimate or None
         Young's modulus E = E* (1 − ν²) under a rigid tip, if Poisson's ratio was given.
     work_of_adhesion : Estimate or None
-        Work of adhesion w, an energy per area. Its lower end is zero where Hertz is not ruled out. None without adhesion.
+        Work of adhesion w, an energy per area. It is zero, as its lower end, where Hertz is not ruled out. None without
+        adhesion.
     tabor_parameter : Estimate or None
         Tabor parameter: infinite for JKR, zero for DMT; NaN where Hertz is not ruled out. None with a table or a model
         that was given, as `range`.
@@ -56,7 +57,7 @@ class CurveFit:
     verdict : str
         Which of these the curve tells apart, in a sentence, with the table, its limits and its error.
     z, force, fitted, residuals : ndarray
-        Positions and forces, forces of the best fit, and the difference.
+        Positions and forces, forces of the best fit, or of Hertz where that is not ruled out, and the difference.
     noise : float
         Standard deviation of the residuals.
     """
@@ -79,9 +80,10 @@ class CurveFit:
     fitted: Array
     residuals: Array
     noise: float
-    #: the first point of the withdrawal, and whether numbers are in SI units
+    #: the first point of the withdrawal, whether numbers are in SI units, and the model with the values
     _turn: int
     _is_si: bool
+    _best: str
 
     def __init__(self, **found: Any) -> None:
         self.__dict__.update(found)
@@ -244,7 +246,7 @@ def fitted(z: ArrayLike, force: ArrayLike, asked: Asked) -> tuple[CurveFit, list
 
 def _told(found: Likelihood, poisson: float | None, is_si: bool) -> tuple[CurveFit, list[str]]:
     """All numbers by their names, and what speaks against them, or the refusal of a curve that does not tell them."""
-    curve, fits, best = found.curve, found.fits, found.best
+    curve, fits, best = found.curve, found.fits, found.given
     line = float(np.sum(curve.cleared(curve.force) ** 2))
     if found.special.fdtrc(4, found.freedom, max(line - found.least, 0.0) / found.variance / 4.0) > 1e-4:
         curve.refuse_empty()
@@ -259,7 +261,7 @@ def _told(found: Likelihood, poisson: float | None, is_si: bool) -> tuple[CurveF
     approach = float((curve.z - fits.point[best] - curve.compliance * load).max())
     tabor, work = found.tabor(), found.work()
     told = [curve.tip.check_reach(modulus.value, 0.0 if work is None else work.upper, approach)]
-    alike, by_chance = found.likeness(best)
+    alike, by_chance = found.likeness(found.best)
     if by_chance < UNLIKELY:
         told.append(
             f"residuals of neighbouring points have a correlation of {alike:.2f}: the curve is not that of "
@@ -287,6 +289,7 @@ def _told(found: Likelihood, poisson: float | None, is_si: bool) -> tuple[CurveF
         noise=float(np.sqrt(found.least / found.freedom)),
         _turn=curve.turn,
         _is_si=is_si,
+        _best=str(fits.model[best]),
     )
     return fit, list(filter(None, told))
 

@@ -96,6 +96,9 @@ class Likelihood:
         self.probabilities = {name: self._probability(name) for name in self.names}
         #: whether adhesion is not seen
         self.is_bare = any(not tip.adheres(name) and self.probabilities[name] >= LEVEL for name in self.names)
+        bare = np.flatnonzero(self.bare)
+        #: the fit with the values that are given: where adhesion is not seen the one without it
+        self.given = int(bare[0]) if self.is_bare else self.best
         #: fits with which intervals are made, and by how much the squares of each may grow
         room = self.most - fits.squares
         for name in self.names:
@@ -217,12 +220,12 @@ class Likelihood:
     def modulus(self) -> Estimate:
         """The contact modulus."""
         lower, upper = self._span(LOG_MODULUS, np.log(self.fits.modulus))
-        return Estimate(float(self.fits.modulus[self.best]), *np.exp(np.clip([lower, upper], -700.0, 700.0)).tolist())
+        return Estimate(float(self.fits.modulus[self.given]), *np.exp(np.clip([lower, upper], -700.0, 700.0)).tolist())
 
     def point(self) -> Estimate:
         """The contact point, of which the spread is in its scale."""
         half = self._span(POINT, self.fits.point / self.curve.length)
-        return Estimate(float(self.fits.point[self.best]), *(self.curve.length * end for end in half))
+        return Estimate(float(self.fits.point[self.given]), *(self.curve.length * end for end in half))
 
     def line(self) -> list[Estimate]:
         """Offset, slope and, where there is one, drift of the baseline."""
@@ -230,7 +233,7 @@ class Likelihood:
         found = []
         for number in range(self.curve.columns.shape[1]):
             ends = self._span(OFFSET + number, lines[:, number])
-            found.append(Estimate(float(lines[self.best, number]), *ends))
+            found.append(Estimate(float(lines[self.given, number]), *ends))
         return found
 
     def work(self) -> Estimate | None:
@@ -238,12 +241,11 @@ class Likelihood:
         if not any(self.curve.tip.adheres(name) for name in self.names):
             return None
         curve, fits = self.curve, self.fits
-        value = 0.0 if self.bare[self.best] else float(fits.work[self.best])
         if self.is_bare:
-            return Estimate(value, 0.0, max(self._greatest_work(), value))
+            return Estimate(0.0, 0.0, self._greatest_work())
         lower, upper = self._span(ROOT_WORK, fits.root_work)
         scaled = (float(curve.work * (max(root, 0.0) ** 2 + curve.floor)) for root in (lower, upper))
-        return Estimate(value, *scaled)
+        return Estimate(float(fits.work[self.best]), *scaled)
 
     def _greatest_work(self) -> float:
         """The greatest work of adhesion of a likely fit."""

@@ -59,7 +59,7 @@ class CurveMap:
     noise : ndarray
         Standard deviation of the residuals.
     best : ndarray of str
-        Model that fits best.
+        Model that fits best, or the one without adhesion where that is not ruled out.
     p_values : dict
         Probability of each model, as arrays, by its name.
     reason : ndarray of str
@@ -330,7 +330,7 @@ def _mapped(
                     values[:, k] = found
             for name, model in fit.models.items():
                 p_values[name][k] = model.p_value
-            best[k] = min(fit.models, key=lambda name: fit.models[name].rms)
+            best[k] = fit._best
     doubtful = [text for text in warning if text]
     if len(doubtful) >= 0.1 * count:
         warn(f"{len(doubtful)} of {count} curves: {doubtful[0]}", InputWarning)
