@@ -3,7 +3,7 @@
 
     python python/benches/calibration.py [CURVES [SEED]]
 
-CURVES, 24000 by default, are made of Hertz, DMT, Maugis and JKR alike by the closed forms, and fitted on all cores: 15
+CURVES, 16000 by default, are made of Hertz, DMT, Maugis and JKR alike by the closed forms, and fitted on all cores: 15
 minutes on two. A true model has a p-value below 0.05 in 5 % of the curves, and a 95 % interval misses the truth as often.
 Curves that are refused, as they tell the modulus within no decade, are counted. A rate of N curves has a standard
 deviation of 22 %/√N.
@@ -157,5 +157,5 @@ def tables(found):
 
 if __name__ == "__main__":
     numbers = [int(text) for text in sys.argv[1:]]
-    found = study(*(numbers + [24000, 2027][len(numbers) :]))
+    found = study(*(numbers + [16000, 2027][len(numbers) :]))
     print("\n".join(tables(found)))

@@ -49,7 +49,8 @@ def a_coated_tip(found):
 
 
 def a_soft_coating_under_an_afm(found):
-    page = re.findall(r"^\| E₁/E₂ = (0\.\d+), ν = (0\.\d) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", PAGE.read_text(), re.MULTILINE)
+    row = r"^\| E₁/E₂ = (0\.\d+), ν = (0\.\d) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$"
+    page = re.findall(row, PAGE.read_text(), re.MULTILINE)
     table, widths, formula = found["table"], found["widths"], np.array(list(found["table"].values()))
     for ratio, poisson, *written in page:
         row = np.array(table[float(ratio), float(poisson)])[[0, 2, 4]]

@@ -311,7 +311,11 @@ fn what_a_cell_lacks_of_an_approach_is_the_limit_of_long_waves() {
     let grid = Grid::square(8, 2.0).unwrap();
     let same = Coating::new(material(1.0, 0.3), 0.1, material(1.0, 0.3)).unwrap();
     // the sum over a square lattice of charges on a background
-    assert_relative_eq!(same.far_compliance(&grid).unwrap(), 2.0 * 3.900_264_920_001_956 / std::f64::consts::PI, max_relative = 1e-12);
+    assert_relative_eq!(
+        same.far_compliance(&grid).unwrap(),
+        2.0 * 3.900_264_920_001_956 / std::f64::consts::PI,
+        max_relative = 1e-12
+    );
     let twice = Grid::new((8, 16), (2.0, 4.0)).unwrap();
     let turned = Grid::new((16, 8), (4.0, 2.0)).unwrap();
     let both = [twice, turned].map(|grid| same.far_compliance(&grid).unwrap());

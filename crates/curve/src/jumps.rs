@@ -1,6 +1,7 @@
 //! The jumps of a curve: steps that stand out, and those of a fit.
 
-use crate::squares::{Curve, Fit, Prediction, Seen, Side, Sides};
+use crate::curve::{Curve, Fit, Seen, Side, Sides};
+use crate::squares::Prediction;
 use crate::tip::Model;
 
 /// A jump of less than so many deviations of the noise is followed as the equilibria have it.

@@ -1,6 +1,7 @@
 //! The search for the best fits of all models.
 
-use crate::squares::{Curve, Fit, Parameters, Prediction, Sides};
+use crate::curve::{Curve, Fit, Parameters, Sides};
+use crate::squares::Prediction;
 use crate::tip::Model;
 
 /// The most points by which fits choose their beginnings.

@@ -13,7 +13,7 @@ from .._warnings import InputWarning, warn
 from .._words import checked
 from .asked import Asked, asked
 from .curve import Direction
-from .likelihood import LEVEL, UNLIKELY, Estimate, Likelihood, ModelFit
+from .likelihood import DOUBTFUL, LEVEL, UNLIKELY, Estimate, Likelihood, ModelFit
 from .plot import force_curve
 from .search import search
 from .tip_table import TipTable
@@ -316,6 +316,12 @@ def _verdict(
         return f"No adhesion is seen: {told} fits as well, and the work of adhesion is at most {work.upper:.3g}{unit}."
     if tabor is None:
         return f"Adhesion is seen, by {what}."
+    hardly = f"Adhesion is hardly seen: {bare} has a probability of {model.p_value:.2g}. " if model.p_value >= DOUBTFUL else ""
+    return hardly + _between(models, nearest, tabor)
+
+
+def _between(models: dict[str, ModelFit], nearest: str, tabor: Estimate) -> str:
+    """Which models with adhesion the curve tells apart."""
     fits = [name for name in ("DMT", "JKR") if models[name].p_value >= LEVEL or name == nearest]
     if len(fits) == 2:
         return "Adhesion is seen, but the curve cannot tell DMT from JKR: both fit as well as Maugis."

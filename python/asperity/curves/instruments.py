@@ -44,7 +44,8 @@ def curves(path: Any, given: dict[str, float | None]) -> Any:
     try:
         formats = importlib.import_module("afmformats")
     except ImportError:
-        raise ValueError(f"{path}: is binary, or a text of an instrument: pip install 'asperity[curves]', with which it may be read") from None
+        remedy = "pip install 'asperity[curves]', with which it may be read"
+        raise ValueError(f"{path}: is binary, or a text of an instrument: {remedy}") from None
     metadata = {key: given[name] for key, name in _METADATA.items() if given.get(name) is not None}
     try:
         with _silent():
@@ -69,7 +70,8 @@ def columns(path: Any, curve: Any) -> tuple[list[Column], Array | None]:
     try:
         with _silent():
             names = [name for name in curve.columns if name not in ("segment", "time", "index")]
-            found = [Column(name, "N" if name == "force" else "m", np.asarray(curve[name], np.float64), name) for name in names]
+            units = ["N" if name == "force" else "m" for name in names]
+            found = [Column(name, unit, np.asarray(curve[name], np.float64), name) for name, unit in zip(names, units)]
             if "segment" not in curve.columns:
                 return found, None
             segments = np.asarray(curve["segment"], np.int64)

@@ -192,8 +192,9 @@ class Likelihood:
         """How loads would change with adhesion, for works of adhesion that grow from none, by each of some models."""
         curve, fits = self.curve, self.fits
         names = list(curve.tip.fewer)
-        kinds = [(names.index(str(fits.model[one])), float(np.log(fits.tabor[one]))) for one in self.family if not self.bare[one]]
-        kinds = kinds[:: max(len(kinds) // 7, 1)]
+        rows = self.family[~self.bare[self.family]]
+        rows = rows[:: max(rows.size // 7, 1)]
+        kinds = [(names.index(str(fits.model[one])), float(np.log(fits.tabor[one]))) for one in rows]
         forces = np.geomspace(_LEAST * max(curve.noise, curve.least), _MOST * float(np.ptp(curve.force)), _WORKS)
         works = forces / (1.75 * np.pi * curve.tip.radius)
         roots = np.sqrt(np.maximum(works / curve.work - curve.floor, 0.0))

@@ -110,7 +110,8 @@ def read_curve(
 def metres_and_newtons(spring_stiffness: Quantity | None, sensitivity: Quantity | None) -> dict[str, float | None]:
     """Stiffness and sensitivity as numbers in SI units."""
     found: dict[str, float | None] = {"spring_stiffness": None, "sensitivity": None}
-    for name, value, key in (("spring_stiffness", spring_stiffness, "spring_stiffness"), ("sensitivity", sensitivity, "approach")):
+    given = (("spring_stiffness", spring_stiffness, "spring_stiffness"), ("sensitivity", sensitivity, "approach"))
+    for name, value, key in given:
         if value is None:
             continue
         if isinstance(value, str):
