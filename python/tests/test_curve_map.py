@@ -75,6 +75,8 @@ def test_the_map_of_a_file_is_that_of_its_arrays(made, found, tmp_path, recwarn)
             here = {**metadata, "enum": number, "path": path, "grid index x": place[0], "grid index y": place[1]}
             formats.AFMForceDistance(data, here).export_data(file, metadata=True, fmt="hdf5")
     map = asperity.fit_curves(path, radius="2um")
+    same = asperity.fit_curves(path, radius="2um", model="jkr", lengths=("10um", "20um"))
+    assert same.lengths == (1e-5, 2e-5) and same.p_values.keys() == {"JKR"}
     assert map.shape == (4, 4) and map.lengths == (1e-5, 1e-5) and map.reason[0, 2].startswith("the file has no curve")
     both = (map.reason == "") & (found.reason == "")
     assert both.sum() == 14 and map.modulus.value[both] == pytest.approx(found.modulus.value[both], rel=1e-6)

@@ -182,15 +182,7 @@ impl<T: Real> PressedFlat<T> {
             Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)? + self.mean_depth()),
             Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
             Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
-            Control::Approach(_) => {
-                let (rest, compliance) = (self.resting(held()?), self.approach_compliance());
-                // a bonded incompressible layer does not yield in the mean
-                if compliance == 0.0 {
-                    Load::Gap(rest + self.mean_depth())
-                } else {
-                    Load::Spring { stiffness: compliance.recip(), rest }
-                }
-            }
+            Control::Approach(_) => self.held(held()?),
             Control::Spring { stiffness, rest } => {
                 Error::positive("stiffness of the spring", stiffness)?;
                 held()?;
@@ -216,6 +208,16 @@ impl<T: Real> PressedFlat<T> {
     fn resting(&self, approach: f64) -> f64 {
         let rounding = TOUCH * T::epsilon().widen() * self.rms_height;
         self.peak - if approach.abs() <= rounding { -rounding } else { approach }
+    }
+
+    /// An approach as a load: a spring, or a mean gap over a body that does not yield in the mean, as a bonded
+    /// incompressible layer.
+    fn held(&self, approach: f64) -> Load {
+        let (rest, compliance) = (self.resting(approach), self.approach_compliance());
+        if compliance == 0.0 {
+            return Load::Gap(rest + self.mean_depth());
+        }
+        Load::Spring { stiffness: compliance.recip(), rest }
     }
 
     /// What the mean pressure adds to an approach, over that pressure; zero for a body without one.

@@ -279,7 +279,7 @@ def fit_curves(
             for name, unit in (("length_unit", length_unit), ("force_unit", force_unit)):
                 in_unit(name, unit)
     if lengths is not None:
-        sides = lengths if isinstance(lengths, tuple) else (lengths, lengths)
+        sides = np.broadcast_to(np.asarray(lengths, np.float64), 2)
     if int(np.prod(shape)) != len(pairs):
         raise ValueError(f"shape is {shape}, of {int(np.prod(shape))} places, and there are {len(pairs)} curves")
     return _mapped(pairs, keywords, shape, None if sides is None else tuple(map(float, sides)), threads)
