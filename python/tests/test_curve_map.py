@@ -82,7 +82,7 @@ def test_the_map_of_a_file_is_that_of_its_arrays(made, found, tmp_path, recwarn)
     assert both.sum() == 14 and map.modulus.value[both] == pytest.approx(found.modulus.value[both], rel=1e-6)
 
 
-def test_what_is_no_map_is_refused(made):
+def test_what_is_no_map_is_refused(made, tmp_path):
     curves, _ = made
     for wrong, told in (
         ((curves[..., 0, :],), r"curves has shape \(4, 4, 200\): it must be \(..., 2, N\)"),
@@ -95,6 +95,12 @@ def test_what_is_no_map_is_refused(made):
         asperity.fit_curves(curves, radius=1e-6, shape=(5, 5))
     with pytest.raises(TypeError, match="radius is None, and tip is None: give one of them"):
         asperity.fit_curves(curves)
+    path = tmp_path / "curve.csv"
+    path.write_text("z (nm),F (nN)\n0,1\n1,2\n")
+    with pytest.raises(ValueError, match="is a text, of one curve: take read_curve"):
+        asperity.fit_curves(path, radius="1um")
+    with pytest.raises(FileNotFoundError):
+        asperity.fit_curves(tmp_path / "none.h5", radius="1um")
     # a reason that holds for many is a warning
     wide = curves.copy()
     wide[:, :, 1] += 0.02 * np.ptp(wide[0, 0, 1]) * np.sin(1e7 * wide[:, :, 0])

@@ -18,16 +18,16 @@ from .tips import Array, scipy
 
 #: The number of samples, and falls of the squares, in variances, of rounding, and such that none is expected.
 _SAMPLES, _NONE, FAR = 1000, 0.02, 60.0
-#: The most directions of differences that count.
+#: As many differences as there are in most curves.
 _MOST = 128
 #: The square of the length over which a path is straight, in variances: behind it the next place is another fit.
 _STRAIGHT = 30.0
 
 
-@lru_cache(maxsize=1)
-def _normal() -> Array:
-    """Samples of normal numbers, as many columns as there may be differences, and one more for the variance."""
-    found = np.random.default_rng(1).normal(size=(_MOST + 1, _SAMPLES))
+@lru_cache(maxsize=4)
+def _normal(count: int) -> Array:
+    """Samples of normal numbers, so many for differences, and one more for the variance."""
+    found = np.random.default_rng(1).normal(size=(count + 1, _SAMPLES))
     found -= found.mean(axis=1)[:, None]
     return np.asarray(found / found.std(axis=1)[:, None])
 
@@ -39,11 +39,10 @@ def falls(paths: list[Array], freedom: int) -> Array:
     """
     differences = np.concatenate(paths)
     gram = differences @ differences.T
-    values, vectors = np.linalg.eigh(gram)
-    kept = values > 1e-12 * values.max(initial=1e-300)
-    normal = _normal()
-    kept[: -_MOST] = False
-    across = (vectors[:, kept] * np.sqrt(values[kept])) @ normal[: int(kept.sum())]
+    # neighbours on a path are nearly alike
+    alike = 1e-9 * np.trace(gram) / len(gram) + 1e-300
+    normal = _normal(max(len(gram), _MOST))
+    across = np.linalg.cholesky(gram + alike * np.eye(len(gram))) @ normal[: len(gram)]
     best = np.zeros(_SAMPLES)
     ends = np.cumsum([len(path) for path in paths])
     squares = np.diag(gram)

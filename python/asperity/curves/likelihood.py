@@ -74,6 +74,7 @@ class Likelihood:
     def __init__(self, curve: Curve, fits: Fits) -> None:
         self.curve, self.fits, tip = curve, fits, curve.tip
         self.special = scipy("special")
+        self._likeness: dict[int, tuple[float, float]] = {}
         self.names = [name for name in tip.fewer if (fits.model == name).any()]
         self.bare = np.array([not tip.adheres(name) for name in fits.model])
         full = np.array([tip.fewer[name] == 0 for name in fits.model])
@@ -150,12 +151,15 @@ class Likelihood:
 
     def likeness(self, row: int) -> tuple[float, float]:
         """The correlation of neighbouring residuals of a fit, and its probability."""
+        if row in self._likeness:
+            return self._likeness[row]
         rest = self.residuals(row)
         # what is left of a curve without noise is the error of interpolation
         if np.sqrt(np.mean(rest**2)) < 1e-4 * np.ptp(self.curve.force):
             return 0.0, 1.0
         basis = orthonormal(self._basis(row)[: rest.size])
-        return likeness(rest - basis @ (basis.T @ rest), basis)
+        self._likeness[row] = likeness(rest - basis @ (basis.T @ rest), basis)
+        return self._likeness[row]
 
     def _probability(self, name: str) -> float:
         """The probability of what is seen if a model was true."""

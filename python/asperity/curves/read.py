@@ -151,6 +151,9 @@ class Reader(NamedTuple):
 
     def map(self) -> CurveFile:
         """All curves of a file of afmformats, over the grid on which they were taken."""
+        with open(self.path, "rb") as file:
+            if not instruments.knows(file.read(4096)):
+                raise ValueError(f"{self.path}: is a text, of one curve: take read_curve and fit_curve")
         found = instruments.curves(self.path, self.given)
         pairs: list[ForceCurve | ValueError] = []
         with warnings.catch_warnings():
