@@ -228,10 +228,10 @@ impl<T: Real> PressedFlat<T> {
         }
     }
 
-    /// The approach at a mean gap and a mean pressure on the operator's grid; in a periodic cell none but over a layer or
-    /// a coating.
+    /// The approach at a mean gap and a mean pressure on the operator's grid; none in a periodic cell, where the energy
+    /// does not have the compression of the whole.
     pub(crate) fn approach(&self, mean_gap: f64, pressure: f64) -> Option<f64> {
-        let has = self.boundary != Boundary::Periodic || self.far_compliance.is_some() && self.window.is_none();
-        has.then(|| self.peak - mean_gap + self.approach_compliance() * pressure)
+        let Boundary::Free { mean_compliance, .. } = self.boundary else { return None };
+        Some(self.peak - mean_gap + mean_compliance * pressure)
     }
 }

@@ -43,6 +43,11 @@ use crate::key::{
     Scene, Told, Units, record,
 };
 
+/// The approach that a load holds.
+fn held(control: Control) -> Option<f64> {
+    if let Control::Approach(approach) = control { Some(approach) } else { None }
+}
+
 record! {
     /// The account of a solve: its outcome, then its inputs. Its fields are the keys of `report.json` and of the
     /// reports in Python, in their order; numbers are in the units of the input, energies per area.
@@ -90,8 +95,8 @@ record! {
         mean_pressure: f64 [PRESSURE] = report.mean_pressure,
         /// The normal force.
         normal_force: f64 [FORCE] = report.normal_force,
-        /// The approach, with a free boundary, and over a layer or a coating as that of points far away.
-        approach: Option<f64> [LENGTH] = report.approach,
+        /// The approach, with a free boundary, and where one is held over a layer or a coating.
+        approach: Option<f64> [LENGTH] = report.approach.or(held(report.control)),
         /// The stiffness of a spring, if the load is one.
         spring_stiffness: Option<f64> [FORCE_PER_LENGTH] = stiffness(report.control),
         /// The mean pressure that the fields carry.

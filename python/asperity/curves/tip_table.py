@@ -112,6 +112,8 @@ class TipTable:
         if isinstance(body, Coating):
             hard = _asperity.quantity("modulus", body.modulus) if isinstance(body.modulus, str) else body.modulus
             self._hardness = hard / softest
+        #: what an approach has beside the mean gap, over the mean pressure and times E*
+        self._compliance = self._far(contact, modulus) if body is not None else 0.0
         #: the cubic roots of w/E* over the greatest: displacements by adhesion go as powers of it
         roots = np.linspace(0.0, 1.0, works + 1) if contact.adheres else np.zeros(1)
 
@@ -161,11 +163,22 @@ class TipTable:
     def what(self) -> str:
         return repr(self)
 
+    def _top(self) -> float:
+        """How far the peak of the tip is above its mean."""
+        heights = self.topography.heights
+        return float(heights.max() - heights.mean())
+
+    def _far(self, contact: Contact, modulus: Quantity) -> float:
+        """The compliance of the body beside its waves, by a solve at an approach, times E*."""
+        held = f"{self.high!r}m" if self.is_si else self.high
+        bare = Contact(self.topography, modulus=modulus, body=self._body)
+        solved = bare.solve(approach=held, tolerance=1e-8)
+        return (self.high - self._top() + solved.mean_gap) / solved.mean_pressure * contact.modulus
+
     def _loads(self, approaches: list[float]) -> dict[str, Any]:
         """Approaches as loads, over a layer as mean gaps."""
-        heights = self.topography.heights
         if self._body is not None:
-            approaches = [float(heights.max() - heights.mean()) - approach for approach in approaches]
+            approaches = [self._top() - approach for approach in approaches]
         lengths = [f"{length!r}m" for length in approaches] if self.is_si else approaches
         return {"approaches": lengths} if self._body is None else {"mean_gaps": lengths, "start": "apart"}
 
@@ -182,6 +195,9 @@ class TipTable:
             keys["body"] = replace(self._body, modulus=f"{hard!r}Pa" if self.is_si else hard)
         columns = cycle(self.topography, modulus=given, steps=self._steps, threads=1, **loads, **keys).columns
         approach, load = columns["approach"], columns["normal_force"] / modulus
+        if self._body is not None:
+            yielded = self._compliance / modulus * columns["mean_pressure"]
+            approach = self._top() - columns["mean_gap"] + yielded
         back = columns["direction"] == "withdrawal"
         jumps = np.array([drop is not None and drop > 0.0 for drop in columns["energy_drop"]])
         withdrawal = approach[back][::-1], load[back][::-1], np.roll(jumps[back][::-1], 1)
