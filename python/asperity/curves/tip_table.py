@@ -171,8 +171,8 @@ class TipTable:
     def _far(self, contact: Contact, modulus: Quantity) -> float:
         """The compliance of the body beside its waves, by a solve at an approach, times E*."""
         held = f"{self.high!r}m" if self.is_si else self.high
-        bare = Contact(self.topography, modulus=modulus, body=self._body)
-        solved = bare.solve(approach=held, tolerance=1e-8)
+        bare = Contact(self.topography, modulus=modulus, body=self._body, tolerance=1e-8)
+        solved = bare.solve(approach=held)
         return (self.high - self._top() + solved.mean_gap) / solved.mean_pressure * contact.modulus
 
     def _loads(self, approaches: list[float]) -> dict[str, Any]:
