@@ -15,11 +15,13 @@ use crate::stability::EdgeError;
 use crate::surface::{Surface, mirror};
 
 mod goal;
+mod loops;
 mod pull_off;
 mod refine;
 mod zone;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
+pub use loops::{Limit, LoopLimit};
 pub use pull_off::AccuratePullOff;
 
 /// The quantity of which an accuracy is asked.

@@ -32,6 +32,7 @@ mod sharp;
 mod step;
 
 use account::Account;
+pub use account::PathEnd;
 use balance::Balance;
 use course::{Course, Way};
 pub use event::{Event, Jump};
@@ -188,9 +189,10 @@ impl<T: Real> Path<T> {
         self.course.end_leg();
     }
 
-    /// The greatest tension of the states after the first, a pressure; zero if there was none.
-    pub fn greatest_tension(&self) -> f64 {
-        self.course.account.tension.max(0.0)
+    /// The figures of the path so far.
+    pub fn end(&self) -> PathEnd {
+        let Account { work, dissipated, variance, tension, .. } = self.course.account;
+        PathEnd { work, work_error: variance.sqrt(), dissipated, greatest_tension: tension.max(0.0) }
     }
 
     /// The share of the way that is behind, from 0 to 1: all legs alike, and the present one by its load, or by its mean
@@ -347,7 +349,7 @@ impl<T: Real> Path<T> {
     fn attempt(&mut self, bench: &mut Bench<'_, T>) -> Result<Option<PathStep<T>>> {
         let (target, smallest) = self.course.next_target(&self.settings);
         let control = self.course.control(target);
-        let start = self.predict(bench, target);
+        let (start, came_there) = self.predict(bench, target);
         let mut solved = self.solve(bench, control, start)?;
         // a long way after a jump may need another run-up
         for _ in 0..RETRIES {
@@ -394,7 +396,7 @@ impl<T: Real> Path<T> {
             self.course.leave_pressure_control((close, far), !lost, &self.settings);
             return Ok(None);
         }
-        let mut way = Way { jumped: trial.jumped && !good, bifurcation: None };
+        let mut way = Way { jumped: trial.jumped && !good, touches: solved.touches || came_there, bifurcation: None };
         let mut on_saddle = saddle.is_some();
         if let Some(saddle) = saddle {
             let (left, drawn) = self.leave(bench, &solved.solution, control)?;

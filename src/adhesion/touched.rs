@@ -46,6 +46,12 @@ impl Neighbourhood {
         self.contact.nodes_mut().iter_mut().zip(self.near.nodes()).for_each(|(contact, &near)| *contact &= near);
     }
 
+    /// Whether [contacts](Self::contact), in any process, are not near others. All processes have to call it.
+    pub(crate) fn has_others(&self) -> bool {
+        let others = self.contact.nodes().iter().zip(self.near.nodes()).any(|(&contact, &near)| contact && !near);
+        self.grid.each(others).contains(&true)
+    }
+
     /// The node of the whole grid that is the first of the slab.
     pub(crate) fn first_node(&self) -> usize {
         self.slab.first_node()

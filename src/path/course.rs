@@ -13,6 +13,8 @@ use crate::solver::Report;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
     pub(super) jumped: bool,
+    /// whether surfaces have touched at new places
+    pub(super) touches: bool,
     /// the eigenvalue of the saddle that was left, where a symmetry breaks
     pub(super) bifurcation: Option<f64>,
 }
@@ -274,6 +276,7 @@ impl Course {
             mean_pressure: (here.pressure, next.pressure),
             approach: self.free.then_some((-here.position, -next.position)),
             contact_fraction: (here.contact, next.contact),
+            touches: way.touches,
             energy_drop: 0.0,
         };
         let jumped = way.jumped;

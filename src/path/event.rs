@@ -37,6 +37,9 @@ pub struct Jump {
     pub approach: Option<(f64, f64)>,
     /// The shares of nodes in contact before and after.
     pub contact_fraction: (f64, f64),
+    /// Whether surfaces have touched at new places, by a law that attracts [next to contacts
+    /// alone](crate::adhesion::Hints::touching).
+    pub touches: bool,
     /// The energy that the jump dissipates, per area.
     pub energy_drop: f64,
 }
@@ -50,14 +53,16 @@ impl Event {
         }
     }
 
-    /// The name that the tool uses: `"jump-in"` where contact or adhesion grows, `"pull-off"` where the last contact
-    /// is lost, `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
+    /// The name that the tool uses: `"touch"` where surfaces stick that have touched at new places, `"jump-in"` where contact
+    /// or adhesion grows otherwise, `"pull-off"` where the last contact is lost, `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::LimitPoint { .. } => "limit-point",
             Self::Bifurcation { .. } => "bifurcation",
-            Self::Jump(Jump { contact_fraction: (before, after), mean_pressure, .. }) => {
-                if after > before {
+            Self::Jump(Jump { contact_fraction: (before, after), mean_pressure, touches, .. }) => {
+                if after > before && *touches {
+                    "touch"
+                } else if after > before {
                     "jump-in"
                 } else if after < before {
                     if *after == 0.0 { "pull-off" } else { "jump-out" }

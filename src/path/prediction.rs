@@ -31,14 +31,15 @@ impl<T: Real> Bench<'_, T> {
 }
 
 impl<T: Real> Path<T> {
-    /// The gap at `target`: that of a state that was found there, or extrapolated from the last two gaps.
-    pub(super) fn predict(&self, bench: &Bench<'_, T>, target: f64) -> Begin<'_, T> {
+    /// The start at `target`: the state that was found there, or a gap extrapolated from the last two; and whether surfaces
+    /// touched at new places on the way to it.
+    pub(super) fn predict(&self, bench: &Bench<'_, T>, target: f64) -> (Begin<'_, T>, bool) {
         if let (Some(ahead), Some(end)) = (&self.ahead, self.course.taken_back())
             && end == target
         {
-            return Begin::Found(ahead.clone());
+            return (Begin::Found(ahead.clone()), ahead.touches);
         }
-        match &self.places[..] {
+        let start = match &self.places[..] {
             [before, last] => {
                 let steps = self.course.extrapolation(target).clamp(-MOST_STEPS, MOST_STEPS);
                 let steps = if steps.is_finite() { steps } else { 0.0 };
@@ -48,6 +49,7 @@ impl<T: Real> Path<T> {
             }
             [.., last] => Begin::Found(last.clone()),
             [] => Begin::At(Start::Default),
-        }
+        };
+        (start, false)
     }
 }

@@ -50,7 +50,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let (plastic_depth, plastic) = yielded.map(|(depth, figures, _)| (depth, figures)).unzip();
         let report = self.report(status, [mean, net, load_error], &carried, plastic);
         let (on_grid, flat, at_floor) = (self.posed.formula(), self.posed.flat, self.is_at_floor());
-        let (touched, not_parted) = (self.touched(), self.not_parted());
+        let (touched, not_parted, touches) = (self.touched(), self.not_parted(), self.counters.touches);
         let (grid, yields, law) = (*self.posed.operators.state().grid(), plastic.is_some(), self.posed.given.clone());
         if flat.window.is_some() && report.status == Status::Converged {
             // the nodes that face no surface have their part of the residual: in balance the others bear the load
@@ -73,7 +73,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if flat.boundary != Boundary::Periodic {
             solution.watch_edge(on_grid, flat);
         }
-        Ok(Solved { solution, whole: gap.map(|gap| (grid, gap)), not_parted, at_floor })
+        Ok(Solved { solution, whole: gap.map(|gap| (grid, gap)), not_parted, touches, at_floor })
     }
 
     /// The certificate and the work of the fields as they are.

@@ -69,6 +69,8 @@ pub(super) struct Counters {
     /// how often the function to be minimised has changed
     pub(super) rounds: usize,
     pub(super) progress: Progress,
+    /// whether surfaces have touched where they did not attract each other
+    pub(super) touches: bool,
 }
 
 /// The last step d = `factor`·c, with c the field of the change, and the sums for the next one to be conjugate to it.

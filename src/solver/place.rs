@@ -10,10 +10,12 @@ pub struct Place<T> {
     pub(crate) gap: Array2<T>,
     /// none of other laws, and of a gap alone
     pub(crate) not_parted: Option<Array2<bool>>,
+    /// whether surfaces touched at new places on the way there
+    pub(crate) touches: bool,
 }
 
 impl<T> From<Array2<T>> for Place<T> {
     fn from(gap: Array2<T>) -> Self {
-        Self { gap, not_parted: None }
+        Self { gap, not_parted: None, touches: false }
     }
 }

@@ -288,6 +288,8 @@ pub struct Solved<T: Real> {
     pub(crate) whole: Option<(Grid, Array2<T>)>,
     /// where surfaces that attract each other next to contacts alone have not parted, on the operator's grid
     pub(crate) not_parted: Option<Array2<bool>>,
+    /// whether surfaces touched at new places
+    pub(crate) touches: bool,
     /// whether the residual is at the rounding floor
     pub(crate) at_floor: bool,
 }
@@ -307,12 +309,12 @@ impl<T: Real> Solved<T> {
     /// The place in which the solve has ended.
     pub(crate) fn place(&self) -> Place<T> {
         let gap = self.whole.as_ref().map_or(&self.solution.gap, |(_, gap)| gap).clone();
-        Place { gap, not_parted: self.not_parted.clone() }
+        Place { gap, not_parted: self.not_parted.clone(), touches: self.touches }
     }
 
     pub(crate) fn with_place(self) -> (Solution<T>, Place<T>) {
         let gap = self.whole.map_or_else(|| self.solution.gap.clone(), |(_, gap)| gap);
-        (self.solution, Place { gap, not_parted: self.not_parted })
+        (self.solution, Place { gap, not_parted: self.not_parted, touches: self.touches })
     }
 }
 

@@ -80,7 +80,9 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let Some(mut touched) = self.posed.touched.take() else { return false };
         let neighbourhood = &mut touched.neighbourhood;
         self.posed.mark_contacts(&self.fields.gap, neighbourhood);
-        if !everywhere {
+        if everywhere {
+            self.counters.touches |= neighbourhood.has_others();
+        } else {
             neighbourhood.confine();
         }
         let grows = neighbourhood.grow();

@@ -331,7 +331,7 @@ impl<T: Scalar> Course<T> {
         let apart = found.step.as_ref().is_some_and(|step| step.direction == WITHDRAWAL) && shares == [Some(0.0); 2];
         if let Strategy::Cycle(path) = &mut self.place.strategy
             && apart
-            && -account.mean_pressure <= FAINT * path.greatest_tension()
+            && -account.mean_pressure <= FAINT * path.end().greatest_tension
         {
             path.end_leg();
         }

@@ -1,0 +1,82 @@
+//! The limit of no range of what a loop of loads dissipates, from paths on two grids.
+
+use crate::error::Result;
+use crate::nested::coarsened;
+use crate::path::PathEnd;
+use crate::surface::Surface;
+
+/// The least number of nodes along a side of the coarser grid.
+const COARSEST: usize = 16;
+
+/// The difference to the grid of half as many nodes, in the error of a limit.
+const DIFFERENCE: f64 = 1.0;
+
+/// The standard errors of the work, in the error of its limit.
+const STANDARD: f64 = 2.0;
+
+/// A number on a grid in the limit of no range, where it has a first-order error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Limit {
+    /// The limit, in the unit of the number.
+    pub value: f64,
+    /// The estimated error of the limit, in the same unit: nine of ten true errors are below it, and it is no bound.
+    pub error: f64,
+}
+
+impl Limit {
+    /// The limit from the values on a grid and on one of half as many nodes along the sides, with their own errors.
+    fn of([fine, coarse]: [f64; 2], [own, coarser]: [f64; 2]) -> Self {
+        let of_values = (2.0 * own).hypot(coarser);
+        Self { value: 2.0 * fine - coarse, error: (DIFFERENCE * (fine - coarse)).hypot(STANDARD * of_values) }
+    }
+}
+
+/// The limits of no range of a path by a law that attracts next to contacts alone, as [`Jkr`](crate::Jkr).
+///
+/// On a grid of spacing Δx a path has the work W + O(Δx), where W is the work of the limit. Two grids extrapolate to 2W₁ − W₂, with
+/// W₂ on the grid of half as many nodes along the sides.
+///
+/// ```
+/// use asperity::accuracy::LoopLimit;
+/// use asperity::path::{Path, PathSettings};
+/// use asperity::{Boussinesq, Control, Grid, Jkr, Problem, Solver, Surface};
+/// let follow = |surface: &Surface| {
+///     let half_space = Boussinesq::<f64>::new(*surface.grid(), 1.0)?;
+///     let mut problem = Problem::new(surface, half_space, Jkr::new(2e-3)?)?;
+///     let mut path = Path::new([-0.02, 0.01, -0.2].map(Control::Approach), PathSettings::default())?;
+///     while path.next(&mut Solver::default(), &mut problem)?.is_some() {}
+///     Ok::<_, asperity::Error>(path.end())
+/// };
+/// let sphere = Surface::paraboloid(Grid::square(48, 1.6)?, 1.0)?;
+/// let coarser = LoopLimit::coarser(&sphere)?.unwrap();
+/// let limit = LoopLimit::of(&follow(&sphere)?, &follow(&coarser)?);
+/// assert!(0.0 < limit.work.error && limit.work.error < 0.2 * limit.work.value);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LoopLimit {
+    /// The work done by the load, energy per nominal area: over a closed loop, the energy that it dissipates.
+    pub work: Limit,
+    /// The greatest tension, a pressure.
+    pub tension: Limit,
+}
+
+impl LoopLimit {
+    /// The limits from the ends of one path on a grid and on one of half as many nodes along the sides.
+    pub fn of(fine: &PathEnd, coarse: &PathEnd) -> Self {
+        Self {
+            work: Limit::of([fine.work, coarse.work], [fine.work_error, coarse.work_error]),
+            tension: Limit::of([fine.greatest_tension, coarse.greatest_tension], [0.0; 2]),
+        }
+    }
+
+    /// The surface on the grid of half as many nodes along the sides; none if there is no such grid.
+    ///
+    /// # Errors
+    /// [`Error::Value`](crate::Error::Value) for a grid that processes cannot share.
+    pub fn coarser(surface: &Surface) -> Result<Option<Surface>> {
+        Ok(coarsened(surface, COARSEST, true)?.into_iter().next())
+    }
+}
