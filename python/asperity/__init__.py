@@ -19,7 +19,7 @@ from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
 from ._body import Coating, Layer, Symbol
 from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
-from ._cycle import Cycle, Step
+from ._cycle import Cycle, CycleLimit, Step
 from ._flow import Flow, Leakage, leakage
 from ._folder import load, report
 from ._interface import Interface
@@ -58,6 +58,7 @@ __all__ = [
     "CurveMap",
     "CutOff",
     "Cycle",
+    "CycleLimit",
     "Estimate",
     "Flow",
     "ForceCurve",

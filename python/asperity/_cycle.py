@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _asperity, _plot
 from ._columns import Rows
 from ._solution import Solution
+from ._summary import summarised
 from ._warnings import AccuracyWarning, warn
 
 if TYPE_CHECKING:
@@ -34,7 +35,8 @@ class Step:
     work_error : float
         Standard error of the work, and over a closed cycle of the energy dissipated.
     event : str or None
-        Event before this state: ``"jump-in"``, ``"jump-out"``, ``"pull-off"``, ``"bifurcation"``, ``"limit-point"``.
+        Event before this state: ``"touch"``, ``"jump-in"``, ``"jump-out"``, ``"pull-off"``, ``"bifurcation"``,
+        ``"limit-point"``.
     energy_drop : float or None
         Energy that the jump dissipates, per area.
     """
@@ -56,8 +58,32 @@ class Step:
         return f"Step({self.direction}, leg {self.leg}: mean_gap={gap:.7g}, mean_pressure={pressure:.7g}{event})"
 
 
+@summarised
+class CycleLimit(NamedTuple):
+    """The limits of no range of a cycle with `JKR`, from the grid and the grid of half as many nodes along the sides.
+
+    Attributes
+    ----------
+    work : float
+        Work done by the load, per area: over a closed cycle, the energy that it dissipates.
+    work_error : float
+        Estimated error of the limit of the work.
+    tension : float
+        Greatest tension, over the area of the map.
+    tension_error : float
+        Estimated error of the limit of the tension.
+    """
+
+    work: float
+    work_error: float
+    tension: float
+    tension_error: float
+
+
 class Cycle(Rows[Step]):
     """The states of a cycle, each found when it is asked for, and the columns of their numbers."""
+
+    _limit: CycleLimit | None = None
 
     def __next__(self) -> Step:
         has_ended = self._ended
@@ -77,6 +103,27 @@ class Cycle(Rows[Step]):
         """The rows at which something happened; solves what is left."""
         self.run()
         return [row for row in self.rows if row["event"] is not None]
+
+    @property
+    def limit(self) -> CycleLimit | None:
+        """The limits of no range of the work and of the greatest tension, with `JKR`; solves what is left.
+
+        The same cycle is solved on the grid of half as many nodes along the sides, when the limits are first asked for. None
+        for laws with a range, for a cycle that an observer ended, with a start or a map of the hardness, and where there is
+        no such grid.
+        """
+        self.run()
+        if self._limit is None and self.rows and self.rows[-1]["status"] != "stopped":
+            with self._contact.turns:
+                found = self._contact.problem.cycle_limit(self._observe)
+            if found is not None:
+                keys = ("work_limit", "work_limit_error", "tension_limit", "tension_limit_error")
+                self._limit = CycleLimit(*(found[key] for key in keys))
+        return self._limit
+
+    def __getstate__(self) -> dict[str, Any]:
+        # found before the problem is gone
+        return {"_limit": self.limit, **super().__getstate__()}
 
     @property
     def seconds_left(self) -> float | None:

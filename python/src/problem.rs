@@ -247,6 +247,12 @@ impl Problem {
         either!(session = self.session() => state::next(session, &at))
     }
 
+    /// The limits of no range of a cycle at its end, where a coarser grid tells them.
+    fn cycle_limit<'py>(&mut self, py: Python<'py>, observe: Option<Py<PyAny>>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let at = self.at(py, observe)?;
+        either!(session = self.session() => state::cycle_limit(session, &at))
+    }
+
     /// The stability of a gap under a load, of which the certified error is known.
     fn stability<'py>(
         &mut self,

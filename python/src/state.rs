@@ -146,6 +146,13 @@ pub fn next<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<
     Ok(Some(found))
 }
 
+/// The limits of no range of a cycle at its end, where a coarser grid tells them.
+pub fn cycle_limit<'py, T: Scalar>(session: &mut Session<T>, at: &At<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let (found, raised) = at.run(|observe, _| session.cycle_limit(observe))?;
+    raised.map_or(Ok(()), Err)?;
+    found.map_err(refusal_of_session)?.map(|limit| Ok(to_pyobject(at.py, &limit)?)).transpose()
+}
+
 /// The seconds that are left of a cycle, and its pace in words.
 pub fn pace<T: Scalar>(session: &Session<T>) -> Pace {
     session.pace().map(|pace| (pace.seconds_left(), pace.told()))

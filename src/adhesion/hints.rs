@@ -57,7 +57,7 @@ impl<T: Real> Hints<T> {
     }
 
     /// Whether a law that is not zero attracts next to contacts alone.
-    pub(crate) fn touches(&self) -> bool {
+    pub fn touches(&self) -> bool {
         self.touching && !self.zero
     }
 

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use asperity_scene::{
-    AdhesionKeys, Chosen, Load, LoadsKeys, PathKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys, Way, unbalanced,
+    AdhesionKeys, Chosen, CycleLimit, Load, LoadsKeys, PathKeys, Skin, SolverKeys, SurfaceKeys, UnitKeys, Way,
+    unbalanced,
 };
 use clap::{ArgGroup, Args};
 use serde_json::{Map, Value, json};
@@ -27,11 +28,12 @@ use crate::table::{Fill, Manner, Table, TableOptions, format_of};
 /// jump and the energy that it dissipates. A limit point is the greatest or least load of a branch; beyond it, a cycle
 /// along pressures or forces continues at given mean gaps (with a free boundary at given approaches). Each state gives
 /// a row of the file. It has the columns of asperity sweep, the work of the load and the energy dissipated in jumps so
-/// far, the imbalance of energy (all per area), and the event on the way to it: jump-in, jump-out, pull-off, limit-
-/// point, bifurcation. With a hardness the surface keeps its plastic depth, and the balance has the energy that
-/// yielding dissipates. The same command continues an interrupted cycle; for that it keeps FILE.state next to the
-/// file, which may be deleted at the end. asperity run FILE.scene.toml repeats or continues the cycle. Exits with 0 if
-/// all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
+/// far, the imbalance of energy (all per area), and the event on the way to it: touch, jump-in, jump-out, pull-off,
+/// limit-point, bifurcation. With jkr the same cycle on half as many nodes along the sides tells the limits of no range
+/// of the work and of the greatest tension, with their errors. With a hardness the surface keeps its plastic depth, and
+/// the balance has the energy that yielding dissipates. The same command continues an interrupted cycle; for that it
+/// keeps FILE.state next to the file, which may be deleted at the end. asperity run FILE.scene.toml repeats or continues
+/// the cycle. Exits with 0 if all rows converged, 2 if not, and 1 if the input is refused or a file cannot be written.
 #[derive(Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("loads").required(true).args(Load::many())))]
 pub struct Options {
@@ -92,7 +94,8 @@ impl Fill for Options {
             let event = row.step.and_then(|step| step.event).map_or(String::new(), |event| format!("  {event}"));
             self.manner.printing.say(&format!("{:>4}  {}{event}", table.session.rows(), table.brief(&row.account)));
         }
-        self.conclude(table)?;
+        let limit = table.limit()?;
+        self.conclude(table, limit)?;
         Ok(table.converged("or --tolerance"))
     }
 }
@@ -104,7 +107,7 @@ impl Options {
     }
 
     /// Prints the summary or the report of all rows, and draws the picture.
-    fn conclude<T: Scalar>(&self, table: &Table<'_, T>) -> Outcome<()> {
+    fn conclude<T: Scalar>(&self, table: &Table<'_, T>, limit: Option<CycleLimit>) -> Outcome<()> {
         let (rows, units) = (table.session.read()?, table.session.units());
         let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
         let least = |name: &str| rows.iter().map(|row| number(row, name)).fold(0.0, f64::min);
@@ -141,17 +144,30 @@ impl Options {
                 "work_error": last["work_error"],
                 "last": last,
             });
-            table.report(found)
+            let parts = [found, json!(limit)];
+            table.report(
+                parts.iter().filter_map(Value::as_object).flatten().map(|(k, v)| (k.clone(), v.clone())).collect(),
+            )
         });
         if self.manner.printing.for_people() {
             let columns = Columns::new(&rows, units);
+            let in_limit = |value: String, error: String| say(&format!("  in the limit          {value} ± {error}"));
             let told = |row: &Value, name: &str| columns.number(name, columns.value(row, name));
             say(&format!("{} rows in {}", table.session.rows(), printing::name(&self.out)));
             if tension > 0.0 {
                 if !free {
                     say(&format!("greatest tension        at least {}", units.number(tension, PRESSURE)));
+                    let pressure = |pressure| units.number(pressure, PRESSURE);
+                    if let Some(CycleLimit { tension_limit, tension_limit_error, .. }) = limit {
+                        in_limit(pressure(tension_limit), pressure(tension_limit_error));
+                    }
                 }
-                say(&format!("greatest tensile force  at least {}", units.number(-least("normal_force"), FORCE)));
+                let force = -least("normal_force");
+                say(&format!("greatest tensile force  at least {}", units.number(force, FORCE)));
+                let of_force = |pressure| units.number(pressure * force / tension, FORCE);
+                if let Some(CycleLimit { tension_limit, tension_limit_error, .. }) = limit {
+                    in_limit(of_force(tension_limit), of_force(tension_limit_error));
+                }
             }
             for &k in events.iter().take(MOST_EVENTS) {
                 let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);
@@ -170,6 +186,10 @@ impl Options {
                     say(&format!("dissipated by yielding  {}", told(last, "plastic_energy")));
                 }
                 say(&format!("work done by the load   {} ± {}", told(last, "work"), told(last, "work_error")));
+                if let Some(CycleLimit { work_limit, work_limit_error, .. }) = limit {
+                    let limit = json!({ "work": work_limit, "work_error": work_limit_error });
+                    in_limit(told(&limit, "work"), told(&limit, "work_error"));
+                }
                 let share = 100.0 * (imbalance / most).abs();
                 let greatest = rows.iter().find(|row| number(row, "work").abs() == most).unwrap_or(last);
                 let of = columns.number("work", columns.value(greatest, "work").abs());

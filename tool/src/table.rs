@@ -6,7 +6,8 @@ use std::path::Path;
 use asperity::{Control, Error, Surface};
 use asperity_scene::theories::Theories;
 use asperity_scene::{
-    Account, After, Boundary, Format, Load, Precision, Row, Scene, Session, Skin, TableFile, Way, shortfalls,
+    Account, After, Boundary, CycleLimit, Format, Load, Precision, Row, Scene, Session, Skin, TableFile, Way,
+    shortfalls,
 };
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -205,6 +206,19 @@ impl<T: Scalar> Table<'_, T> {
         let Some((_, row)) = found? else { return Ok(None) };
         self.stands();
         Ok(Some(row))
+    }
+
+    /// The limit of no range of a complete cycle, where the same cycle on a coarser grid tells it, which a bar follows.
+    pub fn limit(&mut self) -> Outcome<Option<CycleLimit>> {
+        let TableOptions { problem, manner, .. } = self.options;
+        let Some((nx, ny)) = self.session.coarser_shape() else { return Ok(None) };
+        manner.printing.say(&format!("the same on {nx} x {ny} nodes, for the error of the grid"));
+        let tolerance = problem.scene.tolerance();
+        let mut progress = Progress::new("coarser", tolerance, nx * ny, manner.printing.without_bars());
+        self.session.cycle_limit(&mut |state| {
+            progress.update(state);
+            ControlFlow::Continue(())
+        })
     }
 
     /// Solves all rows that are left, says each in a line, and returns those of the file.

@@ -335,7 +335,8 @@ fn a_cycle_that_jumps_in_too_early_is_told() {
     assert!(blunt(1e-3).unwrap().contains("reaches 39.1 % farther"), "{:?}", blunt(1e-3));
     assert_eq!(blunt(2e-3), None);
     assert_eq!(told(&MaugisDugdale::new(1e-5, 1e-3).unwrap(), false), None);
-    assert!(told(&Jkr::new(1e-5).unwrap(), true).unwrap().contains("too little"));
+    // attraction next to contacts alone is as sudden as in the limit
+    assert_eq!(told(&Jkr::new(1e-5).unwrap(), true), None);
     assert_eq!(told(&Exponential::new(1e-5, 1e-3).unwrap(), true), None);
     assert_eq!(told(&NoAdhesion, true), None);
 }

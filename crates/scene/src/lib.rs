@@ -17,6 +17,7 @@ pub use asperity_maps::numbers;
 pub use account::*;
 pub use hash::Hash;
 pub use key::*;
+pub use session::limit::CycleLimit;
 pub use session::way::Way;
 pub use session::{AnySession, Input, Next, Observe, Session, Solved, TableFile};
 pub use session::{fall, pace};

@@ -3,6 +3,7 @@
 pub(crate) mod course;
 pub mod fall;
 mod filled;
+pub(crate) mod limit;
 pub mod pace;
 mod posed;
 mod solves;
@@ -82,6 +83,8 @@ pub struct Session<T: Scalar> {
     last: bool,
     course: Option<Course<T>>,
     table: Option<Table>,
+    /// The cycle on the coarser grid that tells the limit
+    coarser: Option<Box<Self>>,
 }
 
 /// A solution with its account.
@@ -149,6 +152,7 @@ impl<T: Scalar> Session<T> {
             last,
             course,
             table,
+            coarser: None,
         })
     }
 

@@ -22,16 +22,10 @@ const FARTHER: f64 = 0.1;
 
 impl Warning {
     /// Why a cycle with `law` on a body of contact `modulus` E* jumps into contact too early, and so dissipates too little:
-    /// its range is that of the grid, or its traction that jumps is smoothed by the grid.
+    /// the grid smooths jumps of its traction.
     pub fn of_cycle<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64, smooth: bool) -> Option<Self> {
         if law.hints().zero {
             return None;
-        }
-        if law.hints().of_grid {
-            let spacing = grid.largest_spacing();
-            let range = law.on_nodes(T::lit(spacing / modulus))?.hints().range.widen();
-            let text = "by jkr a cycle jumps in {} early and dissipates too little: give a range";
-            return Some(Self::told(WarningCode::Range, range / spacing, text, [Length(range)]));
         }
         let farther = f64::min(0.5 * Discretisation::<T>::SMOOTHING * mu_rho(law, grid, modulus).powi(2), 1.0);
         let is_smoothed = smooth && law.adapted(Discretisation::Smooth(T::infinity())).is_some();

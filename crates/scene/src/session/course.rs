@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
-use asperity::path::{Path, PathSettings};
+use asperity::path::{Path, PathEnd, PathSettings};
 use asperity::solver::Iteration;
 use asperity::{Branch, ContactSearch, Control, Error, Grid, Real, Result, Sweep};
 use ndarray::{Array2, Axis, Slice};
@@ -137,6 +137,11 @@ impl<T: Scalar> Course<T> {
             Strategy::Cycle(path) => Strategy::Cycle(Box::new(path.starting_from(start))),
         };
         Self { place: Place { strategy, ..self.place }, ..self }
+    }
+
+    /// The figures of a cycle so far.
+    pub fn end(&self) -> Option<PathEnd> {
+        if let Strategy::Cycle(path) = &self.place.strategy { Some(path.end()) } else { None }
     }
 
     /// The pace of a cycle.

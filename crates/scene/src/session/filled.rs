@@ -88,7 +88,11 @@ impl<T: Scalar> Session<T> {
             }
             false => None,
         };
+        self.coarser = None;
         if let Way::Cycle(_, settings) = &way {
+            if start.is_none() {
+                self.coarser = self.coarser(loads, *settings)?;
+            }
             let modulus = self.scene.elastic.body()?.modulus_on(&self.grid);
             let found = Warning::of_cycle(&*self.law, &self.grid, modulus, settings.smooth);
             self.warnings.add_of_input(found.iter().map(|warning| self.units.told(warning)).collect())?;
