@@ -67,7 +67,7 @@ export class Cycle {
   async follow(engine, scene, onstate) {
     const rows = (this.rows = []);
     this.jumps.textContent = "";
-    const { shortfalls } = await engine.follow(
+    const { shortfalls, limit } = await engine.follow(
       { ...scene, ...this.scene },
       {
         onstate: (row, { share }) => {
@@ -77,7 +77,7 @@ export class Cycle {
         },
       },
     );
-    this.jumps.textContent = [this.told(rows), ...shortfalls.map(own)].join(" ");
+    this.jumps.textContent = [this.told(rows), ...this.limits(limit), ...shortfalls.map(own)].join(" ");
   }
 
   /* The jumps in a sentence, the largest first. */
@@ -91,5 +91,14 @@ export class Cycle {
     });
     const which = jumps.length > MOST ? ` of the largest ${MOST}` : "";
     return `Jumps: ${jumps.length}, with the energy per area that each${which} dissipates: ${each.join("; ")}.`;
+  }
+
+  /* The limits of no range in a sentence, where there are some. */
+  limits(limit) {
+    if (!limit) return [];
+    const { length, pressure } = this.units,
+      told = (name, unit) => `${read(limit[name], unit)} ± ${read(limit[`${name}_error`], unit)}`;
+    const [work, tension] = [told("work_limit", length && "J/m²"), told("tension_limit", pressure)];
+    return [`In the limit of no range the cycle takes ${work} per area, and the greatest tension is ${tension}.`];
   }
 }

@@ -46,7 +46,9 @@ const calls = {
       last.shortfalls.forEach(text => shortfalls.add(text));
       observed({ state: last });
     }
-    return { ...begun, count, status: "complete", warnings: last.warnings, shortfalls: [...shortfalls] };
+    const told = engine.cycle_limit(seen),
+      limit = told === undefined ? null : parsed(told);
+    return { ...begun, limit, count, status: "complete", warnings: last.warnings, shortfalls: [...shortfalls] };
   },
   gap: () => engine.gap(),
   startFrom: gap => engine.start_from(gap),

@@ -1,5 +1,7 @@
 """Many loads: sweeps and cycles, and their columns."""
 
+import pickle
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -62,6 +64,21 @@ def test_a_cycle_finds_the_jumps_and_keeps_the_balance_of_energy():
     # jumps that are not looked for are in no energy
     with pytest.warns(asperity.AccuracyWarning, match=r"misses \d+\.\d % of the greatest work on the way: take more steps"):
         asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.01, 0.08], steps=3, imbalance=1.0).run()
+
+
+def test_a_cycle_without_a_range_has_its_limits():
+    tip = asperity.surface.paraboloid(32, 0.7, radius=2.0)
+    approaches = [-8e-3, 6e-3, -20e-3]
+    cycle = asperity.cycle(tip, modulus=1.0, law=asperity.JKR(5e-5), boundary="free", approaches=approaches)
+    limit = cycle.limit
+    assert [event["event"] for event in cycle.events] == ["touch", "pull-off"]
+    # the pull-off of JKR, over the area of the map
+    exact = 1.5 * np.pi * 5e-5 * 2.0 / 0.7**2
+    assert abs(limit.tension - exact) < limit.tension_error < 0.2 * exact
+    assert abs(limit.work - cycle.columns["work"][-1]) < 2 * limit.work_error
+    assert pickle.loads(pickle.dumps(cycle)).limit == limit
+    wave, law = 0.02 * np.cos(2 * np.pi * np.arange(64) / 64), asperity.Exponential(1e-3, 8e-3)
+    assert asperity.cycle(wave, 1.0, modulus=1.0, law=law, mean_gaps=[0.08, 0.07], steps=1).limit is None
 
 
 def test_loads_that_are_refused(rough):

@@ -68,6 +68,27 @@ fn a_punch_has_absent_nodes_and_its_gap_is_a_start() {
 }
 
 #[test]
+fn a_cycle_without_a_range_tells_its_limits() {
+    let bench = Bench::new();
+    bench.said("surface --form paraboloid --radius 2 --size 32 --lengths 0.7 --quiet --out tip.npz");
+    let (work, radius) = (5e-5, 2.0);
+    let cycle =
+        "cycle --heights tip.npz --boundary free --law jkr --work-of-adhesion 5e-5 --approaches=-8e-3,6e-3,-20e-3";
+    let found = bench.reported(&format!("{cycle} --out c.csv"));
+    let events: Vec<_> = found["events"].as_array().unwrap().iter().map(|event| event["event"].clone()).collect();
+    assert_eq!(events, ["touch", "pull-off"], "the largest jump first");
+    // 3/2 π w R and the loop at fixed grips, 1.2127 mJ for R 2 km: both in the limit within what is told
+    let area = 0.7 * 0.7;
+    for (name, exact) in [("tension", 1.5 * PI * work * radius / area), ("work", 1.2127e-6 / area)] {
+        let [limit, error] = ["limit", "limit_error"].map(|of| number(&found[format!("{name}_{of}")]));
+        assert!((limit - exact).abs() < error && error < 0.2 * exact, "{name}: {limit} ± {error}, {exact}");
+    }
+    let said = bench.said(&format!("{cycle} --out c.csv"));
+    assert!(said.contains("16 x 16 nodes, for the error of the grid"), "{said}");
+    assert_eq!(said.matches("in the limit").count(), 2, "{said}");
+}
+
+#[test]
 fn a_tip_jumps_in_and_off_and_the_cycle_ends_where_it_is_apart() {
     let bench = Bench::new();
     bench.said("surface --form paraboloid --radius 2 --size 42 --lengths 0.588 --quiet --out tip.npz");

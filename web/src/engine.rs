@@ -240,6 +240,14 @@ impl Engine {
         self.problem.as_mut().ok_or("there are no loads to follow: begin first")?.next(observe)
     }
 
+    /// The limits of no range of the cycle at its end; nothing where no coarser grid tells them.
+    ///
+    /// # Errors
+    /// Those of the solvers.
+    pub fn cycle_limit(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
+        self.problem.as_mut().map_or(Ok(None), |problem| problem.cycle_limit(observe))
+    }
+
     /// The bytes of a file to take away.
     ///
     /// # Errors

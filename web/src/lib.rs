@@ -128,6 +128,13 @@ impl Page {
         observed::by(observe, |observe| told(self.0.next(observe).map(|row| row.map(|row| row.to_string()))))
     }
 
+    /// See [`Engine::cycle_limit`].
+    pub fn cycle_limit(&mut self, observe: Option<Function>) -> Result<Option<String>, JsError> {
+        observed::by(observe, |observe| {
+            told(self.0.cycle_limit(observe).map(|limit| limit.map(|limit| limit.to_string())))
+        })
+    }
+
     /// A field of the last solution; the nodes by their contact as `regions`.
     pub fn field(&self, name: &str) -> Result<Vec<f32>, JsError> {
         told(self.0.problem().and_then(|problem| problem.field(name)))

@@ -121,6 +121,14 @@ impl Problem {
         either!(state = &mut self.state => state.next(observe))
     }
 
+    /// The limits of no range of the cycle at its end; nothing where no coarser grid tells them.
+    ///
+    /// # Errors
+    /// Those of the solvers.
+    pub fn cycle_limit(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
+        either!(state = &mut self.state => state.cycle_limit(observe))
+    }
+
     /// What the last solve was asked, and whether it started from another equilibrium, which decides on its own with
     /// adhesion.
     pub fn asked(&self) -> Option<(&Map<String, Value>, bool)> {

@@ -207,6 +207,17 @@ impl<T: Scalar> State<T> {
         Ok(Some(answer))
     }
 
+    /// The limits of no range of the cycle at its end; nothing where no coarser grid tells them.
+    pub fn cycle_limit(&mut self, observe: Observe<'_>) -> Outcome<Option<Value>> {
+        let nodes = self.session.coarser_shape().map_or(0, |(nx, ny)| nx * ny);
+        let tolerance = self.session.scene().tolerance();
+        let found = self.session.cycle_limit(&mut |state| {
+            observe(nodes, state, tolerance);
+            ControlFlow::Continue(())
+        })?;
+        Ok(found.map(|limit| json!(limit)))
+    }
+
     /// A field of the last solution.
     pub fn field(&self, name: &str) -> Outcome<Vec<f32>> {
         let field = self.named(name, &*self.last()?.found.part()?)?;

@@ -211,3 +211,19 @@ fn a_cycle_has_its_jumps_and_its_table() {
     // there is nothing beyond the end
     assert!(engine.next(&mut |_, _, _| {}).unwrap().is_none());
 }
+
+#[test]
+fn a_cycle_without_a_range_has_its_limits() {
+    let mut engine = Engine::default();
+    engine.make(&json!({ "size": 32, "form": "wave", "periods": [1, 1], "amplitude": 0.02 }).to_string()).unwrap();
+    let cycle = json!({ "mean_gaps": "0.03,0.015,0.05", "steps": 12, "law": "jkr", "work_of_adhesion": 4e-4 });
+    engine.begin(&cycle.to_string()).unwrap();
+    let mut tension = 0.0;
+    while let Some(state) = engine.next(&mut |_, _, _| {}).unwrap() {
+        tension = f64::max(tension, -state["row"]["mean_pressure"].as_f64().unwrap());
+    }
+    let limit = engine.cycle_limit(&mut |_, _, _| {}).unwrap().unwrap();
+    let number = |name: &str| limit[name].as_f64().unwrap();
+    assert!((number("tension_limit") - tension).abs() < 2.0 * number("tension_limit_error"), "{limit}, {tension}");
+    assert!(number("work_limit") > 2.0 * number("work_limit_error"), "{limit}");
+}
