@@ -17,6 +17,7 @@ mod hardness;
 mod jkr;
 mod laws;
 mod light_loads;
+mod loops;
 mod maugis_dugdale;
 mod nested;
 mod no_wall;
