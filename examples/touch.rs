@@ -3,6 +3,10 @@
 //!
 //! `cargo run --release -p asperity-examples --example touch -- --surfaces 20`
 //!
+//! With `--solves 40` it counts the operator applications of solves under a pressure on as many random surfaces with
+//! moderate and with strong adhesion: by attraction on all nodes, by touch, and by touch on nested grids, with the
+//! surfaces on which these end within 1 % of the area.
+//!
 //! Each grid has the energy that a loop dissipates, and the limit that the grid and the next coarser one give, with the
 //! error of the limit. The energies of the sphere are in units of the exact one, others in 1e-6 E* times the side. The last
 //! lines compare grids to the finest one.
@@ -15,7 +19,8 @@ use asperity::adhesion::{Hints, Values};
 use asperity::path::{Path, PathEnd, PathSettings};
 use asperity::surface::Amplitude;
 use asperity::{
-    AdhesionLaw, Boussinesq, Control, ElasticOperator, Grid, Jkr, Problem, SelfAffine, Solver, Surface, Westergaard,
+    AdhesionLaw, Boussinesq, Branch, Control, ElasticOperator, Grid, Jkr, Nested, Problem, SelfAffine, Settings,
+    Solver, Surface, Westergaard,
 };
 use clap::Parser;
 use common::chart::{COLOURS, Chart, Series, Style};
@@ -36,6 +41,12 @@ struct Options {
     /// Nodes along a side of the grids of the sphere, each half of the next
     #[arg(long, value_delimiter = ',', default_value = "32,64,128")]
     sphere: Vec<usize>,
+    /// Number of random surfaces to solve under a pressure, with moderate and with strong adhesion
+    #[arg(long, default_value_t = 0)]
+    solves: u64,
+    /// Nodes along a side of these surfaces
+    #[arg(long, default_value_t = 256)]
+    size: usize,
     /// Folder for a picture of the energies
     #[arg(long)]
     out: Option<PathBuf>,
@@ -162,7 +173,7 @@ fn compare(loops: &[Loop], nodes: &[usize]) {
     let finest = nodes.len() - 1;
     println!("\n| nodes | error, median % | greatest | of the limit, median % | greatest | inside its error |");
     println!("|---|---|---|---|---|---|");
-    for k in 0..finest {
+    for (k, n) in nodes[..finest].iter().enumerate() {
         let true_value = |found: &Loop| found.limit(finest).map_or(found.energy(finest), |limit| limit.value);
         let mut of_grid: Vec<_> =
             loops.iter().map(|found| 100.0 * (found.energy(k) / true_value(found) - 1.0).abs()).collect();
@@ -174,8 +185,59 @@ fn compare(loops: &[Loop], nodes: &[usize]) {
             let greatest = errors.iter().copied().fold(f64::NAN, f64::max);
             format!("{:.1} | {greatest:.1}", quantile(errors, 0.5))
         });
-        println!("| {}² | {grid} | {limit} | {inside} of {} |", nodes[k], limits.len());
+        println!("| {n}² | {grid} | {limit} | {inside} of {} |", limits.len());
     }
+}
+
+/// The operator applications of solves on random surfaces of slope 0.3 that come from afar under a pressure: by attraction
+/// on all nodes, by touch, and by touch on nested grids.
+fn count(surfaces: u64, size: usize) -> asperity::Result<()> {
+    println!(
+        "\n| adhesion | on all nodes | by touch | ratio, sum | worst | nested | ratio, sum | within 1 % of the area |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
+    for (name, least) in [("moderate", 1e-4), ("strong", 5e-4)] {
+        let (mut sums, mut worst, mut same) = ([0.0; 3], 0.0, 0);
+        for seed in 0..surfaces {
+            // of sequences of low discrepancy
+            let [of_k, of_work, of_load] =
+                [0.819_172_513, 0.671_043_607, 0.549_700_478].map(|step: f64| (step * (seed + 1) as f64).fract());
+            let (k_s, work, load) = (4.0 + 12.0 * of_k, least * 2.0_f64.powf(of_work), 3e-4 * 100.0_f64.powf(of_load));
+            let spectrum = SelfAffine::default().k_s(k_s).seed(seed).amplitude(Amplitude::RmsSlope(0.3));
+            let surface = spectrum.surface(Grid::square(size, 1.0)?)?;
+            let pressure = Control::MeanPressure(load);
+            let by = |touching: bool| -> asperity::Result<_> {
+                let law: Arc<dyn AdhesionLaw<f64>> = Arc::new(Jkr::new(work)?);
+                let law = if touching { law } else { Arc::new(Everywhere(law)) };
+                let mut problem = Problem::new(&surface, Westergaard::new(*surface.grid(), 1.0)?, law)?;
+                Solver::new(Settings::default().branch(Branch::Loading)).solve(&mut problem, pressure)
+            };
+            let elastic = |grid: &Grid| Westergaard::<f64>::new(*grid, 1.0);
+            let nested = Nested::default().solve(
+                &mut Solver::default(),
+                surface.clone(),
+                |grid| elastic(&grid),
+                Jkr::new(work)?,
+                pressure,
+            )?;
+            let (everywhere, touch) = (by(false)?, by(true)?);
+            let applications = [
+                everywhere.report.operator_applications as f64,
+                touch.report.operator_applications as f64,
+                nested.equivalent_applications(),
+            ];
+            worst = f64::max(worst, applications[1] / applications[0]);
+            let area = nested.solution.report.contact_nodes as f64 / touch.report.contact_nodes as f64;
+            same += u64::from((area - 1.0).abs() < 0.01);
+            sums = std::array::from_fn(|k| sums[k] + applications[k]);
+        }
+        let [everywhere, touch, nested] = sums;
+        let [ratio, of_nested] = [touch, nested].map(|sum| sum / everywhere);
+        println!(
+            "| {name} | {everywhere:.0} | {touch:.0} | {ratio:.2} | {worst:.2} | {nested:.0} | {of_nested:.2} | {same} of {surfaces} |"
+        );
+    }
+    Ok(())
 }
 
 /// The energies over the nodes, by both laws, in units of the limit.
@@ -207,6 +269,9 @@ fn picture(sphere: &Loop, rough: &Loop) -> Chart {
 
 fn main() -> Outcome<()> {
     let options: Options = arguments::read(include_str!("touch.rs"));
+    if options.solves > 0 {
+        return Ok(count(options.solves, options.size)?);
+    }
     let draws = options.out.is_some();
     let sphere = sphere(&options.sphere, draws)?;
     sphere.print();

@@ -110,7 +110,7 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         let name = format!("on that of {}", of_branch(other.branch).unwrap_or_default());
         row(&name, &|_| {
             Some(match other.same {
-                true => "the same equilibrium".to_owned(),
+                true => "no second equilibrium found".to_owned(),
                 false if other.status != Status::Converged => format!("not found: {}", other.status),
                 false => format!(
                     "{} % contact, mean gap {}, {} % away in the energy norm",
