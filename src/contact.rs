@@ -5,7 +5,7 @@
 
 use ndarray::{Array2, ArrayView2, CowArray, Ix2, Zip};
 
-use crate::adhesion::{AdhesionLaw, Values, noticeable, on_grid};
+use crate::adhesion::{AdhesionLaw, Neighbourhood, Values, noticeable, on_grid};
 use crate::elastic::Boundary;
 use crate::error::Result;
 use crate::grid::Grid;
@@ -58,7 +58,9 @@ impl<T: Real> Solution<T> {
     pub fn regions(&self) -> Array2<Region> {
         let contact = self.contact_map();
         let on_grid = on_grid(&*self.law, &self.grid, self.report.modulus);
-        let attracts = attracting(&contact, self.gap.view(), &self.grid, on_grid.as_deref().unwrap_or(&*self.law));
+        let periodic = self.report.boundary == Boundary::Periodic;
+        let law = on_grid.as_deref().unwrap_or(&*self.law);
+        let attracts = attracting(&contact, self.gap.view(), (&self.grid, periodic), law);
         let mut nodes = self.gap.iter().zip(&contact).zip(attracts);
         Array2::from_shape_simple_fn(self.gap.dim(), || match nodes.next() {
             Some(((_, true), _)) => Region::Contact,
@@ -80,11 +82,12 @@ impl<T: Real> Solution<T> {
 
 type Whole<'a, T> = CowArray<'a, T, Ix2>;
 
-/// Whether each node attracts without contact: whether its adhesive traction is noticeable.
+/// Whether each node attracts without contact: whether its adhesive traction is noticeable, and for a law that attracts
+/// next to contacts alone, whether there is one.
 fn attracting<T: Real>(
     contact: &Array2<bool>,
     gap: ArrayView2<'_, T>,
-    grid: &Grid,
+    (grid, periodic): (&Grid, bool),
     law: &dyn AdhesionLaw<T>,
 ) -> Vec<bool> {
     if law.hints().zero {
@@ -94,7 +97,15 @@ fn attracting<T: Real>(
     let gaps: Vec<T> = gap.iter().map(|gap| gap.max(T::zero())).collect();
     let mut tractions = vec![T::zero(); gaps.len()];
     law.evaluate(grid.slab().first_node(), &gaps, Values::one(1, &mut tractions));
-    contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect()
+    let mut attracts: Vec<_> =
+        contact.iter().zip(tractions).map(|(&touches, traction)| !touches && traction > least).collect();
+    if law.hints().touches() {
+        let mut neighbourhood = Neighbourhood::none((grid, grid.slab()), periodic);
+        neighbourhood.contact.nodes_mut().iter_mut().zip(contact).for_each(|(own, &touches)| *own = touches);
+        neighbourhood.grow();
+        attracts.iter_mut().zip(neighbourhood.near().nodes()).for_each(|(attracts, &near)| *attracts &= near);
+    }
+    attracts
 }
 
 fn contact_map<T: Real>(gap: ArrayView2<'_, T>, contact_pressure: ArrayView2<'_, T>) -> Array2<bool> {
@@ -235,7 +246,7 @@ impl ContactStatistics {
         let ContactArea { contact_nodes, contact_fraction, corrected_contact_fraction, perimeter, .. } =
             ContactArea::within_edge(&outline, facing);
         let share = |count: usize| count as f64 / facing as f64;
-        let attracts = attracting(&contact, gap, grid, law);
+        let attracts = attracting(&contact, gap, (grid, periodic), law);
         let attracting = attracts.iter().filter(|&&attracts| attracts).count();
         let nodes = gap.iter().zip(&contact).zip(&attracts);
         let nodes = nodes.map(|((gap, &touches), &attracts)| gap.is_finite().then_some([touches, attracts]));

@@ -173,6 +173,7 @@ impl<'a, T: Real> Judge<'a, T> {
     /// All that is judged by the solution alone; how far it is from an exact equilibrium over how far it may be.
     pub fn all(&self) -> Result<Option<f64>, String> {
         self.fields()?;
+        self.neighbourhood()?;
         self.control()?;
         self.elasticity()?;
         self.certificate()?;
@@ -224,6 +225,26 @@ impl<'a, T: Real> Judge<'a, T> {
         let carried = if scene.constraint == Constraint::None { -self.mean(&self.tractions) } else { carried };
         let allowed = sums * terms + self.of_law(sums * scene.law.work / scene.law.range);
         close("net pressure", report.net_pressure, carried, allowed)
+    }
+
+    /// That surfaces which attract each other next to contacts alone do so within four nodes of every contact.
+    fn neighbourhood(&self) -> Result<(), String> {
+        let (Some(touched), true) = (&self.solution.touched, self.converged()) else { return Ok(()) };
+        let ((nx, ny), (dx, dy)) = (self.scene.grid.shape(), self.scene.grid.spacing());
+        let reach = 4.2 * self.scene.grid.largest_spacing();
+        let periodic = self.report.boundary == Boundary::Periodic;
+        let away = |a: usize, b: usize, n: usize| {
+            let straight = a.abs_diff(b);
+            if periodic { straight.min(n - straight) } else { straight }
+        };
+        for ((x, y), _) in self.solution.gap.indexed_iter().filter(|(_, gap)| **gap <= T::zero()) {
+            let lacks = touched.indexed_iter().find(|&((i, j), &touched)| {
+                let [across, along] = [away(x, i, nx) as f64 * dx, away(y, j, ny) as f64 * dy];
+                across.hypot(along) <= reach && !touched
+            });
+            need(lacks.is_none(), || format!("{:?} is near the contact of {x}, {y}", lacks.map(|(node, _)| node)))?;
+        }
+        Ok(())
     }
 
     /// That what is held is held.
