@@ -227,7 +227,8 @@ fn count(surfaces: u64, size: usize) -> asperity::Result<()> {
                 nested.equivalent_applications(),
             ];
             worst = f64::max(worst, applications[1] / applications[0]);
-            let area = nested.solution.report.contact_nodes as f64 / touch.report.contact_nodes as f64;
+            // with the energy −w of each area in contact
+            let area = nested.solution.report.adhesive_energy / touch.report.adhesive_energy;
             same += u64::from((area - 1.0).abs() < 0.01);
             sums = std::array::from_fn(|k| sums[k] + applications[k]);
         }

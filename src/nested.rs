@@ -38,7 +38,7 @@ const PAYS: (usize, usize) = (1 << 16, 1 << 18);
 /// The share of the work of adhesion with which the grid of half as many nodes leads to the finest one, and the grid before
 /// it to that one; the wall alone leads to others. The area of contact exceeds the area of the limit by the process zone,
 /// which is longer on coarser grids, and what has touched too early sticks.
-const WEAKER: [f64; 2] = [0.95, 0.65];
+const WEAKER: [f64; 2] = [0.9, 0.5];
 
 /// The relative load error at and above which a coarse solution is not used as a start.
 const CARRIED: f64 = 0.5;

@@ -191,8 +191,8 @@ impl<T: Real> Path<T> {
 
     /// The figures of the path so far.
     pub fn end(&self) -> PathEnd {
-        let Account { work, dissipated, variance, tension, .. } = self.course.account;
-        PathEnd { work, work_error: variance.sqrt(), dissipated, greatest_tension: tension.max(0.0) }
+        let Account { work, dissipated, variance, tension, touches, .. } = self.course.account;
+        PathEnd { work, work_error: variance.sqrt(), dissipated, greatest_tension: tension.max(0.0), touches }
     }
 
     /// The share of the way that is behind, from 0 to 1: all legs alike, and the present one by its load, or by its mean

@@ -8,8 +8,12 @@ use crate::surface::Surface;
 /// The least number of nodes along a side of the coarser grid.
 const COARSEST: usize = 16;
 
-/// The difference to the grid of half as many nodes, in the error of a limit.
-const DIFFERENCE: f64 = 1.0;
+/// The difference to the grid of half as many nodes, in the error of a limit: where surfaces touch once, and where they
+/// touch at several places one after the other, which differ from grid to grid.
+const DIFFERENCE: [f64; 2] = [1.0, 1.5];
+
+/// The share of a limit that these places take in its error.
+const SCATTER: [f64; 2] = [0.0, 0.1];
 
 /// The standard errors of the work, in the error of its limit.
 const STANDARD: f64 = 2.0;
@@ -26,16 +30,18 @@ pub struct Limit {
 
 impl Limit {
     /// The limit from the values on a grid and on one of half as many nodes along the sides, with their own errors.
-    fn of([fine, coarse]: [f64; 2], [own, coarser]: [f64; 2]) -> Self {
-        let of_values = (2.0 * own).hypot(coarser);
-        Self { value: 2.0 * fine - coarse, error: (DIFFERENCE * (fine - coarse)).hypot(STANDARD * of_values) }
+    fn of([fine, coarse]: [f64; 2], [own, coarser]: [f64; 2], is_scattered: bool) -> Self {
+        let [difference, scatter] = [DIFFERENCE, SCATTER].map(|shares| shares[usize::from(is_scattered)]);
+        let (value, of_values) = (2.0 * fine - coarse, STANDARD * (2.0 * own).hypot(coarser));
+        Self { value, error: (difference * (fine - coarse)).hypot(scatter * value).hypot(of_values) }
     }
 }
 
 /// The limits of no range of a path by a law that attracts next to contacts alone, as [`Jkr`](crate::Jkr).
 ///
 /// On a grid of spacing Δx a path has the work W + O(Δx), where W is the work of the limit. Two grids extrapolate to 2W₁ − W₂, with
-/// W₂ on the grid of half as many nodes along the sides.
+/// W₂ on the grid of half as many nodes along the sides. Where surfaces touch at several places one after the other, other
+/// places do so on another grid, and the errors have a tenth of the limit for that.
 ///
 /// ```
 /// use asperity::accuracy::LoopLimit;
@@ -66,9 +72,11 @@ pub struct LoopLimit {
 impl LoopLimit {
     /// The limits from the ends of one path on a grid and on one of half as many nodes along the sides.
     pub fn of(fine: &PathEnd, coarse: &PathEnd) -> Self {
+        let is_scattered = fine.touches.max(coarse.touches) > 1;
+        let tensions = [fine.greatest_tension, coarse.greatest_tension];
         Self {
-            work: Limit::of([fine.work, coarse.work], [fine.work_error, coarse.work_error]),
-            tension: Limit::of([fine.greatest_tension, coarse.greatest_tension], [0.0; 2]),
+            work: Limit::of([fine.work, coarse.work], [fine.work_error, coarse.work_error], is_scattered),
+            tension: Limit::of(tensions, [0.0; 2], is_scattered),
         }
     }
 

@@ -12,6 +12,9 @@ pub struct PathEnd {
     pub dissipated: f64,
     /// The greatest tension of the states after the first, a pressure; zero if there was none.
     pub greatest_tension: f64,
+    /// The number of states on the way to which surfaces touched at new places, by a law that attracts [next to contacts
+    /// alone](crate::adhesion::Hints::touching).
+    pub touches: usize,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,4 +29,6 @@ pub(super) struct Account {
     pub(super) range: (f64, f64),
     /// the largest tension
     pub(super) tension: f64,
+    /// the number of states on the way to which surfaces touched at new places
+    pub(super) touches: usize,
 }

@@ -266,9 +266,10 @@ impl Course {
             Mode::Spring(_) => next.rest = target,
             Mode::Pressure => next.pressure = target,
         }
-        let Account { work, dissipated, imbalance, variance, range, tension } = &mut self.account;
+        let Account { work, dissipated, imbalance, variance, range, tension, touches } = &mut self.account;
         *range = (range.0.min(next.energy), range.1.max(next.energy));
         *tension = tension.max(-next.pressure);
+        *touches += usize::from(way.touches);
         let mut event =
             self.limit.take().map(|(mean_gap, mean_pressure)| Event::LimitPoint { mean_gap, mean_pressure });
         let mut jump = Jump {
