@@ -380,6 +380,18 @@ fn resumes(
 }
 
 #[test]
+fn a_path_by_touch_goes_on_bit_for_bit() {
+    let new = || {
+        let grid = Grid::square(32, 1.0).unwrap();
+        let surface = SelfAffine::default().k_s(6.0).seed(4).amplitude(Amplitude::RmsSlope(0.3)).surface(grid).unwrap();
+        Problem::new(&surface, Westergaard::new(grid, 1.0).unwrap(), Jkr::new(2e-4).unwrap()).unwrap()
+    };
+    // withdrawn twice: what has not parted is part of the place
+    let whole = resumes(new, &gaps(&[0.05, 0.02, 0.03, 0.02, 0.1]), PathSettings::default().steps(4), 7);
+    assert!(names(&whole).contains(&"touch"), "{:?}", names(&whole));
+}
+
+#[test]
 fn a_path_goes_on_through_a_bifurcation_bit_for_bit() {
     let (loads, settings) = (gaps(&[0.03, 0.012]), PathSettings::default().steps(12));
     let whole = resumes(|| two_waves(64, 0.0), &loads, settings, 3);
