@@ -244,28 +244,28 @@ fn count(surfaces: u64, size: usize) -> asperity::Result<()> {
 /// The energies over the nodes, by both laws, in units of the limit.
 fn picture(sphere: &Loop, rough: &Loop) -> Chart {
     let mut series = Vec::new();
-    for (found, unit, colour) in [
-        (sphere, 1.0, COLOURS[0]),
-        (rough, rough.limit(rough.ends.len() - 1).map_or(1.0, |limit| limit.value), COLOURS[1]),
-    ] {
+    let of_rough = rough.limit(rough.ends.len() - 1).map_or(1.0, |limit| limit.value);
+    for (name, found, unit, colour, beside) in
+        [("sphere", sphere, 1.0, COLOURS[0], -0.04), ("rough surface", rough, of_rough, COLOURS[1], 0.04)]
+    {
         let points = |energies: Vec<f64>| {
             found.nodes.iter().zip(energies).map(|(&n, energy)| ((n as f64).log2(), energy / unit)).collect::<Vec<_>>()
         };
         let everywhere = points(found.everywhere.iter().map(|end| end.work / found.unit).collect());
         let by_touch = points((0..found.ends.len()).map(|k| found.energy(k)).collect());
-        let name = |law: &str| format!("{}, {law}", found.name.split(',').next().unwrap_or_default());
+        let name = |law: &str| format!("{name}, {law}");
         series.push(Series { name: name("attraction on all nodes"), colour, style: Style::Rings, points: everywhere });
         series.push(Series { name: name("where surfaces have touched"), colour, style: Style::Dots, points: by_touch });
         for k in 1..found.ends.len() {
             let Some(limit) = found.limit(k) else { continue };
-            let x = (found.nodes[k] as f64).log2() + 0.04;
+            let x = (found.nodes[k] as f64).log2() + beside;
             let bar = [-1.0, 1.0].map(|sign| (x, (limit.value + sign * limit.error) / unit));
             series.push(Series { name: String::new(), colour, style: Style::Line, points: bar.to_vec() });
         }
     }
     let title = "Energy that a loop dissipates, in units of its limit; bars: limits from two grids".to_owned();
     let axes = ["log₂ of the nodes along a side", "energy"];
-    Chart { title, axes, logarithmic: false, labels: SeriesLabelPosition::LowerRight, series }
+    Chart { title, axes, logarithmic: false, labels: SeriesLabelPosition::MiddleLeft, series }
 }
 
 fn main() -> Outcome<()> {
