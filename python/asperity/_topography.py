@@ -340,6 +340,10 @@ def _labelled(values: Any, axes: AxisOrder | None, name: str = "heights") -> Any
     """A pandas.DataFrame with coordinates as a DataArray; all else as it is."""
     if not (hasattr(values, "to_numpy") and hasattr(values, "index") and hasattr(values, "columns")):
         return values
+    names = {str(column).lower(): column for column in values.columns}
+    if {"x", "y", "z"} <= set(names):
+        x, y, z = (names[axis] for axis in "xyz")
+        raise ValueError(f"{name} are a DataFrame of points: give frame.pivot(index={x!r}, columns={y!r}, values={z!r})")
     labels = [values.index, values.columns]
     known = [_are_coordinates(np.asarray(label)) for label in labels]
     if not any(known):

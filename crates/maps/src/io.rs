@@ -49,6 +49,7 @@ pub use reading::Reading;
 use refusal::{DAMAGED, Parsed, Refusal, TRUNCATED, check_room, quoted, refuse, reserve, unreadable};
 use text::Text;
 pub use vti::write_vti;
+pub(crate) use xyz::coordinates;
 
 /// The largest number of characters of a unit in a file that is written; far more than any has.
 pub const LONGEST_UNIT: usize = 64;
@@ -96,7 +97,9 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 ///     A comment such as `heights in nm` tells the unit of the map.
 ///     What may tell a size and is not understood is in [`Topography::unread`].
 ///   - Blocks of numbers with blank lines or headings between are channels, of which a [`Reading`] takes one.
-///   - Three columns x, y and z of a whole grid are points, as in `.xyz`.
+///   - Three columns x, y and z of a whole grid are points, as in `.xyz`. A line with the names of the columns gives
+///     their order, and may name others. Without names, coordinates in other columns are refused, as are lines of which
+///     each comma may be within a number.
 /// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
 ///   order. Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its
 ///   spacing. A heading may tell units, as `X[um] Y[um] Z[nm]`, or a line below it. Nx and Ny follow from the spacings,

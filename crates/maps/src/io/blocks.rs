@@ -93,8 +93,8 @@ impl Blocks {
         }
         if text.is_like_decimals && text.values.len() > 2 {
             return refuse(
-                "has pairs of whole numbers with a comma between on each line: are these decimal commas? write decimal points, \
-                 or tabs between two columns",
+                "has lines in which each comma may be one within a number: are these decimal commas? write decimal points, or \
+                 tabs between two columns",
             );
         }
         text.join_remarked();
@@ -200,17 +200,14 @@ impl Blocks {
         }
     }
 
-    /// Drops the first and the last column where they are empty in all rows, as where separators stand around each.
+    /// Drops the last column where it is empty in all rows, as behind separators at their ends, and the first is not.
     fn drop_open_ends(&mut self) {
         let mut end = 0;
         for block in &mut self.blocks {
-            let [mut first, mut last] = block.open.map(|count| usize::from(count == block.rows));
-            if block.columns <= first + last {
-                (first, last) = (0, 0);
-            }
-            let (start, kept) = (end, block.columns - first - last);
+            let [first, last] = block.open.map(|count| count == block.rows);
+            let (start, kept) = (end, block.columns - usize::from(last && !first && block.columns > 1));
             for row in 0..block.rows {
-                let from = block.values.start + row * block.columns + first;
+                let from = block.values.start + row * block.columns;
                 self.values.copy_within(from..from + kept, end);
                 end += kept;
             }
@@ -235,7 +232,6 @@ mod tests {
             "1 -2.5 3e-6\n4 5 6\n",
             "1\t-2.5\t3E-6\r\n4\t5\t6\r\n",
             "1\t-2.5\t3E-6\r4\t5\t6",
-            "\t1\t-2.5\t3E-6\t\n\t4\t5\t6\t\n",
             "1 -2.5\t3E-6\n4 5\t6\n",
             "  1   -2.5 3e-6  \n\n \t \n4 5 6",
             "1,-2.5,3e-6\n4,5,6\n",
@@ -296,11 +292,13 @@ mod tests {
             ("1;2;3\n;;\n4;5;6\n", vec![(1, 0), (1, 1), (1, 2)]),
             ("1,2,3,\n4,5,,\n", vec![(1, 2)]),
             ("1,2,3\n4,5,6,\n", vec![]),
-            (",1,2,3,\n,4,,6,\n", vec![(1, 1)]),
         ] {
             assert_eq!(missing(text), places, "{text:?}");
             assert_eq!(read(text).unwrap().ncols(), 3, "{text:?}");
         }
+        // a first column, and a last one next to it
+        assert_eq!(missing("\t1\t2\n\t4\t5\n"), [(0, 0), (1, 0)]);
+        assert_eq!(missing(",1,,\n,4,5,\n"), [(0, 0), (0, 2), (0, 3), (1, 0), (1, 3)]);
         let field = read("-inf 1 2\nInf 1 2\n").unwrap();
         assert_eq!((field[[0, 0]], field[[1, 0]]), (f64::NEG_INFINITY, f64::INFINITY));
         let reading = Reading { missing: vec!["lost".into()], ..Reading::default() };
@@ -319,7 +317,19 @@ mod tests {
         assert_refused(read("1,5 2,5\n"), &["\"5 2\" is not a number", "decimal points"]);
         assert_refused(read("\"1,5\",\"2,5\"\n"), &["\"\\\"1\" is not a number", "decimal points"]);
         assert_refused(read("0,00\n-9,30\n15,92\n"), &["decimal commas?", "tabs"]);
-        assert_refused(read("1,5, 2,5\n4,5, -5,5\n"), &["decimal commas?"]);
+        for lines in [
+            "1,5, 2,5\n4,5, -5,5",
+            "1,234E-7\n2,345e-07\n-3,456E+7",
+            "1.234,5\n-2.345,5\n12,3",
+            "1,234.5\n2,345.0\n12,345",
+            "1,5\n\u{2212}2,5\n3,25",
+            ",5\n1,5",
+        ] {
+            assert_refused(read(lines), &["decimal commas?"]);
+        }
+        assert_eq!(read("0.5,1\n1.5,2\n").unwrap().dim(), (2, 2));
+        assert_eq!(read("1,-5\n2,5\n").unwrap().dim(), (2, 2));
+        assert_eq!(read("1,2.5\n2,0.5\n").unwrap().dim(), (2, 2));
         assert_refused(read("(1+2j) 3\n"), &["\"(1+2j)\""]);
         for empty in ["", "\n\n", "# only a comment\n", "\r\n % \r\n"] {
             assert_refused(read(empty), &["holds no numbers", ".npy"]);

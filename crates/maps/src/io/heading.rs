@@ -140,10 +140,8 @@ fn meaning(name: &str) -> Option<(Option<Kind>, &'static [usize])> {
 #[derive(Clone, Default)]
 pub(super) struct Heading {
     pairs: Vec<Pair>,
-    /// The units of three columns x, y and z.
-    columns: Option<[String; 3]>,
-    /// Whether these are y, x and z.
-    is_swapped: bool,
+    /// The columns, if x and y are among them.
+    columns: Option<Columns>,
     /// The unit of heights in words, and whether it is that of x and y too.
     said: Option<(&'static str, bool)>,
     /// Of the lines of words that are no comments the first and the last number, and why the first one is no row.
@@ -161,13 +159,8 @@ impl Heading {
             self.said = self.said.or_else(|| said(line));
         }
         match &mut self.columns {
-            // a line of units below that of the names
-            Some(columns) if columns.iter().all(String::is_empty) => *columns = units(line).unwrap_or_default(),
-            Some(_) => {}
-            None => {
-                let swapped = columns(line, "y x z");
-                (self.is_swapped, self.columns) = (swapped.is_some(), columns(line, "x y z").or(swapped));
-            }
+            Some(columns) => columns.take_units(line),
+            None => self.columns = Columns::of(line),
         }
     }
 
@@ -198,20 +191,14 @@ impl Heading {
 
     pub fn append(&mut self, other: Self) {
         self.pairs.extend(other.pairs);
-        self.is_swapped |= other.is_swapped;
         self.columns = self.columns.take().or(other.columns);
         self.said = self.said.or(other.said);
         self.words = self.words.take().or(other.words);
     }
 
-    /// Whether three columns are named x, y and z.
-    pub fn has_columns(&self) -> bool {
-        self.columns.is_some()
-    }
-
-    /// Whether three columns are named y, x and z.
-    pub fn is_swapped(&self) -> bool {
-        self.is_swapped
+    /// The columns, if x and y are among them.
+    pub fn columns(&self) -> Option<&Columns> {
+        self.columns.as_ref()
     }
 
     /// The first value that is none of numbers.
@@ -274,8 +261,8 @@ impl Heading {
             self.pairs.iter().any(|pair| pair.name.eq_ignore_ascii_case(name) && pair.value.contains(value))
         };
         sizes.factor = sizes.factor.filter(|_| !is_said("DataScaleNeeded", "no"));
-        if let Some(units) = &self.columns {
-            sizes.units = units.clone().map(Some);
+        if let Some(columns) = &self.columns {
+            sizes.units = ["x", "y", "z"].map(|axis| columns.place(axis).map(|place| columns.0[place][1].clone()));
         }
         let default = if is_said("x-length", "") { "nm" } else { "" };
         let [x, y] = [0, 1].map(|axis| {
@@ -380,16 +367,73 @@ fn said(line: &str) -> Option<(&'static str, bool)> {
     std::iter::once(line).chain(parts()).chain(last).find_map(of)
 }
 
-/// The units of three columns of these names, as of x y z in `X[um] Y[um] Z[nm]` or `x (µm), y (µm), z (nm)`.
-fn columns(line: &str, names: &str) -> Option<[String; 3]> {
-    let words: Vec<_> =
-        line.split([' ', '\t', ',', ';', '[', ']', '(', ')', '/', '"']).filter(|word| !word.is_empty()).collect();
-    let is_points = |x: &str, y: &str, z: &str| [x, y, z].join(" ").eq_ignore_ascii_case(names);
-    match words[..] {
-        [x, y, z] if is_points(x, y, z) => Some(Default::default()),
-        [x, of_x, y, of_y, z, of_z] if is_points(x, y, z) => Some([of_x, of_y, of_z].map(str::to_owned)),
-        _ => None,
+/// The names and units of columns, x and y among them.
+#[derive(Clone)]
+pub(super) struct Columns(Vec<[String; 2]>);
+
+/// Names of a column of heights.
+const NAMES_OF_HEIGHTS: [&str; 6] = ["z", "height", "heights", "h", "elevation", "topography"];
+
+impl Columns {
+    /// The columns of a line, as `X[um] Y[um] Z[nm]`, `x (µm), y (µm), z (nm)` or `# columns: i;x;y;z`.
+    fn of(line: &str) -> Option<Self> {
+        let line = line.rsplit([':', '\u{ff1a}']).next()?.replace(" [", "[").replace(" (", "(");
+        let mut columns: Vec<[String; 2]> = Vec::new();
+        for field in fields(&line) {
+            if field.contains(" in ") {
+                return None;
+            }
+            let ends = |separator| field.rsplit_once(separator).filter(|(_, unit)| per_metre(bare(unit)).is_some());
+            match (field.split_once(['[', '(', '/']).or_else(|| ends(' ')).or_else(|| ends('_')), columns.last_mut()) {
+                // a unit behind a blank
+                (None, Some([_, unit])) if unit.is_empty() && per_metre(field).is_some() => unit.push_str(field),
+                (Some((name, unit)), _) => columns.push([name.trim().to_lowercase(), bare(unit).to_owned()]),
+                (None, _) => columns.push([field.to_lowercase(), String::new()]),
+            }
+        }
+        let columns = Self(columns);
+        (columns.0.len() > 2 && columns.place("x").and(columns.place("y")).is_some()).then_some(columns)
     }
+
+    /// Takes the units of length in a line below the names, if it has one for each of x, y and z.
+    fn take_units(&mut self, line: &str) {
+        let units: Vec<_> = fields(line).map(bare).collect();
+        let has_none = self.0.iter().all(|[_, unit]| unit.is_empty());
+        let of_points = ["x", "y", "z"].map(|axis| self.place(axis).and_then(|place| units.get(place)));
+        let is_length = |unit: &Option<&&str>| unit.is_some_and(|unit| per_metre(unit).is_some());
+        if has_none && units.len() == self.0.len() && of_points.iter().all(is_length) {
+            self.0.iter_mut().zip(units).for_each(|([_, of], unit)| unit.clone_into(of));
+        }
+    }
+
+    /// The place of x, y or z, if it is the only one.
+    fn place(&self, axis: &str) -> Option<usize> {
+        let is_named = |name: &str| name == axis || axis == "z" && NAMES_OF_HEIGHTS.contains(&name);
+        let mut places = self.0.iter().enumerate().filter(|(_, [name, _])| is_named(name)).map(|(place, _)| place);
+        places.next().filter(|_| places.next().is_none())
+    }
+
+    /// The places of x, y and z among so many columns.
+    pub fn places(&self, count: usize) -> Parsed<[usize; 3]> {
+        let names: Vec<_> = self.0.iter().map(|[name, _]| name.as_str()).collect();
+        let names = quoted(&names.join(" "));
+        match ["x", "y", "z"].map(|axis| self.place(axis)) {
+            _ if count != self.0.len() => refuse(format!(
+                "names {} columns, {names}, but has {count} numbers on a line: name each column, or leave the names out",
+                self.0.len()
+            )),
+            [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
+            _ => refuse(format!("names the columns {names}: name one of heights z, or leave the names out")),
+        }
+    }
+}
+
+/// The fields of a line of names or units: between semicolons, commas or tabs, or else between blanks.
+fn fields(line: &str) -> impl Iterator<Item = &str> {
+    let separator = [';', ',', '\t'].into_iter().find(|separator| line.contains(*separator));
+    let is_end = move |c: char| separator.map_or(c.is_whitespace(), |separator| c == separator);
+    let fields = line.trim_matches(' ').split(is_end).map(|field| field.trim().trim_matches('"').trim());
+    fields.filter(move |field| separator.is_some() || !field.is_empty())
 }
 
 /// The units of length of three columns, as `um,um,nm`.

@@ -28,7 +28,7 @@ pub(super) struct Row<'a> {
     pub values: &'a [f64],
     /// Whether the first and the last field are empty.
     pub is_open: [bool; 2],
-    /// Whether it is of pairs of fields of digits with a comma between, which may be numbers.
+    /// Whether each comma in it may be within a number.
     pub is_like_decimal: bool,
 }
 
@@ -58,10 +58,7 @@ pub(super) fn for_each_line(
         } else {
             match numbers(row, reading, &mut values)? {
                 Ok(is_open) => {
-                    let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-                    let is_decimal = |(a, b): (&str, &str)| is_digits(a.trim_start_matches(['-', '+'])) && is_digits(b);
-                    let mut parts = row.trim().split(", ").map(|part| part.trim().split_once(','));
-                    let is_like_decimal = parts.all(|pair| pair.is_some_and(is_decimal));
+                    let is_like_decimal = row.trim().split(", ").all(|part| is_like_decimal(part.trim()));
                     Line::Row(Row { values: &values, is_open, is_like_decimal })
                 }
                 Err(word) => {
@@ -78,6 +75,17 @@ pub(super) fn for_each_line(
         take(number, found)?;
     }
     Ok(())
+}
+
+/// Whether a text with one comma may be one number: `-1,5`, `1.234,5`, `1,2E-7` or `1,234.5`, and not `1.5,2` or `1,-2`.
+fn is_like_decimal(text: &str) -> bool {
+    let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let Some((before, behind)) = text.split_once(',') else { return false };
+    let mut groups = before.trim_start_matches(['-', '+', '\u{2212}']).split('.');
+    let is_whole = groups.next().is_some_and(is_digits) && groups.all(|group| group.len() == 3 && is_digits(group));
+    let mantissa = behind.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
+    let is_thousands = |(group, digits): (&str, &str)| group.len() == 3 && is_digits(group) && is_digits(digits);
+    is_whole && !behind.is_empty() && (is_digits(mantissa) || mantissa.split_once('.').is_some_and(is_thousands))
 }
 
 /// Takes the numbers of a row, and tells whether its first and its last field are empty; or the word that is none.

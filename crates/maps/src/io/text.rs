@@ -2,18 +2,16 @@
 
 use std::io::BufRead;
 
-use ndarray::{Array2, Axis, Slice};
+use ndarray::{Array2, ArrayView2, Axis, Slice};
 
 use super::blocks::{Block, read_blocks};
 use super::channels::{Channel, chosen, others};
 use super::heading::{Heading, Sizes};
 use super::units::{in_one_unit, is_length};
-use super::xyz::{Gridded, map_of_points};
+use super::xyz::{Gridded, coordinates, map_of_points};
 use super::{Parsed, Reading, Refusal, quoted, refuse};
 use crate::Topography;
 
-/// The fewest points of which a text is known for one of points by its numbers.
-const FEWEST_POINTS: usize = 9;
 /// The most nodes of a grid for each of the points of such a text.
 const MOST_NODES: f64 = 1.1;
 
@@ -25,9 +23,16 @@ pub(super) struct Text {
 
 impl Text {
     pub fn read(reader: impl BufRead, reading: &Reading) -> Parsed<Self> {
-        let (blocks, mut values) = read_blocks(reader, reading)?;
-        if blocks[0].heading.is_swapped() && blocks.iter().all(|block| block.columns == 3) {
-            values.as_chunks_mut().0.iter_mut().for_each(|[y, x, _]| std::mem::swap(x, y));
+        let (mut blocks, mut values) = read_blocks(reader, reading)?;
+        let count = blocks[0].columns;
+        if let Some(columns) = blocks[0].heading.columns().filter(|_| blocks.iter().all(|block| block.columns == count)) {
+            let places = columns.places(count)?;
+            if (count, places) != (3, [0, 1, 2]) {
+                values = values.chunks_exact(count).flat_map(|row| places.map(|place| row[place])).collect();
+            }
+            for block in &mut blocks {
+                (block.columns, block.values) = (3, block.values.start / count * 3..block.values.end / count * 3);
+            }
         }
         Ok(Self { blocks, values })
     }
@@ -128,18 +133,25 @@ impl Text {
         Ok(map)
     }
 
-    /// The grid of its points, if three columns are named x, y and z, or the first two are of nearly all nodes of
-    /// several lines.
+    /// The grid of its points, if columns are named x, y and z, or two columns are all nodes of several lines.
     fn gridded(&self) -> Option<Parsed<Gridded>> {
-        let (points, _) = self.values.as_chunks();
-        let is_named = self.blocks[0].heading.has_columns();
-        if !(is_named || points.len() >= FEWEST_POINTS) || self.blocks.iter().any(|block| block.columns != 3) {
+        let columns = self.blocks[0].columns;
+        if self.blocks.iter().any(|block| block.columns != columns) {
             return None;
         }
-        let is_full = |(heights, _): &Gridded| {
-            !heights.shape().contains(&1) && heights.len() as f64 <= MOST_NODES * points.len() as f64
-        };
-        Some(map_of_points(points)).filter(|found| is_named || found.as_ref().is_ok_and(is_full))
+        let points = || map_of_points(self.values.as_chunks().0);
+        if self.blocks[0].heading.columns().is_some() {
+            return Some(points());
+        }
+        let rows = ArrayView2::from_shape((self.values.len() / columns, columns), &self.values).ok()?;
+        match coordinates(rows, MOST_NODES)? {
+            [0, 1] if columns == 3 => Some(points()),
+            [first, second] => Some(refuse(format!(
+                "has the coordinates of a grid in columns {} and {} of {columns}: name the columns on top, as # x y z",
+                first + 1,
+                second + 1
+            ))),
+        }
     }
 
     /// The map of its points.
@@ -157,7 +169,7 @@ impl Text {
     fn map_of_grid(mut self, gridded: Parsed<Gridded>) -> Parsed<Topography> {
         let mut heading = Heading::default();
         self.blocks.iter_mut().for_each(|block| heading.append(std::mem::take(&mut block.heading)));
-        heading.check_words(heading.has_columns())?;
+        heading.check_words(heading.columns().is_some())?;
         let (heights, lengths) = gridded?;
         let (nx, ny) = heights.dim();
         let Sizes { units: [x, y, z], said, sides, unread, .. } = heading.sizes((ny, nx))?;
@@ -344,6 +356,108 @@ mod tests {
         assert_eq!((odd.lengths, &odd.unread[..]), (None, &["Height: 20 V".to_owned(), "3 um".to_owned()][..]));
         assert_refused(gwyddion("3 um", "20 um", "V"), &["\"V\"", "channel of heights"]);
         assert_refused(headed("# x-pixels: 4\n# y-pixels: 2"), &["4 x 2 points", "2 lines of 3 numbers"]);
+    }
+
+    /// A table as a text, with a comment or a heading on top.
+    fn written(heading: &str, rows: &[Vec<f64>], separator: &str, decimal: &str, sign: &str) -> String {
+        let number = |value: &f64| value.to_string().replace('.', decimal).replace('-', sign);
+        let line = |row: &Vec<f64>| row.iter().map(number).collect::<Vec<_>>().join(separator);
+        let lines = rows.iter().map(line).collect::<Vec<_>>().join("\n");
+        if heading.is_empty() { lines } else { format!("{heading}\n{lines}") }
+    }
+
+    /// Counts texts of points, in all orders of their columns, and texts of few columns, by all separators and commas, that
+    /// are read right and refused; there are no others, but for a warning.
+    #[test]
+    fn no_variant_of_a_text_is_read_wrong_in_silence() {
+        use crate::warning::Warning;
+        let height = |i: usize, j: usize| ((7 * i * i + 3 * j * i + j) % 11) as f64 - 4.5;
+        let right = Array2::from_shape_fn((8, 6), |(i, j)| height(i, j));
+        let order = |k: usize| (k * 17 + 5) % 48;
+        let (mut read, mut refused, mut warned) = (0, 0, 0);
+        let mut check = |name: &str, text: String, right: &Array2<f64>, sides: Option<(f64, f64)>| {
+            match Reading::default().read_bytes(name, text.as_bytes()) {
+                Err(_) => refused += 1,
+                Ok(map) if map.heights == *right && map.lengths == sides => read += 1,
+                Ok(map) => {
+                    assert!(!Warning::of_topography(&map).is_empty(), "{text}");
+                    warned += 1;
+                }
+            }
+        };
+        let names = ["x y z", "z x y", "x z y", "y x z", "z y x", "y z x", "x y z q", "q x y z", "i x y z", "z i q y x"];
+        for columns in names {
+            let columns: Vec<_> = columns.split(' ').collect();
+            let row = |k: usize, i: usize, j: usize| {
+                let of = |name: &&str| match *name {
+                    "x" => 0.5 * i as f64,
+                    "y" => 0.25 * j as f64,
+                    "z" => height(i, j),
+                    "q" => 1.5,
+                    _ => k as f64,
+                };
+                columns.iter().map(of).collect::<Vec<_>>()
+            };
+            for is_shuffled in [false, true] {
+                let place = |k: usize| if is_shuffled { order(k) } else { k };
+                let rows: Vec<_> = (0..48).map(|k| row(k, place(k) / 6, place(k) % 6)).collect();
+                for separator in [" ", "\t", ",", ";", ", ", "  "] {
+                    let with_units = columns.iter().map(|name| format!("{name} [um]")).collect::<Vec<_>>();
+                    let by = |columns: &[String]| columns.join(separator);
+                    let plain = columns.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+                    for heading in [
+                        String::new(),
+                        format!("# {}", by(&plain)),
+                        by(&plain).to_uppercase(),
+                        format!("# columns: {}", by(&plain)),
+                        format!("% {}", plain.join(" ")),
+                        format!("# {}", by(&with_units)),
+                        by(&with_units),
+                        format!("{}\n{}", by(&plain), by(&columns.iter().map(|_| "um".to_owned()).collect::<Vec<_>>())),
+                    ] {
+                        for name in ["a.txt", "a.xyz"] {
+                            let (map, sides) = if heading.ends_with("um") || heading.contains("[um]") {
+                                (right.mapv(|h| h / 1e6), (4.0 / 1e6, 1.5 / 1e6))
+                            } else {
+                                (right.clone(), (4.0, 1.5))
+                            };
+                            // the order of x and y is told by names alone
+                            let first = columns.iter().find(|name| "xy".contains(**name));
+                            if heading.is_empty() && first == Some(&"y") {
+                                continue;
+                            }
+                            check(name, written(&heading, &rows, separator, ".", "-"), &map, Some(sides));
+                        }
+                    }
+                }
+            }
+        }
+        for columns in [1, 2, 3] {
+            let values = |i: usize| (0..columns).map(|j| height(i, j) + 0.25).collect::<Vec<_>>();
+            let rows: Vec<_> = (0..12).map(values).collect();
+            let right = Array2::from_shape_fn((12, columns), |(i, j)| rows[i][j]);
+            for separator in [" ", "\t", ";", "; ", ",", ", "] {
+                for decimal in [".", ","] {
+                    // numbers with commas between commas are whole ones
+                    if separator == decimal && columns > 1 {
+                        continue;
+                    }
+                    for sign in ["-", "\u{2212}"] {
+                        for heading in ["", "# z", "# heights", "Z"] {
+                            let text = written(heading, &rows, separator, decimal, sign);
+                            for text in [text.clone(), text.replace('\n', "\r\n"), format!("{text}\n\n"), text.replace("5\n", "5E2\n")] {
+                                let is_scaled = text.contains("5E2");
+                                let scaled = Array2::from_shape_fn(right.dim(), |(i, j)| {
+                                    right[[i, j]] * if is_scaled && j + 1 == columns && i < 11 { 100.0 } else { 1.0 }
+                                });
+                                check("a.txt", text, &scaled, None);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        assert!(read > 2000 && refused < 800 && warned == 0, "{read} read, {refused} refused, {warned} warned");
     }
 
     /// Reads texts that were changed at random, so many, and counts those that are refused.

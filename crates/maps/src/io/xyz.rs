@@ -1,6 +1,6 @@
 //! Height maps in lists of points (x, y, z).
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
 
 use super::{Parsed, check_room, quoted, refuse};
 
@@ -8,6 +8,9 @@ use super::{Parsed, check_room, quoted, refuse};
 const SLACK: f64 = 0.1;
 /// The most nodes of a grid for each of its points: a bound on the memory that a small file can ask for.
 const SPARSEST: f64 = 4.0;
+/// The fewest points and the most columns of a table that is known for one of points by its numbers.
+const FEWEST_POINTS: usize = 9;
+const MOST_COLUMNS: usize = 8;
 
 /// The heights of points, and the side lengths.
 pub(super) type Gridded = (Array2<f64>, (f64, f64));
@@ -56,6 +59,23 @@ pub(super) fn map_of_points(points: &[[f64; 3]]) -> Parsed<Gridded> {
         heights[[i, j]] = z;
     }
     Ok((heights, (dx * x.nodes as f64, dy * y.nodes as f64)))
+}
+
+/// The first two columns of several that are the coordinates of a grid, with at most so many nodes for each of the points.
+pub(crate) fn coordinates(table: ArrayView2<'_, f64>, most_nodes: f64) -> Option<[usize; 2]> {
+    let (count, columns) = table.dim();
+    if count < FEWEST_POINTS || !(3..=MOST_COLUMNS).contains(&columns) {
+        return None;
+    }
+    let is_axis = |column: &usize| Axis::new(table.column(*column).to_vec()).is_some_and(|axis| axis.nodes > 1);
+    let is_finite = |column: &usize| table.column(*column).iter().all(|value| value.is_finite());
+    let axes: Vec<_> = (0..columns).filter(is_finite).filter(is_axis).collect();
+    let pairs = axes.iter().enumerate().flat_map(|(k, x)| axes[k + 1..].iter().map(move |y| [*x, *y]));
+    let is_grid = |&[x, y]: &[usize; 2]| {
+        let points: Vec<_> = table.rows().into_iter().map(|row| [row[x], row[y], 0.0]).collect();
+        map_of_points(&points).is_ok_and(|(heights, _)| heights.len() as f64 <= most_nodes * count as f64)
+    };
+    pairs.into_iter().find(is_grid)
 }
 
 /// Equidistant coordinates.
@@ -208,7 +228,8 @@ mod tests {
         assert_refused(read_map("0 inf 1\n", "a.xyz"), &["0 and inf", "finite"]);
         assert_refused(read_map("-1e308 0 1\n1e308 0 1\n", "a.xyz"), &["common spacing"]);
         assert_refused(read_map("# nothing\n", "a.xyz"), &["holds no numbers"]);
-        assert_refused(read_map("x y w\n0 0 1\n", "a.xyz"), &["line 1", "\"x\" is not a number", "--skip-lines 1"]);
+        assert_refused(read_map("x y w\n0 0 1\n", "a.xyz"), &["columns \"x y w\"", "name one of heights z"]);
+        assert_refused(read_map("# x y z\n0 0 1 7\n0 1 1 7\n", "a.xyz"), &["names 3 columns", "4 numbers"]);
         assert_refused(read_map("# x[um] y[nm] z[nm]\n0 0 1\n0 1 1\n", "a.xyz"), &["x in \"um\" and y in \"nm\""]);
     }
 }

@@ -49,7 +49,7 @@ codes! {
     Spikes = "spikes",
     /// A value far outside the rest that stands for missing points, such as −9999.
     MissingCode = "missing-code",
-    /// The first line or column runs evenly, like coordinates.
+    /// The first line or column, or two columns of several, are like coordinates.
     Axes = "axes",
     /// The magnitudes of the numbers are those of bytes in the wrong order.
     ByteOrder = "byte-order",

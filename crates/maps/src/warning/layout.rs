@@ -2,14 +2,25 @@
 
 use ndarray::{Array2, ArrayView1, Axis};
 
-use super::part::Part::{Figure, Word};
+use super::extremes::range;
+use super::part::Part::{self, Figure, Word};
 use super::{Warning, WarningCode};
+use crate::io::coordinates;
 
 /// The fewest numbers of an axis: of fewer, heights may be evenly spaced by chance.
 const FEWEST: usize = 5;
 
 /// The difference between steps of an axis, in steps: coordinates are rounded.
 const UNEVEN: f64 = 0.01;
+
+/// The path of x along a traced profile, in the range of x: back and forth once at most.
+const MOST_TURNS: f64 = 3.0;
+
+/// The rms difference of two lines of a smooth surface, in the rms of one.
+const LIKE: f64 = 0.1;
+
+/// The most nodes of a grid for each point of a table, of which few or many may be missing.
+const MOST_NODES: f64 = 2.0;
 
 /// The decades between the quartiles of magnitudes from which bytes are in the wrong order: those of heights have one or
 /// two, those of exponents made of other bytes dozens.
@@ -25,27 +36,42 @@ fn is_even(line: ArrayView1<'_, f64>) -> bool {
     mean != 0.0 && steps().all(|step| (step - mean).abs() <= UNEVEN * mean.abs())
 }
 
-/// Coordinates on the first line or column of a table.
-pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
-    let is_axis = |axis: Axis| {
-        let lines = heights.len_of(axis);
-        let line = |index| heights.index_axis(axis, index);
-        lines > 1 && line(0).len() > FEWEST && is_even(line(0)) && !is_even(line(1))
+/// Whether the first of two lines is x, and the second a profile over it: x is even, or hardly turns, as along a traced
+/// line, and is not like the second one, as lines of a smooth surface are.
+fn is_profile(x: ArrayView1<'_, f64>, z: ArrayView1<'_, f64>) -> bool {
+    let turns = |line: ArrayView1<'_, f64>| {
+        let (low, high) = range(line.iter().copied());
+        line.windows(2).into_iter().map(|pair| (pair[1] - pair[0]).abs()).sum::<f64>() / (high - low)
     };
-    let is_profile = heights.ncols() == 2;
-    let (what, numbers, remedy) = match [Axis(0), Axis(1)].map(is_axis) {
-        [false, false] => return None,
-        [_, true] if is_profile => ("first column runs", heights.column(0), "a profile? give the second column alone"),
-        [true, false] => ("first line runs", heights.row(0), AXES),
-        [true, true] => ("first line and the first column run", heights.column(0), AXES),
-        [false, true] => ("first column runs", heights.column(0), AXES),
-    };
-    let text = "the {} evenly, up to {}: {}";
-    let last = numbers[numbers.len() - 1];
-    Some(Warning::told(WarningCode::Axes, 0.0, text, [Word(what.into()), Figure(last), Word(remedy.into())]))
+    let [x, z] = [x, z].map(|line| &line - line.mean().unwrap_or_default());
+    let (sum, difference, square) = ((&x + &z).pow2().sum(), (&x - &z).pow2().sum(), x.pow2().sum());
+    turns(x.view()) <= MOST_TURNS && sum.min(difference) > LIKE * LIKE * square
 }
 
-const AXES: &str = "leave out coordinates";
+/// Coordinates on the first line or column of a table, or in two columns of points.
+pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
+    let told = |text, parts: [Part; 3]| Some(Warning::told(WarningCode::Axes, 0.0, text, parts));
+    if let Some(columns) = coordinates(heights.view(), MOST_NODES) {
+        let [first, second] = columns.map(|column| Figure(column as f64 + 1.0));
+        let remedy = Word("write a file .xyz".into());
+        return told("columns {} and {} are the coordinates of a grid: {}", [first, second, remedy]);
+    }
+    let is_axis = |axis: Axis| {
+        let (lines, line) = (heights.len_of(axis), |index| heights.index_axis(axis, index));
+        let is_long = lines > 1 && line(0).len() > FEWEST;
+        is_long && (is_even(line(0)) && !is_even(line(1)) || lines == 2 && is_profile(line(0), line(1)))
+    };
+    const PROFILE: &str = "a profile? give the second alone";
+    let remedy = |lines| Word(if lines == 2 { PROFILE } else { "leave out coordinates" }.into());
+    let (what, numbers, lines) = match [Axis(0), Axis(1)].map(is_axis) {
+        [false, false] => return None,
+        [true, true] => ("first line and the first column run", heights.column(0), 0),
+        [true, false] => ("first line runs", heights.row(0), heights.nrows()),
+        [false, true] => ("first column runs", heights.column(0), heights.ncols()),
+    };
+    let last = Figure(numbers[numbers.len() - 1]);
+    told("the {} like coordinates, up to {}: {}", [Word(what.into()), last, remedy(lines)])
+}
 
 /// Numbers of which the bytes are in the wrong order.
 pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
@@ -87,13 +113,28 @@ mod tests {
         assert!(found(&heights).is_empty());
         let mut table = heights.clone();
         table.row_mut(0).iter_mut().enumerate().for_each(|(j, h)| *h = 0.25 * j as f64);
-        assert!(found(&table)[0].starts_with("axes: the first line runs evenly, up to 2.75"));
+        assert!(found(&table)[0].starts_with("axes: the first line runs like coordinates, up to 2.75"));
         table.column_mut(0).iter_mut().enumerate().for_each(|(i, h)| *h = 3.0 - i as f64);
         table[[0, 0]] = f64::NAN;
         assert!(found(&table)[0].contains("first line and the first column"));
         assert!(found(&table.t().to_owned())[0].contains("up to 2.75"));
         let profile = Array2::from_shape_fn((12, 2), |(i, j)| if j == 0 { 0.1 * i as f64 } else { rough(i, j) });
         assert!(found(&profile)[0].contains("a profile?"));
+        // of uneven steps, back and forth once, and its lines in the place of columns
+        let traced = Array2::from_shape_fn((40, 2), |(i, j)| match (i as f64, j) {
+            (t, 0) => t + 0.3 * (3.0 * t).sin() + if i > 20 { 12.0 * (0.2 * (t - 20.0)).sin() } else { 0.0 },
+            (t, _) => (0.4 * t).sin() + 0.01 * t,
+        });
+        assert!(found(&traced)[0].contains("first column runs like coordinates"), "{:?}", found(&traced));
+        assert!(found(&traced.t().to_owned())[0].contains("a profile?"));
+        // points in any order of columns, of which half are missing
+        let points = |i: usize| [(i % 6) as f64 * 0.4, rough(i, i), (i / 6) as f64 * 0.5, 1.0];
+        let table = Array2::from_shape_fn((24, 4), |(i, j)| points(2 * i)[j]);
+        assert!(found(&table)[0].starts_with("axes: columns 1 and 3 are the coordinates"), "{:?}", found(&table));
+        // two lines of a smooth or a rough surface
+        for of in [|i: usize, _: usize| (0.2 * i as f64).sin(), |i, j| (0.2 * i as f64).sin() * (1.0 - 2.0 * j as f64), rough] {
+            assert!(found(&Array2::from_shape_fn((64, 2), |(i, j)| of(i, j))).is_empty());
+        }
         // a plane, a wedge, a flat, a line of heights
         let made: [fn(usize, usize) -> f64; 3] = [|i, j| (2 * i + 3 * j) as f64, |i, _| i as f64, |_, _| 1.0];
         for of in made {
