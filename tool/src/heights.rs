@@ -159,6 +159,9 @@ fn sides_of(
 
 /// Side lengths that are known, or those of the unit square.
 fn or_unit_square(path: &Path, map: &Topography, known: Option<(f64, f64)>, warn: Warn<'_>) -> (f64, f64) {
+    if let Some(mask) = map.unread.iter().find(|beside| beside.starts_with("a mask")) {
+        warn(format!("{} has {mask}: asperity prepare takes that option", path.display()));
+    }
     known.unwrap_or_else(|| {
         warn_of_unread(path, map, "are taken as 1 x 1", warn);
         (1.0, 1.0)

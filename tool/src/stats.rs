@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use asperity::Surface;
 use asperity::surface::{Spectrum, SurfaceStatistics};
-use asperity_maps::warning::{Warning, WarningCode};
+use asperity_maps::warning::Warning;
 use asperity_maps::{Topography, knee_wavelength};
 use asperity_scene::{Chosen, LengthsKeys, Skin, statistics};
 use clap::Args;
@@ -61,12 +61,14 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
     let (map, _) = heights::map(path, &options.lengths.0, scene.is_si())?;
     check_room(map.heights.dim())?;
     warn_of_unread(path, &map, "stay unknown", &mut warn);
+    if map.lengths.is_some() && !map.unread.is_empty() {
+        warn(format!("{} also has {}", path.display(), map.unread.join(", ")));
+    }
     let units = Units::of_map(map.unit.as_deref());
-    let no_heights = [WarningCode::Axes, WarningCode::ByteOrder, WarningCode::MissingCode];
-    let found = Warning::of_topography(&map).into_iter().filter(|found| no_heights.contains(&found.code));
-    session::say(&found.map(|found| units.told(&found)).collect::<Vec<_>>());
+    let surface = map.lengths.filter(|_| map.missing() == 0).map(|_| map.clone().surface()).transpose()?;
+    let found = surface.as_ref().map_or_else(|| Warning::of_topography(&map), Warning::of_surface);
+    session::say(&found.iter().map(|found| units.told(found)).collect::<Vec<_>>());
     check_complete(path, &map)?;
-    let surface = map.lengths.map(|_| map.clone().surface()).transpose()?;
     if let Some(file) = psd {
         let Some(surface) = &surface else {
             let text = "the side lengths are unknown, and --psd is over wave numbers, which follow from them";

@@ -36,10 +36,19 @@ impl Bench {
         text(&output.stdout)
     }
 
-    /// The JSON report of a run that must succeed.
+    /// Runs what must succeed, perhaps with warnings, and returns what it prints.
+    #[track_caller]
+    pub fn printed(&self, arguments: &str) -> String {
+        let output = self.run(arguments);
+        let warnings = text(&output.stderr);
+        assert!(output.status.success() && warnings.lines().all(|line| line.starts_with("warning: ")), "{warnings}");
+        text(&output.stdout)
+    }
+
+    /// The JSON report of a run that must succeed, perhaps with warnings.
     #[track_caller]
     pub fn reported(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.said(&format!("{arguments} --json"))).unwrap()
+        serde_json::from_str(&self.printed(&format!("{arguments} --json"))).unwrap()
     }
 
     /// Runs what must be refused on one line, and returns that.

@@ -55,10 +55,10 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
         &["61 x 45 heights", &format!("{missing} missing"), remedy],
     );
     bench.refused_with("stats measured.gsf", &[remedy]);
-    bench.said(remedy.strip_prefix("asperity ").unwrap());
-    assert!(bench.said("stats filled.npz").contains("3.05 µm x 2.25 µm"));
+    bench.printed(remedy.strip_prefix("asperity ").unwrap());
+    assert!(bench.printed("stats filled.npz").contains("3.05 µm x 2.25 µm"));
 
-    let said = bench.said("prepare measured.gsf --detrend plane --fill --mirror --out surface.npz");
+    let said = bench.printed("prepare measured.gsf --detrend plane --fill --mirror --out surface.npz");
     let lines: Vec<_> = said.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
     assert_eq!(lines, ["read", "detrend", "fill", "mirror", "written"], "{said}");
     assert!(said.contains(&format!("{missing} of 2745 points filled")), "{said}");
@@ -72,7 +72,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     let (lx, ly) = surface.lengths.unwrap();
     assert!((lx / 6.1e-6 - 1.0).abs() < 1e-12 && (ly / 4.5e-6 - 1.0).abs() < 1e-12);
 
-    let said = bench.said(&format!("solve --heights surface.npz {solve} results --format npz,vti"));
+    let said = bench.printed(&format!("solve --heights surface.npz {solve} results --format npz,vti"));
     assert!(said.contains("converged"), "{said}");
     let report = bench.report("results");
     assert_eq!((report["length_unit"].as_str(), report["lengths"][0].as_f64()), (Some("m"), Some(lx / 2.0)));
@@ -85,7 +85,7 @@ fn a_measured_surface_goes_from_file_to_contact_map() {
     assert!(names.iter().all(|name| fs::metadata(bench.path("results").join(name)).unwrap().len() > 200));
 
     // stats says units too
-    let stats = bench.said("stats surface.npz");
+    let stats = bench.printed("stats surface.npz");
     assert!(
         stats.contains("6.1 µm x 4.5 µm")
             && stats.lines().any(|l| l.starts_with("rms curvature") && l.ends_with(" 1/µm"))
@@ -97,7 +97,7 @@ fn steps_have_a_fixed_order_and_are_those_of_the_library() {
     let bench = Bench::new();
     let map = measured();
     write_topography(bench.path("measured.npz"), &map).unwrap();
-    let said = bench.said(
+    let said = bench.printed(
         "prepare measured.npz --resample 100 64 --window 0.15 --fill --detrend quadric --flip --crop 3 2 50 40 --scale 2 \
          --lengths 6.1e-6 4.5e-6 --unit m --out a.npz",
     );
@@ -113,14 +113,14 @@ fn steps_have_a_fixed_order_and_are_those_of_the_library() {
     assert!(said.contains("before 3.05 µm x 2.25 µm") && said.contains("curvatures xx"), "{said}");
 
     // nothing is done unasked, and what is left undone is said
-    let said = bench.said("prepare measured.npz --out same.npz");
+    let said = bench.printed("prepare measured.npz --out same.npz");
     assert!(said.contains("points are missing still") && said.lines().count() == 3, "{said}");
     let (same, before) = (read_topography(bench.path("same.npz")).unwrap(), measured());
     assert!(same.heights.iter().zip(&before.heights).all(|(a, b)| a == b || a.is_nan() && b.is_nan()));
-    assert_eq!(bench.said("prepare measured.npz --fill --out heights.npy --quiet"), "");
-    assert!(bench.said("prepare measured.npz --fill --out h.npy").contains("give them again by --lengths"));
+    assert_eq!(bench.printed("prepare measured.npz --fill --out heights.npy --quiet"), "");
+    assert!(bench.printed("prepare measured.npz --fill --out h.npy").contains("give them again by --lengths"));
     assert_eq!(read_topography(bench.path("heights.npy")).unwrap().lengths, None);
-    let fit = bench.said("prepare heights.npy --detrend mean --out level.gsf");
+    let fit = bench.printed("prepare heights.npy --detrend mean --out level.gsf");
     assert!(fit.contains("unknown side lengths") && fit.contains("removed"), "{fit}");
 }
 
@@ -144,7 +144,7 @@ fn a_scan_loses_its_code_its_offsets_and_its_spikes_step_by_step() {
     let map = scanned();
     write_topography(bench.path("scan.npz"), &map).unwrap();
     let steps = "--missing -9999 --align-rows median --despike --detrend 3 --fill";
-    let said = bench.said(&format!("prepare scan.npz {steps} --out a.npz"));
+    let said = bench.printed(&format!("prepare scan.npz {steps} --out a.npz"));
     let order = ["read", "missing", "align-rows", "despike", "detrend", "fill", "written"];
     assert_eq!(said.lines().map(|line| line.split_whitespace().next().unwrap()).collect::<Vec<_>>(), order, "{said}");
     for part in ["-9999 stood at 20 of 3000 points", "50 lines along x changed by 0.", "3 of 3000 points beyond"] {
@@ -161,13 +161,13 @@ fn a_scan_loses_its_code_its_offsets_and_its_spikes_step_by_step() {
     assert_eq!(prepared, expected.fill().unwrap());
     assert!(prepared.rms_height() < 0.2, "{}", prepared.rms_height());
     // its scene repeats it
-    bench.said("run a.npz.scene.toml --out b.npz");
+    bench.printed("run a.npz.scene.toml --out b.npz");
     assert_eq!(read_topography(bench.path("b.npz")).unwrap(), prepared);
     // other thresholds, methods and directions, each told
     let said = bench
         .said("prepare scan.npz --missing -9999 --align-rows polynomial:2 --scan-axis y --despike 1e9 --out c.npz");
     assert!(said.contains("60 lines along y") && said.contains("none of 3000 points"), "{said}");
-    bench.said("run c.npz.scene.toml --align-rows median-difference --out d.npz");
+    bench.printed("run c.npz.scene.toml --align-rows median-difference --out d.npz");
     for (arguments, parts) in [
         ("--align-rows mode", ["mode", "median-difference"]),
         ("--align-rows median:2", ["median:2", "polynomial:ORDER"]),
@@ -213,7 +213,7 @@ fn a_form_is_removed_and_told_with_its_radius() {
     let mut map = Topography::new(rod);
     (map.lengths, map.unit) = (Some((4e-6, 3e-6)), Some("m".to_owned()));
     write_topography(bench.path("rod.npz"), &map).unwrap();
-    let said = bench.said("prepare rod.npz --remove-form cylinder --out a.npz");
+    let said = bench.printed("prepare rod.npz --remove-form cylinder --out a.npz");
     assert!(
         (after(&said, "cylinder of radius ") / 10.0 - 1.0).abs() < 0.01 && said.contains(" µm, bulging upwards"),
         "{said}"
@@ -222,9 +222,9 @@ fn a_form_is_removed_and_told_with_its_radius() {
     assert!((after(&said, "axis at ") - 0.6_f64.atan2(0.8).to_degrees()).abs() < 0.5, "{said}");
     let rms = read_topography(bench.path("a.npz")).unwrap().rms_height();
     assert!(rms < 1e-9 && rms > 1e-10, "{rms}");
-    let said = bench.said("prepare rod.npz --flip --remove-form sphere --out b.npz");
+    let said = bench.printed("prepare rod.npz --flip --remove-form sphere --out b.npz");
     assert!(said.contains("sphere of radius") && said.contains("bulging downwards"), "{said}");
-    bench.said("prepare rod.npz --out rod.npy");
+    bench.printed("prepare rod.npz --out rod.npy");
     bench.refused_with("prepare rod.npy --remove-form sphere --out n.npz", &["side length Lx", "known"]);
 }
 
@@ -251,7 +251,7 @@ fn lengths_of_files_and_of_options() {
     fs::write(bench.path("g.txt"), "# Width: 2 nm\n# Height: 1 nm\n# Value units: nm\n1 2 4\n3 5 9\n").unwrap();
     fs::write(bench.path("plain.txt"), "1 2 4\n3 5 9\n").unwrap();
     let sides = |arguments: &str| {
-        let said = bench.said(arguments);
+        let said = bench.printed(arguments);
         said.lines().find_map(|line| line.strip_prefix("side lengths")).unwrap().trim().to_owned()
     };
     assert_eq!(sides("stats g.txt"), "2 nm x 1 nm");
@@ -315,12 +315,12 @@ fn scars_and_noise_are_found_told_and_left_out() {
     assert!(told.contains("warning: scars: ") && told.contains("along x"), "{told}");
     assert!(told.contains("prepare --remove-scars --scan-axis x"), "{told}");
     // a high threshold leaves them, which a map with its images remembers, too
-    let said = bench.said("prepare scan.npz --remove-scars 1000 --mirror --out left.npz");
+    let said = bench.printed("prepare scan.npz --remove-scars 1000 --mirror --out left.npz");
     assert!(said.contains("no scars along x"), "{said}");
     let told = warned("left.npz");
     assert!(told.contains("use --remove-scars below 1000"), "{told}");
 
-    let said = bench.said("prepare scan.npz --remove-scars --out removed.npz");
+    let said = bench.printed("prepare scan.npz --remove-scars --out removed.npz");
     let on_scars: usize = scars.iter().map(|(from, to, _)| to - from).sum();
     assert!(
         said.contains("5 scars along x beyond ") && said.contains(&format!("{on_scars} of 16384 points replaced")),
@@ -331,10 +331,10 @@ fn scars_and_noise_are_found_told_and_left_out() {
     // what the membrane has not is the roughness within a spacing, a tenth of the rms height, on one node in 90
     assert!(square(&removed) < 1e-3 * square(&map.heights), "{} of {}", square(&removed), square(&map.heights));
     assert_eq!(warned("removed.npz"), "");
-    let said = bench.said("prepare clean.npz --remove-scars 1 --scan-axis y --out same.npz");
+    let said = bench.printed("prepare clean.npz --remove-scars 1 --scan-axis y --out same.npz");
     assert!(said.contains("no scars along y beyond "), "{said}");
     assert_eq!(read_topography(bench.path("same.npz")).unwrap().heights, clean);
-    bench.said("run removed.npz.scene.toml --out again.npz");
+    bench.printed("run removed.npz.scene.toml --out again.npz");
     assert_eq!(read_topography(bench.path("again.npz")).unwrap().heights, removed);
 
     // white noise has a knee, at which it is cut off
@@ -347,16 +347,16 @@ fn scars_and_noise_are_found_told_and_left_out() {
     write_topography(bench.path("noisy.npz"), &map).unwrap();
     let knee = bench.reported("stats noisy.npz")["knee_wavelength"].as_f64().unwrap();
     assert!(knee > 16e-9 && knee < 500e-9, "{knee}");
-    assert!(bench.said("stats noisy.npz").contains("knee of the spectrum"));
+    assert!(bench.printed("stats noisy.npz").contains("knee of the spectrum"));
     assert!(warned("noisy.npz").contains("warning: noise: "), "{}", warned("noisy.npz"));
     let prepare = format!("prepare noisy.npz --cut-off-wavelength {:.1}nm", 1e9 * knee);
-    let said = bench.said(&format!("{prepare} --out smooth.npz"));
+    let said = bench.printed(&format!("{prepare} --out smooth.npz"));
     assert!(said.contains("waves shorter than ") && said.contains("rms slope by differences "), "{said}");
     let smooth = read_topography(bench.path("smooth.npz")).unwrap().heights;
     assert!(square(&smooth) < 0.5 * square(&map.heights) && warned("smooth.npz").is_empty());
     assert!(bench.reported("stats smooth.npz")["knee_wavelength"].is_null());
 
-    bench.said("prepare clean.npz --out bare.npy --quiet");
+    bench.printed("prepare clean.npz --out bare.npy --quiet");
     bench.refused_with("prepare bare.npy --cut-off-wavelength 0.1 --out n.npz", &["side length Lx", "known"]);
     bench.refused_with("prepare clean.npz --cut-off-wavelength 0 --out n.npz", &["--cut-off-wavelength", "positive"]);
     bench.refused_with("prepare clean.npz --remove-scars -1 --out n.npz", &["--remove-scars", "positive"]);
@@ -586,7 +586,7 @@ fn offsets_of_lines_along_the_other_axis_are_told() {
         (text(&output.stderr), codes)
     };
     let (said, codes) = told("--out a.npz");
-    assert_eq!(codes, ["scan-axis"]);
+    assert_eq!(codes, ["scan-axis", "line-offsets"]);
     assert!(
         said.starts_with("warning: scan-axis: lines along y are offset") && said.contains("choose scan axis y"),
         "{said}"

@@ -149,8 +149,8 @@ impl Warning {
 
     /// The probable mistakes in the heights: [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges),
     /// [`Ends`](WarningCode::Ends), [`Steep`](WarningCode::Steep), [`Smooth`](WarningCode::Smooth),
-    /// [`Spikes`](WarningCode::Spikes), [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and
-    /// [`Flat`](WarningCode::Flat). The first three are none where the boundary is free.
+    /// [`Spikes`](WarningCode::Spikes), [`LineOffsets`](WarningCode::LineOffsets),
+    /// [`MissingCode`](WarningCode::MissingCode), [`Cells`](WarningCode::Cells) and [`Flat`](WarningCode::Flat). The first three are none where the boundary is free.
     ///
     /// Before all, numbers that are no heights: [`Axes`](WarningCode::Axes), and [`ByteOrder`](WarningCode::ByteOrder),
     /// which comes alone.
@@ -169,7 +169,7 @@ impl Warning {
         }
         let mut found: Vec<_> = cells(surface.grid()).into_iter().chain(ends_within(surface)).collect();
         found.extend(layout::axes(heights));
-        if extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs()) {
+        if is_flat(&extremes) {
             let text = "all heights are {}: check the file, or the map";
             found.push(Self::told(WarningCode::Flat, 0.0, text, [Length(extremes.low)]));
             return found;
@@ -183,13 +183,15 @@ impl Warning {
         let at_edges = [open_edges(&relief), ends_at_edges(&relief, surface)];
         let slope = slope(relief.rms_slope(surface.grid().spacing()), STEEP);
         found.extend(tilt(&relief, surface.grid()).into_iter().chain(at_edges.into_iter().flatten()));
-        found.extend(slope.into_iter().chain(spikes(&relief)));
+        found.extend(slope.into_iter().chain(spikes(&relief)).chain(lines::offsets(&relief.heights, relief.unit)));
         found
     }
 
     /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode),
-    /// and, where the side lengths are known and no such code is there, [`Steep`](WarningCode::Steep), which here is an
-    /// rms slope above 100, and [`Smooth`](WarningCode::Smooth). Before these, numbers that are no heights, as
+    /// and, where no such code is there, those of a surface: with known side lengths [`Steep`](WarningCode::Steep), which
+    /// here is an rms slope above 100, and [`Smooth`](WarningCode::Smooth), and without missing points
+    /// [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges), [`Spikes`](WarningCode::Spikes) and
+    /// [`LineOffsets`](WarningCode::LineOffsets). Before these, numbers that are no heights, as
     /// [`of_surface`](Self::of_surface) finds them.
     ///
     /// ```
@@ -209,8 +211,15 @@ impl Warning {
         let extremes = Extremes::of(&heights);
         let codes = extremes.codes().into_iter().map(|(value, count)| missing_code(value, count));
         let mut found: Vec<_> = layout::axes(&heights).into_iter().chain(codes).collect();
-        if found.is_empty() {
-            found.extend(map.rms_slope().and_then(|found| slope(found, STEEP_MAP)));
+        if !found.is_empty() {
+            return found;
+        }
+        found.extend(map.rms_slope().and_then(|found| slope(found, STEEP_MAP)));
+        let sides = map.lengths.unwrap_or((1.0, 1.0));
+        if let (Ok(grid), false, 0) = (Grid::new(heights.dim(), sides), is_flat(&extremes), map.missing()) {
+            let relief = Relief::of(&heights, &extremes);
+            let at_edges = tilt(&relief, &grid).into_iter().chain(open_edges(&relief));
+            found.extend(at_edges.chain(spikes(&relief)).chain(lines::offsets(&relief.heights, relief.unit)));
         }
         found
     }
@@ -274,6 +283,10 @@ impl Warning {
             [percent(part, original.grid()), percent(whole, original.whole())],
         )))
     }
+}
+
+fn is_flat(extremes: &Extremes) -> bool {
+    extremes.span() <= FLAT * extremes.low.abs().max(extremes.high.abs())
 }
 
 fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {

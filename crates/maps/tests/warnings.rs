@@ -2,7 +2,7 @@
 
 use asperity::*;
 use asperity_maps::warning::{Warning, WarningCode};
-use asperity_maps::{ScanAxis, Topography, Trend, surface_with_absent};
+use asperity_maps::{RowAlignment, ScanAxis, Topography, Trend, surface_with_absent};
 use ndarray::Array2;
 
 const SIDES: (f64, f64) = (1.0, 0.8);
@@ -23,6 +23,26 @@ fn the_page_of_warnings_explains_each_code() {
     let entries: Vec<_> = page.lines().filter_map(|line| line.strip_prefix("## ")).collect();
     let codes = WarningCode::ALL.iter().map(|code| code.name()).chain(["unconverged"]);
     assert_eq!(entries, codes.collect::<Vec<_>>());
+}
+
+#[test]
+fn a_map_that_is_to_be_prepared_is_warned_of_as_its_surface() {
+    let map = |change: fn(&mut Array2<f64>)| {
+        let mut map = Topography::from(rough());
+        change(&mut map.heights);
+        let codes = |found: Vec<Warning>| found.iter().map(|warning| warning.code.name()).collect::<Vec<_>>();
+        (codes(Warning::of_topography(&map)), codes(Warning::of_surface(&map.surface().unwrap())))
+    };
+    let changes: [(fn(&mut Array2<f64>), &[&str]); 4] = [
+        (|_| {}, &[]),
+        (|heights| heights[[20, 30]] += 4.0 * heights.std(0.0), &["spikes"]),
+        (|heights| heights.indexed_iter_mut().for_each(|((i, _), h)| *h += 2e-3 * i as f64), &["tilt", "open-edges"]),
+        // a single one of the usual codes, far from all else
+        (|heights| *heights = heights.mapv(|h| if h == heights[[3, 7]] { -1.0 } else { 490.0 + h }), &["missing-code"]),
+    ];
+    for (change, expected) in changes {
+        assert_eq!(map(change), (expected.to_vec(), expected.to_vec()));
+    }
 }
 
 /// A rough map of 80 × 64 square cells, periodic.
@@ -485,4 +505,49 @@ fn a_punch_reaches_the_edge_of_its_window_and_a_sphere_does_not() {
     };
     assert_eq!(codes(&Surface::from_fn(grid, |_, _| 0.0).unwrap(), 1e-4), [WarningCode::WindowEdge]);
     assert!(codes(&Surface::paraboloid(grid, 1.0).unwrap(), 1e-4).is_empty());
+}
+
+#[test]
+fn offsets_of_lines_are_told_until_the_lines_are_aligned() {
+    let offset = |line: usize| ((line * line * 7919) as f64 * 0.618_034).fract() - 0.5;
+    // of lines of 128 nodes, the offsets in rms steps of the surface, uniform: from half a step on they are told
+    for (k_s, hurst) in [(16.0, 0.8), (63.0, 0.8), (63.0, 0.3)] {
+        for seed in 0..6 {
+            let grid = Grid::new((128, 192), (1.0, 1.5)).unwrap();
+            let rough = SelfAffine::default().hurst(hurst).k_l(2.0).k_r(2.0).k_s(k_s).seed(seed).surface(grid).unwrap();
+            let clean = Topography::from(rough);
+            let step = clean.rms_slope().unwrap() / 128.0 / f64::sqrt(2.0);
+            let told = |map: &Topography| {
+                let found = Warning::of_surface(&map.clone().surface().unwrap());
+                found.iter().map(short).find(|found| found.code == WarningCode::LineOffsets).map(Warning::message)
+            };
+            for share in [2.0, 3.0] {
+                let mut map = clean.clone();
+                map.heights
+                    .columns_mut()
+                    .into_iter()
+                    .enumerate()
+                    .for_each(|(j, mut line)| line += share * step * offset(j));
+                for map in [map.clone(), map.clone().mirror()] {
+                    let found = told(&map).unwrap_or_else(|| panic!("{k_s} {hurst} {seed} {share}"));
+                    assert!(
+                        found.starts_with("lines along x are offset by ") && found.ends_with("scan axis x"),
+                        "{found}"
+                    );
+                    let lengths = map.lengths.map(|(lx, ly)| (ly, lx));
+                    let mut across = Topography::new(map.heights.t().to_owned());
+                    across.lengths = lengths;
+                    assert!(told(&across).unwrap().ends_with("scan axis y"));
+                }
+                for by in [RowAlignment::Median, RowAlignment::MedianDifference] {
+                    assert_eq!(
+                        told(&map.clone().align_rows(by, ScanAxis::X).unwrap()),
+                        None,
+                        "{k_s} {hurst} {seed} {share}"
+                    );
+                }
+            }
+            assert_eq!(told(&clean), None);
+        }
+    }
 }

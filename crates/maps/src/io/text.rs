@@ -25,7 +25,8 @@ impl Text {
     pub fn read(reader: impl BufRead, reading: &Reading) -> Parsed<Self> {
         let (mut blocks, mut values) = read_blocks(reader, reading)?;
         let count = blocks[0].columns;
-        if let Some(columns) = blocks[0].heading.columns().filter(|_| blocks.iter().all(|block| block.columns == count)) {
+        if let Some(columns) = blocks[0].heading.columns().filter(|_| blocks.iter().all(|block| block.columns == count))
+        {
             let places = columns.places(count)?;
             if (count, places) != (3, [0, 1, 2]) {
                 values = values.chunks_exact(count).flat_map(|row| places.map(|place| row[place])).collect();
@@ -135,7 +136,7 @@ impl Text {
 
     /// The grid of its points, if columns are named x, y and z, or two columns are all nodes of several lines.
     fn gridded(&self) -> Option<Parsed<Gridded>> {
-        let columns = self.blocks[0].columns;
+        let columns = self.blocks[0].columns.max(1);
         if self.blocks.iter().any(|block| block.columns != columns) {
             return None;
         }
@@ -375,17 +376,19 @@ mod tests {
         let right = Array2::from_shape_fn((8, 6), |(i, j)| height(i, j));
         let order = |k: usize| (k * 17 + 5) % 48;
         let (mut read, mut refused, mut warned) = (0, 0, 0);
-        let mut check = |name: &str, text: String, right: &Array2<f64>, sides: Option<(f64, f64)>| {
-            match Reading::default().read_bytes(name, text.as_bytes()) {
+        let mut check =
+            |name: &str, text: String, right: &Array2<f64>, sides: Option<(f64, f64)>| match Reading::default()
+                .read_bytes(name, text.as_bytes())
+            {
                 Err(_) => refused += 1,
                 Ok(map) if map.heights == *right && map.lengths == sides => read += 1,
                 Ok(map) => {
                     assert!(!Warning::of_topography(&map).is_empty(), "{text}");
                     warned += 1;
                 }
-            }
-        };
-        let names = ["x y z", "z x y", "x z y", "y x z", "z y x", "y z x", "x y z q", "q x y z", "i x y z", "z i q y x"];
+            };
+        let names =
+            ["x y z", "z x y", "x z y", "y x z", "z y x", "y z x", "x y z q", "q x y z", "i x y z", "z i q y x"];
         for columns in names {
             let columns: Vec<_> = columns.split(' ').collect();
             let row = |k: usize, i: usize, j: usize| {
@@ -445,7 +448,12 @@ mod tests {
                     for sign in ["-", "\u{2212}"] {
                         for heading in ["", "# z", "# heights", "Z"] {
                             let text = written(heading, &rows, separator, decimal, sign);
-                            for text in [text.clone(), text.replace('\n', "\r\n"), format!("{text}\n\n"), text.replace("5\n", "5E2\n")] {
+                            for text in [
+                                text.clone(),
+                                text.replace('\n', "\r\n"),
+                                format!("{text}\n\n"),
+                                text.replace("5\n", "5E2\n"),
+                            ] {
                                 let is_scaled = text.contains("5E2");
                                 let scaled = Array2::from_shape_fn(right.dim(), |(i, j)| {
                                     right[[i, j]] * if is_scaled && j + 1 == columns && i < 11 { 100.0 } else { 1.0 }

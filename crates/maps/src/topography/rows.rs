@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use ndarray::{Array1, ArrayView1, Axis};
+use ndarray::{Array1, Array2, ArrayView1, Axis};
 
 use super::trend::order;
 use super::{Topography, Trend, median, named};
@@ -134,8 +134,8 @@ pub(crate) struct LineSteps {
 
 impl LineSteps {
     /// Those of the measured points; NaN where none are.
-    pub fn of(map: &Topography, along: ScanAxis) -> Self {
-        let lines: Vec<_> = map.heights.lanes(Axis(usize::from(along == ScanAxis::Y))).into_iter().collect();
+    pub fn of(heights: &Array2<f64>, along: ScanAxis) -> Self {
+        let lines: Vec<_> = heights.lanes(Axis(usize::from(along == ScanAxis::Y))).into_iter().collect();
         let step = |pair: &[ArrayView1<'_, f64>]| {
             let steps: Vec<f64> =
                 pair[1].iter().zip(pair[0]).map(|(h, before)| h - before).filter(|step| step.is_finite()).collect();

@@ -65,6 +65,8 @@ codes! {
     WindowEdge = "window-edge",
     /// The contact of a mirrored map is not that of its mirror images.
     Images = "images",
+    /// The lines along one axis are offset from one another at random, like scan lines of an instrument that drifts.
+    LineOffsets = "line-offsets",
     /// The lines across the scan lines that are to be brought to one height have by far the larger offsets.
     ScanAxis = "scan-axis",
     /// Much of the load is on single lines, such as scars of a measurement.

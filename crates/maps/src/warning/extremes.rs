@@ -7,7 +7,14 @@ use ndarray::Array2;
 const FAR: f64 = 3.0;
 
 /// Codes for missing points that are recognised where they stand once, too, as numbers of 4 bytes have them.
-const CODES: [f32; 15] = [
+const CODES: [f32; 22] = [
+    0.0,
+    -1.0,
+    -9.0,
+    -99.0,
+    99.0,
+    255.0,
+    999.0,
     -9999.0,
     -99999.0,
     -999.0,

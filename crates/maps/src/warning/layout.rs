@@ -10,6 +10,9 @@ use crate::io::coordinates;
 /// The fewest numbers of an axis: of fewer, heights may be evenly spaced by chance.
 const FEWEST: usize = 5;
 
+/// The same of a profile with uneven steps.
+const FEWEST_OF_PROFILE: usize = 8;
+
 /// The difference between steps of an axis, in steps: coordinates are rounded.
 const UNEVEN: f64 = 0.01;
 
@@ -58,8 +61,9 @@ pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
     }
     let is_axis = |axis: Axis| {
         let (lines, line) = (heights.len_of(axis), |index| heights.index_axis(axis, index));
-        let is_long = lines > 1 && line(0).len() > FEWEST;
-        is_long && (is_even(line(0)) && !is_even(line(1)) || lines == 2 && is_profile(line(0), line(1)))
+        let is_long = |fewest| lines > 1 && line(0).len() > fewest;
+        is_long(FEWEST) && is_even(line(0)) && !is_even(line(1))
+            || is_long(FEWEST_OF_PROFILE) && lines == 2 && is_profile(line(0), line(1))
     };
     const PROFILE: &str = "a profile? give the second alone";
     let remedy = |lines| Word(if lines == 2 { PROFILE } else { "leave out coordinates" }.into());
@@ -132,7 +136,9 @@ mod tests {
         let table = Array2::from_shape_fn((24, 4), |(i, j)| points(2 * i)[j]);
         assert!(found(&table)[0].starts_with("axes: columns 1 and 3 are the coordinates"), "{:?}", found(&table));
         // two lines of a smooth or a rough surface
-        for of in [|i: usize, _: usize| (0.2 * i as f64).sin(), |i, j| (0.2 * i as f64).sin() * (1.0 - 2.0 * j as f64), rough] {
+        for of in
+            [|i: usize, _: usize| (0.2 * i as f64).sin(), |i, j| (0.2 * i as f64).sin() * (1.0 - 2.0 * j as f64), rough]
+        {
             assert!(found(&Array2::from_shape_fn((64, 2), |(i, j)| of(i, j))).is_empty());
         }
         // a plane, a wedge, a flat, a line of heights

@@ -1,6 +1,8 @@
-//! The warning about scan lines: the lines along the other axis have the offsets.
+//! The warnings about scan lines: they have offsets, or those along the other axis have them.
 
-use super::part::Part::{Figure, Word};
+use ndarray::Array2;
+
+use super::part::Part::{Figure, Length, Word};
 use super::{Warning, WarningCode};
 use crate::topography::{LineSteps, ScanAxis, Topography};
 
@@ -15,12 +17,42 @@ const FAR: f64 = 5.0;
 /// long lines on isotropic heights it is a few tenths.
 const STANDS_OUT: f64 = 0.5;
 
+/// The same for lines with offsets, which are to be found among the steps of the surface.
+const OFFSET: f64 = 0.1;
+
 /// The change of the steps from one to the next, in the steps, of lines that are offset at random: √3 if the offsets
 /// are independent, √2 if the steps are. The profile of a surface changes less, and a grating of few lines much more.
 const RANDOM: std::ops::Range<f64> = 1.2..2.5;
 
 /// The rms step of single nodes across the lines over that along them up to which the surface itself has no lay.
 const ALIKE: f64 = 2.0;
+
+const AXES: [(ScanAxis, &str); 2] = [(ScanAxis::X, "x"), (ScanAxis::Y, "y")];
+
+/// Whether lines are offset at random, by a share of the steps of single nodes, and those along the other axis are not.
+fn are_offset(lines: &LineSteps, others: &LineSteps, share: f64) -> bool {
+    lines.change > FAR * others.change
+        && lines.shared > share * lines.single
+        && RANDOM.contains(&(lines.change / lines.shared))
+        && lines.single <= ALIKE * others.single
+}
+
+/// Lines of heights, in a unit, that are offset from one another.
+pub(super) fn offsets(heights: &Array2<f64>, unit: f64) -> Option<Warning> {
+    let (nx, ny) = heights.dim();
+    if nx.min(ny) < LEAST {
+        return None;
+    }
+    let [x, y] = AXES.map(|(axis, _)| LineSteps::of(heights, axis));
+    let found = [(&x, &y, "x"), (&y, &x, "y")].into_iter().find(|(lines, others, _)| are_offset(lines, others, OFFSET));
+    let (lines, _, axis) = found?;
+    Some(Warning::told(
+        WarningCode::LineOffsets,
+        lines.shared / lines.single,
+        "lines along {} are offset by {}: use align-rows median, scan axis {}",
+        [Word(axis.into()), Length(lines.shared * unit), Word(axis.into())],
+    ))
+}
 
 impl Warning {
     /// A measured map whose scan lines, which are to be brought to one height, are probably not those along the given
@@ -45,11 +77,10 @@ impl Warning {
         if nx.min(ny) < LEAST {
             return None;
         }
-        let mut axes = [(ScanAxis::X, "x"), (ScanAxis::Y, "y")];
+        let mut axes = AXES;
         axes.sort_by_key(|(axis, _)| *axis != along);
-        let [asked, other] = axes.map(|(axis, _)| LineSteps::of(map, axis));
-        let offset = other.change > FAR * asked.change && other.shared > STANDS_OUT * other.single;
-        if !(offset && RANDOM.contains(&(other.change / other.shared)) && other.single <= ALIKE * asked.single) {
+        let [asked, other] = axes.map(|(axis, _)| LineSteps::of(&map.heights, axis));
+        if !are_offset(&other, &asked, STANDS_OUT) {
             return None;
         }
         let [along, across] = axes.map(|(_, name)| Word(name.to_owned()));

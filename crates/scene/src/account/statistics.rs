@@ -62,7 +62,10 @@ pub fn rows(
         rows.push((name, number(value, dimension)));
     }
     if let Some(knee) = knee {
-        let remedy = worded("shorter waves are noise, which {prepare:cut_off_wavelength} leaves out", skin);
+        let remedy = worded(
+            "shorter waves are noise, spikes or offsets of lines; {prepare:cut_off_wavelength} removes noise",
+            skin,
+        );
         rows.push(("knee of the spectrum", format!("{}: {remedy}", units.number(*knee, LENGTH))));
     }
     rows
