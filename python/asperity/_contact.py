@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from . import _asperity
 from ._accuracy import Plan
-from ._body import symbol
+from ._body import Symbol, symbol
 from ._columns import Rows
 from ._cycle import Cycle
 from ._interface import Interface
@@ -49,6 +49,7 @@ from ._stability import Stability
 from ._sweep import Sweep
 from ._topography import Heights, Topography, axes_of, field_of, mirrored, refined, sides, taken
 from ._types import AxisOrder, Lengths
+from ._units import shown
 from ._viscoelastic import ELASTIC, Viscoelastic
 from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning, warn, warn_of_input
 
@@ -76,7 +77,7 @@ def _pair(name: str, spring: Any) -> tuple[Any, Any]:
     try:
         stiffness, position = spring
     except (TypeError, ValueError):
-        raise TypeError(f"{name} is {spring!r}: it must be (stiffness, rest)") from None
+        raise TypeError(f"{name} is {shown(spring)}: it must be (stiffness, rest)") from None
     return stiffness, position
 
 
@@ -643,6 +644,8 @@ class Contact:
         self.body, self.law = body, law if law is not None else keys.get("law")
         if law is not None:
             _refuse_beside("law", _OF_LAWS, keys)
+        if not isinstance(body, Measured | Symbol | None):
+            raise TypeError(f"body is {shown(body)}: it must be an asperity.Layer, Coating or Symbol")
         order = axes_of(heights, axes)
         if order == "yx" and isinstance(law, Varying) and not law.knows_axes:
             raise ValueError(
@@ -665,7 +668,7 @@ class Contact:
             raise TypeError("hardness is an array of truth values: it must be one of pressures")
         if lengths is not None:
             keys["lengths"] = lengths
-        self._keys, self._given = keys, _asperity.Keywords(keys, law, is_si)
+        self._keys, self._is_si, self._given = keys, is_si, _asperity.Keywords(keys, law, is_si)
         si = self._given.is_si
         #: the unit of pressures
         self.pressure_unit = "Pa" if si else None
@@ -686,7 +689,8 @@ class Contact:
         sides(self.topography)
         self._facing, self._is_kept = facing, is_kept
         self._hardness = None if hardness is None else field_of(hardness, "hardness", order).copy()
-        self.problem, self.turns = self._problem(self.topography, self._given, is_kept), Turns()
+        self._posed: _asperity.Problem | None = self._problem(self.topography, self._given, is_kept)
+        self.turns = Turns()
         if not isinstance(heights, Topography | str | os.PathLike) and against is None:
             # the array may change before the heights are asked for
             self.topography = replace(self.topography, heights=self.topography.heights.copy())
@@ -777,7 +781,19 @@ class Contact:
         return contact
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "problem": None, "body": None, "_hardness": None, "_given": None}
+        # what the compiled core holds is made again where it is needed
+        return {**self.__dict__, "_posed": None, "_given": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._given = _asperity.Keywords(self._keys, self.own_law, self._is_si)
+
+    @property
+    def problem(self) -> _asperity.Problem:
+        """The problem, as the compiled core has it."""
+        if self._posed is None:
+            self._posed = self._problem(self.topography, self._given, self._is_kept)
+        return self._posed
 
     def _problem(self, topography: Topography, given: _asperity.Keywords, is_kept: bool) -> _asperity.Problem:
         """The problem of a map, as the compiled core has it."""
@@ -812,7 +828,8 @@ class Contact:
         contact = self
         if self._is_kept:
             contact = copy.copy(self)
-            contact.problem, contact.turns = self._problem(self.topography, self._given, False), Turns()
+            contact._posed, contact.turns = self._problem(self.topography, self._given, False), Turns()
+            contact._is_kept = False
             contact._warned = set()
         return kind(contact, way, parts, start, observe, file)
 

@@ -66,12 +66,14 @@ def load(folder: str | os.PathLike[str], heights: Heights | None = None, law: Ow
     for name in _FIELDS:
         if fields[name] is None:
             raise ValueError(f"{os.fspath(folder)} has no {name}.npy: solve with --format npy or npz")
+    _check_fields(os.fspath(folder), fields, told)
     # absent nodes have no gap
     fields["gap"] = np.where(np.isnan(fields["gap"]), np.inf, fields["gap"])
     if heights is not None:
         fields["heights"] = taken(heights, si=told["length_unit"] == "m").heights
         if fields["heights"].shape != shape:
             raise ValueError(f"heights have shape {fields['heights'].shape}: those that were solved have {shape}")
+    if fields["heights"] is not None:
         _check_heights(fields, told)
     is_whole = told["solved_shape"] is None
     whole = shape if is_whole else tuple(told["solved_shape"])
@@ -188,10 +190,24 @@ def _field(folder: str | os.PathLike[str], name: str, shape: tuple[int, ...]) ->
     return field
 
 
+def _check_fields(folder: str, fields: dict[str, Any], told: Any) -> None:
+    """Refuses fields that are not those of the report, by what is missing in them and by their means."""
+    missing = np.count_nonzero(np.isnan(fields["gap"]))
+    if missing != told["absent_nodes"]:
+        raise ValueError(f"gap in {folder} has {missing} missing values, the report says {told['absent_nodes']}")
+    for name in ("gap", "pressure"):
+        field = np.asarray(fields[name], np.float64)
+        mean, expected = np.nanmean(field), told[f"mean_{name}"]
+        # sums of single precision, and those that cancel
+        if not abs(mean - expected) <= 1e-5 * np.nanmean(abs(field)):
+            raise ValueError(f"{name} in {folder} has the mean {mean:.6g}, the report says {expected:.6g}: it is of another solve")
+
+
 def _check_heights(fields: dict[str, Any], told: Any) -> None:
     """Refuses heights that are not those of the fields: with the pressures they give another elastic energy."""
     depth, present = fields["plastic_depth"], np.isfinite(fields["gap"])
-    if told["hardness"] is not None and depth is None:
+    # the displacements of absent nodes of a periodic map are not known
+    if told["hardness"] is not None and depth is None or told["approach"] is None and not present.all():
         return
     gap, pressure, heights = (np.asarray(fields[name][present], np.float64) for name in ("gap", "pressure", "heights"))
     displacement = gap + heights - (0.0 if depth is None else depth[present])

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 
 import numpy as np
 
 from . import _asperity
-from ._topography import Heights, Topography, _lengths, found, plain
+from ._topography import Heights, Topography, _lengths, found, plain, read
 from ._types import AxisOrder, Lengths, Quantity, RemovedForm, RowAlignment, ScanAxis, Trend
 from ._units import given as units
 from ._units import number
@@ -25,6 +26,7 @@ def prepare(
     lengths: Lengths | None = None,
     *,
     axes: AxisOrder | None = None,
+    masked: bool = False,
     unit: str | None = None,
     missing: float | list[float] | None = None,
     scale: float | None = None,
@@ -57,6 +59,8 @@ def prepare(
         Axes of an array: "xy" by default, the first is x, or "yx" for an image, [row, column]. A DataArray whose
         dimensions are named x and y, or a DataFrame with coordinates, does not need it. The result has x along the first
         axis.
+    masked : bool
+        Whether the points under the mask of a ``.gwy`` file are missing.
     unit : str, optional
         Unit of the heights after ``scale``, and of the side lengths.
     missing : float or list of float, optional
@@ -114,7 +118,9 @@ def prepare(
     >>> [line.split(":")[0] for line in made.log]
     ['read', 'lengths', 'unit', 'detrend', 'fill', 'mirror']
     """
-    given = found(heights, axes)
+    if masked and not isinstance(heights, str | os.PathLike):
+        raise TypeError("masked is of the mask of a .gwy file: give its path, or an array of NaN where points are missing")
+    given = read(heights, masked=True) if masked else found(heights, axes)  # type: ignore[arg-type]
     keys = {
         "missing": None if missing is None else np.ravel(missing),
         "scale": scale,

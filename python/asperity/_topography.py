@@ -297,7 +297,12 @@ def array_of(values: Any, name: str = "heights", axes: AxisOrder | None = None) 
     if _is_data_array(values):
         values = np.ma.masked_invalid(values.values[tuple(map(_rising, map(values.coords.get, values.dims)))])
     masked = isinstance(values, np.ma.MaskedArray)
-    array: Any = values if masked else np.asarray(values)
+    try:
+        # pandas has numbers with a sign for missing ones
+        is_frame = hasattr(values, "to_numpy") and not _is_data_array(values)
+        array: Any = values if masked else values.to_numpy(float, na_value=np.nan) if is_frame else np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"{name} are no array of real numbers: {error}") from None
     if array.dtype.names is not None:
         columns = ", ".join(array.dtype.names)
         raise TypeError(f'{name} are a record array of {columns}: give one column, such as a["{array.dtype.names[0]}"]')
@@ -338,6 +343,8 @@ def _rising(coordinate: Any) -> slice:
 
 def _labelled(values: Any, axes: AxisOrder | None, name: str = "heights") -> Any:
     """A pandas.DataFrame with coordinates as a DataArray; all else as it is."""
+    if hasattr(values, "data_vars"):
+        raise TypeError(f"{name} are an xarray.Dataset: give one of its variables, {', '.join(values.data_vars)}")
     if not (hasattr(values, "to_numpy") and hasattr(values, "index") and hasattr(values, "columns")):
         return values
     names = {str(column).lower(): column for column in values.columns}
@@ -395,13 +402,17 @@ def _from_data_array(data: Any, axes: AxisOrder | None) -> Topography:
     units = {data.attrs.get("units")}
     lengths = []
     dims = data.dims[::-1] if _order(data, axes) == "yx" else data.dims
-    for dim in dims:
-        if dim not in data.coords:
-            break
-        coordinate = np.asarray(data.coords[dim].values, dtype=np.float64)
+    lacking = [dim for dim in dims if dim not in data.coords]
+    if 0 < len(lacking) < len(dims):
+        raise ValueError(f"heights have coordinates, but none along {lacking[0]}: give both, or drop_vars the others")
+    for dim in dims if not lacking else ():
+        coordinate = np.asarray(data.coords[dim].values)
+        if coordinate.dtype.kind not in "fiu":
+            raise TypeError(f"coordinate {dim} is an array of {coordinate.dtype}: it must be of real numbers")
+        coordinate = coordinate.astype(np.float64)
         units.add(data.coords[dim].attrs.get("units"))
         steps = np.diff(coordinate)
-        if steps.size == 0 or not np.ptp(steps) <= _EQUIDISTANT * abs(steps[0]):
+        if steps.size == 0 or not np.ptp(steps) <= _EQUIDISTANT * abs(steps[0]) or steps[0] == 0:
             raise ValueError(f"coordinate {dim} is not equidistant: interpolate the heights on a uniform grid first")
         lengths.append(abs(coordinate[-1] - coordinate[0]) * coordinate.size / (coordinate.size - 1))
     units.discard(None)

@@ -26,6 +26,12 @@ def in_unit(name: str, unit: str | None) -> float:
         raise ValueError(f"{name} is {unit!r}: it must be a unit of a {kind}, as {example!r}") from None
 
 
+def shown(value: Any) -> str:
+    """What a message says of a value: of an array its shape."""
+    shape = getattr(value, "shape", ())
+    return f"an array of shape {shape}" if shape else repr(value)
+
+
 def number(name: str, value: Any) -> float:
     """A number that a parameter has to be."""
     try:
@@ -34,4 +40,4 @@ def number(name: str, value: Any) -> float:
     except (TypeError, ValueError):
         pass
     units = "in units that fit the others, such as 70e9 for 70 GPa in Pa"
-    raise TypeError(f"{name} is {value!r}: it must be a number, {units}")
+    raise TypeError(f"{name} is {shown(value)}: it must be a number, {units}")

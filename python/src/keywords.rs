@@ -61,7 +61,17 @@ fn typed(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Typed> {
         return Ok(Typed::Text(text));
     }
     if let (Ok(items), false) = (value.try_iter(), value.is_instance_of::<PyBytes>()) {
-        return items.map(|item| typed(key, &item?)).collect::<PyResult<_>>().map(Typed::Several);
+        let items = items.map(|item| typed(key, &item?)).collect::<PyResult<Vec<_>>>()?;
+        if items.iter().any(|item| matches!(item, Typed::Several(_))) {
+            let shape = value
+                .getattr("shape")
+                .map_or_else(|_| "a list of lists".to_owned(), |shape| format!("an array of shape {shape}"));
+            let map = if key == "work_of_adhesion" { "; for a map give law=asperity.Varying(law, works)" } else { "" };
+            return Err(PyTypeError::new_err(format!(
+                "{key} is {shape}: it must be one value, or a list of them{map}"
+            )));
+        }
+        return Ok(Typed::Several(items));
     }
     if let Ok(value) = value.extract() {
         return Ok(Typed::Whole(value));

@@ -1,9 +1,12 @@
 """A contact that is solved more than once, and the keys of the program as keywords."""
 
+import copy
 import json
 import pickle
 import subprocess
 import types
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import numpy as np
 import pytest
@@ -287,3 +290,34 @@ def test_the_stability_of_a_solution_with_units_takes_numbers_in_the_si(law):
         assert found.eigenvalue == asked.report["stability"]["eigenvalue"]
         other = asperity.stability(held, mean_pressure="5MPa"), asperity.stability(held, mean_pressure=5e6)
         assert other[0].eigenvalue == other[1].eigenvalue
+
+
+def test_a_contact_travels_between_processes(rough):
+    layer = asperity.Layer(0.2, 0.3, "bonded")
+    works = asperity.Varying(asperity.Exponential(1e-5, 4e-3), np.full((64, 64), 1e-5))
+    for keys in ({"body": layer}, {"law": works}, {"hardness": np.full((64, 64), 0.5)}, {"against": rough, "shift": (0.1, 0)}):
+        contact = asperity.Contact(rough, modulus=1.0, **keys)
+        expected = contact.solve(mean_pressure=0.01)
+        for other in (copy.deepcopy(contact), pickle.loads(pickle.dumps(contact))):
+            assert same(other.solve(mean_pressure=0.01), expected)
+        assert other.sweep(mean_pressures=[0.01]).columns["mean_gap"] == expected.mean_gap
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        assert same(pool.submit(contact.solve, mean_pressure=0.01).result(), expected)
+
+
+def test_fields_of_another_solve_are_refused(rough, tmp_path):
+    solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
+    other = asperity.solve(rough, modulus=1.0, mean_pressure=0.0101)
+    missing = solution.gap.copy()
+    missing[3, 4] = np.nan
+    for name, field, expected in (
+        ("gap", other.gap, "gap in .* has the mean .* of another solve"),
+        ("gap", -solution.gap, "of another solve"),
+        ("gap", missing, "1 missing values, the report says 0"),
+        ("pressure", other.pressure, "pressure in .* of another solve"),
+        ("heights", rough.heights[::-1], "heights give an elastic energy"),
+    ):
+        solution.save(tmp_path)
+        np.save(tmp_path / f"{name}.npy", field)
+        with pytest.raises(ValueError, match=expected):
+            asperity.load(tmp_path)

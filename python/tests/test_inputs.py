@@ -3,9 +3,12 @@
 import inspect
 import pickle
 import struct
+from functools import partial
 
 import numpy as np
+import pandas
 import pytest
+import xarray
 
 import asperity
 
@@ -72,6 +75,7 @@ def test_what_is_no_map_of_numbers_is_refused():
             gap(heights)
 
 
+@pytest.mark.filterwarnings("ignore:open-edges")
 def test_one_length_means_square_cells(rough):
     assert asperity.prepare(rough.heights[:, :32], 1.0).lengths == (1.0, 0.5)
     assert asperity.surface.self_affine((64, 32), 1.0, rms_slope=0.1, k_s=8).lengths == (1.0, 0.5)
@@ -246,6 +250,7 @@ def test_a_channel_of_several_is_chosen_by_number_or_title(tmp_path):
         asperity.read(tmp_path / "heights.npy", channel=0)
 
 
+@pytest.mark.filterwarnings("ignore:(open-edges|tilt|spikes)")
 def test_prepare_takes_the_steps_of_the_tool():
     rng = np.random.default_rng(1)
     tilted = rng.normal(size=(40, 30)) + 5 * np.arange(40)[:, None]
@@ -378,6 +383,7 @@ def test_dimensions_that_are_named_say_which_axis_is_x():
     assert np.array_equal(law.work_of_adhesion, np.abs(OBLONG))
 
 
+@pytest.mark.filterwarnings("ignore:line-offsets")
 def test_offsets_of_lines_along_the_other_axis_are_a_warning():
     x = np.linspace(0.0, 1.0, 96, endpoint=False)
     smooth = 0.02 * np.sin(2 * np.pi * 3 * x[:, None]) * np.cos(2 * np.pi * 2 * x)
@@ -507,3 +513,58 @@ def test_one_length_of_a_topography_means_square_cells():
         assert gap.tobytes() == asperity.solve(line, 2.0, modulus=1.0, mean_pressure=1e-3).gap.tobytes()
     with pytest.raises(ValueError, match="they must be .Lx, Ly., or Lx alone"):
         asperity.Topography(heights, (1.0, 2.0, 3.0))
+
+
+def test_no_message_prints_an_array(rough):
+    big = np.ones((32, 32))
+    solve = partial(asperity.solve, rough, modulus=1.0)
+    for call, expected in {
+        lambda: solve(mean_pressure=0.1, law="exponential", work_of_adhesion=big, range=1.0): r"Varying\(law, works\)",
+        lambda: solve(mean_pressure=0.1, law="exponential", work_of_adhesion=[1.0] * 999, range=1.0): "4993 characters",
+        lambda: solve(mean_pressure=big): r"mean_pressure is an array of shape \(32, 32\)",
+        lambda: solve(mean_pressure=0.1, body=big): "body is an array of shape .*: it must be an asperity.Layer",
+        lambda: solve(spring=big): "spring is an array of shape",
+        lambda: asperity.Layer(big, 0.3): "thickness is an array of shape",
+        lambda: asperity.prepare(big, 1.0, resample=big): "resample is a list of lists",
+    }.items():
+        with pytest.raises((TypeError, ValueError), match=expected) as refused:
+            call()
+        assert len(str(refused.value)) < 250
+
+
+def test_tables_and_labelled_arrays_are_taken_or_refused_in_words():
+    heights = np.add.outer(np.arange(6.0) ** 2, np.arange(4.0))
+    frame = pandas.DataFrame(heights)
+    for other in (frame.astype(object), frame.astype("Int64")):
+        assert np.array_equal(asperity.prepare(other, 1.0), heights)
+    missing = frame.astype("Int64")
+    missing.iloc[1, 1] = pandas.NA
+    assert asperity.prepare(missing, 1.0).missing == 1
+    points = pandas.DataFrame([(z, x / 2, y / 2) for (x, y), z in np.ndenumerate(heights)], columns=["z", "X", "y"])
+    with pytest.raises(ValueError, match=r"frame\.pivot\(index='X', columns='y', values='z'\)"):
+        asperity.prepare(points)
+    pivoted = asperity.prepare(points.pivot(index="X", columns="y", values="z"))
+    assert np.array_equal(pivoted, heights) and pivoted.lengths == (3.0, 2.0)
+    with pytest.warns(asperity.InputWarning, match="axes: columns 2 and 3 are the coordinates of a grid"):
+        asperity.prepare(points.to_numpy())
+    solution = asperity.solve(0.001 * heights, 1.0, modulus=1.0, mean_pressure=0.01)
+    of = partial(xarray.DataArray, heights, dims=("x", "y"))
+    x, y = np.arange(6.0), np.arange(4.0)
+    for heights_of, expected in {
+        lambda: solution.to_xarray(): "xarray.Dataset: give one of its variables, .*gap",
+        lambda: pandas.DataFrame([["a", 1], ["b", 2]]): "no array of real numbers",
+        lambda: of(coords={"x": x}): "none along y",
+        lambda: of(coords={"x": x, "y": 0 * y}): "coordinate y is not equidistant",
+        lambda: of(coords={"x": x, "y": list("abcd")}): "coordinate y is an array of <U1",
+        lambda: [[1, 2], [3]]: "no array of real numbers",
+    }.items():
+        with pytest.raises((TypeError, ValueError), match=expected):
+            asperity.prepare(heights_of())
+
+
+def test_masked_points_of_a_file_are_missing(tmp_path):
+    with pytest.raises(TypeError, match="masked is of the mask of a .gwy file"):
+        asperity.prepare(np.eye(4), 1.0, masked=True)
+    np.save(tmp_path / "heights.npy", np.eye(4))
+    with pytest.raises(ValueError, match="has no masks"):
+        asperity.prepare(tmp_path / "heights.npy", 1.0, masked=True)

@@ -332,6 +332,7 @@ def test_surfaces_that_are_made_are_those_of_the_tool(tmp_path, tool, form, give
     assert made.lengths == (2.0, 1.5) and (made.missing > 0) == (form in ("sphere", "flat-punch"))
 
 
+@pytest.mark.filterwarnings("ignore:(spikes|line-offsets)")
 def test_a_preparation_has_the_heights_and_the_log_of_the_tool(tmp_path, tool, rough):
     scan = rough.heights + 0.01 * np.sin(1.7 * np.arange(rough.shape[1])) + 0.1 * np.arange(rough.shape[0])[:, None]
     scan[3, 4], scan[20, 10], scan[30, 31] = -9999.0, np.nan, 9.0

@@ -218,7 +218,9 @@ impl Warning {
         let sides = map.lengths.unwrap_or((1.0, 1.0));
         if let (Ok(grid), false, 0) = (Grid::new(heights.dim(), sides), is_flat(&extremes), map.missing()) {
             let relief = Relief::of(&heights, &extremes);
-            let at_edges = tilt(&relief, &grid).into_iter().chain(open_edges(&relief));
+            // of unknown sides the slopes would be none
+            let tilt = map.lengths.and_then(|_| tilt(&relief, &grid));
+            let at_edges = tilt.into_iter().chain(open_edges(&relief));
             found.extend(at_edges.chain(spikes(&relief)).chain(lines::offsets(&relief.heights, relief.unit)));
         }
         found

@@ -74,6 +74,14 @@ impl Typed {
     }
 }
 
+/// The start of a text that is long, such as that of an array, with its number of characters.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 100;
+    let start: String = text.chars().take(MOST / 2).collect();
+    let count = text.chars().count();
+    if count > MOST { format!("{start}... ({count} characters)") } else { text.to_owned() }
+}
+
 impl Given {
     /// What a map of keys and values gives for some of the `known` keys; a value that is empty or false gives nothing.
     /// Whether a number lies in the range of its key is left to whoever takes it.
@@ -109,10 +117,12 @@ impl Given {
                         _ => "one value or two",
                     };
                     let symbols = key.kind.symbols.join(", ");
-                    return Err(format!("{name} is {}: it must be {count}, {symbols}", texts.join(", ")));
+                    return Err(format!("{name} is {}: it must be {count}, {symbols}", shortened(&texts.join(", "))));
                 }
             }
-            let of = |text: &String| key.any_value(text).map_err(|reason| format!("{name} is {text}: {reason}"));
+            let of = |text: &String| {
+                key.any_value(text).map_err(|reason| format!("{name} is {}: {reason}", shortened(text)))
+            };
             let read = texts.iter().map(of).collect::<Result<Vec<_>, _>>()?;
             given.insert(key, read, texts.into_iter().map(Into::into).collect(), false);
         }
