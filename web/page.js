@@ -151,7 +151,8 @@ class Page {
     const place = { surface: this.settings.isFile ? "heights" : "make", steps: "prepare", solve: "load" }[what] ?? what;
     const told = own(error.message);
     if (!error.isOfThread && Settings.fault(told, place, error.isOfFile)) return;
-    at("failure").textContent = told;
+    // keys in words
+    at("failure").textContent = told.replace(/\b[a-z]+(_[a-z]+)+\b/g, key => key.replaceAll("_", " "));
     at("failure").hidden = false;
   }
 

@@ -11,8 +11,6 @@ Fields have shape (Nx, Ny), with x along the first axis. Units may be any consis
 Results do not depend on the number of threads. The interpreter's lock is free during a solve.
 """
 
-from __future__ import annotations
-
 from . import _laws, contact, exact, surface
 from ._accuracy import Plan
 from ._asperity import VERSION as __version__

@@ -14,7 +14,7 @@ def scales(law: Any) -> tuple[Any, Any]:
     for method in ("energy", "traction", "slope"):
         if not callable(getattr(law, method, None)):
             raise TypeError(
-                f"law is a {type(law).__name__} without a method {method}(gap): it must have energy, traction and slope, "
+                f"law is of type {type(law).__name__}, without a method {method}(gap): it must have energy, traction and slope, "
                 "each of an array of gaps, or be a law of asperity, as asperity.Exponential(work_of_adhesion, range), or None"
             )
     return getattr(law, "work_of_adhesion", None), getattr(law, "range", None)

@@ -49,7 +49,7 @@ class Rows(Iterator[T]):
             own = _TABLES.get(path or "")
             if own is None or "another run is writing there" not in str(refused):
                 raise
-            raise ValueError(f"{path} is held by a table of this process, {own!r}: run() that, or delete it by del") from None
+            raise ValueError(f"{path} is held by a table of this process, {own!s}: run() that, or delete it by del") from None
         if path is not None:
             _TABLES[path] = self
         #: the names of the columns, as in the tool's table

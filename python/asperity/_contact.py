@@ -638,6 +638,8 @@ class Contact:
             raise TypeError("modulus is missing: give the contact modulus E*, a pressure, as modulus=1.0 or '70GPa'")
         self.branch = keys.get("branch")
         against, body = keys.pop("against", None), keys.pop("body", None)
+        if isinstance(keys.get("law"), str):
+            keys["law"] = keys["law"].lower()
         law = keys.pop("law") if not isinstance(keys.get("law"), str | None) else None
         #: the law as an object
         self.own_law = law
@@ -707,6 +709,11 @@ class Contact:
                 InputWarning,
             )
 
+    def __repr__(self) -> str:
+        given = {**self._keys, "law": self.law, "body": None if isinstance(self.body, Measured) else self.body}
+        told = [f"{key}={shown(value)}" for key, value in given.items() if value is not None and key != "lengths"]
+        return f"Contact({', '.join([repr(self.topography), *told])})"
+
     @property
     def adheres(self) -> bool:
         """Whether there is an adhesion law."""
@@ -719,8 +726,9 @@ class Contact:
         _springs(keys)
         with self.turns:
             found = self.problem.solve(keys, self._start(start), observe)
-        plan = found["plan"]
-        return self._solution({**found, "plan": None if plan is None else Plan(*plan)})
+            plan = found["plan"]
+            # within the turn, so that one of several threads warns
+            return self._solution({**found, "plan": None if plan is None else Plan(*plan)})
 
     @described(SweepKeywords)
     def sweep(self, **keywords: Unpack[SweepKeywords]) -> Sweep:
@@ -850,8 +858,11 @@ class Contact:
             keys.pop("branch", None)
         contact, given = copy.copy(self), _asperity.Keywords(keys, self.own_law)
         contact.topography = replace(self.topography, heights=heights)
-        problem = self._problem(contact.topography, given, False)
-        return contact._solution(problem.solve(load, self._start(start), observe))
+        found = self._problem(contact.topography, given, False).solve(load, self._start(start), observe)
+        for warning in found["told"]["warnings"]:
+            # that law has no range, on which the speed of an edge depends
+            warning["message"] = warning["message"].replace("use jkr", "refine the grid")
+        return contact._solution(found)
 
     def _solution(self, found: dict[str, Any]) -> Solution:
         """The solution of what the compiled core found, with its warnings given; raises what ended it early."""

@@ -50,7 +50,6 @@ class Flow(NamedTuple):
     flow: NDArray[np.float64]
 
 
-@summarised
 class Leakage(NamedTuple):
     """Leakage through a gap.
 
@@ -60,11 +59,22 @@ class Leakage(NamedTuple):
         Flow along x and along y.
     report : dict
         Report with the keys of ``asperity leak --json``.
+    unit : str or None
+        Unit of length.
     """
 
     x: Flow
     y: Flow
     report: dict[str, Any]
+    unit: str | None = None
+
+    def __repr__(self) -> str:
+        lines = []
+        for axis, flow in (("x", self.x), ("y", self.y)):
+            ends = (_asperity.shown(end, None if self.unit is None else f"{self.unit}³") for end in (flow.lower, flow.upper))
+            grid = "" if flow.grid_error is None else f", error of the grid {100 * flow.grid_error:.2g} %"
+            lines.append(f"along {axis}  transmissivity {' to '.join(ends)}{grid}")
+        return "\n".join(lines)
 
 
 @checked
@@ -139,7 +149,7 @@ def leakage(
         warn(found["shortfall"], ConvergenceWarning)
     report = found["report"]
     flows = [_flow(report["transmissivity"][axis], *found[axis]) for axis in ("x", "y")]
-    return Leakage(flows[0], flows[1], report)
+    return Leakage(flows[0], flows[1], report, topography.unit)
 
 
 def _flow(bounds: dict[str, Any], fields: tuple[Any, Any, Any], narrowest: tuple[Any, Any, Any] | None) -> Flow:

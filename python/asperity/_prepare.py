@@ -114,7 +114,7 @@ def prepare(
     >>> measured[3, 5] = np.nan
     >>> made = asperity.prepare(measured, 1e-6, unit="m", detrend="plane", fill=True, mirror=True)
     >>> made
-    Topography(64 x 48 heights, mirror images of 32 x 24, 2e-06 x 1.5e-06 m)
+    Topography(64 x 48 heights, mirror images of 32 x 24, 2 µm x 1.5 µm)
     >>> [line.split(":")[0] for line in made.log]
     ['read', 'lengths', 'unit', 'detrend', 'fill', 'mirror']
     """

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ._solution import Solution
-from ._summary import summarised
+from ._summary import summary
 from ._types import Branch
 
 
-@summarised
 class PullOff(NamedTuple):
     """A pull-off: a tension that surfaces bear, and a slightly larger one that they do not.
 
@@ -59,3 +58,10 @@ class PullOff(NamedTuple):
     solves: int
     operator_applications: int
     solution: Solution
+
+    def __repr__(self) -> str:
+        report = self.solution.report
+        names = {"pressure": ("pressure", "limit_pressure", "lost_pressure", "preload"), "force": ("force", "limit_force")}
+        force = "N" if report["pressure_unit"] == "Pa" else None
+        units = {"pressure": report["pressure_unit"], "force": force}
+        return summary(self, {name: units[kind] for kind, of in names.items() for name in of})

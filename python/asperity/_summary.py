@@ -6,6 +6,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from . import _asperity
+
 T = TypeVar("T", bound=tuple[Any, ...])
 
 
@@ -15,10 +17,12 @@ def summarised(kind: type[T]) -> type[T]:
     return kind
 
 
-def summary(found: Any) -> str:
-    """A named tuple in a line for each field: numbers to seven digits, and of arrays their shape and range."""
+def summary(found: Any, units: dict[str, str | None] | None = None) -> str:
+    """A named tuple in a line for each field: numbers to seven digits or with units, and of arrays their shape and range."""
     width = max(map(len, found._fields))
-    return "\n".join(f"{name.replace('_', ' '):<{width}}  {_text(value)}" for name, value in zip(found._fields, found))
+    fields = zip(found._fields, found)
+    told = ((name, _asperity.shown(value, units[name]) if units and name in units and value is not None else _text(value)) for name, value in fields)
+    return "\n".join(f"{name.replace('_', ' '):<{width}}  {text}" for name, text in told)
 
 
 def _text(value: Any) -> str:

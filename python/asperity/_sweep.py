@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from . import _plot, _theory
+from . import _asperity, _plot, _theory
 from ._columns import Rows
 from ._solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+#: The most rows on the screen of a sweep.
+_MOST_ROWS = 20
 
 
 class Sweep(Rows[Solution]):
@@ -26,8 +30,17 @@ class Sweep(Rows[Solution]):
     def __next__(self) -> Solution:
         return self._solve()[0]
 
-    def __repr__(self) -> str:
+    def __str__(self) -> str:
         return f"{type(self).__name__}({len(self.rows)} of {len(self)} loads solved)"
+
+    def __repr__(self) -> str:
+        units = self._contact.pressure_unit, self._contact.topography.unit
+        lines = [("mean pressure", "mean gap", "contact", "status")]
+        for row in self.rows[:_MOST_ROWS]:
+            pressure, gap = (_asperity.shown(row[f"mean_{name}"], unit) for name, unit in zip(("pressure", "gap"), units))
+            lines.append((pressure, gap, f"{100 * row['contact_fraction']:.2f} %", row["status"]))
+        table = ["  ".join(f"{cell:>13}" for cell in line) for line in lines if self.rows]
+        return "\n".join([str(self), *table, *["..."] * (len(self.rows) > _MOST_ROWS)])
 
     def plot(
         self,

@@ -101,8 +101,30 @@ class Topography:
         if self.lengths is None:
             parts.append("unknown side lengths")
         else:
-            parts.append(f"{self.lengths[0]:.7g} x {self.lengths[1]:.7g}" + (f" {self.unit}" if self.unit else ""))
+            parts.append(" x ".join(_asperity.shown(length, self.unit) for length in self.lengths))
         return f"Topography({', '.join(parts)})"
+
+    def __add__(self, other: Topography | ArrayLike) -> Topography:
+        """The map with heights added to its own; of another map they have the same unit and side lengths."""
+        if isinstance(other, Topography) and (other.lengths, other.unit) != (self.lengths, self.unit):
+            raise ValueError(f"maps differ in their sides or units, {self!r} and {other!r}: prepare one as the other")
+        heights = np.asarray(other)
+        if heights.shape not in ((), self.shape):
+            raise ValueError(f"heights of shape {heights.shape} are added to those of {self.shape}: give equal shapes")
+        added = self.heights + (heights if heights.ndim == 0 else heights.reshape(self.heights.shape))
+        return replace(self, heights=added, original=None, seed=None, source=None, log=(*self.log, "add: heights added"))
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+        """Writes the map for the program: ``.npz`` with all that it has, ``.gsf``, or ``.npy`` with heights alone.
+
+        Parameters
+        ----------
+        path : str or path
+            File; its ending decides on the format.
+        force : bool
+            Replaces a file that is there.
+        """
+        _asperity.write(self, os.path.abspath(path), force)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws the heights; needs matplotlib.
@@ -172,7 +194,7 @@ def read(
     ...     path = os.path.join(folder, "scan.npz")
     ...     numpy.savez(path, heights=numpy.eye(3), lengths=(2.0, 2.0), unit="m")
     ...     asperity.read(path)
-    Topography(3 x 3 heights, 2 x 2 m)
+    Topography(3 x 3 heights, 2 m x 2 m)
     """
     source = os.fspath(path)
     try:
@@ -202,7 +224,7 @@ def from_topography(topography: HeightMap) -> Topography:
     """
     if not _is_topography(topography):
         name = type(topography).__name__
-        raise TypeError(f"topography is a {name}: it must have heights() and physical_sizes")
+        raise TypeError(f"topography is of type {name}: it must have heights() and physical_sizes")
     if not getattr(topography, "is_uniform", True):
         raise ValueError("topography is not on a uniform grid: interpolate it first, for example by its to_uniform()")
     heights, is_line = array_of(topography.heights())

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import sys
 import warnings
+from typing import Any
+
+#: The warnings that were given in pools of threads.
+_REGISTRY: dict[str | tuple[Any, ...], int] = {}
 
 
 class ConvergenceWarning(UserWarning):
@@ -33,8 +37,11 @@ def warn_of_input(found: dict[str, str]) -> None:
 
 
 def warn(text: str, category: type[Warning]) -> None:
-    """Gives a warning at the first caller outside of this package."""
+    """Gives a warning at the first caller outside of this package, or in a pool of threads at the package itself."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("asperity."):
         level, frame = level + 1, frame.f_back
-    warnings.warn(text, category, stacklevel=level + 1)
+    if frame.f_globals.get("__name__", "").partition(".")[0] in ("concurrent", "threading", "multiprocessing", "joblib"):
+        warnings.warn_explicit(text, category, "asperity", 0, registry=_REGISTRY)
+    else:
+        warnings.warn(text, category, stacklevel=level + 1)

@@ -4,7 +4,7 @@ use asperity::{Grid, Surface};
 use asperity_maps::surface_with_absent;
 use asperity_scene::allowed::Range;
 use asperity_scene::quantity::Quantity;
-use asperity_scene::{Measured, Quantities, Skin, dimension_of_key};
+use asperity_scene::{Measured, Quantities, Skin, dimension_of_key, numbers};
 use numpy::ndarray::Array2;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -36,6 +36,15 @@ pub fn has_dimension(key: &str) -> bool {
 #[pyfunction]
 pub fn quantity(key: &str, text: &str) -> PyResult<f64> {
     Ok(measured(key, text)?.value)
+}
+
+/// A number with its unit, if that is known, and with a prefix in SI units.
+#[pyfunction]
+pub fn shown(value: f64, unit: Option<&str>) -> String {
+    match unit {
+        Some(unit @ ("m" | "Pa" | "N" | "m³")) => numbers::si(value, unit),
+        unit => format!("{} {}", numbers::plain(value), unit.unwrap_or_default()).trim_end().to_owned(),
+    }
 }
 
 /// The values of keywords, with numbers in SI units in the place of texts with units, which all quantities have or none

@@ -39,7 +39,7 @@ mod _asperity {
             closing_pressure_2d,
         },
         flow::{conductance, leakage, percolation},
-        inputs::{has_dimension, in_si, quantity},
+        inputs::{has_dimension, in_si, quantity, shown},
         interface::interface_files,
         keywords::{Keywords, meanings},
         law::{Law, check_law, cut_off, law, read_law, tabulated, varied},

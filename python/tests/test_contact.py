@@ -305,6 +305,34 @@ def test_a_contact_travels_between_processes(rough):
         assert same(pool.submit(contact.solve, mean_pressure=0.01).result(), expected)
 
 
+def test_what_is_shown_of_contacts_tables_and_maps_has_units(tmp_path):
+    rough = asperity.surface.self_affine(64, 1e-6, rms_slope=0.1, k_s=8, seed=1)
+    law = asperity.Exponential("50mJ/m2", "3nm")
+    contact = asperity.Contact(rough, modulus="1GPa", law=law)
+    assert repr(contact) == (
+        "Contact(Topography(64 x 64 heights, 1 µm x 1 µm), modulus='1GPa', law=Exponential(work_of_adhesion='50mJ/m2', "
+        "range='3nm'))"
+    )
+    sweep = contact.sweep(mean_pressures=["1MPa", "2MPa"]).run()
+    head, names, first, _ = repr(sweep).splitlines()
+    assert head == "Sweep(2 of 2 loads solved)" and names.split() == ["mean", "pressure", "mean", "gap", "contact", "status"]
+    assert first.split()[:2] == ["1", "MPa"] and first.endswith(" %      converged")
+    pulled = repr(contact.pull_off(rtol=0.1)).splitlines()
+    assert pulled[0].endswith("Pa") and pulled[1].endswith("N") and "None" in pulled[2]
+    leak = repr(asperity.leakage(contact.solve(mean_pressure="-0.1MPa")))
+    assert leak.startswith("along x  transmissivity ") and "nm³" in leak
+    both = rough + rough
+    assert np.array_equal(both.heights, 2 * rough.heights) and both.lengths == rough.lengths
+    assert np.array_equal((rough + 1.0).heights, rough.heights + 1.0) and rough.seed is not None and both.seed is None
+    for other in (np.ones(3), asperity.surface.self_affine(64, 2e-6, rms_slope=0.1, k_s=8)):
+        with pytest.raises(ValueError, match="equal shapes|differ in their sides"):
+            rough + other
+    both.save(tmp_path / "both.npz")
+    assert asperity.read(tmp_path / "both.npz").heights.tobytes() == both.heights.tobytes()
+    with pytest.raises(ValueError, match="force"):
+        both.save(tmp_path / "both.npz")
+
+
 def test_fields_of_another_solve_are_refused(rough, tmp_path):
     solution = asperity.solve(rough, modulus=1.0, mean_pressure=0.01)
     other = asperity.solve(rough, modulus=1.0, mean_pressure=0.0101)

@@ -152,7 +152,7 @@ def test_convert_writes_what_read_reads(tmp_path, scan, convert):
     found = asperity.read(tmp_path / "scan.x3p")
     for ending, precision in [("npz", 0), ("npy", 0), ("gsf", 1e-7)]:
         code, said, errors = convert("scan.x3p", f"scan.{ending}")
-        assert (code, errors) == (0, "") and said.startswith("written  Topography(12 x 8 heights, 1 missing, 3e-06 x")
+        assert (code, errors) == (0, "") and said.startswith("written  Topography(12 x 8 heights, 1 missing, 3 µm x")
         again = asperity.read(tmp_path / f"scan.{ending}")
         assert np.allclose(again.heights, found.heights, rtol=precision, atol=0, equal_nan=True)
         if ending != "npy":

@@ -318,7 +318,7 @@ def test_a_law_that_is_none_is_refused(rough):
             return super().traction(gap)[:7]
 
     options = {"modulus": 1.0, "mean_pressure": 0.01}
-    with pytest.raises(TypeError, match=r"a Short without a method slope\(gap\)"):
+    with pytest.raises(TypeError, match=r"of type Short, without a method slope\(gap\)"):
         asperity.solve(rough, law=Short(2e-5, 8e-3), **options)
     with pytest.raises(ValueError, match="check_law"):
         asperity.solve(rough, law=Inconsistent(2e-5, 8e-3), **options)

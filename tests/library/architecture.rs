@@ -108,3 +108,13 @@ fn modules_use_only_what_stands_above_them_and_in_no_circle() {
     }
     assert!(pictures.len() == 9 && count > 600, "{} pictures, {count} uses", pictures.len());
 }
+
+#[test]
+fn files_that_contributors_are_sent_to_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let page = fs::read_to_string(root.join("CONTRIBUTING.md")).unwrap();
+    let quoted = page.split('`').skip(1).step_by(2).flat_map(str::split_whitespace);
+    let paths: Vec<_> = quoted.filter(|word| word.contains('/') && !word.starts_with("target")).collect();
+    let lost: Vec<_> = paths.iter().filter(|path| !root.join(path).exists()).collect();
+    assert!(lost.is_empty() && paths.len() > 40, "{lost:?} of {}", paths.len());
+}

@@ -178,7 +178,8 @@ impl Options {
                 say(&format!("{event:<23} {}{}", ways.join(", "), drop.unwrap_or_default()));
             }
             if events.len() > MOST_EVENTS {
-                say(&format!("and {} smaller events", events.len() - MOST_EVENTS));
+                let more = events.len() - MOST_EVENTS;
+                say(&format!("and {more} smaller event{}", if more == 1 { "" } else { "s" }));
             }
             if let Some(last) = rows.last() {
                 say(&format!("dissipated in jumps     {}", told(last, "dissipated")));

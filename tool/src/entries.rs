@@ -1,5 +1,6 @@
 //! Files of options, in TOML, and their entries as words of a command line. (`scene.rs` writes such files.)
 
+use std::collections::HashSet;
 use std::ffi::OsString;
 use std::fs;
 use std::ops::Range;
@@ -61,7 +62,8 @@ fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
 pub fn entries(table: Table, command: &Command, taken: &[&str]) -> Result<Vec<(String, Value)>, String> {
     let mut sections: Vec<_> = command.get_arguments().map(section).collect();
     sections.retain(|section| !section.is_empty());
-    sections.dedup();
+    let mut seen = HashSet::new();
+    sections.retain(|section| seen.insert(section.clone()));
     let has = |key: &str| sections.iter().any(|section| section == key);
     let mut entries: Vec<(String, Value)> = Vec::new();
     let mut add = |key: String, value: Value| {

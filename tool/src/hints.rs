@@ -71,12 +71,17 @@ fn of_option(tool: &Command, command: &Command, word: &str) -> Vec<String> {
     hints
 }
 
+/// The longest word that may be the unit of the number before it.
+const LONGEST_UNIT: usize = 8;
+
 /// For a value that no option takes, after a word that may be an option without one.
 fn of_value(command: &Command, value: &str, before: &str) -> Vec<String> {
     let mut hints = Vec::new();
     let name = before.trim_start_matches('-');
     let flag = find(command, name).filter(|option| matches!(option.get_action(), ArgAction::SetTrue));
-    if flag.is_some() && is_number(value) {
+    if is_number(before) && !value.contains('.') && value.len() <= LONGEST_UNIT {
+        hints.push(format!("write '{before}{value}', without a blank"));
+    } else if flag.is_some() && is_number(value) {
         hints.push(format!("'--{name}' takes no value"));
         hints.extend(meant_by(command, name, "--"));
     } else if value.ends_with(".toml") {

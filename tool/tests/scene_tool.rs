@@ -153,7 +153,7 @@ fn bad_scenes_are_refused_on_one_line() {
         ("mean-gap = 1\ninitial-gap = 1", vec!["initial-gap is 1", "a name"]),
         ("mean-gap = 1\nhelp = true", vec!["help", "no option"]),
         ("mean-gap = 1\n\"out=x\" = 1", vec!["out=x", "no option"]),
-        ("mean-gap = 1\n[solvr]\ntolerance = 1", vec!["[solvr]", "[surface], [load]"]),
+        ("mean-gap = 1\n[solvr]\ntolerance = 1", vec!["[solvr]", "[surface], [body], [load], [adhesion]"]),
         ("mean-gap = 1\n[load]\nmean-gap = 1", vec!["mean-gap", "twice"]),
         ("mean-gap = 1\nmean-gap = 1", vec!["line 5", "duplicate"]),
         ("mean-gap = ", vec!["line 4", "not TOML"]),

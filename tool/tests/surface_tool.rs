@@ -123,7 +123,7 @@ fn sizes_seeds_phases_and_threads() {
 fn statistics_of_text_and_of_flat_maps() {
     let bench = Bench::new();
     fs::write(bench.0.path().join("wave.txt"), "0 1 0 -1\n".repeat(3)).unwrap();
-    let said = bench.said("stats wave.txt --lengths 3 4");
+    let said = bench.printed("stats wave.txt --lengths 3 4");
     assert!((numbers(&said, "rms slope, spectral")[0] - 0.5_f64.sqrt() * TAU / 4.0).abs() < 1e-6, "{said}");
     assert_eq!((numbers(&said, "  by differences")[0], numbers(&said, "mean height")[0]), (1.0, 0.0), "{said}");
     write_npy(

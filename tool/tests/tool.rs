@@ -481,7 +481,10 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
     let before = bench.names(".");
     let good = "--heights heights.npy --mean-gap 0.0398";
     for (arguments, parts) in [
-        (format!("{good} --law none --work-of-adhesion 0.05"), vec!["--work-of-adhesion", "0.05", "--law exponential"]),
+        (
+            format!("{good} --law none --work-of-adhesion 0.05"),
+            vec!["--work-of-adhesion", "is given", "--law exponential"],
+        ),
         (format!("{good} --range 0.25"), vec!["--range", "0.25", "--law exponential"]),
         (format!("{good} --law exponential --range 1e-3"), vec!["--law exponential", "--work-of-adhesion"]),
         (format!("{good} --law maugis-dugdale --work-of-adhesion 1"), vec!["--law maugis-dugdale", "--range"]),

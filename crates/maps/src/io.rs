@@ -21,6 +21,7 @@ mod npz;
 mod output;
 mod reading;
 mod refusal;
+mod sdf;
 mod text;
 mod units;
 mod vti;
@@ -47,6 +48,7 @@ pub use npz::{map_as_npz, npz, write_npz};
 pub use output::OutputFolder;
 pub use reading::Reading;
 use refusal::{DAMAGED, Parsed, Refusal, TRUNCATED, check_room, quoted, refuse, reserve, unreadable};
+use sdf::{SDF, read_sdf};
 use text::Text;
 pub use vti::write_vti;
 pub(crate) use xyz::coordinates;
@@ -88,6 +90,7 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 /// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length; a [`Reading`]
 ///   takes any. [`Topography::unread`] names the other channels, and a mask. Shown corrections are left where they are.
 /// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
+/// - Texts of ISO 25178-71 (`.sdf`): in metres.
 /// - text: one row per line; numbers separated by white space, or by tabs, or by commas, or by semicolons. A line ends
 ///   with LF, CR or both. Numbers may be in quotes, and have Fortran's exponent D. Decimal commas are refused.
 ///   - Missing points are words, as nan, `1.#QNAN`, `#N/A`, NA, Bad or null, or nothing between separators.
@@ -268,6 +271,7 @@ enum Format {
     Gsf,
     Npy,
     Npz,
+    Sdf,
     Points,
     /// A text, unless it cannot be read since it is binary, for this reason.
     Text {
@@ -282,6 +286,7 @@ fn format_of(start: &[u8], ending: &str) -> Parsed<Format> {
         () if start.starts_with(NPY) => Format::Npy,
         () if ZIP.iter().any(|magic| start.starts_with(magic)) => Format::Npz,
         () if start.starts_with(GSF) => Format::Gsf,
+        () if SDF.iter().any(|magic| start.starts_with(magic)) => Format::Sdf,
         () => match (foreign::by_start(start), foreign::by_ending(start, ending)) {
             (Some(reason), _) => return refuse(reason),
             (None, None) if ending == "xyz" => Format::Points,
@@ -312,6 +317,7 @@ fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, reading: 
         Format::Npy => read_npy(&mut reader, size).map(Topography::new),
         Format::Npz => read_npz(reader, size),
         Format::Gsf => read_gsf(&mut reader, size),
+        Format::Sdf => read_sdf(&mut reader, size),
         Format::Points => Text::read(reader, reading).and_then(Text::points),
         Format::Text { binary } => Text::read(reader, reading)
             .and_then(|text| text.map(reading))

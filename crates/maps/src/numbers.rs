@@ -7,6 +7,8 @@ pub fn percent(share: f64) -> String {
         format!("{percent:.1}")
     } else if percent >= 0.01 {
         format!("{percent:.2}")
+    } else if percent >= 1e-6 {
+        format!("{percent:.*}", (-percent.log10().floor()) as usize)
     } else {
         format!("{percent:.0e}")
     }

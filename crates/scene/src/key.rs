@@ -180,8 +180,8 @@ impl Key {
 
     fn word(&self, words: fn() -> Vec<Word>, text: &str) -> Result<String, String> {
         let names: Vec<_> = words().iter().map(|word| word.name).collect();
-        if names.contains(&text) {
-            return Ok(text.to_owned());
+        if let Some(name) = names.iter().find(|name| name.eq_ignore_ascii_case(text)) {
+            return Ok((*name).to_owned());
         }
         let (last, others) = names.split_last().ok_or("there are no words for it")?;
         Err(format!("it must be {} or {last}", others.join(", ")))

@@ -28,7 +28,8 @@ use crate::warnings;
 /// The page of a table of loads, or of a study.
 pub fn page(table: &Path) -> Outcome<String> {
     let text = fs::read_to_string(table).map_err(|_| {
-        Error::file(table, "cannot be read: name a folder of results, or the table of a sweep or a cycle")
+        let what = if table.exists() { "cannot be read as a table" } else { "does not exist" };
+        Error::file(table, format!("{what}: name a folder of results, or the table of a sweep or a cycle"))
     })?;
     let (header, columns, rows) = rows(&text);
     let has = |name: &str| columns.iter().any(|column| column == name);

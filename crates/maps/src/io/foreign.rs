@@ -23,7 +23,7 @@ const STARTS: [Format; 31] = [
     (&[b"\x01\0Directory"], "a Wyko file (.opd)", GWYDDION),
     (&[b"VCA DATA\x01\0"], "a Bruker file (.opdx)", GWYDDION),
     (&[b"\x01\xb0\x93\xff"], "an NT-MDT file (.mdt)", GWYDDION),
-    (&[b"aBCR-", b"bBCR-", b"aISO-", b"bISO-"], "a surface data file (.sdf)", TEXT),
+    (&[b"bBCR-", b"bISO-"], "a binary surface data file (.sdf)", GWYDDION),
     (&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"], "a MetroPro file (.dat)", GWYDDION),
     (&[b"VK4_"], "a Keyence file (.vk4)", GWYDDION),
     (&[b"FRTM_"], "a MicroProf file (.frt)", GWYDDION),

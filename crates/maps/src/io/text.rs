@@ -263,6 +263,8 @@ mod tests {
             let found = headed(heading);
             assert_eq!(found.as_ref().unwrap(), &expected, "{heading}");
         }
+        let dos = headed("# Kanal: H\n# Breite: 3 \u{e6}m\n# Hoehe: 20 \u{e6}m\n# Einheiten: nm");
+        assert_eq!(dos.unwrap(), expected);
         let latin = b"# Kanal: H\n# Breite: 3 \xb5m\n# H\xf6he: 20 \xb5m\n# Einheiten: nm\n1 2 3\n4 5 6\n";
         assert_eq!(Reading::default().read_bytes("a", latin).unwrap(), expected);
         let grid = headed("ncols 3\nnrows 2\ncellsize 0.5\nNODATA_value 5").unwrap();

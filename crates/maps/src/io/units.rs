@@ -11,8 +11,8 @@ pub(super) fn per_metre(unit: &str) -> Option<f64> {
         "pm" => 1e12,
         "Å" | "\u{212b}" | "Angstrom" | "angstrom" => 1e10,
         "nm" | "нм" | "nanometers" | "nanometres" => 1e9,
-        // the micro sign, the Greek letter, and what stands for them
-        "µm" | "\u{3bc}m" | "um" | "micron" | "microns" | "мкм" | "micrometers" | "micrometres" => 1e6,
+        // the micro sign, in Latin-1 and in code page 437, the Greek letter, and what stands for them
+        "µm" | "\u{3bc}m" | "um" | "æm" | "micron" | "microns" | "мкм" | "micrometers" | "micrometres" => 1e6,
         "mm" | "мм" | "millimeters" | "millimetres" => 1e3,
         "cm" => 1e2,
         "m" | "meters" | "metres" => 1.0,

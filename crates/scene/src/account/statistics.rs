@@ -46,6 +46,7 @@ pub fn rows(
     if let Some((x, y)) = map.original {
         rows.push(("original", format!("{x} x {y} nodes, all others are its mirror images")));
     }
+    let mut before = f64::NAN;
     for (name, value, dimension) in [
         ("mean height", found.mean, Some(LENGTH)),
         ("lowest", found.lowest, Some(LENGTH)),
@@ -59,7 +60,11 @@ pub fn rows(
         ("  by differences", found.rms_curvature_differences, Some(PER_LENGTH)),
         ("Nayak's parameter", found.nayak, None),
     ] {
-        rows.push((name, number(value, dimension)));
+        // in the unit of the one before, if it is the same figure
+        let like = if name.starts_with(' ') { before } else { value };
+        let text = dimension.filter(|_| !value.is_nan()).map(|dimension| units.number_like(value, like, dimension));
+        rows.push((name, text.unwrap_or_else(|| number(value, dimension))));
+        before = value;
     }
     if let Some(knee) = knee {
         let remedy = worded(

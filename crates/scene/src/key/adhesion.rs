@@ -126,9 +126,9 @@ impl Adhesion {
         let (name, mapped) = (law.name, self.work_of_adhesion_map.is_some());
         if law.needs.is_empty() {
             let mut keys = Law::keys().map(|key| key.name).chain(["cut_off", "work_of_adhesion_map"]);
-            if let Some((key, value)) = keys.find_map(|key| Some((key, self.given(key)?))) {
+            if let Some(key) = keys.find(|key| self.given(key).is_some()) {
                 return Err(format!(
-                    "{{{key}}} is {value}, but there is no adhesion: choose {{law}} jkr, or {{law}} exponential for a work \
+                    "{{{key}}} is given, but there is no adhesion: choose {{law}} jkr, or {{law}} exponential for a work \
                      of adhesion with a range, or leave it out"
                 ));
             }

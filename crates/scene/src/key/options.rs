@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::marker::PhantomData;
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, ValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
@@ -30,7 +30,8 @@ impl Key {
         let arg = kind.default.into_iter().fold(arg, |arg, default| arg.default_value(default));
         let arg = kind.alone.into_iter().fold(arg, |arg, alone| arg.default_missing_value(alone));
         match kind.values {
-            Values::Word(_) | Values::File => arg,
+            Values::Word(_) => arg.ignore_case(true),
+            Values::File => arg,
             _ if kind.count == (1, 1) && !kind.commas => arg.allow_hyphen_values(true),
             _ => arg.allow_negative_numbers(true),
         }
@@ -48,7 +49,11 @@ impl Key {
                     let value = PossibleValue::new(name);
                     if help.is_empty() { value } else { value.help(help.trim()) }
                 };
-                PossibleValuesParser::new(words().into_iter().map(value)).into()
+                let named = move |typed: String| {
+                    let name = words().into_iter().map(|word| word.name).find(|name| name.eq_ignore_ascii_case(&typed));
+                    name.map_or(typed, str::to_owned)
+                };
+                PossibleValuesParser::new(words().into_iter().map(value)).map(named).into()
             }
             Values::Text(check) => ValueParser::new(move |text: &str| check(text).map(|()| text.to_owned())),
             Values::File => clap::value_parser!(PathBuf),

@@ -283,7 +283,8 @@ impl Preparation {
         if let Some(&[nx, ny]) = self.resample.as_deref() {
             let before = rms(&map);
             map = map.resample((nx, ny))?;
-            log.tell("resample", format!("{} from {before}", described(&map)));
+            let moved = "nodes moved to the middles of their cells";
+            log.tell("resample", format!("{} from {before}, {moved}", described(&map)));
         }
         if let Some(holes) = holes(&map) {
             log.tell("left", format!("points are missing still, {holes}: fill them before solving"));

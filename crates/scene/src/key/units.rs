@@ -129,6 +129,15 @@ impl Units {
         }
     }
 
+    /// The same, with the prefix of another number.
+    pub fn number_like(&self, value: f64, like: f64, dimension: Dimension) -> String {
+        let si = self.of(dimension).filter(|unit| unit == dimension.si);
+        match si.and_then(|unit| numbers::scale(like, &unit)) {
+            Some((power, unit)) => format!("{} {unit}", numbers::rounded(value / 10f64.powi(power), 4, 1e6)),
+            None => self.number(value, dimension),
+        }
+    }
+
     /// The side lengths of a map for people.
     pub fn sides(&self, (lx, ly): (f64, f64)) -> String {
         format!("{} x {}", self.number(lx, LENGTH), self.number(ly, LENGTH))
