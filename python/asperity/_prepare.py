@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -32,6 +33,8 @@ def prepare(
     scale: float | None = None,
     crop: tuple[int, int, int, int] | None = None,
     flip: bool = False,
+    clean: bool = False,
+    without: str | Sequence[str] = (),
     align_rows: RowAlignment | int | None = None,
     scan_axis: ScanAxis = "x",
     remove_scars: bool | float = False,
@@ -71,6 +74,11 @@ def prepare(
         First node along x and y, and numbers of nodes.
     flip : bool
         Peaks become valleys.
+    clean : bool
+        Cleans the map of an AFM: ``align_rows="median"``, ``remove_scars``, ``despike``, ``detrend="plane"`` and ``fill``,
+        but for those that are given otherwise.
+    without : {"rows", "scars", "spikes", "plane", "holes"} or list of str
+        Parts of ``clean`` to leave out.
     align_rows : {"median", "median-difference"} or int, optional
         Brings the scan lines of an AFM to one height: by the median of each line, by that of the differences from line
         to line, for large features, or by a polynomial of this order, subtracted from each line.
@@ -127,6 +135,8 @@ def prepare(
         "unit": unit,
         "crop": crop,
         "flip": flip,
+        "clean": clean,
+        "without": [without] if isinstance(without, str) else list(without) or None,
         "align_rows": align_rows if align_rows is None or isinstance(align_rows, str) else f"polynomial:{align_rows}",
         "scan_axis": scan_axis,
         "remove_scars": _SCARS if remove_scars is True else remove_scars or None,

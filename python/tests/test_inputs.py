@@ -3,6 +3,7 @@
 import inspect
 import pickle
 import struct
+import warnings
 from functools import partial
 
 import numpy as np
@@ -568,3 +569,21 @@ def test_masked_points_of_a_file_are_missing(tmp_path):
     np.save(tmp_path / "heights.npy", np.eye(4))
     with pytest.raises(ValueError, match="has no masks"):
         asperity.prepare(tmp_path / "heights.npy", 1.0, masked=True)
+
+
+def test_a_cleaning_is_its_steps(rough):
+    scan = rough.heights + 0.1 * np.sin(1.7 * np.arange(rough.shape[1]) ** 2)
+    scan[5, 6], scan[20, 30] = np.nan, 3.0
+    steps = {"align_rows": "median", "remove_scars": True, "despike": True, "detrend": "plane", "fill": True}
+    of = partial(asperity.prepare, scan, 1.0, mirror=True)
+    cleaned = of(clean=True)
+    assert cleaned.heights.tobytes() == of(**steps).heights.tobytes()
+    assert [line.split(":")[0] for line in cleaned.log][2:-1] == ["align-rows", "remove-scars", "despike", "detrend", "fill"]
+    for part, step in zip(("rows", "scars", "spikes", "plane"), steps):
+        others = {name: value for name, value in steps.items() if name != step}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            assert of(clean=True, without=part).log == of(**others).log
+    assert of(clean=True, detrend="quadric").log == of(**{**steps, "detrend": "quadric"}).log
+    with pytest.raises(ValueError, match="without is spice: it must be rows, scars, spikes, plane or holes"):
+        of(clean=True, without="spice")

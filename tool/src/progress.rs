@@ -9,12 +9,20 @@ use asperity_scene::fall::Fall;
 use asperity_scene::pace::Pace;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::printing::complain;
+
 /// The steps from the first error to the tolerance, on a logarithmic scale.
 const STEPS: f64 = 1000.0;
 
-/// The progress of a solve, drawn on standard error if that is a terminal, and gone when dropped.
+/// The time from which a run is long.
+const LONG: Duration = Duration::from_secs(5);
+
+/// The progress of a solve, drawn on standard error if that is a terminal, and gone when dropped; elsewhere a
+/// line for each grid of a long run.
 pub struct Progress {
     bar: ProgressBar,
+    /// whether long runs tell their grids in lines, without a terminal
+    in_lines: bool,
     tolerance: f64,
     /// the tolerance of the present grid
     until: f64,
@@ -39,6 +47,7 @@ impl Progress {
             bar.enable_steady_tick(Duration::from_millis(100));
         }
         Self {
+            in_lines: bar.is_hidden() && !quiet,
             bar,
             tolerance,
             until: tolerance,
@@ -67,6 +76,9 @@ impl Progress {
             self.nodes = nodes;
             self.fall = Fall::default();
             let (nx, ny) = grid.shape();
+            if self.in_lines && self.clock.elapsed() > LONG {
+                complain("note", &format!("on {nx} x {ny} nodes"));
+            }
             self.bar.set_prefix(format!("{nx} x {ny} "));
         }
         self.update(state);

@@ -619,3 +619,21 @@ fn texts_of_instruments_are_read_by_what_the_options_say_of_them() {
     let said = text(&bench.run("stats table.csv").stderr);
     assert!(said.contains("warning: axes: the first line"), "{said}");
 }
+
+#[test]
+fn a_cleaning_is_its_steps_and_leaves_parts_out() {
+    let bench = Bench::new();
+    bench.said("surface --size 64 --lengths 1um --rms-slope 0.1 --k-s 8 --tilt 0.05 --out tilted.npz --quiet");
+    let steps = |options: &str| {
+        let said = bench.printed(&format!("prepare tilted.npz {options} --mirror --out made.npz --force"));
+        let names: Vec<_> = said.lines().map(|line| line.split_whitespace().next().unwrap().to_owned()).collect();
+        (names, bench.bytes("made.npz"))
+    };
+    let (names, cleaned) = steps("--clean");
+    assert_eq!(names[1..6], ["align-rows", "remove-scars", "despike", "detrend", "fill"]);
+    let all = "--align-rows median --remove-scars --despike --detrend plane --fill";
+    assert!(steps(all).1 == cleaned);
+    assert_eq!(steps("--clean --without rows,scars --without spikes").0[1..3], ["detrend", "fill"]);
+    bench.refused_with("prepare tilted.npz --without rows --out m.npz", &["--clean"]);
+    bench.refused_with("prepare tilted.npz --clean --without salt --out m.npz", &["salt", "scars"]);
+}

@@ -131,7 +131,7 @@ fn statistics_of_text_and_of_flat_maps() {
         Surface::from_fn(Grid::square(4, 1.0).unwrap(), |_, _| 2.0).unwrap().heights(),
     )
     .unwrap();
-    let said = bench.said("stats flat.npy --lengths 1 --psd flat.csv");
+    let said = bench.printed("stats flat.npy --lengths 1 --psd flat.csv");
     assert_eq!(numbers(&said, "rms height"), [0.0]);
     assert!(said.contains("Nayak's parameter        -"), "{said}");
     assert!(csv(&bench, "flat.csv").1.iter().all(|row| row[1] == 0.0));

@@ -485,7 +485,7 @@ fn bad_input_is_refused_on_one_line_and_writes_nothing() {
             format!("{good} --law none --work-of-adhesion 0.05"),
             vec!["--work-of-adhesion", "is given", "--law exponential"],
         ),
-        (format!("{good} --range 0.25"), vec!["--range", "0.25", "--law exponential"]),
+        (format!("{good} --range 0.25"), vec!["--range", "is given", "--law exponential"]),
         (format!("{good} --law exponential --range 1e-3"), vec!["--law exponential", "--work-of-adhesion"]),
         (format!("{good} --law maugis-dugdale --work-of-adhesion 1"), vec!["--law maugis-dugdale", "--range"]),
         (format!("{good} --law exponential --work-of-adhesion -1e-3 --range 1"), vec!["-1e-3", "zero or positive"]),

@@ -35,6 +35,10 @@ pub struct Preparation {
     pub crop: Option<Vec<usize>>,
     /// Whether peaks become valleys.
     pub flip: bool,
+    /// Whether the map is cleaned by the steps that an AFM needs.
+    pub clean: bool,
+    /// The parts of that to leave out.
+    pub without: Vec<String>,
     /// The alignment of scan lines.
     #[serde(deserialize_with = "align_rows")]
     pub align_rows: Option<RowAlignment>,
@@ -114,6 +118,18 @@ impl Log {
 }
 
 impl Preparation {
+    /// The steps with those of a cleaning.
+    fn cleaned(mut self) -> Self {
+        let has = |part: &str| !self.without.iter().any(|without| without == part);
+        let [rows, scars, spikes, plane, holes] = StepKeys::OF_CLEAN.map(has);
+        self.align_rows = self.align_rows.or(rows.then_some(RowAlignment::Median));
+        self.remove_scars = self.remove_scars.or(scars.then_some(0.667));
+        self.despike = self.despike.or(spikes.then_some(10.0));
+        self.detrend = self.detrend.or(plane.then_some(Trend::Plane));
+        self.fill |= holes;
+        Self { clean: false, ..self }
+    }
+
     /// Gives the map side lengths; those in metres are brought to the unit that the map will have.
     ///
     /// # Errors
@@ -162,6 +178,9 @@ impl Preparation {
     /// # Errors
     /// Those of the steps: see [`Topography`].
     pub fn run(&self, mut map: Topography, log: &mut Log) -> Result<Topography> {
+        if self.clean {
+            return self.clone().cleaned().run(map, log);
+        }
         log.tell("read", format!("{}{}", described(&map), beside(&map)));
         if let Some((lengths, unit)) = &self.lengths {
             let before = map.lengths.map_or("unknown".to_owned(), |before| sides(before, map.unit.as_deref()));

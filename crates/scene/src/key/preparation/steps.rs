@@ -21,6 +21,11 @@ keys! {
             crop: Kind::whole(&["X", "Y", "NX", "NY"]).each(),
             /// Turn peaks into valleys: for a replica
             flip: Kind::switch(),
+            /// Clean the map of an AFM: {align_rows} median, {remove_scars}, {despike}, {detrend} plane and {fill}, but for
+            /// those that are given otherwise, or left out by {without}
+            clean: Kind::switch(),
+            /// Part of {clean} to leave out
+            without: Kind::word(|| Word::all(&StepKeys::OF_CLEAN), &["PART"]).commas().needs(&["clean"]),
             /// Bring the scan lines of an AFM to one height: median (of each line), median-difference (from line to line,
             /// for large features) or polynomial:ORDER (of each line; ORDER is 1 if it is left out)
             align_rows: Kind::text(|text| RowAlignment::from_str(text).map(drop), &["METHOD"]),
@@ -77,5 +82,7 @@ keys! {
 
 impl StepKeys {
     /// The steps that go along scan lines.
-    pub const OF_LINES: [&str; 2] = ["align_rows", "remove_scars"];
+    pub const OF_LINES: [&str; 3] = ["align_rows", "remove_scars", "clean"];
+    /// The parts of a cleaning, in their order.
+    pub const OF_CLEAN: [&str; 5] = ["rows", "scars", "spikes", "plane", "holes"];
 }
