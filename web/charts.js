@@ -54,8 +54,8 @@ export class Curves {
   chart() {
     const sorted = points => [...points].sort(([a], [b]) => a - b);
     const curves = [
-      ["as set", sorted(this.now)],
-      ["as set before", sorted(this.before)],
+      ["now", sorted(this.now)],
+      ["before the last change", sorted(this.before)],
       ["under more load", sorted(this.path)],
     ].filter(([, points]) => points.length);
     if (curves.length === 1) curves[0][0] = "";

@@ -270,7 +270,7 @@ def check_colours(page, folder):
     page.drop(folder / "scarred.npy")
     state = page.set(lengths="500nm", modulus="1GPa", law="none", control="mean_pressure", value="1MPa")
     pressure, _ = page.browser.value(KEYS)
-    page.told("→" in pressure[1] and "% of the load above" in pressure[-1], f"says {pressure} of a scarred map")
+    page.told("→" in pressure[1] and "% of the load is carried above" in pressure[-1], f"says {pressure} of a scarred map")
     report = float(state["rows"]["greatest pressure"].split()[0])
     page.told(pressure[1].split()[-2] == f"{report:.3g}", f"{pressure[1]} leads to {report}")
     told = page.browser.value("document.getElementById('heights').textContent")

@@ -197,8 +197,8 @@ impl Colours {
         let told =
             ends.into_iter().zip(signs).filter(|((there, share, _, end), _)| *there && *share > 0.0 && *end != 0.0);
         let told = told.map(|((_, share, side, end), sign)| {
-            let of = if both && !sign.is_empty() { sign } else { "load" };
-            format!("{} of the {of} {side} {}", percent(share), three_digits(end, unit))
+            let of = if both && side == "below" && !sign.is_empty() { sign } else { "load" };
+            format!("{} of the {of} is carried {side} {}", percent(share), three_digits(end, unit))
         });
         Some(told.collect::<Vec<_>>().join(", ")).filter(|text| !text.is_empty())
     }
@@ -275,7 +275,7 @@ mod tests {
         let diverging = |values: &Array2<f64>, limits| Colours::new(values.view(), Colouring::Diverging, limits);
         let colours = diverging(&values, None);
         assert_eq!((colours.limits, colours.beyond()), ((0.0, 1.0), (false, true)));
-        assert_eq!(colours.load_beyond([""; 2], Some("Pa")).unwrap(), "0.5 % of the load above 1.00 Pa");
+        assert_eq!(colours.load_beyond([""; 2], Some("Pa")).unwrap(), "0.5 % of the load is carried above 1.00 Pa");
         // scars that carry less than half of the load, on nodes that are hardly any, do not hide the rest
         values.row_mut(50).fill(90.0);
         let colours = diverging(&values, None);
@@ -292,7 +292,10 @@ mod tests {
         // at limits that are given it is said, too, of each sign
         let values = ndarray::array![[-2.0, -6.0, 3.0, 1.0]];
         let found = diverging(&values, Some((-4.0, 2.0))).load_beyond(["tension", "compression"], None);
-        assert_eq!(found.unwrap(), "75 % of the tension below −4.00, 75 % of the compression above 2.00");
+        assert_eq!(
+            found.unwrap(),
+            "75 % of the tension is carried below −4.00, 75 % of the load is carried above 2.00"
+        );
     }
 
     #[test]

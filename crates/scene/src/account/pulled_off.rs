@@ -111,16 +111,16 @@ impl PulledOff {
             .then(|| "none: the surfaces are closed".to_owned());
         let limit = limit.or(closed).map(|text| ("in the limit of no range", text));
         let place = match last.approach {
-            Some(approach) => ("approach there", units.number(approach, LENGTH)),
-            None => ("mean gap there", units.number(last.mean_gap, LENGTH)),
+            Some(approach) => ("approach at the pull-off", units.number(approach, LENGTH)),
+            None => ("mean gap at the pull-off", units.number(last.mean_gap, LENGTH)),
         };
         let mut rows = vec![("pull-off pressure", pressure(self.pull_off_pressure)), ("pull-off force", force)];
         rows.extend(limit);
         rows.extend([
-            ("apart under", pressure(self.lost_pressure)),
-            ("before", before),
+            ("comes apart under", pressure(self.lost_pressure)),
+            ("history", before),
             place,
-            ("contact there", format!("{} %", percent(last.contact_fraction))),
+            ("contact at the pull-off", format!("{} %", percent(last.contact_fraction))),
             ("solves", self.solves.to_string()),
             ("operator applications", self.operator_applications.to_string()),
         ]);
