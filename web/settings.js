@@ -45,10 +45,11 @@ export class Settings {
       this.changed(target, onchange);
     });
     // as `asperity prepare --clean`, whose parts are then there to be left out
-    form.clean.addEventListener("click", () => {
+    const clean = form.querySelector("#clean");
+    clean.addEventListener("click", () => {
       [form.align_rows.value, form.detrend.value, form.holes.value] = ["median", "plane", "fill"];
       form.remove_scars.checked = form.despike.checked = true;
-      this.changed(form.clean, onchange);
+      this.changed(clean, onchange);
     });
     form.addEventListener("change", ({ target }) => {
       if (target.matches("input.quantity, [type=number]")) this.changed(target, onchange);

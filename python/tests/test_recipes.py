@@ -296,7 +296,6 @@ def test_the_recipe_runs(title, tmp_path, monkeypatch):
     pytest.importorskip("matplotlib")
     pytest.importorskip("scipy")
     monkeypatch.chdir(tmp_path)
-    rough = asperity.surface.self_affine(96, 2e-6, rms_height=6e-9, k_l=2, k_s=12, seed=2)
     heading = {"delimiter": ",", "header": "Height (nm),Force (nN)", "comments": ""}
     np.savetxt("curve.csv", 1e9 * np.column_stack(curve(1.0, 20.0, points=400)), **heading)
     if "map of force curves" in title:
@@ -306,7 +305,6 @@ def test_the_recipe_runs(title, tmp_path, monkeypatch):
         tip = rough_tip()
         np.savez("tip.npz", heights=tip.heights, lengths=tip.lengths, unit="m")
         np.savetxt("rough.csv", 1e9 * np.column_stack(cycled(tip, 2e9, 0.04, 10.0)), **heading)
-    np.savez("measured.npz", heights=rough.heights, lengths=rough.lengths, unit="m")
     found = {}
     exec(RECIPES[title], found)
     globals()[re.sub(r"\W+", "_", title).lower()](found)

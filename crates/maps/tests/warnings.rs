@@ -33,7 +33,8 @@ fn a_map_that_is_to_be_prepared_is_warned_of_as_its_surface() {
         let codes = |found: Vec<Warning>| found.iter().map(|warning| warning.code.name()).collect::<Vec<_>>();
         (codes(Warning::of_topography(&map)), codes(Warning::of_surface(&map.surface().unwrap())))
     };
-    let changes: [(fn(&mut Array2<f64>), &[&str]); 4] = [
+    type Change = fn(&mut Array2<f64>);
+    let changes: [(Change, &[&str]); 4] = [
         (|_| {}, &[]),
         (|heights| heights[[20, 30]] += 4.0 * heights.std(0.0), &["spikes"]),
         (|heights| heights.indexed_iter_mut().for_each(|((i, _), h)| *h += 2e-3 * i as f64), &["tilt", "open-edges"]),
