@@ -84,7 +84,8 @@ impl Leakage {
             leak.percolation.along(axis)?;
             let (half, quarter) = (halves[axis as usize], quarters[axis as usize]);
             // what is left of a geometric series, which falls to a fourth where the gap is resolved
-            let fall = if quarter > 0.0 { half / quarter } else { 0.5 };
+            // below the distance of their bounds differences are none
+            let fall = if half > COARSE && quarter > 0.0 { half / quarter } else { 0.0 };
             (fall <= SLOWEST).then(|| half * f64::max(1.0, SAFETY * fall / (1.0 - fall)))
         }))
     }
