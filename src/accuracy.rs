@@ -294,7 +294,7 @@ impl GridError {
         };
         if finest.range.is_some() {
             let resolves = |factor: f64| nodes_per_wave / factor >= Self::LEAST_NODES_PER_WAVE;
-            return zone::error(levels, quantity, resolves);
+            return zone::error(levels, quantity, nodes_per_wave, resolves);
         }
         let value = |level: &Level| quantity.of(level).filter(|value| !value.is_nan());
         let mut values = vec![value(finest)?];

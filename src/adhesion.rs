@@ -53,8 +53,8 @@ const NOTICEABLE: f64 = 0.01;
 /// [`ContactConstraint`](crate::ContactConstraint) lets surfaces interpenetrate, it says how the law continues.
 ///
 /// [`check_law`] holds a law to this contract; the page [`own_law`](crate::guide::own_law) has one in a solve. A law
-/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate), [`on_nodes`](Self::on_nodes) and
-/// [`adapted`](Self::adapted).
+/// made of another one forwards [`hints`](Self::hints), [`evaluate`](Self::evaluate), [`contact_shares`](Self::contact_shares),
+/// [`on_nodes`](Self::on_nodes) and [`adapted`](Self::adapted).
 ///
 /// ```
 /// use asperity::AdhesionLaw;
@@ -110,6 +110,14 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         }
     }
 
+    /// Sets the shares −φ(g)/w of their energy in contact that the nodes from `first` on have: the contact area of each
+    /// that the theory of Johnson, Kendall and Roberts means. A node without a work of adhesion has one where it touches.
+    fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) {
+        let work = self.hints().work_of_adhesion;
+        self.evaluate(first, gaps, Values::one(0, shares));
+        shares.iter_mut().for_each(|share| *share = (T::zero() - *share) / work);
+    }
+
     /// The law on nodes of this compliance, length per pressure: for a law without a range of its own, as
     /// [`Jkr`], which is as short there as the nodes can follow. None, the default, for a law that is the same
     /// on every grid. [`Problem::new`](crate::Problem::new) asks, with Δx/E*, and so on each of nested grids.
@@ -153,6 +161,7 @@ macro_rules! forward {
             fn slope(&self, gap: T) -> T { (**self).slope(gap) }
             fn hints(&self) -> Hints<T> { (**self).hints() }
             fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) { (**self).evaluate(first, gaps, values) }
+            fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) { (**self).contact_shares(first, gaps, shares) }
             fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> { (**self).on_nodes(compliance) }
             fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> { (**self).adapted(to) }
         }

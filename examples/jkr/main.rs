@@ -17,6 +17,7 @@ mod case;
 mod errors;
 mod estimate;
 mod held;
+mod kinds;
 mod law;
 mod picture;
 mod rough;
@@ -45,6 +46,8 @@ enum Table {
     Held,
     /// Random scenes: what two grids say of the limit.
     Errors,
+    /// Kinds of scenes: how often the true errors are within the estimates.
+    Kinds,
     /// A picture of the pull-off of a rough surface and of a sphere over the nodes.
     Picture,
 }
@@ -99,6 +102,9 @@ fn main() -> Outcome<()> {
         if wants(Table::Errors) {
             let path = out.join(format!("jkr-errors-{seed}.csv"));
             errors::tables(if quick { scenes.min(6) } else { scenes }, seed, quick, &path)?;
+        }
+        if wants(Table::Kinds) {
+            kinds::tables(scenes, seed, quick)?;
         }
         Ok(())
     })

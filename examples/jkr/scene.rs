@@ -35,16 +35,16 @@ impl Draw {
     }
 
     /// From zero to one.
-    fn share(&mut self) -> f64 {
+    pub fn share(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.share()
     }
 
     /// Its logarithm is uniform.
-    fn around(&mut self, low: f64, high: f64) -> f64 {
+    pub fn around(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf(self.share())
     }
 }

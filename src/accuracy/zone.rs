@@ -1,10 +1,13 @@
 //! The error of the grid with a law that has the range of the grid: by the process zone at the edge of the contact.
 
-use super::{GridError, Quantity, is_coarser, observed_order};
+use super::{GridError, Quantity, at_edge, is_coarser, observed_order};
 use crate::nested::Level;
 
 /// The factor by which an estimate is larger where the area changes from grid to grid by more than half the zone.
 const APART: f64 = 4.5;
+
+/// The error of all but the area where the edge is without adhesion, over that of the area by the places of its edge.
+const PLACES: f64 = 0.5;
 
 /// A quantity on a grid: as it is reported, less the process zone, and the zone.
 struct Told {
@@ -17,7 +20,7 @@ impl Quantity {
     /// The quantity on a level of a law that has the range of the grid.
     fn told(self, level: &Level) -> Option<Told> {
         let (by_energy, area) = (level.adhesive_contact_fraction?, level.area.jkr_contact_fraction?);
-        let (zone, work) = (by_energy - area, 0.0 - level.adhesive_energy / by_energy);
+        let (zone, work) = (level.area.process_zone, 0.0 - level.adhesive_energy / by_energy);
         let of = |value: f64, sign: f64, zone: f64| Told { value, limit: value + sign * zone, zone };
         // the energy of the zone over what moves its edge
         let length = work * zone / level.mean_contact_pressure;
@@ -36,33 +39,70 @@ impl Quantity {
         match self {
             Self::Area => [0.6, 1.2, 1.5],
             Self::Gap => [4.0, 4.0, 7.5],
-            Self::Approach => [2.5, 0.0, 3.75],
+            Self::Approach => [2.5, 1.5, 3.75],
             Self::Pressure | Self::Stiffness => [6.0, 3.0, 15.0],
         }
+    }
+
+    /// The factor of the difference where there is next to no adhesion.
+    fn share_of_difference(self) -> f64 {
+        match self {
+            Self::Area => 0.25 * GridError::COVER,
+            // of first order where a body ends
+            Self::Approach => 1.5,
+            _ => 0.15 * GridError::COVER,
+        }
+    }
+
+    /// The relative error without adhesion, besides the share of the difference to the coarser grid.
+    fn without_adhesion(self, finest: &Level, coarser: Option<&Level>, nodes_per_wave: f64) -> f64 {
+        let line = finest.shape.0 == 1 || finest.shape.1 == 1;
+        let [places, _] = at_edge(&finest.area, nodes_per_wave, 0.0);
+        let waves = if coarser.is_none() || finest.area.edges == 0 { self.by_waves(nodes_per_wave, line) } else { 0.0 };
+        let of_places = match self {
+            Self::Area if coarser.is_none() => 2.0,
+            Self::Area => 1.0,
+            _ => PLACES,
+        };
+        GridError::COVER * (of_places * places).hypot(waves)
     }
 }
 
 /// The estimated error of a quantity on the finest of some levels, the coarsest first.
-pub(super) fn error(levels: &[Level], quantity: Quantity, resolves: impl Fn(f64) -> bool) -> Option<GridError> {
+pub(super) fn error(
+    levels: &[Level],
+    quantity: Quantity,
+    nodes_per_wave: f64,
+    resolves: impl Fn(f64) -> bool,
+) -> Option<GridError> {
     let (finest, coarser) = levels.split_last().filter(|_| resolves(1.0))?;
     let told = quantity.told(finest)?;
     let area = Quantity::Area.told(finest)?;
     let mut limits = vec![told.limit];
-    let mut change = None;
+    let mut before = None;
     for level in coarser.iter().rev() {
         let factor = f64::from(1 << limits.len());
         let usable = is_coarser(level, finest, factor) && resolves(factor);
         let Some(coarse) = quantity.told(level).filter(|_| usable) else { break };
-        change = change.or_else(|| Some(Quantity::Area.told(level)?.limit - area.limit));
+        before = before.or(Some(level));
         limits.push(coarse.limit);
     }
+    let change = before.and_then(|level| Some((Quantity::Area.told(level)?.limit - area.limit).abs()));
+    let [elastic, of_area] = [quantity, Quantity::Area].map(|of| of.without_adhesion(finest, before, nodes_per_wave));
+    let of_area = of_area * area.limit;
+    let adhesive = area.zone / (area.zone + of_area).max(f64::MIN_POSITIVE);
+    // around holes the zone is narrower
+    let closed = if quantity == Quantity::Area { 1.0 + area.limit.powi(4) } else { 1.0 };
     let [of_zone, of_difference, alone] = quantity.factors();
+    let [of_zone, alone] = [of_zone, alone].map(|factor| closed * factor);
+    let of_difference = adhesive * of_difference + (1.0 - adhesive) * quantity.share_of_difference();
     let error = match limits[..] {
         [limit, coarse, ..] => (of_zone * told.zone).hypot(of_difference * (limit - coarse)),
         _ => alone * told.zone,
     };
-    let apart = change.is_some_and(|change| change.abs() > 0.5 * area.zone);
-    let relative = if apart { APART * error } else { error } / told.value.abs();
+    let apart = change.is_some_and(|change| change > 0.5 * area.zone + of_area);
+    let relative = (if apart { APART * error } else { error } / told.value.abs()).hypot(elastic);
     let rough = apart || change.is_none();
-    Some(GridError { relative, order: observed_order(&limits), rough }).filter(|error| error.relative.is_finite())
+    let is_told = relative.is_finite() && relative > 0.0;
+    is_told.then(|| GridError { relative, order: observed_order(&limits), rough })
 }

@@ -18,7 +18,8 @@ const SQUARE: f64 = 13.0;
 /// its range ρ, [`AdhesionLaw::on_nodes`], by the larger spacing Δx and the contact modulus E* of the shortest waves: the
 /// traction falls no more steeply than 0.29 E*/Δx. So the process zone at the edge of a contact is some three nodes wide,
 /// edges move with the load, and results converge with the first order of Δx to those of the limit. On each of
-/// [nested grids](crate::Nested) the range is another one. Before, the law attracts in contact alone, with no bound.
+/// [nested grids](crate::Nested) the range is another one, and so is it at each node of a law that
+/// [varies](crate::adhesion::Varying). Before, the law attracts in contact alone, with no bound.
 ///
 /// The page [`choosing`](crate::guide::choosing) says how right it is. A law with a range is to be taken where that is
 /// longer than the one here.

@@ -117,6 +117,20 @@ pub(crate) struct Touched<'a, T> {
     pub(crate) neighbourhood: Neighbourhood,
 }
 
+impl<T: Real> Touched<'_, T> {
+    /// Whether each of the nodes is near a contact.
+    fn near(&self, first: usize, gaps: &[T]) -> &[bool] {
+        &self.neighbourhood.near.nodes()[first - self.neighbourhood.first_node()..][..gaps.len()]
+    }
+
+    /// Sets the values of nodes that are not near a contact to zero.
+    fn confine(&self, first: usize, gaps: &[T], values: &mut [T]) {
+        for (value, &near) in values.iter_mut().zip(self.near(first, gaps)) {
+            *value = if near { *value } else { T::zero() };
+        }
+    }
+}
+
 impl<T: Real> AdhesionLaw<T> for Touched<'_, T> {
     fn energy(&self, gap: T) -> T {
         self.law.energy(gap)
@@ -131,15 +145,14 @@ impl<T: Real> AdhesionLaw<T> for Touched<'_, T> {
         self.law.hints()
     }
     fn evaluate(&self, first: usize, gaps: &[T], mut values: Values<'_, T>) {
-        let near = &self.neighbourhood.near.nodes()[first - self.neighbourhood.first_node()..][..gaps.len()];
-        if near.contains(&true) {
+        if self.near(first, gaps).contains(&true) {
             self.law.evaluate(first, gaps, values.reborrow());
         }
-        values.each(|_, values| {
-            for (value, &near) in values.iter_mut().zip(near) {
-                *value = if near { *value } else { T::zero() };
-            }
-        });
+        values.each(|_, values| self.confine(first, gaps, values));
+    }
+    fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) {
+        self.law.contact_shares(first, gaps, shares);
+        self.confine(first, gaps, shares);
     }
 }
 
@@ -166,6 +179,9 @@ impl<T: Real> AdhesionLaw<T> for Weakened<'_, T> {
     fn evaluate(&self, first: usize, gaps: &[T], mut values: Values<'_, T>) {
         self.law.evaluate(first, gaps, values.reborrow());
         values.each(|_, values| values.iter_mut().for_each(|value| *value *= self.share));
+    }
+    fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) {
+        self.law.contact_shares(first, gaps, shares);
     }
 }
 

@@ -1,16 +1,18 @@
+use std::ops::Range;
 use std::sync::Arc;
 
 use ndarray::ArrayView2;
 
 use super::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::error::{Error, Result};
-use crate::field::{Field, all_finite};
+use crate::field::{CHUNK, Field, all_finite};
 use crate::real::Real;
 
 /// A law whose work of adhesion differs from node to node, w(x, y): energy, traction and slope in proportion to it.
 ///
-/// Functions of one gap, such as μ_ρ, are those of the strongest node. Memory per node: one `f64`, which clones share;
-/// where several processes share a grid, each has the law at all nodes.
+/// With [`Jkr`](crate::Jkr) each node has the range of its own work of adhesion. Functions of one gap, such as μ_ρ, are
+/// those of the strongest node. Memory per node: one `f64`, which clones share; where several processes share a grid,
+/// each has the law at all nodes.
 ///
 /// ```
 /// use asperity::adhesion::Varying;
@@ -72,36 +74,83 @@ impl<L> Varying<L> {
         &self.law
     }
 
-    fn scale<T: Real>(&self, first: usize, values: &mut [T]) {
-        let shares = self.shares.nodes().get(first..).unwrap_or_default();
-        values.iter_mut().zip(shares).for_each(|(value, &share)| *value *= T::lit(share));
+    fn shares_from(&self, first: usize) -> &[f64] {
+        self.shares.nodes().get(first..).unwrap_or_default()
+    }
+}
+
+impl<L> Varying<L> {
+    /// The range of a node over that of the law: that of the grid goes with the root of the work of adhesion.
+    fn stretch<T: Real>(&self, share: f64) -> T
+    where
+        L: AdhesionLaw<T>,
+    {
+        if self.law.hints().of_grid { T::lit(share.sqrt()) } else { T::one() }
+    }
+
+    /// Visits pieces of the nodes with the gaps, in ranges of the law, that they have there; a node without a range has
+    /// none where it touches, and an infinite one elsewhere.
+    fn each_piece<T: Real>(&self, first: usize, gaps: &[T], mut visit: impl FnMut(Range<usize>, &[T]))
+    where
+        L: AdhesionLaw<T>,
+    {
+        if !self.law.hints().of_grid {
+            return visit(0..gaps.len(), gaps);
+        }
+        let mut own = [T::zero(); CHUNK];
+        for (piece, gaps) in gaps.chunks(CHUNK).enumerate() {
+            let start = piece * CHUNK;
+            for ((own, &gap), &share) in own.iter_mut().zip(gaps).zip(self.shares_from(first + start)) {
+                *own = if gap > T::zero() { gap / T::lit(share.sqrt()) } else { gap };
+            }
+            visit(start..start + gaps.len(), &own[..gaps.len()]);
+        }
     }
 }
 
 impl<T: Real, L: AdhesionLaw<T> + Clone + 'static> AdhesionLaw<T> for Varying<L> {
     fn energy(&self, gap: T) -> T {
-        T::lit(self.largest) * self.law.energy(gap)
+        T::lit(self.largest) * self.law.energy(gap / self.stretch(self.largest))
     }
     fn traction(&self, gap: T) -> T {
-        T::lit(self.largest) * self.law.traction(gap)
+        let stretch = self.stretch(self.largest);
+        T::lit(self.largest) / stretch * self.law.traction(gap / stretch)
     }
     fn slope(&self, gap: T) -> T {
-        T::lit(self.largest) * self.law.slope(gap)
+        let stretch = self.stretch(self.largest);
+        T::lit(self.largest) / (stretch * stretch) * self.law.slope(gap / stretch)
     }
     fn hints(&self) -> Hints<T> {
         let hints = self.law.hints();
         let work_of_adhesion = T::lit(self.largest) * hints.work_of_adhesion;
+        let range = self.stretch::<T>(self.largest) * hints.range;
         // a node without a work of adhesion does not repel
         let rest = hints.rest.filter(|_| self.repels);
-        Hints { work_of_adhesion, rest, shape: Some(self.shares.dim()), ..hints }
+        Hints { work_of_adhesion, range, rest, shape: Some(self.shares.dim()), ..hints }
     }
     fn evaluate(&self, first: usize, gaps: &[T], mut values: Values<'_, T>) {
-        self.law.evaluate(first, gaps, values.reborrow());
-        values.each(|_, values| self.scale(first, values));
+        self.each_piece(first, gaps, |nodes, gaps| {
+            self.law.evaluate(first + nodes.start, gaps, values.part(nodes));
+        });
+        let of_grid = AdhesionLaw::<T>::hints(&self.law).of_grid;
+        values.each(|order, values| {
+            for (value, &share) in values.iter_mut().zip(self.shares_from(first)) {
+                *value *= T::lit(match order {
+                    1 if of_grid => share.sqrt(),
+                    2 if of_grid => 1.0,
+                    _ => share,
+                });
+            }
+        });
+    }
+    fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) {
+        self.each_piece(first, gaps, |nodes, gaps| {
+            self.law.contact_shares(first + nodes.start, gaps, &mut shares[nodes]);
+        });
     }
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let Self { largest, repels, .. } = *self;
-        let law = self.law.on_nodes(compliance * T::lit(largest))?;
+        let law = self.law.on_nodes(compliance)?;
         Some(Arc::new(Varying { law, shares: self.shares.clone(), largest, repels }))
     }
     fn adapted(&self, to: Discretisation<T>) -> Option<Arc<dyn AdhesionLaw<T>>> {

@@ -16,8 +16,19 @@ use crate::solver::Solution;
 /// The excess area of a contact map per edge, in cells: (π − 1 + ln 2)/24.
 const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 
-/// The gap beyond the attraction's reach, in ranges, from which its edge is a step of the surface: a crack opens by less.
+/// The width of the process zone at the edge of a contact, by its adhesive energy, in nodes for each side of a cell.
+const ZONE: f64 = 0.16;
+
+/// The energy of the nodes out of contact, in nodes for each side of a cell, from which the edge is one of adhesion.
+const ADHESIVE: f64 = 0.3;
+
+/// The most of the area by energy that the process zone takes: contacts of a few nodes have no other inside.
+const MOST: f64 = 0.5;
+
+/// The gap beyond an edge from which it is a step of the surface: in ranges, since a crack opens by less, and in contact
+/// pressure times spacing over E*, since a body without adhesion opens by less.
 const STEP: f64 = 4.0;
+const LIFT: f64 = 2.0;
 
 /// The contact area, and its edge; [`ContactStatistics`] says how the area of a solution is corrected.
 ///
@@ -45,10 +56,10 @@ pub struct ContactArea {
     /// The number of neighbours between which the edge runs.
     pub edges: usize,
     /// The contact area that the theory of Johnson, Kendall and Roberts means, as a share of the nominal area, of a
-    /// solution by [`Jkr`](crate::Jkr): [`Report::jkr_contact_fraction`](crate::Report::jkr_contact_fraction). Where the
-    /// attraction's reach ends at a step of the surface, as around a flat punch, the process zone is within the contact:
-    /// for that share of its edge the area is that of all nodes within reach.
+    /// solution by [`Jkr`](crate::Jkr): [`ContactArea::of_solution`].
     pub jkr_contact_fraction: Option<f64>,
+    /// The area of the process zone at the edge of the contact, by its adhesive energy, with that; zero without adhesion.
+    pub process_zone: f64,
     /// How many of the `edges` are at independent places between the nodes; 1 for a strip along the nodes.
     pub places: f64,
 }
@@ -76,6 +87,21 @@ impl ContactArea {
     /// The area of a solution, within the edge that its gap and contact pressure tell. Shares are of the nodes that
     /// are not [absent](crate::Surface::with_absent).
     ///
+    /// By [`Jkr`](crate::Jkr) the area of the limit of no range is that by the
+    /// [adhesive energy](crate::Report::adhesive_contact_fraction) less that of the process zone at the edge, with S the
+    /// perimeter along the cells:
+    ///
+    /// ```math
+    /// A = −E_adh/w − 0.16 S Δx
+    /// ```
+    ///
+    /// At the edge of every contact the stress intensity is √(2E\*w), and the range goes with √(wΔx/E\*), so that the
+    /// zone is the same number of nodes wide everywhere. The weaker the adhesion, the less of it is out of contact: where
+    /// that is less than 0.3 nodes for each side of a cell, the edge is in that proportion one without adhesion, and the
+    /// area the corrected one. Where the attraction's reach ends at a step of the surface, as around a flat punch, the
+    /// process zone is within the contact: for that share of its edge the area is that of all nodes within reach. The
+    /// page [`choosing`](crate::guide::choosing) says how right it is.
+    ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
     pub fn of_solution<T: Real>(solution: &Solution<T>) -> Result<Self> {
@@ -87,12 +113,28 @@ impl ContactArea {
         let outline = Outline { gap, contact_pressure, map: map.view(), grid, periodic, modulus: report.modulus };
         let facing = grid.nodes().saturating_sub(report.absent_nodes);
         let area = Self::within_edge(&outline, facing);
-        let smooth = report.jkr_contact_fraction(area.perimeter, grid);
-        let jkr_contact_fraction = smooth.zip(report.range).map(|(smooth, range)| {
-            let (steps, within) = reach(gap, range, periodic);
-            smooth + steps * (within / facing as f64 - smooth)
-        });
-        Ok(Self { jkr_contact_fraction, ..area })
+        Ok(report.adhesive_contact_fraction.zip(report.range).map_or(area, |(by_energy, range)| {
+            let (steps, within) = reach(&outline, range);
+            area.in_the_limit(by_energy, grid, facing as f64, (steps, within))
+        }))
+    }
+
+    /// The area with that of the limit of no range, from the area by energy, and the share of the edge that is a step of
+    /// the surface with the nodes within reach.
+    fn in_the_limit(self, by_energy: f64, grid: &Grid, facing: f64, (steps, within): (f64, usize)) -> Self {
+        let (dx, dy) = grid.spacing();
+        // on a line the perimeter is a number of points
+        let cell = if grid.is_line() { grid.largest_spacing() } else { dx * dy };
+        let edge = self.perimeter * grid.largest_spacing() / (cell * facing);
+        let outside = (by_energy - self.contact_fraction).max(0.0);
+        let smooth = (1.0 - steps) * edge;
+        let adhesive = if outside > 0.0 { (outside / (ADHESIVE * smooth)).min(1.0) } else { 0.0 };
+        let zone = |share: f64| (share * ZONE * edge).min(MOST * by_energy);
+        let elastic = (1.0 - adhesive) * (self.contact_fraction - self.corrected_contact_fraction);
+        let within = steps.powi(3) * (within as f64 / facing - by_energy);
+        let inside = by_energy - (1.0 - steps) * (zone(adhesive) + elastic) + within;
+        let process_zone = zone(adhesive + steps * (1.0 - adhesive));
+        Self { jkr_contact_fraction: Some(inside), process_zone, ..self }
     }
 
     /// The area within the edge of a contact, of whose nodes so many face the half-space.
@@ -118,7 +160,7 @@ impl ContactArea {
         let (nodes, Edge { excess, edges, places }) = (facing as f64, edge((along_x, along_y)));
         let (contact_fraction, corrected_contact_fraction) =
             (contact_nodes as f64 / nodes, (contact_nodes as f64 - excess) / nodes);
-        let jkr_contact_fraction = None;
+        let (jkr_contact_fraction, process_zone) = (None, 0.0);
         Self {
             contact_nodes,
             contact_fraction,
@@ -126,6 +168,7 @@ impl ContactArea {
             perimeter,
             edges,
             jkr_contact_fraction,
+            process_zone,
             places,
         }
     }
@@ -138,18 +181,37 @@ fn edge_of_map((along_x, along_y): (usize, usize), grid: &Grid) -> Edge {
 }
 
 /// The share of the edge of an attraction's reach that is a step of the surface, and the number of nodes within reach.
-fn reach<T: Real>(gap: ArrayView2<'_, T>, range: f64, periodic: bool) -> (f64, f64) {
-    let ranges = gap.mapv(|gap| gap.widen() / range);
-    let maps =
-        [(f64::MIN, 1.0), (f64::MIN, STEP), (1.0, STEP)].map(|(from, to)| ranges.mapv(|gap| from <= gap && gap < to));
-    let [within, near, between] = maps.each_ref().map(|map| {
-        let (along_x, along_y) = edges(map.view(), periodic);
-        (along_x + along_y) as f64
-    });
-    // pairs of which one node is within reach and the other beyond a step
-    let steps = 0.5 * (within + near - between);
-    let nodes = maps[0].fold(0.0, |count, &within| count + f64::from(u8::from(within)));
-    (if within > 0.0 { steps / within } else { 0.0 }, nodes)
+fn reach<T: Real>(outline: &Outline<'_, T>, range: f64) -> (f64, usize) {
+    let Outline { gap, contact_pressure, grid, periodic, modulus, .. } = outline;
+    let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
+    let beside = |at: usize, n: usize, ahead: bool| match ahead {
+        true if at + 1 < n => Some(at + 1),
+        false if at > 0 => Some(at - 1),
+        _ => (*periodic).then_some(if ahead { 0 } else { n - 1 }),
+    };
+    let [mut nodes, mut edges, mut steps] = [0; 3];
+    for (node, _) in gap.indexed_iter().filter(|(_, gap)| gap.widen() < range) {
+        nodes += 1;
+        let next = |along_x: bool, ahead: bool| match along_x {
+            true => Some((beside(node.0, nx, ahead)?, node.1)),
+            false => Some((node.0, beside(node.1, ny, ahead)?)),
+        };
+        for (along_x, ahead) in [(true, true), (true, false), (false, true), (false, false)] {
+            if [ny, nx][usize::from(along_x)] == 1 {
+                continue;
+            }
+            let opening = next(along_x, ahead).map_or(f64::INFINITY, |other| gap[other].widen());
+            if opening < range {
+                continue;
+            }
+            let behind = next(along_x, !ahead).unwrap_or(node);
+            let pressure = contact_pressure[node].max(contact_pressure[behind]).widen();
+            let lift = LIFT * pressure * if along_x { dx } else { dy } / modulus;
+            edges += 1;
+            steps += usize::from(opening > STEP * range + lift);
+        }
+    }
+    (if edges > 0 { steps as f64 / edges as f64 } else { 0.0 }, nodes)
 }
 
 /// The pairs of neighbours along x, and along y, of which one is on the map; across opposite sides if periodic.

@@ -24,6 +24,9 @@ impl<T: Real> AdhesionLaw<T> for Sharp<'_, T> {
     fn evaluate(&self, first: usize, gaps: &[T], values: Values<'_, T>) {
         self.0.evaluate(first, gaps, values);
     }
+    fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) {
+        self.0.contact_shares(first, gaps, shares);
+    }
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
         self.0.on_nodes(compliance)
     }

@@ -28,6 +28,7 @@ found! {
         contact: f64,
         gap: f64,
         pressure: f64,
+        adhered: f64,
         least_gap: Minimum,
     }
 }
@@ -107,8 +108,10 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             if !local.is_surface() {
                 return Borne::NONE;
             }
-            sums!([gap, contact, pressure], [], |i| {} => Borne {
-                contact: contact[i].widen(), gap: gap[i].widen(), pressure: pressure[i].widen();
+            let shares = local.shares(first, gap);
+            sums!([gap, contact, pressure, shares], [], |i| {} => Borne {
+                contact: contact[i].widen(), gap: gap[i].widen(), pressure: pressure[i].widen(),
+                adhered: shares[i].widen();
                 least least_gap: gap[i].widen()
             })
         });
@@ -166,7 +169,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             adhesive_energy: padding * self.sums.tally.adhesive / nodes,
             range: hints.of_grid.then(|| hints.range.widen()),
             peak_traction: hints.of_grid.then(|| law.traction(T::zero()).widen()),
-            adhesive_contact_fraction: self.adhesive_contact_fraction(facing, plastic),
+            adhesive_contact_fraction: self.adhesive_contact_fraction(carried.adhered / facing, plastic),
             mu_rho,
             under_resolved: mu_rho > Report::RESOLVED_MU_RHO,
             precision: T::NAME,
@@ -177,13 +180,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// The share of contact that the adhesive energy tells, of a law whose range is that of the grid.
-    fn adhesive_contact_fraction(&self, facing: f64, plastic: Option<Plastic>) -> Option<f64> {
+    /// The share of contact that the adhesive energy tells, if it does: of a law whose range is that of the grid.
+    fn adhesive_contact_fraction(&self, share: f64, plastic: Option<Plastic>) -> Option<f64> {
         let hints = self.posed.law().hints();
         // below a wall that gives the energy continues
         let hard = self.posed.projects() && plastic.is_none_or(|plastic| plastic.fraction == 0.0);
-        let tells = hints.of_grid && !hints.zero && hints.shape.is_none() && hard;
-        tells.then(|| (0.0 - self.sums.tally.adhesive) / hints.work_of_adhesion.widen() / facing)
+        (hints.of_grid && !hints.zero && hard).then_some(share)
     }
 
     fn final_status(&self, status: Status, load_error: f64) -> Status {

@@ -79,6 +79,15 @@ impl<'a, T: Real> Potential<'a, T> {
         Self { law, hints: law.hints(), wall: Some(constraint.wall()), window }
     }
 
+    /// The shares of the adhesive energy in contact, of at most a chunk of nodes; zeros for a law with a range of its own.
+    pub(crate) fn shares(&self, first: usize, gap: &[T]) -> [T; CHUNK] {
+        let mut shares = [T::zero(); CHUNK];
+        if self.hints.of_grid && !self.hints.zero {
+            self.law.contact_shares(first, gap, &mut shares[..gap.len()]);
+        }
+        shares
+    }
+
     fn nothing() -> Self {
         Self { law: &NoAdhesion, hints: AdhesionLaw::hints(&NoAdhesion), wall: None, window: None }
     }

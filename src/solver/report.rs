@@ -15,9 +15,6 @@ use crate::names::names;
 use crate::problem::{Control, ProblemMut};
 use crate::real::Real;
 
-/// The width of the process zone at the edge of a contact, by its adhesive energy, in nodes for each side of a cell.
-const ZONE: f64 = 0.16;
-
 /// The status of a solve: how it ended, and how good its fields are.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,10 +151,11 @@ pub struct Report {
     pub range: Option<f64>,
     /// The traction in contact, 2w/ρ, of a law that has the range of the grid; none of others.
     pub peak_traction: Option<f64>,
-    /// The share of contact by the adhesive energy, −E_adh/w, of a law that has the range of the grid and does not vary,
-    /// at a hard wall, and where nothing has yielded:
-    /// in the theory of Johnson, Kendall and Roberts each area of contact has the energy −w. It is smooth in the load,
-    /// and too large by the process zone at the edges; see [`Report::jkr_contact_fraction`].
+    /// The share of contact by the adhesive energy, −E_adh/w, of a law that has the range of the grid, at a hard wall, and
+    /// where nothing has yielded: in the theory of Johnson, Kendall and Roberts each area of contact has the energy −w.
+    /// Where w varies it is taken node by node, and nodes without a work of adhesion count where they touch. It is smooth
+    /// in the load, and too large by the process zone at the edges; see
+    /// [`ContactArea::of_solution`](crate::contact::ContactArea::of_solution).
     pub adhesive_contact_fraction: Option<f64>,
     /// The resolution measure μ_ρ of [`Problem::mu_rho`](crate::Problem::mu_rho).
     pub mu_rho: f64,
@@ -198,24 +196,6 @@ pub struct Plastic {
 impl Report {
     /// The largest resolution measure μ_ρ at which the grid resolves the adhesion.
     pub const RESOLVED_MU_RHO: f64 = 0.5;
-
-    /// The share of contact that the theory of Johnson, Kendall and Roberts means, by the
-    /// [adhesive energy](Self::adhesive_contact_fraction) less that of the process zone, from the `perimeter` of the
-    /// contact on its grid, [`ContactArea::perimeter`](crate::contact::ContactArea::perimeter):
-    ///
-    /// ```math
-    /// A = −E_adh/w − 0.16 S Δx
-    /// ```
-    ///
-    /// At the edge of every contact the stress intensity is √(2E*w), and the range of [`Jkr`](crate::Jkr) goes with
-    /// √(wΔx/E*), so that the zone is the same number of nodes wide everywhere. None of other laws. The page
-    /// [`choosing`](crate::guide::choosing) says how right it is.
-    pub fn jkr_contact_fraction(&self, perimeter: f64, grid: &Grid) -> Option<f64> {
-        let (lx, ly) = grid.lengths();
-        let area = if grid.is_line() { lx.max(ly) } else { lx * ly };
-        let facing = 1.0 - self.absent_nodes as f64 / grid.nodes() as f64;
-        self.adhesive_contact_fraction.map(|found| found - ZONE * perimeter * grid.largest_spacing() / (area * facing))
-    }
 }
 
 /// A name that a report has; behind a word of its own, which derived data does not treat as a borrowed one.

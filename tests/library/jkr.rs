@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use asperity::adhesion::{Varying, mu_rho};
+use asperity::accuracy::{GridError, Quantity};
+use asperity::adhesion::{Formula, Varying, mu_rho};
+use asperity::contact::ContactArea;
 use asperity::elastic::{Base, Layer, Material};
 use asperity::exact::{self, AdhesiveWavyLine, Sphere};
 use asperity::pull_off::FoundPullOff;
@@ -239,7 +241,7 @@ fn pillars_that_repeat_have_a_limit_of_their_pull_off() {
 }
 
 #[test]
-fn works_of_adhesion_that_vary_have_the_range_of_the_strongest() {
+fn each_work_of_adhesion_that_varies_has_its_range() {
     let grid = Grid::square(64, 1.0).unwrap();
     let surface = Surface::paraboloid(grid, 2.0).unwrap();
     let works = grid.sample(|x, _| if x < 0.0 { 0.0 } else { 2e-4 });
@@ -257,9 +259,79 @@ fn works_of_adhesion_that_vary_have_the_range_of_the_strongest() {
     assert!((range / whole - 1.0).abs() < 1e-12 && (other / whole - 1.0).abs() < 1e-12);
     assert!((&some.gap - &same.gap).iter().all(|change| change.abs() < 1e-9));
     assert!(some.report.contact_nodes < all.report.contact_nodes);
-    assert!(some.report.adhesive_contact_fraction.is_none() && all.report.adhesive_contact_fraction.is_some());
+    // the half without adhesion counts where it touches
+    let [half, full] = [&some, &all].map(|found| found.report.adhesive_contact_fraction.unwrap());
+    assert!(some.report.contact_fraction < half && half < full, "{half} {full}");
     let uniform = Varying::new(Jkr::new(1.0).unwrap(), Array2::from_elem((64, 64), 2e-4).view()).unwrap();
-    assert_eq!(solve(Box::new(uniform)).1.report.contact_nodes, all.report.contact_nodes);
+    let uniform = solve(Box::new(uniform)).1.report;
+    assert_eq!(uniform.contact_nodes, all.report.contact_nodes);
+    assert!((uniform.adhesive_contact_fraction.unwrap() / full - 1.0).abs() < 1e-9);
+    // a node far from the contact that is a hundred times as sticky touches nothing, and changes nothing
+    let mut works = Array2::from_elem((64, 64), 2e-4);
+    works[[0, 0]] = 2e-2;
+    let (longer, far) = solve(Box::new(Varying::new(Jkr::new(2e-4).unwrap(), works.view()).unwrap()));
+    assert!((longer / whole - 10.0).abs() < 1e-12);
+    assert!((&far.gap - &all.gap).iter().all(|change| change.abs() < 1e-9));
+    let [far, all] = [far, all].map(|found| ContactArea::of_solution(&found).unwrap().jkr_contact_fraction.unwrap());
+    assert!((far / all - 1.0).abs() < 1e-6, "{far} {all}");
+}
+
+#[test]
+fn areas_and_errors_of_weak_adhesion_are_those_of_none() {
+    let surface = SelfAffine::default().k_s(6.0).amplitude(Amplitude::RmsSlope(0.3)).seed(1);
+    let surface = surface.surface(Grid::square(64, 1.0).unwrap()).unwrap();
+    let told = |law: Formula| {
+        let nested = Nested::default().coarsest(16).closed(1.0);
+        let half_space = |grid: Grid| Westergaard::<f64>::new(grid, 1.0);
+        let found =
+            nested.solve(&mut Solver::default(), &surface, half_space, law, Control::MeanPressure(0.02)).unwrap();
+        let waves = surface.nodes_per_wave(Boundary::Periodic);
+        let error = |of| GridError::of(&found.levels, of, waves, found.solution.report.mu_rho).unwrap().relative;
+        let area = found.levels.last().unwrap().area;
+        (
+            area.jkr_contact_fraction.unwrap_or(area.corrected_contact_fraction),
+            error(Quantity::Area),
+            error(Quantity::Gap),
+        )
+    };
+    let (area, area_error, gap_error) = told(NoAdhesion.into());
+    let mut before = area;
+    for exponent in [-12, -10, -8, -7, -6] {
+        let (found, of_area, of_gap) = told(Jkr::new(10_f64.powi(exponent)).unwrap().into());
+        // the area grows by no leap
+        assert!((found / before - 1.0).abs() < 0.05, "1e{exponent}: {found} after {before}");
+        before = found;
+        let like = |found: f64, of_none: f64| 0.5 * of_none < found && (exponent > -8 || found < 2.5 * of_none);
+        assert!(
+            like(of_area, area_error) && like(of_gap, gap_error),
+            "1e{exponent}: {of_area} {area_error} {of_gap} {gap_error}"
+        );
+    }
+}
+
+#[test]
+fn a_punch_wholly_in_contact_has_its_area() {
+    let grid = Grid::square(48, 1.0).unwrap();
+    let heights = grid.sample(|x, y| if x.hypot(y) <= 0.2 { 0.0 } else { -1.0 });
+    let nodes = heights.iter().filter(|&&height| height == 0.0).count() as f64;
+    let surface = Surface::new(grid, heights).unwrap();
+    for work in [1e-9, 1e-5, 1e-3] {
+        let mut problem =
+            Problem::new(&surface, Boussinesq::<f64>::new(grid, 1.0).unwrap(), Jkr::new(work).unwrap()).unwrap();
+        let solution = Solver::default().solve(&mut problem, Control::Force(1e-3)).unwrap();
+        let area = ContactArea::of_solution(&solution).unwrap().jkr_contact_fraction.unwrap();
+        assert!((area * grid.nodes() as f64 / nodes - 1.0).abs() < 1e-6, "{work}: {area}");
+    }
+}
+
+#[test]
+fn the_area_of_a_contact_of_a_node_is_positive_on_long_cells() {
+    let grid = Grid::new((16, 48), (1.0, 1.0)).unwrap();
+    let surface = Surface::paraboloid(grid, 0.5).unwrap();
+    let mut problem =
+        Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), Jkr::new(1e-7).unwrap()).unwrap();
+    let solution = Solver::default().solve(&mut problem, Control::MeanPressure(1e-5)).unwrap();
+    assert!(ContactArea::of_solution(&solution).unwrap().jkr_contact_fraction.unwrap() > 0.0);
 }
 
 #[test]

@@ -113,8 +113,8 @@ record! {
         edge_traction: Option<f64> = report.edge_traction,
         /// The contact area by the adhesive energy, of a law that has the range of the grid.
         adhesive_contact_fraction: Option<f64> = report.adhesive_contact_fraction,
-        /// That less the process zone at the edge, known after a look.
-        jkr_contact_fraction: Option<f64> = None,
+        /// That of the limit of no range, less the process zone at the edge.
+        jkr_contact_fraction: Option<f64> = found.sight.jkr_contact_fraction,
         /// The contact area within its edge between the nodes, known after a look.
         corrected_contact_fraction: Option<f64> = None,
         /// The length of the edge, known after a look.
@@ -245,8 +245,6 @@ impl<T: Real> Sight<T> {
         self.tell(account);
         account.corrected_contact_fraction = Some(found.corrected_contact_fraction);
         account.perimeter = Some(found.perimeter);
-        let grid = Grid::new(account.inputs.shape, account.inputs.lengths)?;
-        account.jkr_contact_fraction = self.report.jkr_contact_fraction(found.perimeter, &grid);
         account.repulsive_fraction = Some(found.repulsive_fraction);
         account.attractive_fraction = Some(found.attractive_fraction);
         account.patches = Some(found.patches.clone());

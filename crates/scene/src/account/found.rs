@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use asperity::accuracy::GridError;
-use asperity::contact::{ContactStatistics, Original};
+use asperity::contact::{ContactArea, ContactStatistics, Original};
 use asperity::elastic::Boundary;
 use asperity::nested::Level;
 use asperity::stability::ContactStiffness;
@@ -59,6 +59,8 @@ pub struct Sight<T: Real> {
     pub(crate) grid: Grid,
     /// The report on the whole.
     pub(crate) report: Report,
+    /// The contact area in the limit of no range, of a law that has the range of the grid.
+    pub(crate) jkr_contact_fraction: Option<f64>,
     /// The nested grids, whose errors are estimated with the first look.
     pub(crate) open: Option<(Waves, Vec<Level>)>,
     /// The errors that are known, and the nodes of the shortest wave.
@@ -104,7 +106,9 @@ impl<T: Real> Found<T> {
             pressed.for_each(|(gap, _)| *gap = gap.min(T::zero()));
         }
         let (grid, report) = (solution.grid, solution.report.clone());
-        let sight = Sight { law, original, grid, report, open: None, errors: None, seen: None };
+        let by_energy = report.adhesive_contact_fraction.map(|_| ContactArea::of_solution(&solution)).transpose()?;
+        let jkr_contact_fraction = by_energy.and_then(|area| area.jkr_contact_fraction);
+        let sight = Sight { law, original, grid, report, jkr_contact_fraction, open: None, errors: None, seen: None };
         Ok(Self::of(solution, sight, seconds))
     }
 

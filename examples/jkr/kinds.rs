@@ -1,0 +1,332 @@
+//! Kinds of scenes: how often the true errors of area, gap, approach, pressure and pull-off are within the estimates.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use asperity::accuracy::{Accuracy, GridError, Quantity};
+use asperity::adhesion::{Formula, Varying};
+use asperity::nested::Level;
+use asperity::{
+    Amplitude, Boussinesq, Control, ElasticOperator, Grid, Jkr, Nested, PullOff, Result, SelfAffine, Settings, Solver,
+    Surface, Westergaard,
+};
+use common::{Outcome, quantile};
+use ndarray::Array2;
+
+use crate::case::{extrapolated, head, row};
+use crate::scene::Draw;
+
+/// How many times as many nodes as the grid of an estimate the two grids of the truth have along their sides.
+const FINER: [usize; 2] = [2, 4];
+
+/// The tolerance of solves, far below the error of the grid.
+const TOLERANCE: f64 = 1e-5;
+
+/// The relative width of the bracket of a pull-off.
+const BRACKET: f64 = 3e-3;
+
+/// Every so many scenes the pull-off is found.
+const PULLED: usize = 3;
+
+/// The kinds of scenes, by what is special about them.
+const KINDS: [&str; 18] = [
+    "rough, H 0.8",
+    "rough, H 0.3",
+    "rough, one way",
+    "rough, cells 2:1",
+    "rough, strong adhesion",
+    "rough, weak adhesion",
+    "rough, next to none",
+    "rough, light load",
+    "rough, nearly closed",
+    "rough, given gap",
+    "rough, map of w",
+    "lattice",
+    "ridges",
+    "sphere",
+    "sphere, weak adhesion",
+    "rough sphere",
+    "ellipsoid",
+    "sphere to the edge",
+];
+
+type Heights = Box<dyn Fn(Grid) -> Result<Surface>>;
+
+/// A scene of a kind.
+struct Scene {
+    n: usize,
+    lengths: (f64, f64),
+    /// The nodes along y over those along x.
+    aspect: f64,
+    heights: Heights,
+    free: bool,
+    work: f64,
+    /// The work of adhesion over the greatest one.
+    patches: Option<fn(f64, f64) -> f64>,
+    pressure: f64,
+    by_gap: bool,
+}
+
+impl Scene {
+    fn drawn(kind: &str, draw: &mut Draw) -> Outcome<Self> {
+        let n = 64;
+        let has = |word: &str| kind.contains(word);
+        let (seed, nodes_per_wave) = ((draw.share() * 1e9) as u64, draw.around(8.0, 16.0));
+        let (slope, k_l) = (draw.around(0.05, 1.0), draw.between(1.0, 2.0));
+        let hurst = if has("H 0.3") { 0.3 } else { 0.8 };
+        let rough = move |k_s: f64, slope: f64| {
+            let of = SelfAffine::default().k_l(k_l).k_r(k_l).k_s(k_s).hurst(hurst).seed(seed);
+            of.amplitude(Amplitude::RmsSlope(slope))
+        };
+        // in units of E* h'² times the shortest wave, and of E* h'
+        let adhesion = match kind {
+            _ if has("strong") => draw.around(0.02, 0.1),
+            _ if has("weak") => draw.around(1e-6, 1e-4),
+            _ if has("next to none") => draw.around(1e-12, 1e-7),
+            _ => draw.around(1e-3, 2e-2),
+        };
+        let load = match kind {
+            _ if has("light") => draw.around(3e-4, 3e-3),
+            _ if has("nearly closed") => draw.around(0.4, 0.9),
+            _ => draw.around(3e-3, 0.1),
+        };
+        let k_s = n as f64 / nodes_per_wave;
+        let periodic = |heights: Heights| Self {
+            n,
+            lengths: (1.0, 1.0),
+            aspect: 1.0,
+            heights,
+            free: false,
+            work: adhesion * slope * slope / k_s,
+            patches: has("map of w").then_some(|x: f64, y: f64| match (x.floor() + y.floor()) as i64 % 3 {
+                0 => 1.0,
+                1 => 0.2,
+                _ => 0.0,
+            }),
+            pressure: load * slope,
+            by_gap: has("given gap"),
+        };
+        let of_rough = move |grid| rough(k_s, slope).surface(grid);
+        Ok(match kind {
+            "rough, one way" => {
+                let stretch = draw.between(3.0, 6.0);
+                let lengths = (1.0, stretch);
+                Self {
+                    lengths,
+                    ..periodic(Box::new(move |grid| {
+                        // the surface of a square, longer along y
+                        let square = rough(k_s, slope).surface(Grid::new(grid.shape(), (1.0, 1.0))?)?;
+                        Surface::new(grid, square.heights().clone())
+                    }))
+                }
+            }
+            "rough, cells 2:1" => Self { aspect: 0.5, ..periodic(Box::new(of_rough)) },
+            "lattice" => {
+                let periods = 1 + (3.0 * draw.share()) as usize;
+                let amplitude = slope / (2.0 * PI * periods as f64);
+                Self {
+                    work: adhesion * slope * slope / periods as f64,
+                    ..periodic(Box::new(move |grid| Surface::wave_2d(grid, amplitude, periods)))
+                }
+            }
+            "ridges" => {
+                let [a, b] = [draw.between(0.3, 1.0), draw.between(0.0, 0.5)];
+                let phase = draw.between(0.0, 6.0);
+                Self {
+                    work: 0.3 * adhesion * slope * slope,
+                    ..periodic(Box::new(move |grid| {
+                        let (lx, _) = grid.lengths();
+                        Surface::from_fn(grid, |x, _| {
+                            let x = 2.0 * PI * x / lx;
+                            slope / (2.0 * PI) * (a * x.cos() + b * (3.0 * x + phase).cos() / 3.0)
+                        })
+                    }))
+                }
+            }
+            _ if has("sphere") || kind == "ellipsoid" => {
+                let weak = has("weak");
+                let (side, work) = (1.6, if weak { draw.around(1e-12, 1e-6) } else { draw.around(3e-5, 4e-3) });
+                let ratio = if kind == "ellipsoid" { draw.between(1.3, 3.0) } else { 1.0 };
+                let [x0, y0] = [(); 2].map(|()| draw.between(-0.5, 0.5) * side / 32.0);
+                let roughness =
+                    (kind == "rough sphere").then(|| rough(32.0 / draw.between(4.0, 8.0), draw.around(0.02, 0.1)));
+                let pressure = (3.0 * (draw.share() - 0.5)).max(0.1) * 1.5 * PI * work / (side * side);
+                let edge = kind == "sphere to the edge";
+                let lengths = if edge { (0.5 * side, side) } else { (side, side) };
+                Self {
+                    n: 32,
+                    lengths,
+                    aspect: if edge { 2.0 } else { 1.0 },
+                    free: true,
+                    work,
+                    pressure: if edge || weak { pressure + draw.around(1e-3, 0.1) } else { pressure },
+                    by_gap: false,
+                    ..periodic(Box::new(move |grid| {
+                        // cells, not nodes, keep their places
+                        let (dx, dy) = grid.spacing();
+                        let [ox, oy] = [0.5 * dx - x0, 0.5 * dy - y0];
+                        let shift = if edge { 0.25 * side } else { 0.0 };
+                        let body = Surface::from_fn(grid, |x, y| {
+                            -0.5 * ((x + ox - shift).powi(2) + (y + oy).powi(2) / ratio)
+                        })?;
+                        match &roughness {
+                            None => Ok(body),
+                            Some(of) => Surface::new(grid, body.heights() + of.surface(grid)?.heights()),
+                        }
+                    }))
+                }
+            }
+            _ => periodic(Box::new(of_rough)),
+        })
+    }
+
+    fn shape(&self, finer: usize) -> (usize, usize) {
+        (finer * self.n, ((finer * self.n) as f64 * self.aspect) as usize)
+    }
+
+    fn surface(&self, finer: usize) -> Result<Surface> {
+        (self.heights)(Grid::new(self.shape(finer), self.lengths)?)
+    }
+
+    fn law(&self, grid: &Grid) -> Result<Formula> {
+        let law = Jkr::new(self.work)?;
+        let Some(patches) = self.patches else { return Ok(law.into()) };
+        let (nx, ny) = grid.shape();
+        // of squares of an eighth of the side
+        let works = Array2::from_shape_fn((nx, ny), |(i, j)| {
+            self.work * patches(8.0 * i as f64 / nx as f64, 8.0 * j as f64 / ny as f64)
+        });
+        let law: Formula = law.into();
+        Ok(std::sync::Arc::new(Varying::new(law, works.view())?))
+    }
+
+    fn body(&self, grid: Grid) -> Result<Box<dyn ElasticOperator<f64>>> {
+        Ok(if self.free { Box::new(Boussinesq::new(grid, 1.0)?) } else { Box::new(Westergaard::new(grid, 1.0)?) })
+    }
+
+    /// The levels of nested grids, the errors of the finest, and the control.
+    fn solve(&self, finer: usize, control: Control) -> Outcome<(Vec<Level>, Vec<(Quantity, Option<GridError>)>)> {
+        let surface = self.surface(finer)?;
+        let mut solver = Solver::new(Settings::default().tolerance(TOLERANCE));
+        let nested = Nested::default().coarsest(16).closed(1.0).coarse_tolerance(GridError::COARSE_TOLERANCE);
+        let law = self.law(surface.grid())?;
+        let found = nested.solve(&mut solver, &surface, |grid| self.body(grid), law, control)?;
+        let report = &found.solution.report;
+        let waves = surface.nodes_per_wave(report.boundary);
+        let errors = GridError::of_all(&found.levels, report, waves);
+        Ok((found.levels, errors.into_iter().filter(|(of, _)| of.name() != "stiffness").collect()))
+    }
+
+    /// The pull-off in the limit, and its estimated error.
+    fn pull_off(&self, finer: usize) -> Outcome<(Option<f64>, Option<f64>)> {
+        let surface = self.surface(finer)?;
+        let told = Accuracy::new(f64::INFINITY, Quantity::Area);
+        let preload = if self.free { 0.0 } else { self.pressure };
+        let search = PullOff::default().tolerance(BRACKET).preload(Some(preload));
+        let law = self.law(surface.grid())?;
+        let found = told.pull_off(&mut Solver::default(), &surface, |grid| self.body(grid), law, &search)?;
+        let limit =
+            found.found.limit()?.or_else(|| found.found.reached.then(|| -found.found.solution.report.mean_pressure));
+        Ok((limit, found.error.map(|error| error.relative)))
+    }
+}
+
+fn value(of: Quantity, level: &Level) -> f64 {
+    match of {
+        Quantity::Area => level.area.jkr_contact_fraction.unwrap_or(level.area.corrected_contact_fraction),
+        Quantity::Gap => level.mean_gap,
+        Quantity::Approach => level.approach.unwrap_or(f64::NAN),
+        _ => level.mean_pressure,
+    }
+}
+
+/// The true error and the estimate of a quantity of a scene.
+type Told = (f64, f64);
+
+pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
+    let mut told: BTreeMap<(usize, usize), Vec<Told>> = BTreeMap::new();
+    let mut missing: BTreeMap<usize, usize> = BTreeMap::new();
+    for (number, kind) in KINDS.into_iter().enumerate() {
+        let mut draw = Draw::new(seed + 1000 * number as u64);
+        for scene in 0..if quick { 2 } else { count.div_ceil(KINDS.len()) } {
+            let scene_of = Scene::drawn(kind, &mut draw)?;
+            let mut control = Control::MeanPressure(scene_of.pressure);
+            if scene_of.by_gap {
+                control = Control::MeanGap(scene_of.solve(1, control)?.0.last().map_or(0.0, |level| level.mean_gap));
+            }
+            let (levels, errors) = scene_of.solve(1, control)?;
+            let finer = FINER.map(|finer| scene_of.solve(finer, control));
+            let [Ok((half, _)), Ok((fine, _))] = finer else { continue };
+            let [Some(here), Some(half), Some(fine)] = [levels.last(), half.last(), fine.last()] else { continue };
+            for (at, (of, error)) in errors.iter().enumerate() {
+                let truth = extrapolated(value(*of, fine), value(*of, half));
+                match error {
+                    Some(error) => {
+                        let off = (value(*of, here) / truth - 1.0).abs();
+                        if std::env::var("TOLD").is_ok() {
+                            println!(
+                                "{kind}; {scene}; {}; {off:.4}; {:.4}; {}; values {:.5e} {:.5e} {:.5e}; counted {:.4} corrected {:.4} energy {:?} edges {} w {:.2e} status {}",
+                                of.name(),
+                                error.relative,
+                                error.rough,
+                                value(*of, here),
+                                value(*of, half),
+                                value(*of, fine),
+                                here.area.contact_fraction,
+                                here.area.corrected_contact_fraction,
+                                here.adhesive_contact_fraction,
+                                here.area.edges,
+                                scene_of.work,
+                                here.status
+                            );
+                        }
+                        told.entry((number, at)).or_default().push((off, error.relative));
+                    }
+                    None if value(*of, here).is_finite() && *of == Quantity::Area => {
+                        *missing.entry(number).or_default() += 1
+                    }
+                    None => (),
+                }
+            }
+            if scene % PULLED == 0 {
+                let small = Scene { n: 32, ..scene_of };
+                let pulled = [1, 2, 4].map(|finer| small.pull_off(finer));
+                if let [Ok((Some(limit), error)), Ok((Some(half), _)), Ok((Some(fine), _))] = pulled {
+                    let truth = extrapolated(fine, half);
+                    if let Some(error) = error {
+                        if std::env::var("TOLD").is_ok() {
+                            println!(
+                                "{kind}; {scene}; pull-off; {:.4}; {error:.4}; ; {limit:.4e} {half:.4e} {fine:.4e}",
+                                (limit / truth - 1.0).abs()
+                            );
+                        }
+                        told.entry((number, 5)).or_default().push(((limit / truth - 1.0).abs(), error));
+                    }
+                }
+            }
+        }
+    }
+    head(
+        "Kinds of scenes: in how many the true error is within the estimate; medians of both in %; the estimates of zero \
+         or below",
+        &["kind", "area", "gap", "approach", "pressure", "pull-off", "no area"],
+    );
+    for (number, kind) in KINDS.into_iter().enumerate() {
+        let cell = |at: usize| {
+            let all = told.get(&(number, at)).map_or(&[][..], |all| &all[..]);
+            if all.is_empty() {
+                return "–".to_owned();
+            }
+            let within = all.iter().filter(|(off, estimate)| off <= estimate).count();
+            let none = all.iter().filter(|(_, estimate)| *estimate <= 0.0).count();
+            let middle = |of: fn(&Told) -> f64| 100.0 * quantile(&mut all.iter().map(of).collect::<Vec<_>>(), 0.5);
+            let none = if none > 0 { format!(", {none} ≤ 0") } else { String::new() };
+            format!("{within}/{}, {:.2} of {:.2}{none}", all.len(), middle(|told| told.0), middle(|told| told.1))
+        };
+        let mut cells = vec![kind.to_owned()];
+        cells.extend([0, 1, 2, 3, 5].map(cell));
+        cells.push(missing.get(&number).copied().unwrap_or(0).to_string());
+        row(&cells);
+    }
+    Ok(())
+}
