@@ -22,7 +22,7 @@ mod zone;
 
 pub use goal::{Accuracy, AccurateSolution, Plan};
 pub use loops::{Limit, LoopLimit};
-pub use pull_off::AccuratePullOff;
+pub use pull_off::{AccuratePullOff, Untold};
 
 /// The quantity of which an accuracy is asked.
 #[non_exhaustive]
@@ -235,20 +235,24 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// luck. The factors are fitted to rough surfaces, strips and lattices. The estimate is 2.4 times that size, which
 /// covers 95 of 100 errors and no bound; the page [`choosing`](crate::guide::choosing) has how many on which surfaces.
 ///
-/// With [`Jkr`](crate::Jkr), whose range is that of the grid, the process zone at the edge of the contact, b =
-/// [adhesive](crate::Report::adhesive_contact_fraction) less [JKR contact fraction](crate::Report::jkr_contact_fraction),
-/// makes the errors. With δ the difference of the quantities less their part of the zone to the grid of half as many
+/// With [`Jkr`](crate::Jkr), whose range is that of the grid, the
+/// [process zone](crate::contact::ContactArea::process_zone) b at the edge of the contact makes the errors. With δ the difference of the quantities less their part of the zone to the grid of half as many
 /// nodes they are
 ///
 /// | quantity | zone z | error | on one grid |
 /// |---|---|---|---|
-/// | area [by JKR](crate::contact::ContactArea) | b | √((0.6 z)² + (1.2 δ)²) | 1.5 z |
+/// | area [by JKR](crate::contact::ContactArea) | b | √((0.7 s z)² + (1.4 δ)²) | 1.7 z |
 /// | mean gap ḡ | wb/λ̄ | √((4 z)² + (4 δ)²) | 7.5 z |
-/// | approach | wb/λ̄ | 2.5 z | 3.75 z |
+/// | approach | wb/λ̄ | √((2.5 z)² + (1.5 δ)²) | 3.75 z |
 /// | mean pressure | wb/ḡ | √((6 z)² + (3 δ)²) | 15 z |
 ///
-/// with λ̄ the mean contact pressure; 4.5 times as large, and rough, where the area changes between the two grids by more
-/// than b/2, as where a patch of contact is on one of them alone; and rough on one grid. The stiffness has no estimate.
+/// with λ̄ the mean contact pressure, and s = 1 + 0.8 (1 − p̄/λ̄)², since adhesion that carries more than the load makes
+/// more of the zone; that of the area 1 + A⁴ times as large, since the zone is narrower around holes; 4.5 times as large,
+/// and rough, where the area changes between the two grids by more than b/2 and the error without adhesion, as where a
+/// patch of contact is on one of them alone; and rough on one grid. To the squares are added those of an edge without
+/// adhesion: with M of the area above, on one grid twice, half of it for gap and pressure and 1.2 times for the approach,
+/// and on one grid 0.6/n² or 0.4/n³. The weaker the adhesion, the more the factors of δ are those without it. No estimate
+/// is zero. The stiffness has no estimate.
 ///
 /// A grid counts if it has the same waves, the shortest with at least four nodes ([`Surface::nodes_per_wave`]), a
 /// μ_ρ ≤ 0.5, and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;

@@ -139,6 +139,9 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
 pub enum Discretisation<T> {
     /// The coarser grid of every nx-th and every ny-th node: for a law that varies over the surface.
     Coarse(usize, usize),
+    /// The finer grid of nx times and ny times as many nodes, on which every node stands for those behind it: for a law
+    /// that varies over the surface.
+    Fine(usize, usize),
     /// Nodes of this compliance, length per pressure: for a law whose traction jumps. Its slopes become no steeper than
     /// one over the compliance in the place of the jumps; the functions still agree, and the work of adhesion stays.
     ///

@@ -10,7 +10,7 @@ use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{
     Begin, Branch, Iteration, Observer, Report, STRONGEST, Solution, Solved, Solver, Start, Status, check_wall,
-    refuse_hardness,
+    refuse_hardness, unloaded,
 };
 
 /// The most solves of a search; a bracket is halved at least with every other one.
@@ -145,8 +145,12 @@ impl PullOff {
         search.branch = begin.is_default().then_some(branch);
         let mut held = search.solve(solver, problem, first, begin)?;
         if preload.is_some_and(|preload| preload != 0.0) && held.is_settled() {
-            let gap = Begin::Found(held.place());
-            held = search.solve(solver, problem, Control::MeanPressure(0.0), gap)?;
+            let (pressed, touched) = (held.place(), held.solution.report.contact_nodes > 0);
+            held = search.solve(solver, problem, Control::MeanPressure(0.0), Begin::Found(pressed.clone()))?;
+            if touched && held.is_settled() && held.solution.report.contact_nodes == 0 {
+                let solve = |control, begin: Begin<'_, T>| search.solve(solver, problem, control, begin);
+                held = unloaded(solve, first, pressed)?.unwrap_or(held);
+            }
         }
         if !held.is_settled() {
             return Ok(search.end(held, None, false));

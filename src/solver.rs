@@ -32,6 +32,7 @@ mod start;
 mod state;
 mod tension;
 mod touch;
+mod unload;
 mod work;
 
 pub use branch::Branch;
@@ -47,6 +48,7 @@ pub use rey2017::Criterion;
 pub use start::Start;
 pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
 pub(crate) use tension::STRONGEST;
+pub(crate) use unload::unloaded;
 
 /// The method of iteration, one of two.
 #[non_exhaustive]

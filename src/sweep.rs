@@ -10,7 +10,7 @@ use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{
     Begin, Branch, Iteration, Least, Nearness, Observer, Place, Potential, Solution, Solved, Solver, Start,
-    check_hardness, extrapolated,
+    check_hardness, extrapolated, unloaded,
 };
 
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
@@ -151,11 +151,21 @@ impl<T: Real> Sweep<T> {
             |gap| Begin::At(Start::From(gap)),
         );
         let begin = self.next_start(problem, least, load).unwrap_or(first);
-        let solved = solver.run(problem.parts(), load, begin, observe);
+        let solved = solver.run(problem.parts(), load, begin, &mut *observe);
         if solved.is_err() {
             self.start = given;
         }
-        let solved = solved?;
+        let mut solved = solved?;
+        if let Some((before, place)) = self.history.last()
+            && self.depth.is_none()
+            && is_last_unloading(*before, load)
+            && !problem.law_on_grid().hints().zero
+            && solved.is_settled()
+            && solved.solution.report.contact_nodes == 0
+        {
+            let solve = |control, begin: Begin<'_, T>| solver.run(problem.parts(), control, begin, &mut *observe);
+            solved = unloaded(solve, *before, place.clone())?.unwrap_or(solved);
+        }
         self.keep(problem, load, solved)
     }
 
@@ -239,6 +249,16 @@ fn is_far(before: Control, load: Control) -> bool {
     match (before, load) {
         (Control::MeanPressure(a), Control::MeanPressure(b)) | (Control::Force(a), Control::Force(b)) => {
             a >= 0.0 && b > FAR * a
+        }
+        _ => false,
+    }
+}
+
+/// Whether a load that presses is taken away.
+fn is_last_unloading(before: Control, load: Control) -> bool {
+    match (before, load) {
+        (Control::MeanPressure(a), Control::MeanPressure(b)) | (Control::Force(a), Control::Force(b)) => {
+            a > 0.0 && b == 0.0
         }
         _ => false,
     }

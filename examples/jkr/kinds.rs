@@ -25,8 +25,11 @@ const TOLERANCE: f64 = 1e-5;
 /// The relative width of the bracket of a pull-off.
 const BRACKET: f64 = 3e-3;
 
+/// The nodes along a side of the coarsest grid on which a pull-off is found.
+const SMALL: usize = 64;
+
 /// Every so many scenes the pull-off is found.
-const PULLED: usize = 3;
+const PULLED: usize = 4;
 
 /// The kinds of scenes, by what is special about them.
 const KINDS: [&str; 18] = [
@@ -217,18 +220,32 @@ impl Scene {
         Ok((found.levels, errors.into_iter().filter(|(of, _)| of.name() != "stiffness").collect()))
     }
 
-    /// The pull-off in the limit, and its estimated error.
-    fn pull_off(&self, finer: usize) -> Outcome<(Option<f64>, Option<f64>)> {
+    /// The pull-off, or nothing where there is none.
+    fn pull_off(&self, finer: usize) -> Outcome<Option<Pulled>> {
         let surface = self.surface(finer)?;
         let told = Accuracy::new(f64::INFINITY, Quantity::Area);
         let preload = if self.free { 0.0 } else { self.pressure };
         let search = PullOff::default().tolerance(BRACKET).preload(Some(preload));
         let law = self.law(surface.grid())?;
-        let found = told.pull_off(&mut Solver::default(), &surface, |grid| self.body(grid), law, &search)?;
-        let limit =
-            found.found.limit()?.or_else(|| found.found.reached.then(|| -found.found.solution.report.mean_pressure));
-        Ok((limit, found.error.map(|error| error.relative)))
+        let found = told.pull_off(&mut Solver::default(), &surface, |grid| self.body(grid), law, &search);
+        // surfaces that do not attract each other under no load have no pull-off
+        let Ok(found) = found else { return Ok(None) };
+        let tension = -found.found.solution.report.mean_pressure;
+        let by_zone = found.found.limit()?.unwrap_or(tension);
+        Ok(found.found.reached.then_some(Pulled {
+            tension,
+            by_zone,
+            told: found.limit.zip(found.error.ok()).map(|(limit, error)| (limit, error.relative)),
+        }))
     }
+}
+
+/// A pull-off: the greatest tension, what it tells of the limit, and the limit that is told with its error.
+#[derive(Debug)]
+struct Pulled {
+    tension: f64,
+    by_zone: f64,
+    told: Option<Told>,
 }
 
 fn value(of: Quantity, level: &Level) -> f64 {
@@ -248,7 +265,7 @@ pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
     let mut missing: BTreeMap<usize, usize> = BTreeMap::new();
     for (number, kind) in KINDS.into_iter().enumerate() {
         let mut draw = Draw::new(seed + 1000 * number as u64);
-        for scene in 0..if quick { 2 } else { count.div_ceil(KINDS.len()) } {
+        for scene in 0..count.div_ceil(KINDS.len()) {
             let scene_of = Scene::drawn(kind, &mut draw)?;
             let mut control = Control::MeanPressure(scene_of.pressure);
             if scene_of.by_gap {
@@ -258,50 +275,33 @@ pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
             let finer = FINER.map(|finer| scene_of.solve(finer, control));
             let [Ok((half, _)), Ok((fine, _))] = finer else { continue };
             let [Some(here), Some(half), Some(fine)] = [levels.last(), half.last(), fine.last()] else { continue };
+            let say = |of: &str, off: f64, error: f64, words: &str| {
+                let miss = if off > error { ", missed" } else { "" };
+                if quick {
+                    println!("{kind} {scene}: {of} {off:.4} of {error:.4}{miss}: {words}");
+                }
+            };
             for (at, (of, error)) in errors.iter().enumerate() {
-                let truth = extrapolated(value(*of, fine), value(*of, half));
-                match error {
-                    Some(error) => {
-                        let off = (value(*of, here) / truth - 1.0).abs();
-                        if std::env::var("TOLD").is_ok() {
-                            println!(
-                                "{kind}; {scene}; {}; {off:.4}; {:.4}; {}; values {:.5e} {:.5e} {:.5e}; counted {:.4} corrected {:.4} energy {:?} edges {} w {:.2e} status {}",
-                                of.name(),
-                                error.relative,
-                                error.rough,
-                                value(*of, here),
-                                value(*of, half),
-                                value(*of, fine),
-                                here.area.contact_fraction,
-                                here.area.corrected_contact_fraction,
-                                here.adhesive_contact_fraction,
-                                here.area.edges,
-                                scene_of.work,
-                                here.status
-                            );
-                        }
-                        told.entry((number, at)).or_default().push((off, error.relative));
-                    }
-                    None if value(*of, here).is_finite() && *of == Quantity::Area => {
-                        *missing.entry(number).or_default() += 1
-                    }
-                    None => (),
+                let (found, truth) = (value(*of, here), extrapolated(value(*of, fine), value(*of, half)));
+                if let Some(error) = error {
+                    let off = (found / truth - 1.0).abs();
+                    say(of.name(), off, error.relative, &format!("{found:.5e} {truth:.5e}"));
+                    told.entry((number, at)).or_default().push((off, error.relative));
+                } else if *of == Quantity::Area {
+                    *missing.entry(number).or_default() += 1;
                 }
             }
             if scene % PULLED == 0 {
-                let small = Scene { n: 32, ..scene_of };
-                let pulled = [1, 2, 4].map(|finer| small.pull_off(finer));
-                if let [Ok((Some(limit), error)), Ok((Some(half), _)), Ok((Some(fine), _))] = pulled {
-                    let truth = extrapolated(fine, half);
-                    if let Some(error) = error {
-                        if std::env::var("TOLD").is_ok() {
-                            println!(
-                                "{kind}; {scene}; pull-off; {:.4}; {error:.4}; ; {limit:.4e} {half:.4e} {fine:.4e}",
-                                (limit / truth - 1.0).abs()
-                            );
-                        }
-                        told.entry((number, 5)).or_default().push(((limit / truth - 1.0).abs(), error));
-                    }
+                let small = Scene { n: SMALL, ..scene_of };
+                let [on_grid, half, fine] = [1, 2, 4].map(|finer| small.pull_off(finer));
+                if let (Some(Pulled { told: Some((limit, error)), .. }), Some(half), Some(fine)) =
+                    (on_grid?, half?, fine?)
+                {
+                    let ends = [(fine.tension, half.tension), (fine.by_zone, half.by_zone)];
+                    let [above, below] = ends.map(|(fine, half)| extrapolated(fine, half));
+                    let off = (limit / above.midpoint(below) - 1.0).abs();
+                    say("pull-off", off, error, &format!("{limit:.3e} {half:?} {fine:?}"));
+                    told.entry((number, 5)).or_default().push((off, error));
                 }
             }
         }

@@ -19,12 +19,16 @@ class PullOff(NamedTuple):
     force : float or None
         The force of that tension.
     limit_pressure, limit_force : float or None
-        Pull-off in the limit of zero range, with `JKR`: the tension less the share of the process zone at the edges of
-        the contacts, which the nodes make too wide. None where more than three quarters of a periodic cell are in
-        contact by their adhesive energy: closed surfaces have no limit.
+        Pull-off in the limit of zero range, with `JKR`: of the tension and the tension less the share of the process
+        zone at the edges of the contacts the one that changed less from a grid of half as many nodes along the sides. None
+        where more than three quarters of a periodic cell are in contact by their adhesive energy, as closed surfaces have
+        no limit, and where a few nodes bear the tension.
     limit_error : float or None
-        Estimated relative error of the limit, by a grid of half as many nodes along the sides. None also where the limit
-        grows by more than a fifth from that grid.
+        Estimated relative error of the limit, by a grid of half as many nodes along the sides.
+    limit_reason : str or None
+        Reason why there is no error.
+    to_report : {"limit_pressure", "pull_off_pressure"} or None
+        Pull-off to report: the limit if it has an error; None where a few nodes bear the tension.
     accuracy : float or None
         Relative error that was asked for.
     lost_pressure : float or None
@@ -49,6 +53,8 @@ class PullOff(NamedTuple):
     limit_pressure: float | None
     limit_force: float | None
     limit_error: float | None
+    limit_reason: str | None
+    to_report: str | None
     accuracy: float | None
     lost_pressure: float | None
     reached: bool

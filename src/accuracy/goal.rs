@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use super::refine::{is_of_interpolation, overshoots, refined, twice};
 use super::{GridError, Quantity, resolves_adhesion};
-use crate::adhesion::{AdhesionLaw, SharedLaw, mu_rho};
+use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::{Boundary, ElasticOperator, OnGrids};
 use crate::error::{Error, Result};
@@ -42,7 +42,8 @@ const DOUBT: f64 = 3.0;
 /// its place; with a free boundary continued by its mirror images).
 ///
 /// The grid of the answer is that of [`AccurateSolution::surface`], never coarser than the given one. A surface with
-/// absent nodes, one with steps, and a law that varies from node to node are not refined.
+/// absent nodes, and one with steps are not refined. A [`Varying`](crate::adhesion::Varying) law has the work of adhesion of
+/// each node on all nodes in its place; other laws that vary are not refined.
 ///
 /// ```
 /// use asperity::accuracy::{Accuracy, Quantity};
@@ -113,7 +114,14 @@ impl<T: Real> AccurateSolution<T> {
 }
 
 pub(super) fn is_refinable<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
-    surface.absent().is_none() && law.hints().shape.is_none() && surface.grid().nodes() > 1
+    let known = law.hints().shape.is_none() || law.adapted(Discretisation::Fine(2, 2)).is_some();
+    surface.absent().is_none() && known && surface.grid().nodes() > 1
+}
+
+/// The law of a surface on the grid of a finer one.
+pub(super) fn on_twice<T: Real>(law: SharedLaw<T>, surface: &Surface, fine: &Surface) -> SharedLaw<T> {
+    let ((nx, ny), (fx, fy)) = (surface.grid().shape(), fine.grid().shape());
+    law.adapted(Discretisation::Fine(fx / nx, fy / ny)).map_or(law, SharedLaw)
 }
 
 impl Accuracy {
@@ -283,9 +291,11 @@ impl Accuracy {
         observe: GridObserver<'_>,
     ) -> Result<AccurateSolution<T>> {
         let mut refinable = is_refinable(surface, &**law);
+        let given_law = law;
         'given: loop {
+            let mut law = given_law.clone();
             let (Solved { mut solution, mut whole, .. }, mut levels) =
-                self.nested.run(solver, Box::new(surface), operators, law, control, &mut *observe)?;
+                self.nested.run(solver, Box::new(surface), operators, &law, control, &mut *observe)?;
             self.of.check_in(solution.report.boundary)?;
             let periodic = solution.report.boundary == Boundary::Periodic;
             let mut waves = surface.nodes_per_wave(solution.report.boundary);
@@ -312,15 +322,16 @@ impl Accuracy {
                     refinable = false;
                     break (error, false, None);
                 }
+                law = on_twice(law, &surface, &fine);
                 if law.hints().touches() {
                     // what touches on this grid at its adhesion may not touch on a finer one, and would stick there
                     (Solved { solution, whole, .. }, levels) =
-                        self.nested.run(solver, Box::new(&fine), operators, law, control, &mut *observe)?;
+                        self.nested.run(solver, Box::new(&fine), operators, &law, control, &mut *observe)?;
                     (surface, waves) = (fine, 2.0 * waves);
                     continue;
                 }
                 let half_space = operators.on(*fine.grid())?;
-                let touching = Touching::of(solver.constraint.wall(), &**law);
+                let touching = Touching::of(solver.constraint.wall(), &*law);
                 let coarse = Deformed::of(&surface, solution.gap, whole);
                 let start = coarse.prolonged(&fine, half_space.grid(), touching);
                 let mut problem = Problem::of(&fine, half_space, law.clone())?;

@@ -1,13 +1,14 @@
 //! The pull-off with the error of its grid, of a law that has the range of the grid.
 
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use super::goal::{NUMBERS, is_refinable};
+use super::goal::{NUMBERS, is_refinable, on_twice};
 use super::refine::{overshoots, refined, twice};
 use super::{Accuracy, GridError, observed_order};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw};
 use crate::constraint::ContactConstraint;
-use crate::contact::ContactArea;
+use crate::contact::{Clusters, ContactArea};
 use crate::elastic::{Boundary, OnGrids};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -19,7 +20,7 @@ use crate::solver::{Iteration, Solver, Start, Status};
 use crate::surface::Surface;
 
 /// The factors of the process zone and of the difference to the grid of half as many nodes, in the error.
-const FACTORS: [f64; 2] = [1.2, 0.75];
+const FACTORS: [f64; 2] = [1.5; 2];
 
 /// The width of the bracket of a search, as a share of the accuracy.
 const BRACKET: f64 = 0.2;
@@ -27,10 +28,45 @@ const BRACKET: f64 = 0.2;
 /// The contact fraction by the adhesive energy, above which a periodic cell is closed: the grid decides when it opens.
 const CLOSED: f64 = 0.75;
 
-/// The growth of the limit from one grid to the next, above which the two tell no error.
-const GROWTH: f64 = 1.2;
+/// The contact fraction by the adhesive energy, above which the error is not told: on finer grids the surfaces may be closed.
+const NEARLY_CLOSED: f64 = 0.4;
 
-/// The pull-off on the finest of some grids, and the estimated error of its [limit](FoundPullOff::limit).
+/// The growth of the pull-off from one grid to the next, above which the two tell no error.
+const GROWTH: f64 = 1.15;
+
+/// The least number of nodes that bear the pull-off, in a contact, and the least radius of a contact by the theory of Johnson,
+/// Kendall and Roberts, in spacings.
+const LEAST_NODES: f64 = 10.0;
+const LEAST_RADIUS: f64 = 2.0;
+
+/// Why the error of a pull-off is not told.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Untold {
+    /// The law has a range of its own.
+    Range,
+    /// The search has not come to its end.
+    Unreached,
+    /// So few nodes bear the pull-off, in a contact: it is the pull-off of nodes, and tells no limit.
+    FewNodes {
+        /// The number of nodes.
+        nodes: f64,
+        /// The nodes (Nx, Ny) of a grid that is fine enough.
+        needed: (usize, usize),
+        /// The bytes that a solve takes there.
+        bytes: f64,
+    },
+    /// This share of a periodic cell is in contact: the grid decides where closed surfaces begin to peel.
+    Closed(f64),
+    /// The shortest wave has so many nodes, and needs twice [`GridError::LEAST_NODES_PER_WAVE`].
+    Waves(f64),
+    /// The grid of half as many nodes along the sides tells no pull-off.
+    OneGrid,
+    /// The pull-off is so many times that of the coarser grid.
+    Growth(f64),
+}
+
+/// The pull-off on the finest of some grids, and the estimated error of its limit.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct AccuratePullOff<T: Real> {
@@ -38,10 +74,14 @@ pub struct AccuratePullOff<T: Real> {
     pub found: FoundPullOff<T>,
     /// The surface on that grid.
     pub surface: Surface,
-    /// The nodes (Nx, Ny) of each grid, the finest last, and the limit of the pull-off that it tells, a pressure.
-    pub levels: Vec<((usize, usize), f64)>,
-    /// The estimated error of the limit on the finest grid, with the width of its bracket, if two grids tell it.
-    pub error: Option<GridError>,
+    /// The nodes (Nx, Ny) of each grid, the finest last, with the greatest tension and the [limit](FoundPullOff::limit)
+    /// that it tells, pressures.
+    pub levels: Vec<((usize, usize), [f64; 2])>,
+    /// The pull-off in the limit of no range, a pressure, if it is known: of the two on the finest level the one that
+    /// changed less from the grid before.
+    pub limit: Option<f64>,
+    /// The estimated error of the limit, with the width of its bracket, or the reason why it is not told.
+    pub error: std::result::Result<GridError, Untold>,
     /// Whether the estimate meets the accuracy.
     pub reached: bool,
     /// Whether the surface and the law are known on finer grids, as in [`AccurateSolution`](super::AccurateSolution).
@@ -68,10 +108,62 @@ impl<T: Real> FoundPullOff<T> {
         let report = &self.solution.report;
         let (tension, by_energy) = (-report.mean_pressure, report.adhesive_contact_fraction);
         let area = ContactArea::of_solution(&self.solution)?.jkr_contact_fraction;
-        let facing = 1.0 - report.absent_nodes as f64 / self.solution.grid.nodes() as f64;
-        let is_closed = report.approach.is_none() && by_energy.is_some_and(|share| share * facing > CLOSED);
+        let is_closed = self.closed_share().is_some_and(|share| share > CLOSED);
         let share = area.zip(by_energy).filter(|_| !is_closed).map(|(area, by_energy)| area / by_energy);
         Ok(share.filter(|share| tension > 0.0 && share.is_finite()).map(|share| share * tension))
+    }
+
+    /// The share of a periodic cell in contact, by the adhesive energy.
+    fn closed_share(&self) -> Option<f64> {
+        let report = &self.solution.report;
+        let facing = 1.0 - report.absent_nodes as f64 / self.solution.grid.nodes() as f64;
+        report.adhesive_contact_fraction.filter(|_| report.approach.is_none()).map(|share| share * facing)
+    }
+
+    /// The nodes of the contacts that bear the tension, by the adhesive energy, in the mean over these nodes.
+    fn bearing_nodes(&self) -> f64 {
+        let (solution, report) = (self.solution.whole(), &self.solution.report);
+        let facing = (solution.grid.nodes() - report.absent_nodes) as f64;
+        let by_energy = report.adhesive_contact_fraction.unwrap_or_default() * facing;
+        let sizes = Clusters::within(solution.contact_map().view(), report.boundary).sizes;
+        let sum = |power: i32| sizes.iter().map(|&size| (size as f64).powi(power)).sum::<f64>();
+        if sizes.is_empty() { by_energy } else { by_energy * sum(2) / sum(1).powi(2) }
+    }
+
+    /// The radius of the contacts at their pull-off by the theory of Johnson, Kendall and Roberts, in spacings, with the mean
+    /// curvature of the surface at the nodes in contact; infinite where they are flat.
+    fn radius_by_jkr(&self, surface: &Surface) -> f64 {
+        let (solution, heights) = (self.solution.whole(), surface.whole());
+        let (heights, grid, report) = (heights.heights(), &solution.grid, &solution.report);
+        let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
+        let bend = |[before, here, after]: [f64; 3], spacing: f64| (2.0 * here - before - after) / (spacing * spacing);
+        let contact = solution.contact_map();
+        let inside = |at: usize, n: usize| report.approach.is_none() || n == 1 || 0 < at && at + 1 < n;
+        let (mut sum, mut count) = (0.0, 0.0);
+        for ((i, j), _) in
+            contact.indexed_iter().filter(|((i, j), touches)| **touches && inside(*i, nx) && inside(*j, ny))
+        {
+            let along_x = [(i + nx - 1) % nx, i, (i + 1) % nx].map(|i| heights[[i, j]]);
+            let along_y = [(j + ny - 1) % ny, j, (j + 1) % ny].map(|j| heights[[i, j]]);
+            let axes = f64::from(u8::from(nx > 1)) + f64::from(u8::from(ny > 1));
+            let bend_here = (bend(along_x, dx) + bend(along_y, dy)) / axes;
+            if bend_here.is_finite() {
+                (sum, count) = (sum + bend_here, count + 1.0);
+            }
+        }
+        let curvature = sum / count;
+        if curvature.is_nan() || curvature <= 0.0 {
+            return f64::INFINITY;
+        }
+        let cube = 1.125 * PI * report.work_of_adhesion / (report.modulus * curvature * curvature);
+        cube.cbrt() / grid.largest_spacing()
+    }
+
+    /// The number of nodes of a contact, and how many times as many it needs along the sides, if they are too few.
+    fn few_nodes(&self, surface: &Surface) -> Option<(f64, f64)> {
+        let nodes = self.bearing_nodes();
+        let finer = (LEAST_NODES / nodes).sqrt().max(LEAST_RADIUS / self.radius_by_jkr(surface));
+        (finer > 1.0).then_some((nodes, finer))
     }
 }
 
@@ -79,8 +171,9 @@ impl Accuracy {
     /// The pull-off to the accuracy, if it can be had; an infinite accuracy asks for the error on the given grid alone.
     ///
     /// The given grid and one of half as many nodes along the sides are searched. As long as the estimated error of the
-    /// [limit](FoundPullOff::limit) exceeds the accuracy, the surface is put on twice as many nodes, as by
+    /// [limit](AccuratePullOff::limit) exceeds the accuracy, the surface is put on twice as many nodes, as by
     /// [`Accuracy::solve`]. With a law that has a range of its own the given grid alone is searched, without an estimate.
+    /// [`Untold`] has the reasons for which two grids tell none.
     ///
     /// # Errors
     /// [`Error::Unsuited`] for an accuracy with a law that has a range; [`Error::Value`] for one that is not positive;
@@ -93,7 +186,7 @@ impl Accuracy {
     /// let half_space = |grid| Boussinesq::<f64>::new(grid, 1.0);
     /// let (told, law) = (Accuracy::new(f64::INFINITY, Quantity::Area), Jkr::new(2e-3)?);
     /// let found = told.pull_off(&mut Solver::default(), &sphere, half_space, law, &PullOff::default())?;
-    /// let force = found.found.limit()?.unwrap() * 1.6 * 1.6;
+    /// let force = found.limit.unwrap() * 1.6 * 1.6;
     /// let ratio = force / -exact::Jkr::new(1.0, 1.0, 2e-3)?.pull_off().load();
     /// assert!((ratio - 1.0).abs() < found.error.unwrap().relative);
     /// # Ok::<(), asperity::Error>(())
@@ -149,8 +242,9 @@ impl Accuracy {
             let grid = *surface.grid();
             let mut problem = Problem::of(surface, operators.on(grid)?, law)?;
             let found = search.find_from(solver, &mut problem, Start::Default, |state| observe(&grid, state))?;
-            let limit = found.limit()?;
-            Ok::<_, Error>((found, limit, problem.operator.grid().nodes(), problem.operator.boundary()))
+            let tension = -found.solution.report.mean_pressure;
+            let level = found.limit()?.map(|limit| (grid.shape(), [tension, limit]));
+            Ok::<_, Error>((found, level, problem.operator.grid().nodes(), problem.operator.boundary()))
         };
         let mut levels = Vec::new();
         if hints.of_grid && !hints.zero {
@@ -158,48 +252,92 @@ impl Accuracy {
             if let Some(coarse) = &coarse {
                 let ((nx, ny), (cx, cy)) = (surface.grid().shape(), coarse.grid().shape());
                 let on_coarse = law.adapted(Discretisation::Coarse(nx / cx, ny / cy));
-                // what cannot be found there says nothing of the finer grid
+                // what cannot be found there, or is of a few nodes, says nothing of the finer grid
                 let found = find(coarse, on_coarse.map_or_else(|| law.clone(), SharedLaw)).ok();
-                levels.extend(found.and_then(|(_, limit, ..)| Some((coarse.grid().shape(), limit?))));
+                let found = found.filter(|(found, ..)| found.reached && 4.0 * found.bearing_nodes() >= LEAST_NODES);
+                levels.extend(found.and_then(|(_, level, ..)| level));
             }
         }
-        let mut surface = surface.clone();
-        let mut refinable = is_refinable(&surface, &**law);
+        let (mut surface, mut law) = (surface.clone(), law.clone());
+        let mut refinable = is_refinable(&surface, &*law);
         loop {
-            let (found, limit, nodes, boundary) = find(&surface, law.clone())?;
+            let (found, level, nodes, boundary) = find(&surface, law.clone())?;
             let waves = surface.nodes_per_wave(boundary);
-            let stopped = found.solution.report.status == Status::Stopped;
-            levels.extend(limit.map(|limit| (surface.grid().shape(), limit)));
-            let told = found.reached && limit.is_some();
-            let error = if told { error(&found, &levels, waves) } else { None };
-            let reached = !refines || error.is_some_and(|error| error.relative <= self.target);
             let shape = twice(surface.grid().shape());
             let growth = (shape.0 * shape.1) as f64 / surface.grid().nodes() as f64;
-            let bytes = 8.0 * NUMBERS * nodes as f64 * growth;
-            let ends = reached || stopped || !found.reached || limit.is_none() || !refinable || bytes > self.memory;
+            let bytes = |doubled: i32| 8.0 * NUMBERS * nodes as f64 * growth.powi(doubled);
+            let few = found.few_nodes(&surface).filter(|_| hints.of_grid && level.is_some());
+            let few = few.map(|(nodes, finer)| {
+                let doubled = finer.log2().ceil() as i32;
+                let needed = (0..doubled).fold(surface.grid().shape(), |shape, _| twice(shape));
+                Untold::FewNodes { nodes, needed, bytes: bytes(doubled) }
+            });
+            levels.extend(level.filter(|_| few.is_none()));
+            let limit = level.filter(|_| few.is_none()).map(|_| limits(&levels)[0]);
+            let error = match few {
+                Some(few) => Err(few),
+                None => error(&found, &levels, hints.of_grid, (level.is_some(), waves)),
+            };
+            let ended = match error {
+                Ok(error) => error.relative <= self.target,
+                Err(Untold::Closed(_) | Untold::Unreached | Untold::Range) => true,
+                Err(_) => found.solution.report.status == Status::Stopped,
+            };
+            let reached = !refines || error.is_ok() && ended;
+            let ends = reached || ended || !refinable || bytes(1) > self.memory;
             let fine = if ends { None } else { Some(refined(&surface, boundary == Boundary::Periodic)?) };
             refinable &= !fine.as_ref().is_some_and(|fine| overshoots(fine, &surface));
             let Some(fine) = fine.filter(|_| refinable) else {
-                let unaffordable =
-                    (!reached && found.reached && refinable && bytes > self.memory).then_some((shape, bytes));
-                return Ok(AccuratePullOff { found, surface, levels, error, reached, refinable, unaffordable });
+                let too_large = !reached && !ended && refinable && bytes(1) > self.memory;
+                let unaffordable = too_large.then_some((shape, bytes(1)));
+                return Ok(AccuratePullOff { found, surface, levels, limit, error, reached, refinable, unaffordable });
             };
+            law = on_twice(law, &surface, &fine);
             surface = fine;
         }
     }
 }
 
+/// The pull-off in the limit of no range on each of some levels, the finest first: of the tension and of the limit that it
+/// tells the one that changed less to the finest level.
+fn limits(levels: &[((usize, usize), [f64; 2])]) -> Vec<f64> {
+    let change = |of: usize| match levels {
+        [.., (_, coarse), (_, fine)] => (fine[of] / coarse[of] - 1.0).abs(),
+        _ => 1.0 - of as f64,
+    };
+    let of = usize::from(change(1) <= change(0));
+    levels.iter().rev().map(|(_, found)| found[of]).collect()
+}
+
 /// The error of the limit on the finest of the levels.
-fn error<T: Real>(found: &FoundPullOff<T>, levels: &[((usize, usize), f64)], nodes_per_wave: f64) -> Option<GridError> {
-    let limits: Vec<f64> = levels.iter().rev().map(|(_, limit)| *limit).collect();
-    let &[limit, coarse, ..] = &limits[..] else { return None };
-    if nodes_per_wave < 2.0 * GridError::LEAST_NODES_PER_WAVE || limit > GROWTH * coarse {
-        return None;
+fn error<T: Real>(
+    found: &FoundPullOff<T>,
+    levels: &[((usize, usize), [f64; 2])],
+    of_grid: bool,
+    (is_known, nodes_per_wave): (bool, f64),
+) -> std::result::Result<GridError, Untold> {
+    if !of_grid {
+        return Err(Untold::Range);
     }
-    let tension = -found.solution.report.mean_pressure;
+    if !found.reached {
+        return Err(Untold::Unreached);
+    }
+    if let Some(share) = found.closed_share().filter(|share| *share > NEARLY_CLOSED) {
+        return Err(Untold::Closed(share));
+    }
+    if nodes_per_wave < 2.0 * GridError::LEAST_NODES_PER_WAVE {
+        return Err(Untold::Waves(nodes_per_wave));
+    }
+    let limits = limits(levels);
+    let (&[limit, coarse, ..], Some((_, [tension, of_zone]))) = (&limits[..], levels.last().filter(|_| is_known))
+    else {
+        return Err(Untold::OneGrid);
+    };
+    if limit > GROWTH * coarse {
+        return Err(Untold::Growth(limit / coarse));
+    }
     let bracket = found.lost.map_or(0.0, |lost| lost - tension);
-    let [of_zone, of_difference] = FACTORS;
-    let of_grid = (of_zone * (tension - limit)).hypot(of_difference * (limit - coarse));
-    let relative = (of_grid + bracket) / limit;
-    Some(GridError { relative, order: observed_order(&limits), rough: false })
+    let [zone, difference] = FACTORS;
+    let of_grid = (zone * (tension - of_zone)).hypot(difference * (limit - coarse));
+    Ok(GridError { relative: (of_grid + bracket) / limit, order: observed_order(&limits), rough: false })
 }

@@ -6,8 +6,8 @@ use crate::nested::Level;
 /// The factor by which an estimate is larger where the area changes from grid to grid by more than half the zone.
 const APART: f64 = 4.5;
 
-/// The error of all but the area where the edge is without adhesion, over that of the area by the places of its edge.
-const PLACES: f64 = 0.5;
+/// How much larger the share of the zone is in the error of the area where adhesion carries all of the contact pressure.
+const STRONG: f64 = 0.8;
 
 /// A quantity on a grid: as it is reported, less the process zone, and the zone.
 struct Told {
@@ -37,7 +37,7 @@ impl Quantity {
     /// The factors of the zone and of the difference to the coarser grid, and that of the zone without a coarser grid.
     fn factors(self) -> [f64; 3] {
         match self {
-            Self::Area => [0.6, 1.2, 1.5],
+            Self::Area => [0.7, 1.4, 1.7],
             Self::Gap => [4.0, 4.0, 7.5],
             Self::Approach => [2.5, 1.5, 3.75],
             Self::Pressure | Self::Stiffness => [6.0, 3.0, 15.0],
@@ -62,7 +62,8 @@ impl Quantity {
         let of_places = match self {
             Self::Area if coarser.is_none() => 2.0,
             Self::Area => 1.0,
-            _ => PLACES,
+            Self::Approach => 1.2,
+            _ => 0.5,
         };
         GridError::COVER * (of_places * places).hypot(waves)
     }
@@ -94,7 +95,10 @@ pub(super) fn error(
     // around holes the zone is narrower
     let closed = if quantity == Quantity::Area { 1.0 + area.limit.powi(4) } else { 1.0 };
     let [of_zone, of_difference, alone] = quantity.factors();
-    let [of_zone, alone] = [of_zone, alone].map(|factor| closed * factor);
+    // where adhesion carries more than the load
+    let pull = (1.0 - finest.mean_pressure / finest.mean_contact_pressure).clamp(0.0, 1.0);
+    let strong = if quantity == Quantity::Area { 1.0 + STRONG * pull * pull } else { 1.0 };
+    let [of_zone, alone] = [strong * of_zone, alone].map(|factor| closed * factor);
     let of_difference = adhesive * of_difference + (1.0 - adhesive) * quantity.share_of_difference();
     let error = match limits[..] {
         [limit, coarse, ..] => (of_zone * told.zone).hypot(of_difference * (limit - coarse)),

@@ -162,6 +162,11 @@ impl<T: Real, L: AdhesionLaw<T> + Clone + 'static> AdhesionLaw<T> for Varying<L>
                 let shares = Field::from_fn(coarse, |(ix, iy)| self.shares[[ix * nx, iy * ny]]);
                 Arc::new(Varying { law: self.law.clone(), shares: Arc::new(shares), largest, repels })
             }
+            Discretisation::Fine(nx, ny) => {
+                let (rows, columns) = self.shares.dim();
+                let shares = Field::from_fn((rows * nx, columns * ny), |(ix, iy)| self.shares[[ix / nx, iy / ny]]);
+                Arc::new(Varying { law: self.law.clone(), shares: Arc::new(shares), largest, repels })
+            }
             Discretisation::Smooth(compliance) => {
                 // where the law is strongest its jumps are the largest
                 let law = self.law.adapted(Discretisation::Smooth(compliance * T::lit(largest)))?;

@@ -67,6 +67,8 @@ pub struct Iteration {
     /// Whether the law is still [smoothed](crate::adhesion::Discretisation::Smooth), and energy and error are of that
     /// law.
     pub smoothed: bool,
+    /// The control of the solve.
+    pub control: Control,
 }
 
 /// The account of a solve: its problem in numbers and names, its cost, and its outcome. Energies are per area; all

@@ -278,6 +278,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             contact_nodes: self.sums.tally.contact as usize,
             round: self.counters.rounds,
             smoothed: self.posed.goal == Goal::Start && self.posed.smoothed.is_some(),
+            control: self.posed.control,
         }
     }
 }

@@ -69,7 +69,8 @@ pub struct ContactStiffness {
     /// The number of operator applications.
     pub operator_applications: usize,
     /// The estimated error of the grid in a periodic cell. `None` with a free boundary or absent nodes, where no node
-    /// or every one is in contact, and under springs or a law in place of the wall.
+    /// or every one is in contact, under springs or a law in place of the wall, and by a law with the range of the grid,
+    /// whose edges move.
     pub edge: Option<EdgeError>,
 }
 
@@ -128,7 +129,7 @@ impl ContactStiffness {
         let near = Near::Of(solution.touched.as_ref());
         let slopes = slopes(&solution.gap, (followed, constraint), near, (&*operator, window))?;
         let rigid = matches!(constraint.wall(), Wall::Rigid) && window.is_none();
-        let at_edge = rigid && solution.report.contact_nodes > 0;
+        let at_edge = rigid && solution.report.contact_nodes > 0 && !law.hints().of_grid;
         let smoothed = smoothed.is_some();
         let mut hessian = Hessian::new(operator, slopes, Load::Gap(0.0));
         hessian.hold(flat.stiffness);

@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use asperity::adhesion::Formula;
 use asperity::exact::Sphere;
 use asperity::path::{Path, PathSettings};
 use asperity::{
-    AdhesionLaw, Boussinesq, Branch, Control, Error, Exponential, Grid, MaugisDugdale, NoAdhesion, Penalty, Problem,
-    PullOff, SelfAffine, Settings, Solver, Start, Status, Surface, Westergaard, exact,
+    AdhesionLaw, Amplitude, Boussinesq, Branch, Control, Error, Exponential, Grid, Jkr, MaugisDugdale, NoAdhesion,
+    Penalty, Problem, PullOff, SelfAffine, Settings, Solver, Start, Status, Surface, Sweep, Westergaard, exact,
 };
 use oracles::followed;
 
@@ -113,4 +114,29 @@ fn what_bears_no_tension_is_refused_and_a_search_that_is_stopped_says_so() {
     let mut solver = Solver::new(Settings::default().max_iterations(2_usize));
     let short = default.find(&mut solver, &mut rough(law)).unwrap();
     assert!(!short.reached && short.solution.report.status == Status::IterationLimit);
+}
+
+#[test]
+fn surfaces_that_were_pressed_hold_each_other_by_weak_adhesion() {
+    let grid = Grid::square(32, 1.0).unwrap();
+    for seed in [4, 5, 6] {
+        let surface =
+            SelfAffine::default().k_s(4.0).amplitude(Amplitude::RmsSlope(0.3)).seed(seed).surface(grid).unwrap();
+        let laws: [Formula; 2] = [Jkr::new(2e-10).unwrap().into(), MaugisDugdale::new(2e-10, 1e-6).unwrap().into()];
+        for law in laws {
+            let mut problem = Problem::new(&surface, Westergaard::<f64>::new(grid, 1.0).unwrap(), law).unwrap();
+            let mut find = |search: PullOff| {
+                let found = search.find(&mut Solver::default(), &mut problem).unwrap();
+                assert!(found.reached, "{seed}");
+                -found.solution.report.mean_pressure
+            };
+            let (flat, pressed) = (find(PullOff::default()), find(PullOff::default().preload(Some(0.01))));
+            // by the last node in both
+            assert!((pressed / flat - 1.0).abs() < 0.05, "{seed}: {pressed} {flat}");
+            let mut sweep = Sweep::default();
+            let fall = [0.01, 1e-4, 0.0].map(Control::MeanPressure);
+            let [.., last] = fall.map(|load| sweep.next(&mut Solver::default(), &mut problem, load).unwrap());
+            assert!(last.report.contact_nodes > 0, "{seed}");
+        }
+    }
 }

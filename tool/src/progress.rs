@@ -9,13 +9,18 @@ use asperity_scene::fall::Fall;
 use asperity_scene::pace::Pace;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::printing::complain;
+use crate::printing::{Printing, complain};
+use crate::quantity::PRESSURE;
+use crate::units::Units;
 
 /// The steps from the first error to the tolerance, on a logarithmic scale.
 const STEPS: f64 = 1000.0;
 
 /// The time from which a run is long.
 const LONG: Duration = Duration::from_secs(5);
+
+/// The time between lines in the place of a bar.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 /// The progress of a solve, drawn on standard error if that is a terminal, and gone when dropped; elsewhere a
 /// line for each grid of a long run.
@@ -88,6 +93,33 @@ impl Progress {
     pub fn on_grids(&mut self) -> impl FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> {
         |grid, state, tolerance| {
             self.update_on(grid, state, tolerance);
+            ControlFlow::Continue(())
+        }
+    }
+
+    /// The listener to the solves of a search for the pull-off: the bar has the grid, the solve and its mean pressure, and
+    /// so have lines now and then where there is no bar.
+    pub fn on_tensions<'a>(
+        &'a mut self,
+        units: &'a Units,
+        printing: Printing,
+    ) -> impl FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> {
+        // these lines have the grids, too
+        self.in_lines = false;
+        let (mut solves, mut last, mut told) = (0, None, Instant::now());
+        move |grid, state, tolerance| {
+            self.update_on(grid, state, tolerance);
+            if last != Some((grid.shape(), state.control)) {
+                last = Some((grid.shape(), state.control));
+                solves += 1;
+                let ((nx, ny), pressure) = (grid.shape(), units.number(state.control.value(), PRESSURE));
+                let name = format!("{nx} x {ny}, solve {solves} at {pressure} ");
+                if self.bar.is_hidden() && told.elapsed() >= BETWEEN_LINES {
+                    printing.say(name.trim_end());
+                    told = Instant::now();
+                }
+                self.bar.set_prefix(name);
+            }
             ControlFlow::Continue(())
         }
     }

@@ -99,8 +99,10 @@ impl Options {
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
         let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
-        let mut progress = Progress::new("", session.tolerance(None)?, nodes, printing.without_bars());
-        let found = session.pull_off(asked, goal, start.map(T::field), &mut progress.on_grids());
+        printing.say(&session.announce_pull_off(goal.is_some())?);
+        let (units, tolerance) = (session.units().clone(), session.tolerance(None)?);
+        let mut progress = Progress::new("", tolerance, nodes, printing.without_bars());
+        let found = session.pull_off(asked, goal, start.map(T::field), &mut progress.on_tensions(&units, printing));
         drop(progress);
         let (mut solved, pulled_off) = found?;
         say_new(&mut session.warnings);

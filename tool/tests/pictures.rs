@@ -152,7 +152,7 @@ fn a_report_is_one_page_that_loads_nothing() {
     let page = bench.read("results/report.html");
     assert_eq!((unbalanced(&page), loaded(&page)), (vec![], vec![]));
     // the figures come first, and the slopes are those of the report and of `stats`
-    assert!(page.find("<h2>Figures").unwrap() < page.find("<h2>Maps").unwrap());
+    assert!(page.find("<h2>Numbers").unwrap() < page.find("<h2>Maps").unwrap());
     let (found, stats) = (bench.report("results"), bench.reported("stats heights.npy --lengths 1"));
     for (key, name) in [("rms_slope", "rms slope"), ("rms_slope_differences", "rms slope differences")] {
         assert_eq!(found[key], stats[key], "{key}");
@@ -190,7 +190,7 @@ fn a_report_is_one_page_that_loads_nothing() {
     assert_eq!(hasty.status.code(), Some(2), "{}", text(&hasty.stderr));
     bench.said("report hasty --out hasty.html");
     let page = bench.read("hasty.html");
-    assert!(page.find("has not converged").unwrap() < page.find("<h2>Figures").unwrap() && page.contains("no maps"));
+    assert!(page.find("has not converged").unwrap() < page.find("<h2>Numbers").unwrap() && page.contains("no maps"));
     assert_eq!(unbalanced(&page), Vec::<String>::new());
 
     let cycle = format!("cycle --heights heights.npy {LAW} --mean-gaps 0.04,0.03,0.04 --steps 3 --quiet --out c.csv");

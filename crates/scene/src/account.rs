@@ -19,7 +19,7 @@ mod warnings;
 
 use asperity::contact::{ContactStatistics, Patch};
 use asperity::solver::{Criterion, Method};
-use asperity::{Branch, Control, Grid, Real, Report, Result, Solution, Status};
+use asperity::{Branch, Control, Real, Report, Result, Solution, Status};
 use ndarray::ArrayView2;
 use serde::Serialize;
 use serde_json::Value;

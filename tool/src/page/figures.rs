@@ -9,7 +9,7 @@ use crate::columns::spaced;
 pub const GROUPS: [(&str, &str); 8] = [
     (
         "Pull-off",
-        "pull_off_pressure pull_off_force limit_pressure limit_force limit_error lost_pressure preload solves",
+        "pull_off_pressure pull_off_force limit_pressure limit_force limit_error limit_reason to_report lost_pressure preload solves",
     ),
     (
         "Load",

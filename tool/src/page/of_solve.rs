@@ -61,7 +61,9 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         );
     }
     let said = report["warnings"].as_array().into_iter().flatten();
-    warnings.extend(said.filter_map(|warning| warning["message"].as_str()).map(str::to_owned));
+    warnings.extend(
+        said.filter_map(|warning| Some(format!("{}: {}", warning["code"].as_str()?, warning["message"].as_str()?))),
+    );
     if colours.has_unit() && units.pressure.as_deref() != Some(PRESSURE.si) {
         return Err("--colour-limits has a unit, but the pressures of this run are not in Pa: give its numbers".into());
     }
@@ -71,7 +73,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         maps = Page::default();
     }
     page.warnings(&warnings);
-    page.heading("Figures");
+    page.heading("Numbers");
     page.text.push_str("<div class=\"groups\">\n");
     for (heading, figures) in groups(report, &units) {
         let _ = writeln!(page.text, "<section>\n<h3>{heading}</h3>");
@@ -108,7 +110,7 @@ fn page_of(folder: &Path, report: &Value, contents: Contents) -> Outcome<String>
     let (units, Contents { figures, shortfall, pictures }) = (units_of(report), contents);
     let mut page = Page::of_folder(folder, report, if shortfall.is_some() { "not reached" } else { "done" });
     page.warnings(shortfall.as_slice());
-    page.heading("Figures");
+    page.heading("Numbers");
     page.figures(None, &figures);
     let mut drawn = Page::default();
     for picture in pictures {

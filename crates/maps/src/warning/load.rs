@@ -108,7 +108,24 @@ fn remedy(axis: &str, scars_removed: Option<f64>) -> String {
     }
 }
 
+/// The bytes of a GiB.
+const GIB: f64 = 1_073_741_824.0;
+
 impl Warning {
+    /// So few `nodes` of a contact bear the pull-off, where a grid of `needed` nodes, which takes these `bytes`, tells it:
+    /// [`FewNodes`](WarningCode::FewNodes).
+    pub fn of_few_nodes(nodes: f64, (nx, ny): (usize, usize), bytes: f64, memory: f64) -> Self {
+        let size = if bytes < 0.1 * GIB { String::new() } else { format!(", {:.1} GiB", bytes / GIB) };
+        let few = if nodes < 1.5 { "one node or less".to_owned() } else { format!("{nodes:.0} nodes") };
+        let remedy = if bytes <= memory { "refine to" } else { "too large for this memory are" };
+        Self::told(
+            WarningCode::FewNodes,
+            nodes.recip(),
+            "{} of a contact bear the pull-off, which is too few: {} {} x {} nodes{}",
+            [few, remedy.to_owned(), nx.to_string(), ny.to_string(), size].map(Word),
+        )
+    }
+
     /// An elastic solution with most of its load above a tenth of the contact modulus E*,
     /// [`Hardness`](WarningCode::Hardness): most solids yield there. On a steep surface only a hardness makes its
     /// contact one of real surfaces.

@@ -157,7 +157,10 @@ impl<T: Real> Sight<T> {
             let own = pressure.iter().fold(start, |extreme, p| of(extreme, p.widen()));
             self.grid.each(own).into_iter().fold(start, of)
         };
-        Ok((found, (fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max))))
+        let (least, greatest) = (fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max));
+        // without adhesion nothing pulls: what is below zero is rounding, and what the tolerance leaves
+        let least = if law.hints().zero { least.max(0.0) } else { least };
+        Ok((found, (least, greatest)))
     }
 
     /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.

@@ -1,6 +1,6 @@
 //! The pull-off of a problem, with the sentences of its report.
 
-use asperity::accuracy::AccuratePullOff;
+use asperity::accuracy::{AccuratePullOff, GridError, Untold};
 use asperity::pull_off::FoundPullOff;
 use asperity::{Branch, PullOff, Real, Report, Status};
 use serde::Serialize;
@@ -12,13 +12,12 @@ use crate::numbers::percent;
 
 record! {
     /// The pull-off of a problem, as its report has it next to the account of the last state that holds.
-    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    #[derive(Clone, Debug, PartialEq, Serialize)]
     PulledOff of <T: Real>(
         asked: PullOff,
         found: &FoundPullOff<T>,
         report: &Report,
-        limit: Option<f64>,
-        accurate: Option<&AccuratePullOff<T>>,
+        accurate: Result<&AccuratePullOff<T>, &str>,
         goal: Option<Goal>,
     ) {
         /// The greatest tension that was borne, a pressure over the area of the map; none if no state under a tension was
@@ -27,20 +26,25 @@ record! {
         /// The force of that tension.
         pull_off_force: Option<f64> = is_borne(report).then_some(-report.normal_force),
         /// The pull-off in the limit of no range that the state tells, a pressure, of a law that has the range of the grid.
-        limit_pressure: Option<f64> = limit,
+        limit_pressure: Option<f64> = accurate.ok().and_then(|found| found.limit),
         /// The force of that tension.
-        limit_force: Option<f64> = limit.map(|limit| limit * report.normal_force / report.mean_pressure),
+        limit_force: Option<f64> = accurate.ok()
+            .and_then(|found| Some(found.limit? * report.normal_force / report.mean_pressure)),
         /// The estimated relative error of the limit, if a coarser grid tells it.
-        limit_error: Option<f64> = accurate.and_then(|found| found.error).map(|error| error.relative),
+        limit_error: Option<f64> = accurate.ok().and_then(|found| found.error.ok()).map(|error| error.relative),
+        /// The reason why there is no error.
+        limit_reason: Option<String> = reason(accurate),
+        /// The key of the pull-off to report: the limit if it has an error, and nothing where a few nodes bear the tension.
+        to_report: Option<&'static str> = to_report(accurate, report),
         /// The relative error that was asked for, if one was.
-        accuracy: Option<f64> = accurate.and(goal).map(|goal| goal.accuracy),
+        accuracy: Option<f64> = accurate.ok().and(goal).map(|goal| goal.accuracy),
         /// Whether a finer grid could be taken.
         #[serde(skip)]
-        refinable: bool = accurate.is_some_and(|found| found.refinable),
+        refinable: bool = accurate.is_ok_and(|found| found.refinable),
         /// The least tension under which the surfaces came apart.
         lost_pressure: Option<f64> = found.lost,
         /// Whether the two are as close as the tolerance.
-        reached: bool = found.reached && accurate.is_none_or(|found| found.reached),
+        reached: bool = found.reached && accurate.map_or(true, |found| found.reached),
         /// The relative tolerance.
         rtol: f64 = asked.tolerance,
         /// The mean pressure to which the surfaces were pressed before; flat, or as the branch says, if there is none.
@@ -59,7 +63,44 @@ fn is_borne(report: &Report) -> bool {
     report.mean_pressure < 0.0
 }
 
+/// The reason why a pull-off has no error.
+fn reason<T: Real>(accurate: Result<&AccuratePullOff<T>, &str>) -> Option<String> {
+    let untold = match accurate {
+        Ok(found) => found.error.err()?,
+        Err(reason) => return Some(reason.to_owned()),
+    };
+    Some(match untold {
+        Untold::Range => PulledOff::OF_A_RANGE.to_owned(),
+        Untold::Unreached => "the search has not come to its end".to_owned(),
+        Untold::FewNodes { nodes, needed: (nx, ny), .. } => {
+            let nodes = if nodes < 1.5 { "one node bears".to_owned() } else { format!("{nodes:.0} nodes bear") };
+            format!("{nodes} it: its contacts need {nx} x {ny} nodes")
+        }
+        Untold::Closed(share) => format!(
+            "the surfaces are closed, {} % of them in contact: the grid decides where they begin to peel",
+            percent(share)
+        ),
+        Untold::Waves(nodes) => {
+            format!("the shortest wave has {nodes:.1} nodes and needs {}", 2.0 * GridError::LEAST_NODES_PER_WAVE)
+        }
+        Untold::Growth(times) => format!("it is {times:.2} times the pull-off on the coarser grid"),
+        _ => "the grid of half as many nodes tells no pull-off".to_owned(),
+    })
+}
+
+/// The key of the pull-off to report.
+fn to_report<T: Real>(accurate: Result<&AccuratePullOff<T>, &str>, report: &Report) -> Option<&'static str> {
+    match accurate.map(|found| found.error) {
+        Ok(Ok(_)) => Some("limit_pressure"),
+        Ok(Err(Untold::FewNodes { .. })) => None,
+        _ => is_borne(report).then_some("pull_off_pressure"),
+    }
+}
+
 impl PulledOff {
+    /// The reason why the pull-off by a law with a range has no error.
+    pub(crate) const OF_A_RANGE: &str = "a coarser grid tells no error of a law with a range: compare finer grids";
+
     /// The shortfall of a search that has not come to its end, with a remedy, in the words of a skin.
     pub fn shortfall(&self, last: &Account, skin: Skin) -> Option<String> {
         // a first state that is none says so itself
@@ -69,12 +110,9 @@ impl PulledOff {
         // where the search itself has come to its end, the grid falls short
         let ends = self.lost_pressure.zip(self.pull_off_pressure);
         let is_narrow = ends.is_some_and(|(lost, borne)| lost - borne <= self.rtol * lost);
-        if self.accuracy.is_some() && is_narrow && self.limit_pressure.is_none() {
-            let text = "the surfaces are closed, and their pull-off has no limit of no range: take a law with a range";
-            return Some(text.to_owned());
-        }
         if let Some(accuracy) = self.accuracy.filter(|_| is_narrow) {
-            let estimate = self.limit_error.map_or("unknown".to_owned(), |error| format!("{} %", percent(error)));
+            let reason = || format!("unknown, since {}", self.limit_reason.as_deref().unwrap_or_default());
+            let estimate = self.limit_error.map_or_else(reason, |error| format!("{} %", percent(error)));
             let remedy =
                 if self.refinable { "give {memory} for a finer grid, or a larger {accuracy}" } else { UNREFINABLE };
             let text = format!(
@@ -103,20 +141,25 @@ impl PulledOff {
         };
         let force = self.pull_off_force.map_or("none".to_owned(), |force| units.number(force, FORCE));
         let limit = self.limit_pressure.map(|limit| {
-            let error = self.limit_error.map_or(String::new(), |error| format!(", to {} %", percent(error)));
             let force = self.limit_force.map_or(String::new(), |force| format!(", {}", units.number(force, FORCE)));
-            format!("{}{force}{error}", units.number(limit, PRESSURE))
+            ("in the limit of no range", format!("{}{force}", units.number(limit, PRESSURE)))
         });
-        let closed = (last.jkr_contact_fraction.and(self.pull_off_pressure).is_some())
-            .then(|| "none: the surfaces are closed".to_owned());
-        let limit = limit.or(closed).map(|text| ("in the limit of no range", text));
+        let error = self.limit_error.map(|error| format!("{} % of the limit", percent(error)));
+        let error = error.or_else(|| Some(format!("unknown: {}", self.limit_reason.as_ref()?)));
+        let to_report = match (self.to_report, self.limit_error) {
+            (Some("limit_pressure"), Some(error)) => format!("the limit, ± {} %", percent(error)),
+            (Some(_), _) => "the pull-off pressure, without an error of the grid".to_owned(),
+            _ => "neither: refine the grid".to_owned(),
+        };
         let place = match last.approach {
             Some(approach) => ("approach at the pull-off", units.number(approach, LENGTH)),
             None => ("mean gap at the pull-off", units.number(last.mean_gap, LENGTH)),
         };
         let mut rows = vec![("pull-off pressure", pressure(self.pull_off_pressure)), ("pull-off force", force)];
         rows.extend(limit);
+        rows.extend(error.map(|error| ("error of the grid", error)));
         rows.extend([
+            ("to report", to_report),
             ("comes apart under", pressure(self.lost_pressure)),
             ("history", before),
             place,

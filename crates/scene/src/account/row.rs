@@ -63,7 +63,7 @@ const OUTCOME: &str = "relative_error load_error iterations operator_application
 pub(crate) const INPUTS: &str = "modulus law work_of_adhesion range heights part seed";
 const BALANCE: &str = "work dissipated imbalance work_error event energy_drop";
 /// What a search for the pull-off found, before the last state that holds; its operator applications are of all solves.
-const PULL_OFF: &str = "pull_off_pressure pull_off_force limit_pressure limit_force limit_error lost_pressure reached \
+const PULL_OFF: &str = "pull_off_pressure pull_off_force limit_pressure limit_force limit_error to_report lost_pressure reached \
                         branch solves";
 const PLASTIC: &str = "hardness plastic_fraction plastic_depth_max plastic_depth_mean plastic_energy";
 

@@ -3,20 +3,26 @@
 use std::mem;
 use std::sync::Arc;
 
-use asperity::accuracy::{Accuracy, Plan, Quantity};
+use asperity::accuracy::{Accuracy, Plan, Quantity, Untold};
 use asperity::solver::Iteration;
 use asperity::stability::{ContactStiffness, StabilityTest};
 use asperity::{
     Branch, Control, ElasticOperator, Error, Grid, Problem, PullOff, Real, Result, Solution, Solver, Start,
 };
 use asperity::{Status, Surface};
+use asperity_maps::io::available_memory;
+use asperity_maps::warning::Warning;
 use ndarray::Array2;
 
 use crate::account::{Found, PulledOff, Steadiness, check_finite};
 use crate::clock::Instant;
 use crate::key::{After, Asked, Constraint, Goal, Load, Scalar};
 use crate::outcome::Outcome;
+use crate::session::fall::time;
 use crate::session::{Observe, Session};
+
+/// The operator applications of a search for the pull-off; of rough surfaces 300 to 1200.
+const PULL_OFF: f64 = 600.0;
 
 /// The surface, of which a problem is made on each of nested grids, or the problem on its grid alone: never both.
 pub(super) enum Body<T: Real> {
@@ -122,6 +128,18 @@ impl<T: Scalar> Session<T> {
         Ok((plan, plan.applications * seconds_of(&mut operator)?))
     }
 
+    /// The solves of a search for the pull-off, and the time that they are likely to take, before the first of them.
+    ///
+    /// # Errors
+    /// Those of [`Elastic::operator`](crate::Elastic::operator) and of the operator.
+    pub fn announce_pull_off(&self, refines: bool) -> Result<String> {
+        let ((nx, ny), of_grid) = (self.grid.shape(), self.law.hints().of_grid);
+        let seconds = self.seconds_of_application()? * PULL_OFF * if of_grid { 1.25 } else { 1.0 };
+        let coarse = if of_grid { " and on half as many along the sides" } else { "" };
+        let finer = if refines { ", and four times as long on each finer grid" } else { "" };
+        Ok(format!("some 12 solves on {nx} x {ny} nodes{coarse}: about {}{finer}", time(seconds)))
+    }
+
     /// The grid of the operator, on which the next state follows.
     pub(super) fn nodes(&mut self) -> Result<Grid> {
         Ok(*self.parts()?.1.operator().grid())
@@ -199,19 +217,24 @@ impl<T: Scalar> Session<T> {
         goal: Option<Goal>,
         start: Option<Array2<T>>,
         observe: Observe<'_>,
-    ) -> Result<(Found<T>, PulledOff)> {
+    ) -> Outcome<(Found<T>, PulledOff)> {
         let clock = Instant::now();
-        if goal.is_some() || start.is_none() && self.law.hints().of_grid {
+        let of_grid = self.law.hints().of_grid;
+        if goal.is_some() || start.is_none() && of_grid {
             let tolerance = self.solver.settings.tolerance_in::<T>();
-            let wanted = goal.map_or(Accuracy::new(f64::INFINITY, Quantity::Area), |goal| goal.wanted(false));
+            let told = || Accuracy::new(f64::INFINITY, Quantity::Area).memory(available_memory());
+            let wanted = goal.map_or_else(told, |goal| goal.wanted(false));
             let surface = self.surface()?;
             let observe = |grid: &Grid, state: &Iteration| observe(grid, state, tolerance);
             let elastic = |grid| self.scene.elastic.operator(grid);
             let law = Arc::clone(&self.law);
             let found = wanted.pull_off_observed(&mut self.solver, &surface, elastic, law, &asked, observe)?;
             let last = self.found(found.found.solution.clone(), clock)?;
-            let pulled_off =
-                PulledOff::of(asked, &found.found, &last.part()?.report, found.found.limit()?, Some(&found), goal);
+            let pulled_off = PulledOff::of(asked, &found.found, &last.part()?.report, Ok(&found), goal);
+            if let Err(Untold::FewNodes { nodes, needed, bytes }) = found.error {
+                let few = Warning::of_few_nodes(nodes, needed, bytes, wanted.memory);
+                self.warnings.add_of_input(vec![self.units.told(&few)])?;
+            }
             return Ok((Found { refined: goal.map(|_| found.surface), ..last }, pulled_off));
         }
         let (solver, problem) = self.parts()?;
@@ -219,7 +242,8 @@ impl<T: Scalar> Session<T> {
         let start = start.as_ref().map_or(Start::Default, |gap| Start::From(gap));
         let found = asked.find_from(solver, problem, start, |state| observe(&grid, state, tolerance))?;
         let last = self.found(found.solution.clone(), clock)?;
-        let pulled_off = PulledOff::of(asked, &found, &last.part()?.report, None, None, None);
+        let untold = if of_grid { "a coarser grid has no start: leave out the start" } else { PulledOff::OF_A_RANGE };
+        let pulled_off = PulledOff::of(asked, &found, &last.part()?.report, Err(untold), None);
         Ok((last, pulled_off))
     }
 }

@@ -1,0 +1,38 @@
+//! The way of surfaces that adhere to no load, on which the last contacts hold each other.
+
+use super::{Begin, Place, Solved};
+use crate::error::Result;
+use crate::problem::Control;
+use crate::real::Real;
+
+/// The share of the load that each step leaves, and the most steps.
+const SHARE: f64 = 1.0 / 16.0;
+const MOST: usize = 12;
+
+/// The state under no load that surfaces come to whose load is taken away in steps, from where they are under it: a single
+/// step may part contacts that hold each other. None if the last of them do not.
+pub(crate) fn unloaded<T: Real>(
+    mut solve: impl FnMut(Control, Begin<'_, T>) -> Result<Solved<T>>,
+    load: Control,
+    mut place: Place<T>,
+) -> Result<Option<Solved<T>>> {
+    let mut share = 1.0;
+    for _ in 0..MOST {
+        share *= SHARE;
+        let of_load = |share: f64| match load {
+            Control::Force(force) => Control::Force(share * force),
+            Control::MeanPressure(pressure) => Control::MeanPressure(share * pressure),
+            other => other,
+        };
+        let pressed = solve(of_load(share), Begin::Found(place))?;
+        if !pressed.is_settled() || pressed.solution.report.contact_nodes == 0 {
+            break;
+        }
+        place = pressed.place();
+        let released = solve(of_load(0.0), Begin::Found(place.clone()))?;
+        if released.solution.report.contact_nodes > 0 {
+            return Ok(Some(released));
+        }
+    }
+    Ok(None)
+}
