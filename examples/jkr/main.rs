@@ -5,8 +5,9 @@
 //! The law [`Jkr`](asperity::Jkr) has the range of the grid. The tables `sphere` and `wave` have it next to the exact
 //! solutions of Johnson, Kendall and Roberts (1971) and Johnson (1995); `shapes`, laws of other shapes and steepness;
 //! `rough`, self-affine surfaces on grids from coarse to fine; and `errors`, random scenes, with what a grid and one of
-//! half as many nodes along the sides say of the limit, next to what grids two and four times as fine say. `picture`
-//! draws the pull-off over the nodes, with its error.
+//! half as many nodes along the sides say of the limit, next to what grids two and four times as fine say; `kinds`, how
+//! often true errors are within the estimates on each kind of scene. `picture` draws the pull-off over the nodes, with
+//! its error.
 //! The table `held` has the laws with a range: with which work of adhesion they act where the grid holds the edges of
 //! contacts.
 //!
@@ -105,6 +106,8 @@ fn main() -> Outcome<()> {
         }
         if wants(Table::Kinds) {
             kinds::tables(scenes, seed, quick)?;
+            kinds::spheres(if quick { 6 } else { 60 })?;
+            kinds::weak(if quick { 2 } else { 20 }, seed)?;
         }
         Ok(())
     })

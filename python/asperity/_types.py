@@ -191,6 +191,7 @@ class Report(TypedDict):
     levels: list[GridLevel] | None
     equivalent_applications: float | None
     grid_error: GridErrors | None
+    grid_error_reason: str | None
     accuracy: Reached | None
     search: Search | None
     mean_gap: float

@@ -34,7 +34,7 @@ pub use self::pulled_off::PulledOff;
 pub(crate) use self::row::INPUTS;
 pub use self::row::Row;
 pub use self::rows::{corrected, rows};
-pub(crate) use self::sentences::estimate;
+pub(crate) use self::sentences::{estimate, untold};
 pub use self::sentences::{shortfalls, unbalanced};
 pub use self::slopes::Slopes;
 pub(crate) use self::warnings::warnings_of_input;
@@ -85,6 +85,8 @@ record! {
         equivalent_applications: Option<f64> = found.equivalent_applications,
         /// The estimated errors of the finest of nested grids, known after a look.
         grid_error: Option<GridErrors> = None,
+        /// The reason why that of the area is not told, after a look.
+        grid_error_reason: Option<String> = None,
         /// The end of a solve to an accuracy.
         accuracy: Option<Reached> = found.accuracy,
         /// The search for the load of a contact fraction.
@@ -257,6 +259,7 @@ impl<T: Real> Sight<T> {
     fn tell(&self, account: &mut Account) {
         if let Some((errors, nodes_per_wave)) = self.errors {
             (account.grid_error, account.nodes_per_wave) = (Some(errors), nodes_per_wave);
+            account.grid_error_reason = errors.area.is_none().then(|| untold(account));
         }
     }
 }

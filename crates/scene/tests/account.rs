@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 /// The keys of a report, in their order.
 const OUTCOME: &str = "\
     command status branch other_branch relative_error load_error criterion iterations operator_applications \
-    levels equivalent_applications grid_error accuracy search mean_gap mean_pressure normal_force approach \
+    levels equivalent_applications grid_error grid_error_reason accuracy search mean_gap mean_pressure normal_force approach \
     spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
     edge_traction adhesive_contact_fraction jkr_contact_fraction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
     min_pressure max_pressure elastic_energy adhesive_energy plastic_fraction plastic_depth_max \

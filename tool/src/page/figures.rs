@@ -28,13 +28,21 @@ pub const GROUPS: [(&str, &str); 8] = [
         "elastic_energy adhesive_energy plastic_energy work dissipated imbalance work_error event energy_drop \
          stability departures other_branch",
     ),
-    ("Error", "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved"),
+    (
+        "Error",
+        "status criterion relative_error load_error grid_error grid_error_reason accuracy mu_rho mu_rho_node under_resolved",
+    ),
     ("Cost", "iterations operator_applications equivalent_applications seconds"),
 ];
 
 /// The keys of attraction, which say nothing of surfaces that do not adhere.
 pub const OF_ADHESION: &str = "net_pressure min_pressure repulsive_fraction attractive_fraction adhesive_energy mu_rho \
                                mu_rho_node under_resolved";
+
+/// Whether a key of a report is a constant, and no result: the law jkr has one resolution measure on every grid.
+pub fn is_constant(key: &str, report: &Value) -> bool {
+    key == "criterion" || report["law"] == "jkr" && matches!(key, "mu_rho" | "mu_rho_node" | "under_resolved")
+}
 
 /// The place of a key or column in the order in which one asks.
 pub fn place(name: &str) -> usize {

@@ -8,7 +8,7 @@ use asperity::Error;
 use asperity_scene::{corrected, dimension_of};
 use serde_json::Value;
 
-use super::figures::{GROUPS, OF_ADHESION, place, shown};
+use super::figures::{GROUPS, OF_ADHESION, is_constant, place, shown};
 use super::maps::resolution;
 use super::{FINE, Page};
 use crate::columns::{self, spaced};
@@ -88,7 +88,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         .as_object()
         .into_iter()
         .flatten()
-        .filter(|(key, _)| *key != "warnings" && place(key) == usize::MAX)
+        .filter(|(key, _)| *key != "warnings" && (place(key) == usize::MAX || is_constant(key, report)))
         .partition(|(key, _)| *key == "levels");
     let others = others.into_iter().filter_map(|(key, value)| Some((key.clone(), shown(key, value, &number)?)));
     page.figures(Some("All inputs"), &others.collect::<Vec<_>>());
@@ -151,6 +151,7 @@ pub fn groups(report: &Value, units: &Units) -> Vec<(&'static str, Vec<(String, 
     // the load is said once, under its own name
     let given = report["control"].as_str().unwrap_or_default().replace('-', "_");
     let once = |key: &str| match key {
+        _ if is_constant(key, report) => false,
         "control" | "control_value" => !report[given.as_str()].is_f64(),
         "absent_nodes" => report[key] != 0,
         "under_resolved" => report[key] != false,

@@ -73,10 +73,10 @@ codes! {
     Scars = "scars",
     /// Much of the load is on single nodes, such as those of noise.
     Noise = "noise",
-    /// A few nodes in contact bear the pull-off.
-    FewNodes = "few-nodes",
     /// Most of the load is above a tenth of the contact modulus E*, where most solids yield.
     Hardness = "hardness",
+    /// A few nodes in contact bear the pull-off.
+    FewNodes = "few-nodes",
 }
 
 impl fmt::Display for WarningCode {

@@ -143,17 +143,25 @@ pub(crate) fn estimate(account: &Account) -> String {
         Some(format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" }))
     });
     let words: Vec<_> = told.collect();
-    let least = GridError::LEAST_NODES_PER_WAVE;
     if !words.is_empty() {
         return words.join(", ");
-    } else if account.inputs.adhesion.yields() {
-        return "unknown where a surface yields".to_owned();
-    } else if of_accuracy.is_some() || account.nodes_per_wave >= least {
-        return "unknown".to_owned();
     }
-    // rounded down: 3.96 nodes are not the 4.0 that are needed
-    let has = (10.0 * account.nodes_per_wave).floor() / 10.0;
-    format!("unknown: the shortest wave has {has:.1} nodes and needs {least}: refine the map ({{accuracy}})")
+    let coarse = of_accuracy.is_none() && account.nodes_per_wave < GridError::LEAST_NODES_PER_WAVE;
+    format!("unknown: {}{}", untold(account), if coarse { ": refine the map ({accuracy})" } else { "" })
+}
+
+/// Why an error of the grid is not told.
+pub(crate) fn untold(account: &Account) -> String {
+    let least = GridError::LEAST_NODES_PER_WAVE;
+    if account.inputs.adhesion.yields() {
+        "the surface yields".to_owned()
+    } else if account.nodes_per_wave >= least {
+        "the grids tell none".to_owned()
+    } else {
+        // rounded down: 3.96 nodes are not the 4.0 that are needed
+        let has = (10.0 * account.nodes_per_wave).floor() / 10.0;
+        format!("the shortest wave has {has:.1} nodes and needs {least}")
+    }
 }
 
 /// The warning of a cycle whose imbalance of energy is more than 5 % of the greatest work, if it is.
