@@ -194,6 +194,9 @@ impl<T: Real, L: AdhesionLaw<T>> AdhesionLaw<T> for CutOff<L> {
             _ => self.all(first, gaps, values, slope),
         });
     }
+    fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) {
+        self.law.contact_shares(first, gaps, shares);
+    }
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let law = self.law.on_nodes(compliance)?;
         Some(Arc::new(CutOff::between(law, self.start, self.distance)))

@@ -5,9 +5,8 @@ use crate::error::Result;
 use crate::problem::Control;
 use crate::real::Real;
 
-/// The share of the load that each step leaves, and the most steps.
+/// The share of the load that each of at most twelve steps leaves.
 const SHARE: f64 = 1.0 / 16.0;
-const MOST: usize = 12;
 
 /// The state under no load that surfaces come to whose load is taken away in steps, from where they are under it: a single
 /// step may part contacts that hold each other. None if the last of them do not.
@@ -16,15 +15,13 @@ pub(crate) fn unloaded<T: Real>(
     load: Control,
     mut place: Place<T>,
 ) -> Result<Option<Solved<T>>> {
-    let mut share = 1.0;
-    for _ in 0..MOST {
-        share *= SHARE;
+    for step in 1..=12 {
         let of_load = |share: f64| match load {
             Control::Force(force) => Control::Force(share * force),
             Control::MeanPressure(pressure) => Control::MeanPressure(share * pressure),
             other => other,
         };
-        let pressed = solve(of_load(share), Begin::Found(place))?;
+        let pressed = solve(of_load(SHARE.powi(step)), Begin::Found(place))?;
         if !pressed.is_settled() || pressed.solution.report.contact_nodes == 0 {
             break;
         }

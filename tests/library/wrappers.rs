@@ -125,6 +125,10 @@ impl AdhesionLaw<f64> for Spy {
         values.set(gaps, of);
         self.answer("evaluate", ());
     }
+    fn contact_shares(&self, first: usize, gaps: &[f64], shares: &mut [f64]) {
+        shares.iter_mut().zip(gaps).for_each(|(share, gap)| *share = (first + 1) as f64 * gap);
+        self.answer("contact_shares", ());
+    }
     fn on_nodes(&self, compliance: f64) -> Option<Arc<dyn AdhesionLaw<f64>>> {
         let law = Exponential::new(1.0, compliance).unwrap();
         self.answer("on_nodes", Some(Arc::new(law)))
@@ -141,7 +145,7 @@ impl AdhesionLaw<f64> for Spy {
 /// A method by its name, and its answer in words.
 type Method = (&'static str, fn(&dyn AdhesionLaw<f64>) -> String);
 
-const METHODS: [Method; 7] = [
+const METHODS: [Method; 8] = [
     ("energy", |law| law.energy(0.3).to_string()),
     ("traction", |law| law.traction(0.3).to_string()),
     ("slope", |law| law.slope(0.3).to_string()),
@@ -151,6 +155,11 @@ const METHODS: [Method; 7] = [
         let [energies, tractions, slopes] = values.each_mut().map(|values| Some(&mut values[..]));
         law.evaluate(2, &[0.0, 0.2, 0.4, 0.7, 0.9], Values { energies, tractions, slopes });
         format!("{values:?}")
+    }),
+    ("contact_shares", |law| {
+        let mut shares = [0.0; 3];
+        law.contact_shares(2, &[0.0, 0.4, 0.9], &mut shares);
+        format!("{shares:?}")
     }),
     ("on_nodes", |law| format!("{:?}", law.on_nodes(0.3).map(|law| law.hints().work_of_adhesion))),
     ("adapted", |law| {

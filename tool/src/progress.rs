@@ -97,10 +97,11 @@ impl Progress {
         }
     }
 
-    /// The listener to the solves of a search for the pull-off: the bar has the grid, the solve and its mean pressure, and
+    /// The listener to the solves of a search for the pull-off, which is announced before the first: the bar has the grid, the solve and its mean pressure, and
     /// so have lines now and then where there is no bar.
     pub fn on_tensions<'a>(
         &'a mut self,
+        announcement: &'a str,
         units: &'a Units,
         printing: Printing,
     ) -> impl FnMut(&Grid, &Iteration, f64) -> ControlFlow<()> {
@@ -109,6 +110,9 @@ impl Progress {
         let (mut solves, mut last, mut told) = (0, None, Instant::now());
         move |grid, state, tolerance| {
             self.update_on(grid, state, tolerance);
+            if last.is_none() {
+                printing.say(announcement);
+            }
             if last != Some((grid.shape(), state.control)) {
                 last = Some((grid.shape(), state.control));
                 solves += 1;

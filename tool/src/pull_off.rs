@@ -99,10 +99,15 @@ impl Options {
         let mut session = session.with_slopes()?.for_one_solve();
         say_new(&mut session.warnings);
         let (asked, goal) = (problem.given.pull_off(), in_options(problem.given.goal())?);
-        printing.say(&session.announce_pull_off(goal.is_some())?);
+        let announcement = session.announce_pull_off(goal.is_some())?;
         let (units, tolerance) = (session.units().clone(), session.tolerance(None)?);
         let mut progress = Progress::new("", tolerance, nodes, printing.without_bars());
-        let found = session.pull_off(asked, goal, start.map(T::field), &mut progress.on_tensions(&units, printing));
+        let found = session.pull_off(
+            asked,
+            goal,
+            start.map(T::field),
+            &mut progress.on_tensions(&announcement, &units, printing),
+        );
         drop(progress);
         let (mut solved, pulled_off) = found?;
         say_new(&mut session.warnings);

@@ -188,7 +188,7 @@ fn warnings_have_the_units_of_tables() {
     assert!(stderr.contains(" mm: "), "{stderr}");
     // on the page, too
     bench.said("report long");
-    assert!(bench.read("long/report.html").contains("<li>the range of adhesion, 2 m, exceeds"));
+    assert!(bench.read("long/report.html").contains("<li>range: the range of adhesion, 2 m, exceeds"));
     let output = bench.run("solve --heights clean.npy --lengths 1m --mean-pressure 5GPa --modulus 1GPa --out high");
     let stderr = text(&output.stderr);
     assert!(stderr.contains("beyond-modulus: the contact pressure is up to ") && stderr.contains(" GPa, "), "{stderr}");
