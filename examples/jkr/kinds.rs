@@ -55,6 +55,9 @@ const KINDS: [&str; 18] = [
 
 type Heights = Box<dyn Fn(Grid) -> Result<Surface>>;
 
+/// The errors that are told of quantities.
+type Errors = Vec<(Quantity, Option<GridError>)>;
+
 /// A scene of a kind.
 struct Scene {
     n: usize,
@@ -208,7 +211,7 @@ impl Scene {
     }
 
     /// The levels of nested grids, the errors of the finest, and the control.
-    fn solve(&self, finer: usize, control: Control) -> Outcome<(Vec<Level>, Vec<(Quantity, Option<GridError>)>)> {
+    fn solve(&self, finer: usize, control: Control) -> Outcome<(Vec<Level>, Errors)> {
         let surface = self.surface(finer)?;
         let mut solver = Solver::new(Settings::default().tolerance(TOLERANCE));
         let nested = Nested::default().coarsest(16).closed(1.0).coarse_tolerance(GridError::COARSE_TOLERANCE);
