@@ -11,7 +11,7 @@ export const told = ([low, high], [least, greatest], unit) => [
   isBeyond(greatest, high) ? `${read(high, unit)} → ${read(greatest, unit)}` : read(high, unit),
 ];
 
-/* The shares of tension and compression beyond the ends of their scales, in words. */
+/* The shares of tension and load that are carried beyond the ends of their scales, in words. */
 export function loadBeyond(pressures, ends, unit) {
   const isBoth = ends[0] < 0 && ends[1] > 0;
   const load = (sign, end) =>
@@ -20,7 +20,7 @@ export function loadBeyond(pressures, ends, unit) {
     const share = (100 * load(sign, sign * ends[k])) / load(sign, 0);
     if (!ends[k] || !(share > 0)) return [];
     const percent = share < 0.1 ? "Less than 0.1" : Number(share.toPrecision(2));
-    return `${percent} % of the ${isBoth ? name : "load"} ${k ? "above" : "below"} ${read(ends[k], unit)}`;
+    return `${percent} % of the ${isBoth ? name : "load"} is carried ${k ? "above" : "below"} ${read(ends[k], unit)}`;
   };
-  return [side(-1, "tension", 0), side(1, "compression", 1)].flat().join(", ");
+  return [side(-1, "tension", 0), side(1, "load", 1)].flat().join(", ");
 }
