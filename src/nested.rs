@@ -127,8 +127,8 @@ impl Nested {
     /// gap from 512², if there is a coarser grid.
     ///
     /// Not with adhesion under a tension or with a spring, where there may be several equilibria, nor, with [`Jkr`], under
-    /// no load, at a given approach, or on a branch that [`Settings::branch`](crate::Settings::branch) names; nor with [absent
-    /// nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it
+    /// no load, at a given approach, or on a branch that [`Settings::branch`](crate::Settings::branch) names, but for loading
+    /// under a load that presses; nor with [absent nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it
     /// was not measured.
     pub fn pays<T: Real>(
         &self,
@@ -141,6 +141,11 @@ impl Nested {
         let hints = law.hints();
         let longer = hints.of_grid && !hints.zero;
         let least = match control {
+            Control::MeanPressure(load) | Control::Force(load)
+                if load > 0.0 && settings.branch == Some(Branch::Loading) && hints.touches() =>
+            {
+                PAYS.0
+            }
             _ if longer && settings.branch.is_some() => return false,
             Control::MeanGap(_) => PAYS.1,
             Control::Approach(_) if !longer => PAYS.0,
