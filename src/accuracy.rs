@@ -235,9 +235,8 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// luck. The factors are fitted to rough surfaces, strips and lattices. The estimate is 2.4 times that size, which
 /// covers 95 of 100 errors and no bound; the page [`choosing`](crate::guide::choosing) has how many on which surfaces.
 ///
-/// With [`Jkr`](crate::Jkr), whose range is that of the grid, the
-/// [process zone](crate::contact::ContactArea::process_zone) b at the edge of the contact makes the errors. With δ the difference of the quantities less their part of the zone to the grid of half as many
-/// nodes they are
+/// With [`Jkr`](crate::Jkr) the [process zone](crate::contact::ContactArea::process_zone) b at the edge of the contact makes
+/// the errors. With δ the difference of the quantities less their part of the zone to the grid of half as many nodes they are
 ///
 /// | quantity | zone z | error | on one grid |
 /// |---|---|---|---|

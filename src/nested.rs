@@ -128,8 +128,8 @@ impl Nested {
     ///
     /// Not with adhesion under a tension or with a spring, where there may be several equilibria, nor, with [`Jkr`], under
     /// no load, at a given approach, or on a branch that [`Settings::branch`](crate::Settings::branch) names, but for loading
-    /// under a load that presses; nor with [absent nodes](Surface::with_absent), a law that [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it
-    /// was not measured.
+    /// under a load that presses; nor with [absent nodes](Surface::with_absent), a law that
+    /// [varies](crate::adhesion::Varying), or [`Method::Rey2017`], where it was not measured.
     pub fn pays<T: Real>(
         &self,
         settings: &Settings,
@@ -140,13 +140,10 @@ impl Nested {
         let (shape, nodes) = (surface.grid().shape(), surface.grid().nodes());
         let hints = law.hints();
         let longer = hints.of_grid && !hints.zero;
+        let presses = matches!(control, Control::MeanPressure(load) | Control::Force(load) if load > 0.0);
+        let comes_from_afar = presses && settings.branch == Some(Branch::Loading) && hints.touches();
         let least = match control {
-            Control::MeanPressure(load) | Control::Force(load)
-                if load > 0.0 && settings.branch == Some(Branch::Loading) && hints.touches() =>
-            {
-                PAYS.0
-            }
-            _ if longer && settings.branch.is_some() => return false,
+            _ if longer && settings.branch.is_some() && !comes_from_afar => return false,
             Control::MeanGap(_) => PAYS.1,
             Control::Approach(_) if !longer => PAYS.0,
             Control::MeanPressure(load) | Control::Force(load) if hints.zero || load > 0.0 => PAYS.0,

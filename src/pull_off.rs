@@ -10,7 +10,7 @@ use crate::real::Real;
 use crate::setters::setters;
 use crate::solver::{
     Begin, Branch, Iteration, Observer, Report, STRONGEST, Solution, Solved, Solver, Start, Status, check_wall,
-    refuse_hardness, unloaded,
+    refuse_hardness, unload,
 };
 
 /// The most solves of a search; a bracket is halved at least with every other one.
@@ -149,7 +149,7 @@ impl PullOff {
             held = search.solve(solver, problem, Control::MeanPressure(0.0), Begin::Found(pressed.clone()))?;
             if touched && held.is_settled() && held.solution.report.contact_nodes == 0 {
                 let solve = |control, begin: Begin<'_, T>| search.solve(solver, problem, control, begin);
-                held = unloaded(solve, first, pressed)?.unwrap_or(held);
+                held = unload(solve, first, pressed)?.unwrap_or(held);
             }
         }
         if !held.is_settled() {

@@ -48,7 +48,7 @@ pub use rey2017::Criterion;
 pub use start::Start;
 pub(crate) use start::{Begin, check_hardness, check_wall, extrapolated, refuse_hardness, refuse_springs};
 pub(crate) use tension::STRONGEST;
-pub(crate) use unload::unloaded;
+pub(crate) use unload::unload;
 
 /// The method of iteration, one of two.
 #[non_exhaustive]

@@ -10,7 +10,7 @@ use crate::problem::{Control, Problem};
 use crate::real::Real;
 use crate::solver::{
     Begin, Branch, Iteration, Least, Nearness, Observer, Place, Potential, Solution, Solved, Solver, Start,
-    check_hardness, extrapolated, unloaded,
+    check_hardness, extrapolated, unload,
 };
 
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
@@ -164,7 +164,7 @@ impl<T: Real> Sweep<T> {
             && solved.solution.report.contact_nodes == 0
         {
             let solve = |control, begin: Begin<'_, T>| solver.run(problem.parts(), control, begin, &mut *observe);
-            solved = unloaded(solve, *before, place.clone())?.unwrap_or(solved);
+            solved = unload(solve, *before, place.clone())?.unwrap_or(solved);
         }
         self.keep(problem, load, solved)
     }

@@ -1,8 +1,10 @@
 //! The limit of no range of what a loop of loads dissipates, from paths on two grids.
 
+use crate::adhesion::AdhesionLaw;
 use crate::error::Result;
 use crate::nested::coarsened;
 use crate::path::PathEnd;
+use crate::real::Real;
 use crate::surface::Surface;
 
 /// The least number of nodes along a side of the coarser grid.
@@ -25,7 +27,7 @@ const STANDARD: f64 = 2.0;
 pub struct Limit {
     /// The limit, in the unit of the number.
     pub value: f64,
-    /// The estimated error of the limit, in the same unit: nine of ten true errors are below it, and it is no bound.
+    /// The estimated error of the limit, in the same unit. It covers most true errors, and is no bound.
     pub error: f64,
 }
 
@@ -42,15 +44,15 @@ impl Limit {
 
 /// The limits of no range of a path by a law that attracts next to contacts alone, as [`Jkr`](crate::Jkr).
 ///
-/// On a grid of spacing Δx a path has the work W + O(Δx), where W is the work of the limit. Two grids extrapolate to 2W₁ − W₂, with
-/// W₂ on the grid of half as many nodes along the sides. Where surfaces touch at several places one after the other, other
+/// On a grid of spacing Δx a path has the work W + O(Δx), where W is the work of the limit. Two grids extrapolate to
+/// 2W₁ − W₂, with W₂ on the grid of half as many nodes along the sides. Where surfaces touch at several places one after the other, other
 /// places do so on another grid: the limit is then W₁ + (W₁ − W₂)/2, and its error has a tenth of the limit for that. On 20
 /// random surfaces the limit by 128² and 256² nodes was within the error in 19, and by 64² and 128² in 16.
 ///
 /// ```
 /// use asperity::accuracy::LoopLimit;
 /// use asperity::path::{Path, PathSettings};
-/// use asperity::{Boussinesq, Control, Grid, Jkr, Problem, Solver, Surface};
+/// use asperity::{AdhesionLaw, Boussinesq, Control, Grid, Jkr, Problem, Solver, Surface};
 /// let follow = |surface: &Surface| {
 ///     let half_space = Boussinesq::<f64>::new(*surface.grid(), 1.0)?;
 ///     let mut problem = Problem::new(surface, half_space, Jkr::new(2e-3)?)?;
@@ -59,7 +61,7 @@ impl Limit {
 ///     Ok::<_, asperity::Error>(path.end())
 /// };
 /// let sphere = Surface::paraboloid(Grid::square(48, 1.6)?, 1.0)?;
-/// let coarser = LoopLimit::coarser(&sphere)?.unwrap();
+/// let coarser = LoopLimit::coarser(&sphere, &Jkr::new(2e-3)? as &dyn AdhesionLaw<f64>)?.unwrap();
 /// let limit = LoopLimit::of(&follow(&sphere)?, &follow(&coarser)?);
 /// assert!(0.0 < limit.work.error && limit.work.error < 0.2 * limit.work.value);
 /// # Ok::<(), asperity::Error>(())
@@ -84,11 +86,12 @@ impl LoopLimit {
         }
     }
 
-    /// The surface on the grid of half as many nodes along the sides; none if there is no such grid.
+    /// The surface on the grid of half as many nodes along the sides; none if there is no such grid, as for odd numbers of
+    /// nodes and a law that varies from node to node.
     ///
     /// # Errors
     /// [`Error::Value`](crate::Error::Value) for a grid that processes cannot share.
-    pub fn coarser(surface: &Surface) -> Result<Option<Surface>> {
-        Ok(coarsened(surface, COARSEST, true)?.into_iter().next())
+    pub fn coarser<T: Real>(surface: &Surface, law: &dyn AdhesionLaw<T>) -> Result<Option<Surface>> {
+        Ok(coarsened(surface, COARSEST, law.hints().shape.is_none())?.into_iter().next())
     }
 }

@@ -54,7 +54,8 @@ impl Event {
     }
 
     /// The name that the tool uses: `"touch"` where surfaces stick that have touched at new places, `"jump-in"` where contact
-    /// or adhesion grows otherwise, `"pull-off"` where the last contact is lost, `"jump-out"` where contact shrinks, `"bifurcation"` and `"limit-point"`.
+    /// or adhesion grows otherwise, `"pull-off"` where the last contact is lost, `"jump-out"` where contact shrinks,
+    /// `"bifurcation"` and `"limit-point"`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::LimitPoint { .. } => "limit-point",

@@ -8,9 +8,9 @@ use crate::real::Real;
 /// The share of the load that each of at most twelve steps leaves.
 const SHARE: f64 = 1.0 / 16.0;
 
-/// The state under no load that surfaces come to whose load is taken away in steps, from where they are under it: a single
-/// step may part contacts that hold each other. None if the last of them do not.
-pub(crate) fn unloaded<T: Real>(
+/// Takes the load of surfaces away in steps, from the place under it, as a single step may part contacts that hold each
+/// other. Returns the state under no load; none if the last contacts do not hold.
+pub(crate) fn unload<T: Real>(
     mut solve: impl FnMut(Control, Begin<'_, T>) -> Result<Solved<T>>,
     load: Control,
     mut place: Place<T>,

@@ -151,23 +151,24 @@ impl Options {
         });
         if self.manner.printing.for_people() {
             let columns = Columns::new(&rows, units);
-            let in_limit = |value: String, error: String| say(&format!("  in the limit          {value} ± {error}"));
+            let in_limit = |[value, error]: [String; 2]| say(&format!("  in the limit          {value} ± {error}"));
             let told = |row: &Value, name: &str| columns.number(name, columns.value(row, name));
+            let tension_in_limit = |scale: f64, dimension| {
+                if let Some(CycleLimit { tension_limit, tension_limit_error, .. }) = limit {
+                    in_limit(
+                        [tension_limit, tension_limit_error].map(|number| units.number(scale * number, dimension)),
+                    );
+                }
+            };
             say(&format!("{} rows in {}", table.session.rows(), printing::name(&self.out)));
             if tension > 0.0 {
                 if !free {
                     say(&format!("greatest tension        at least {}", units.number(tension, PRESSURE)));
-                    let pressure = |pressure| units.number(pressure, PRESSURE);
-                    if let Some(CycleLimit { tension_limit, tension_limit_error, .. }) = limit {
-                        in_limit(pressure(tension_limit), pressure(tension_limit_error));
-                    }
+                    tension_in_limit(1.0, PRESSURE);
                 }
                 let force = -least("normal_force");
                 say(&format!("greatest tensile force  at least {}", units.number(force, FORCE)));
-                let of_force = |pressure| units.number(pressure * force / tension, FORCE);
-                if let Some(CycleLimit { tension_limit, tension_limit_error, .. }) = limit {
-                    in_limit(of_force(tension_limit), of_force(tension_limit_error));
-                }
+                tension_in_limit(force / tension, FORCE);
             }
             for &k in events.iter().take(MOST_EVENTS) {
                 let (row, before) = (&rows[k], &rows[k.saturating_sub(1)]);
@@ -189,7 +190,7 @@ impl Options {
                 say(&format!("work done by the load   {} ± {}", told(last, "work"), told(last, "work_error")));
                 if let Some(CycleLimit { work_limit, work_limit_error, .. }) = limit {
                     let limit = json!({ "work": work_limit, "work_error": work_limit_error });
-                    in_limit(told(&limit, "work"), told(&limit, "work_error"));
+                    in_limit(["work", "work_error"].map(|name| told(&limit, name)));
                 }
                 let share = 100.0 * (imbalance / most).abs();
                 let greatest = rows.iter().find(|row| number(row, "work").abs() == most).unwrap_or(last);

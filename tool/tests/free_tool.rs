@@ -86,6 +86,13 @@ fn a_cycle_without_a_range_tells_its_limits() {
     let said = bench.said(&format!("{cycle} --out c.csv"));
     assert!(said.contains("16 x 16 nodes, for the error of the grid"), "{said}");
     assert_eq!(said.matches("in the limit").count(), 2, "{said}");
+    // an odd number of nodes has no half on which a map of works of adhesion is known
+    bench.said("surface --form paraboloid --radius 2 --size 33 --lengths 0.7 --quiet --out odd.npz");
+    bench.write("works.txt", &format!("{}\n", ["5e-5"; 33].join(" ")).repeat(33));
+    let odd =
+        "cycle --heights odd.npz --boundary free --law jkr --work-of-adhesion-map works.txt --approaches=-8e-3,6e-3";
+    let found = bench.reported(&format!("{odd} --out odd.csv"));
+    assert!(found["work_limit"].is_null() && number(&found["work"]) < 0.0, "{found}");
 }
 
 #[test]

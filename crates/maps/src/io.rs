@@ -8,6 +8,7 @@
 
 mod blocks;
 mod channels;
+mod columns;
 mod foreign;
 mod fourier;
 mod gsf;

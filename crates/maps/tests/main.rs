@@ -1,3 +1,4 @@
 //! Measured maps, files and warnings, as users see them.
 
+mod texts;
 mod warnings;

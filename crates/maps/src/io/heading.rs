@@ -1,6 +1,7 @@
 //! What the comments and the heading of a text tell: sizes, units and titles, as pairs of a name and a value.
 
-use super::units::{per_metre, symbol};
+use super::columns::Columns;
+use super::units::{bare, per_metre, symbol};
 use super::{Parsed, quoted, refuse};
 
 /// A pair of a name and a value.
@@ -64,11 +65,6 @@ fn quantity(text: &str) -> Option<(f64, &str)> {
     let ends = value.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
     let parsed = |end: usize| value[..end].parse().ok().filter(|number: &f64| number.is_finite());
     ends.filter_map(|end| Some((parsed(end)?, bare(&value[end..])))).next()
-}
-
-/// A unit without brackets around it.
-fn bare(unit: &str) -> &str {
-    unit.trim_matches(|c: char| "[]()".contains(c) || c.is_whitespace())
 }
 
 /// What a value is of.
@@ -262,7 +258,7 @@ impl Heading {
         };
         sizes.factor = sizes.factor.filter(|_| !is_said("DataScaleNeeded", "no"));
         if let Some(columns) = &self.columns {
-            sizes.units = ["x", "y", "z"].map(|axis| columns.place(axis).map(|place| columns.0[place][1].clone()));
+            sizes.units = ["x", "y", "z"].map(|axis| columns.unit(axis));
         }
         let default = if is_said("x-length", "") { "nm" } else { "" };
         let [x, y] = [0, 1].map(|axis| {
@@ -365,75 +361,6 @@ fn said(line: &str) -> Option<(&'static str, bool)> {
     let parts = || line.split([',', ';']);
     let last = parts().filter_map(|part| Some(part.rsplit_once(':')?.1));
     std::iter::once(line).chain(parts()).chain(last).find_map(of)
-}
-
-/// The names and units of columns, x and y among them.
-#[derive(Clone)]
-pub(super) struct Columns(Vec<[String; 2]>);
-
-/// Names of a column of heights.
-const NAMES_OF_HEIGHTS: [&str; 6] = ["z", "height", "heights", "h", "elevation", "topography"];
-
-impl Columns {
-    /// The columns of a line, as `X[um] Y[um] Z[nm]`, `x (µm), y (µm), z (nm)` or `# columns: i;x;y;z`.
-    fn of(line: &str) -> Option<Self> {
-        let line = line.rsplit([':', '\u{ff1a}']).next()?.replace(" [", "[").replace(" (", "(");
-        let mut columns: Vec<[String; 2]> = Vec::new();
-        for field in fields(&line) {
-            if field.contains(" in ") {
-                return None;
-            }
-            let ends = |separator| field.rsplit_once(separator).filter(|(_, unit)| per_metre(bare(unit)).is_some());
-            match (field.split_once(['[', '(', '/']).or_else(|| ends(' ')).or_else(|| ends('_')), columns.last_mut()) {
-                // a unit behind a blank
-                (None, Some([_, unit])) if unit.is_empty() && per_metre(field).is_some() => unit.push_str(field),
-                (Some((name, unit)), _) => columns.push([name.trim().to_lowercase(), bare(unit).to_owned()]),
-                (None, _) => columns.push([field.to_lowercase(), String::new()]),
-            }
-        }
-        let columns = Self(columns);
-        (columns.0.len() > 2 && columns.place("x").and(columns.place("y")).is_some()).then_some(columns)
-    }
-
-    /// Takes the units of length in a line below the names, if it has one for each of x, y and z.
-    fn take_units(&mut self, line: &str) {
-        let units: Vec<_> = fields(line).map(bare).collect();
-        let has_none = self.0.iter().all(|[_, unit]| unit.is_empty());
-        let of_points = ["x", "y", "z"].map(|axis| self.place(axis).and_then(|place| units.get(place)));
-        let is_length = |unit: &Option<&&str>| unit.is_some_and(|unit| per_metre(unit).is_some());
-        if has_none && units.len() == self.0.len() && of_points.iter().all(is_length) {
-            self.0.iter_mut().zip(units).for_each(|([_, of], unit)| unit.clone_into(of));
-        }
-    }
-
-    /// The place of x, y or z, if it is the only one.
-    fn place(&self, axis: &str) -> Option<usize> {
-        let is_named = |name: &str| name == axis || axis == "z" && NAMES_OF_HEIGHTS.contains(&name);
-        let mut places = self.0.iter().enumerate().filter(|(_, [name, _])| is_named(name)).map(|(place, _)| place);
-        places.next().filter(|_| places.next().is_none())
-    }
-
-    /// The places of x, y and z among so many columns.
-    pub fn places(&self, count: usize) -> Parsed<[usize; 3]> {
-        let names: Vec<_> = self.0.iter().map(|[name, _]| name.as_str()).collect();
-        let names = quoted(&names.join(" "));
-        match ["x", "y", "z"].map(|axis| self.place(axis)) {
-            _ if count != self.0.len() => refuse(format!(
-                "names {} columns, {names}, but has {count} numbers on a line: name each column, or leave the names out",
-                self.0.len()
-            )),
-            [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
-            _ => refuse(format!("names the columns {names}: name one of heights z, or leave the names out")),
-        }
-    }
-}
-
-/// The fields of a line of names or units: between semicolons, commas or tabs, or else between blanks.
-fn fields(line: &str) -> impl Iterator<Item = &str> {
-    let separator = [';', ',', '\t'].into_iter().find(|separator| line.contains(*separator));
-    let is_end = move |c: char| separator.map_or(c.is_whitespace(), |separator| c == separator);
-    let fields = line.trim_matches(' ').split(is_end).map(|field| field.trim().trim_matches('"').trim());
-    fields.filter(move |field| separator.is_some() || !field.is_empty())
 }
 
 /// The units of length of three columns, as `um,um,nm`.

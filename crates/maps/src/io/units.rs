@@ -67,3 +67,8 @@ pub(super) fn in_one_unit(
     map.unit = unit.map(str::to_owned);
     Ok(map)
 }
+
+/// A unit without brackets around it.
+pub(super) fn bare(unit: &str) -> &str {
+    unit.trim_matches(|c: char| "[]()".contains(c) || c.is_whitespace())
+}

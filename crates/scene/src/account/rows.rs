@@ -52,8 +52,8 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
         let known = s.corrected_contact_fraction.filter(|share| share.is_finite())?;
         // of rough surfaces with waves down to the nodes, next to grids that are eight times as fine
         let few = match s.inputs.slopes.nodes_per_wave {
-            Some(nodes) if nodes < 2.5 => ", up to 12 % too large: its waves have 2 nodes",
-            Some(nodes) if nodes < 3.5 => ", up to 4 % too large: its waves have 3 nodes",
+            Some(nodes) if nodes < 2.5 => ", some 5 to 12 % too large: its waves have 2 nodes",
+            Some(nodes) if nodes < 3.5 => ", some 2 to 4 % too large: its waves have 3 nodes",
             _ => "",
         };
         Some(corrected(known, s.contact_fraction) + few)

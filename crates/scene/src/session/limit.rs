@@ -50,7 +50,7 @@ impl<T: Scalar> Session<T> {
             return Ok(None);
         }
         let surface = self.surface()?;
-        let Some(surface) = LoopLimit::coarser(&surface)?.map(Arc::new) else { return Ok(None) };
+        let Some(surface) = LoopLimit::coarser(&surface, &*self.law)?.map(Arc::new) else { return Ok(None) };
         let ((nx, ny), (cx, cy)) = (self.grid.shape(), surface.grid().shape());
         let law = self.law.adapted(Discretisation::Coarse(nx / cx, ny / cy)).unwrap_or_else(|| Arc::clone(&self.law));
         let solver = Solver { settings: self.solver.settings, constraint: self.scene.adhesion.constraint(None)? };
