@@ -142,8 +142,8 @@ pub enum Discretisation<T> {
     /// The finer grid of nx times and ny times as many nodes, on which every node stands for those behind it: for a law
     /// that varies over the surface.
     Fine(usize, usize),
-    /// Nodes of this compliance, length per pressure: for a law whose traction jumps. Its slopes become no steeper than
-    /// one over the compliance in the place of the jumps; the functions still agree, and the work of adhesion stays.
+    /// Nodes of this compliance, length per pressure: for a law with jumps of the traction. Slopes of at most one over
+    /// the compliance replace the jumps; the functions still agree, and the work of adhesion stays.
     ///
     /// At a jump a node is in equilibrium on both sides, and the edge of the adhesive zone stays where an iteration
     /// left it. A solve therefore goes through the equilibrium of the smoothed law, from whatever start. A law that is
@@ -211,7 +211,7 @@ pub(crate) fn on_grid<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f
 /// larger of Δx and Δy.
 ///
 /// Below about 0.5 the zone is resolved. Above, contact edges are pinned to the grid, and the equilibrium found
-/// depends on the start. Zero without adhesion. A law whose range is that of the grid, [`Jkr`], has 0.28 on every one.
+/// depends on the start. Zero without adhesion. [`Jkr`], with a range set by the grid, has 0.28 on every grid.
 pub fn mu_rho<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> f64 {
     let hints = on_grid(law, grid, modulus).map_or_else(|| law.hints(), |law| law.hints());
     let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());

@@ -75,14 +75,14 @@ pub trait ContactConstraint<T: Real>: Send + Sync {
         0.0
     }
 
-    /// Whether the rounds end at a rigid wall, of which the springs are only a means: stiffness and stability then hold
-    /// the nodes that the springs press, as a rigid wall does. Other springs resist with their slopes.
+    /// Whether the rounds end at a rigid wall, and springs are only the means: stiffness and stability then hold the
+    /// nodes that the springs press, as a rigid wall does. Other springs resist with their slopes.
     fn ends_rigid(&self) -> bool {
         false
     }
 
     /// Takes over the contact pressures that a rigid wall bears, found to a relative error, from which the rounds then
-    /// continue; `false`, the default, if the pressure of the springs is that of their gap. Zero at absent nodes.
+    /// continue; `false`, the default, if the springs press by their gap alone. Zero at absent nodes.
     fn bear(&mut self, _pressures: ArrayView2<'_, T>, _error: f64) -> bool {
         false
     }
@@ -124,7 +124,7 @@ pub enum Wall<'a, T> {
     Rigid,
     /// The gap is confined to g ≥ 0 until the contact pressure reaches a hardness, at which the surface yields.
     Capped(&'a Hardness),
-    /// Any gap is feasible, and the energy gains that of springs.
+    /// Any gap is feasible, and springs add energy.
     Springs(&'a dyn Springs<T>),
     /// Any gap is feasible at which the adhesion law is finite: the law itself keeps the surfaces apart.
     None,

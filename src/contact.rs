@@ -146,18 +146,18 @@ fn whole<'a, T: Real>(
 /// A = A_polygon − Δ ∫ (β − 0.0147 |sin 2θ|³) dL + 0.78 χ Δ² ,
 /// ```
 ///
-/// along the polygon, at the angle θ to the axes, with the number χ of contacts less that of holes in them. The
-/// correction for askew edges was measured on plane waves in ten directions, that for curved ones fitted to Hertz
-/// contacts. For Δx ≠ Δy length and area are taken with the spacings as units; on a line each end is β inside the
+/// along the polygon, at the angle θ to the axes, with χ the number of contacts less the number of their holes. The
+/// correction for askew edges was measured on plane waves in ten directions, the correction for curved edges fitted to
+/// Hertz contacts. For Δx ≠ Δy length and area are taken with the spacings as units; on a line each end is β inside the
 /// contour. Nodes at the end of a surface, next to absent ones or the end of a window, are counted as a whole, and so
-/// is full contact. Where a wall gives, as that of [`Penalty`](crate::Penalty), the gap in contact counts as well, and
-/// β falls with the cube of the share of the pressure in κλΔ − E\*g. Where [the law alone repels](crate::NoWall) the
-/// edge is the nearer to the middle between the nodes the more contact nodes are apart. Without a positive modulus the
-/// area is that of [`ContactArea::of`].
+/// is full contact. Where a wall gives, as [`Penalty`](crate::Penalty) does, the gap in contact counts as well, and β
+/// falls with the cube of the share of the pressure in κλΔ − E\*g. Where [the law alone repels](crate::NoWall) the edge
+/// is the nearer to the middle between the nodes the more contact nodes are apart. Without a positive modulus the area
+/// is [`ContactArea::of`].
 ///
 /// The error is of second order: 0.28 % of the area of Hertz contacts with radii of 3 to 7 nodes (7.9 % by counting
 /// nodes), 0.025 % with 14 to 28 (1.6 %). The page [`choosing`](crate::guide::choosing) has rough surfaces. With
-/// adhesion of a range that the grid does not resolve (μ_ρ above 0.5) it is as good as that of [`ContactArea::of`].
+/// adhesion of a range that the grid does not resolve (μ_ρ above 0.5) it is as good as [`ContactArea::of`].
 ///
 /// ```
 /// use asperity::contact::ContactStatistics;
@@ -185,8 +185,8 @@ pub struct ContactStatistics {
     /// The contact area within the edge between the nodes, as a share of the nominal area.
     pub corrected_contact_fraction: f64,
     /// The length of the edge of the contact, along the sides of the cells, across periodic boundaries too: Δy for
-    /// neighbours along x of which one is in contact, Δx for neighbours along y. Beyond a free boundary nothing is in
-    /// contact, and so its sides count. On a line the number of end points.
+    /// neighbours along x with one in contact, Δx for neighbours along y. Beyond a free boundary nothing is in contact,
+    /// so that its sides count. On a line the number of end points.
     pub perimeter: f64,
     /// The sizes of the [`Clusters`] of contact in nodes, the largest first.
     pub cluster_sizes: Vec<usize>,
@@ -198,7 +198,7 @@ pub struct ContactStatistics {
     /// The share of the other nodes.
     pub apart_fraction: f64,
     /// The patches of a law that [varies](crate::adhesion::Varying), the least work of adhesion first; the traction
-    /// above is that of the strongest. Empty for a uniform law, and for more than 16 works of adhesion.
+    /// above belongs to the strongest. Empty for a uniform law, and for more than 16 works of adhesion.
     pub patches: Vec<Patch>,
 }
 

@@ -7,10 +7,10 @@ pub(crate) const GAPS: usize = 200;
 
 pub(crate) type Named<'a> = (&'static str, &'a dyn Fn(f64) -> f64);
 
-/// Compares the second function with central differences of the first, and the third with those of the second, at gaps
-/// from `low` to `high`, in the precision T, to a hundredth of the largest value; gaps next to a jump are passed over.
-/// `length` is the gap over which the functions vary. [`Error::Contract`] has the function and the first gap at which
-/// it is not finite, or not the derivative, and what it should be there.
+/// Compares the second function with central differences of the first, and the third with differences of the second, at
+/// gaps from `low` to `high`, in the precision T, to a hundredth of the largest value; gaps next to a jump are passed
+/// over. `length` is the gap over which the functions vary. [`Error::Contract`] has the function and the first gap at
+/// which it is not finite, or not the derivative, and what it should be there.
 pub(crate) fn check<T: Real>(functions: [Named<'_>; 3], (low, high): (f64, f64), length: f64) -> Result<()> {
     // the step that balances truncation against rounding in a central difference
     let step = length * T::epsilon().widen().cbrt();

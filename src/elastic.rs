@@ -89,9 +89,9 @@ pub trait ElasticOperator<T: Real>: Send {
         false
     }
 
-    /// The spectral operator that does all of this one's applications, if one does. A solve then treats the longest
-    /// waves where the contacts are, and in `f64` has its corrections in `f32`; without one, as by default, it takes more
-    /// iterations, each of which costs more.
+    /// The spectral operator that does all applications, if there is one. A solve then treats the longest waves where
+    /// the contacts are, and in `f64` has its corrections in `f32`; without a spectral operator, the default, a solve
+    /// takes more iterations, and each costs more.
     fn spectral(&mut self) -> Option<&mut Spectral<T>> {
         None
     }
@@ -170,7 +170,7 @@ impl<T: Real, O: ElasticOperator<T> + 'static, F: FnMut(Grid) -> Result<O>> OnGr
     }
 }
 
-/// The boundary of the elastic body: periodic, as of [`Westergaard`], or free, as of [`Boussinesq`].
+/// The boundary of the elastic body: periodic, as in [`Westergaard`], or free, as in [`Boussinesq`].
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]

@@ -74,7 +74,7 @@ pub enum Error {
         /// The reason, and a remedy.
         reason: &'static str,
     },
-    /// An accuracy whose grid does not fit into memory.
+    /// An accuracy that needs a grid beyond the memory.
     Unaffordable {
         /// The [`Quantity::name`](crate::accuracy::Quantity::name).
         quantity: &'static str,
@@ -147,7 +147,7 @@ pub enum Place {
 pub enum Breach {
     /// The functions of a law are finite.
     Finite,
-    /// The traction is the derivative of the energy, and the slope that of the traction.
+    /// The traction is the derivative of the energy, and the slope the derivative of the traction.
     Derivative(f64),
     /// A law that [says](crate::adhesion::Hints) that it is zero has no traction.
     Zero,
@@ -170,7 +170,7 @@ pub enum Breach {
     Operator(f64),
     /// The stiffness of a wave is positive and finite in the precision of the fields.
     Stiff,
-    /// The stiffness of a wave is that of the opposite one, (−qx, −qy).
+    /// A wave and the opposite wave, (−qx, −qy), have one stiffness.
     Even(f64),
 }
 
@@ -194,7 +194,7 @@ pub enum ErrorKind {
     Shape,
     /// A field that holds NaN or infinities.
     NotFinite,
-    /// An adhesion law or springs whose functions contradict one another.
+    /// An adhesion law or springs with functions that contradict one another.
     Law,
     /// An elastic operator that lacks a property of its contract, or an error of a function of a body or a law.
     Operator,

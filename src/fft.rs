@@ -284,7 +284,7 @@ mod tests {
             for shape in [(n, 1), (1, n)] {
                 let layout = Layout::new(shape);
                 let (columns, modes) = layout.spectrum();
-                // a prime number of nodes has no half, and that of two has both columns
+                // a prime number of nodes has no half, and two nodes have both columns
                 assert!([4, 37].contains(&n) || columns * modes <= n * 3 / 4, "{layout:?}");
                 let mut found = vec![0; n];
                 for (k, i) in (0..columns).flat_map(|k| (0..modes).map(move |i| (k, i))) {

@@ -114,7 +114,8 @@ macro_rules! found {
 }
 pub(crate) use found;
 
-/// The reducer of passes over fields in a slab: adds up the results of the chunks in their order, and those of slabs.
+/// The reducer of passes over fields in a slab: adds up the results of the chunks in their order, then the results of
+/// slabs.
 #[derive(Debug)]
 pub(crate) struct Reducer {
     chunks: Vec<Numbers>,
@@ -140,7 +141,7 @@ impl Reducer {
         self.run_where(|_| true, chunks, f)
     }
 
-    /// Runs `f(first node, chunk)` over the chunks whose number is `wanted`.
+    /// Runs `f(first node, chunk)` over the chunks with a `wanted` number.
     pub(crate) fn run_where<A: Parts, S: Sums>(
         &mut self,
         wanted: impl Fn(usize) -> bool + Sync + Send,

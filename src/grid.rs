@@ -144,7 +144,7 @@ impl Grid {
         Reducer::new(self.slab)
     }
 
-    /// The mean of a function of all nodes, of which the field has those of this process, in any layout.
+    /// The mean of a function over all nodes; the field has the nodes of this process, in any layout.
     pub(crate) fn mean<T: Copy + Sync>(&self, field: ArrayView2<'_, T>, of: impl Fn(T) -> f64 + Sync + Send) -> f64 {
         self.mean_of_both(field, field, |value, _| of(value))
     }

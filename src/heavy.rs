@@ -77,7 +77,7 @@ heavy! {
     ) -> () = Ranks::exchange;
     /// Exponentials on vector instructions.
     fn exponentials(factor: Self, rate: Self, x: &[Self], results: &mut [Self]) -> () = exponentials_f32, exponentials_f64;
-    /// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
+    /// The stiffness of the homogeneous half-space, and the stiffness of its softest and stiffest wave.
     fn half_space(grid: &Grid, modulus: f64) -> Result<(Stiffness<Self>, (f64, f64))> = waves;
     /// An application of a spectral operator.
     fn apply(

@@ -8,17 +8,17 @@
 //! e(g) = ½ ⟨u, K⁻¹u⟩ + ⟨φ(g)⟩ ,   u = g + h ,   K⁻¹u = ½ E* |q| û  for each wave q ,
 //! ```
 //!
-//! with ⟨·⟩ the mean over the surface, E* the contact modulus and φ(g) ≤ 0 the adhesive energy. The mean gap is given, or
-//! the mean pressure p̄, whose work p̄⟨g⟩ is then added. With p = K⁻¹u the elastic pressure, the contact pressure
+//! with ⟨·⟩ the mean over the surface, E* the contact modulus and φ(g) ≤ 0 the adhesive energy. The mean gap is given,
+//! or the mean pressure p̄, and then its work p̄⟨g⟩ is added. With p = K⁻¹u the elastic pressure, the contact pressure
 //! λ = p + p̄ + φ'(g) is the multiplier of g ≥ 0:
 //!
 //! ```math
 //! λ ≥ 0 ,   g ≥ 0 ,   λ g = 0 .
 //! ```
 //!
-//! The method is that of Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm
-//! for FFT-based BEM resolution*, Computational Mechanics 60 (2017), with a preconditioner, a certificate of the
-//! error, and the paper's misprints corrected: see [`guide::paper_checked`].
+//! The method is due to Rey, Anciaux and Molinari, *Normal adhesive contact on rough surfaces: efficient algorithm for
+//! FFT-based BEM resolution*, Computational Mechanics 60 (2017), with a preconditioner, a certificate of the error, and
+//! the paper's misprints corrected: see [`guide::paper_checked`].
 //!
 //! # A sphere, without and with adhesion
 //!

@@ -148,7 +148,7 @@ impl<T> Nodes for Tile<ArrayViewMut2<'_, T>> {
     }
 }
 
-/// Runs of `size` nodes, or tiles of `size` rows or columns, the last of which may be shorter.
+/// Runs of `size` nodes, or tiles of `size` rows or columns; the last may be shorter.
 pub(crate) struct Chunks<N> {
     rest: Option<N>,
     size: usize,
@@ -235,8 +235,8 @@ fn most<P: Parts>(parts: &P) -> usize {
     }
 }
 
-/// Runs `f` on the parts, the first of which has the index `first`. A few parts run one after the other. The call of `f`
-/// is not inlined, so that the loop is compiled once for each kind of parts.
+/// Runs `f` on the parts, from the index `first` on. A few parts run one after the other. The call of `f` is not
+/// inlined, so that the loop is compiled once for each kind of parts.
 fn piece<P: Parts>(mut parts: P, first: usize, most: usize, f: &(dyn Fn(usize, P::Part) + Sync)) {
     let count = parts.count();
     if count > most {

@@ -27,8 +27,8 @@ pub(crate) use yielded::Yielded;
 
 /// A contact problem: a rough surface, an elastic operator and an adhesion law.
 ///
-/// Only the pressure K⁻¹h that would press the surface flat is kept of it. A problem can be solved many times, under
-/// any [`Control`]. Memory per node: one scalar besides those of the operator; [`Problem::new`] needs less than a
+/// A problem keeps the pressure K⁻¹h that would press the surface flat, not the heights. A problem can be solved many
+/// times, under any [`Control`]. Memory per node: one scalar besides the operator's; [`Problem::new`] needs less than a
 /// solve.
 ///
 /// ```
@@ -55,7 +55,7 @@ impl<T: Real> fmt::Debug for Problem<T> {
     }
 }
 
-/// The parts of a problem, perhaps with another law for a solve than that of the problem.
+/// The parts of a problem, perhaps with another law for a solve.
 pub struct ProblemMut<'a, T: Real> {
     pub(crate) operator: &'a mut dyn ElasticOperator<T>,
     pub(crate) law: &'a dyn AdhesionLaw<T>,
@@ -142,9 +142,9 @@ impl<T: Real> Problem<T> {
         self.on_nodes.as_deref().unwrap_or(&*self.law)
     }
 
-    /// Lowers the surface, as it was made, by a plastic depth on its grid: that of a
-    /// [solution](crate::Solution::plastic_depth) at a [`Hardness`](crate::Hardness), which then unloads elastically.
-    /// Loads that are positions, and the approach, are still those of the surface as it was made.
+    /// Lowers the surface, as it was made, by a plastic depth on its grid. With the depth of a
+    /// [solution](crate::Solution::plastic_depth) at a [`Hardness`](crate::Hardness) the surface unloads elastically.
+    /// Loads that are positions, and the approach, still refer to the surface as it was made.
     ///
     /// Takes one operator application, and keeps two fields.
     ///

@@ -43,10 +43,9 @@ const MARGIN: f64 = 0.1;
 /// | `tolerance` | 0.02 | the relative width of the bracket at which the search ends | positive, below 1 |
 /// | `preload` | none | the mean pressure to which surfaces from afar were pressed before; flat if none is given | zero or positive |
 ///
-/// A branch that the solver's settings name is that of the first solve, in the place of these, and so is a given
-/// [`Start`]. Where the traction of
-/// the law jumps, as of [`MaugisDugdale`](crate::MaugisDugdale), the search is one of the
-/// [smoothed](crate::adhesion::Discretisation::Smooth) law, as a [`Path`](crate::path::Path) is.
+/// A branch that the solver's settings name, or a given [`Start`], takes the place of these in the first solve. Where
+/// the traction of the law jumps, as with [`MaugisDugdale`](crate::MaugisDugdale), the search, like a
+/// [`Path`](crate::path::Path), takes the [smoothed](crate::adhesion::Discretisation::Smooth) law.
 ///
 /// ```
 /// use asperity::exact::Sphere;
@@ -59,7 +58,7 @@ const MARGIN: f64 = 0.1;
 /// assert!(found.reached);
 /// let force = -found.solution.report.normal_force;
 /// let jkr = -exact::Jkr::new(2.0, 1.0, 2e-5)?.pull_off().load();
-/// // between those of a stiff sphere, 2πRw, and of a soft one, 3πRw/2
+/// // between the pull-offs of a stiff sphere, 2πRw, and of a soft sphere, 3πRw/2
 /// assert!(jkr < force && force < jkr * 4.0 / 3.0);
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -104,7 +103,7 @@ impl PullOff {
     ///
     /// # Errors
     /// [`Error::Unsuited`] without adhesion, and where surfaces under no load do not attract each other;
-    /// [`Error::Value`] for a tolerance or a preload out of their ranges; [`Error::Unsuited`] for springs; those of
+    /// [`Error::Value`] for a tolerance or a preload out of their ranges; [`Error::Unsuited`] for springs; errors of
     /// [`Solver::solve_with`].
     pub fn find<T: Real>(
         &self,
@@ -117,7 +116,7 @@ impl PullOff {
     /// The same from a start, with an observer of the iterations; where it breaks off the search ends.
     ///
     /// # Errors
-    /// Those of [`Self::find`].
+    /// As [`Self::find`].
     pub fn find_from<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,

@@ -69,7 +69,7 @@ impl Ranks {
         self.count
     }
 
-    /// The parts of all ranks, in their order, of which this one has `own`.
+    /// The parts of all ranks, in their order; this rank has `own`.
     pub(crate) fn gather<E: Sent>(self, own: &[E], shares: &Shares, all: &mut [E]) {
         if self.count == 1 {
             all.copy_from_slice(own);
@@ -96,7 +96,7 @@ impl Ranks {
         all
     }
 
-    /// Adds the numbers of all ranks to those of this one.
+    /// Adds the numbers of all ranks to the numbers of this rank.
     pub(crate) fn add_up(self, numbers: &mut [u64]) {
         if self.count > 1 {
             job::add_up(numbers);

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::ranks::{Ranks, Sent, Shares};
 
 /// The nodes of a chunk, which are summed one by one. The rounding of a sum of such sums grows with the length of a
-/// chunk, and not with that of the field.
+/// chunk, not of the field.
 pub(crate) const CHUNK: usize = 256;
 
 /// Rows that are transformed together.
@@ -38,7 +38,7 @@ pub struct Slab {
     ranks: Ranks,
 }
 
-/// The rows of a field that a process has, and those of other slabs that it needs.
+/// The rows of a field that a process has, and the rows of other slabs that it needs.
 pub(crate) struct Rows<'a, A> {
     held: CowArray<'a, A, Ix2>,
     /// the number of the first of them
@@ -216,7 +216,7 @@ impl Slab {
         moved.into()
     }
 
-    /// The field of the whole grid, on every process, of which `held` is that of this slab. All processes have to call
+    /// The field of the whole grid, on every process, from the rows that each slab `held`. All processes have to call
     /// it.
     pub(crate) fn whole_of<'a, A: Sent>(&self, held: impl Into<CowArray<'a, A, Ix2>>) -> CowArray<'a, A, Ix2> {
         let held = held.into();
@@ -253,7 +253,8 @@ impl Slab {
         (rank * bands).div_ceil(count)..((rank + 1) * bands).div_ceil(count)
     }
 
-    /// The number of bands that the processes share: the bands of the grid, or for a window those of the larger grid.
+    /// The number of bands that the processes share: the bands of the grid, or for a window the bands of the larger
+    /// grid.
     pub(crate) fn bands(&self) -> usize {
         self.bands
     }

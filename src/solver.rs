@@ -67,9 +67,9 @@ names!(Method { Preconditioned = "default", Rey2017 = "rey2017" });
 
 /// The settings of a solve.
 ///
-/// The tolerance is 1e-6 in `f64`, 1e-4 in `f32`, and 1e-9 of [`Criterion::Complementarity`], unless one is given.
+/// The tolerance is 1e-6 in `f64`, 1e-4 in `f32`, and 1e-9 by [`Criterion::Complementarity`], unless one is given.
 /// Below the [floor](crate::guide::choosing#rounding-floors) of the precision a solve ends as [`Status::Stalled`]. With
-/// the feature `serde` settings are data, of which any may be left out.
+/// the feature `serde` settings are data; any setting may be left out.
 ///
 /// ```
 /// use asperity::Settings;
@@ -179,7 +179,7 @@ impl<C> Solver<C> {
     /// Solves from the default start, [`Start::Default`].
     ///
     /// # Errors
-    /// Those of [`Solver::solve_with`].
+    /// As [`Solver::solve_with`].
     pub fn solve<T: Real>(&mut self, problem: &mut Problem<T>, control: Control) -> Result<Solution<T>>
     where
         C: ContactConstraint<T> + 'static,
@@ -195,7 +195,7 @@ impl<C> Solver<C> {
     /// without stiffness, or a tolerance that is not positive; [`Error::Shape`](crate::Error::Shape),
     /// [`Error::NotFinite`](crate::Error::NotFinite) or [`Error::Value`](crate::Error::Value) for a start that does not
     /// fit, is not finite, or is negative somewhere; [`Error::Contract`](crate::Error::Contract) if the law is not
-    /// finite at the start; those of the constraint. Without convergence see [`Report::status`].
+    /// finite at the start; errors of the constraint. Without convergence see [`Report::status`].
     pub fn solve_with<T: Real>(
         &mut self,
         problem: &mut Problem<T>,

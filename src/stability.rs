@@ -57,9 +57,9 @@ names!(Verdict { Stable = "stable", Unstable = "unstable", Undecided = "undecide
 /// ```
 ///
 /// over the changes v of the gap that vanish where the surfaces touch, and have no mean if the mean gap is given; a
-/// spring, and with a free boundary a given approach, adds its stiffness to that of the mean. It is found by locally
-/// optimal conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as preconditioner, two
-/// operator applications an iteration.
+/// spring, and with a free boundary a given approach, adds its stiffness to the mean's. It is found by locally optimal
+/// conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as preconditioner, two operator
+/// applications an iteration.
 ///
 /// Their Rayleigh quotient is above λ; a larger tolerance makes it likelier that it is the second eigenvalue. If it is
 /// negative, that proves instability. If it is positive, the lower bound is the softest stiffness plus the least φ''
@@ -71,12 +71,12 @@ names!(Verdict { Stable = "stable", Unstable = "unstable", Undecided = "undecide
 /// | `tolerance` | 3e-3 | the norm of the residual of the mode, over the larger of its eigenvalue and the softest stiffness; the eigenvalue is right to about its square. Where it is nearly zero, the iteration continues until its sign is sure | positive |
 /// | `max_iterations` | 500 | iterations for the mode, and again for the bound, after which the verdict is open | any |
 /// | `bound` | true | whether to look for a lower bound; without one only the simple bound can show stability | |
-/// | `control` | `None`: that of the solution | the control that holds the equilibrium | |
+/// | `control` | `None`: as in the solution | the control that holds the equilibrium | |
 ///
-/// The slope φ'' of a law whose traction jumps, as [`MaugisDugdale`](crate::MaugisDugdale), is a measure on a line on
-/// which no node lies: every equilibrium of the discrete energy is a minimum, pinned by the grid. Its traction is
-/// smoothed over a few nodes, as for the [default start](crate::adhesion::Discretisation::Smooth), and the verdict is
-/// an estimate for the continuum that gets better with the grid. [`Stability::smoothed`] says so.
+/// A law with jumps of the traction, as [`MaugisDugdale`](crate::MaugisDugdale), has a slope φ'' on lines where no node
+/// lies: every equilibrium of the discrete energy is a minimum, pinned by the grid. Its traction is smoothed over a few
+/// nodes, as for the [default start](crate::adhesion::Discretisation::Smooth), and the verdict is an estimate for the
+/// continuum that gets better with the grid. [`Stability::smoothed`] says so.
 ///
 /// ```
 /// use asperity::stability::{StabilityTest, Verdict};
@@ -104,7 +104,7 @@ pub struct StabilityTest {
     pub max_iterations: usize,
     /// Whether to look for a lower bound of the eigenvalue.
     pub bound: bool,
-    /// The control that holds the equilibrium; `None` is that of the solution.
+    /// The control that holds the equilibrium; `None` is the control of the solution.
     pub control: Option<Control>,
 }
 
@@ -146,12 +146,12 @@ pub struct Stability<T> {
 impl StabilityTest {
     setters! { tolerance: f64, max_iterations: usize, bound: bool }
 
-    /// The default test, under a control that need not be that of the solution.
+    /// The default test, under a control that may differ from the solution's.
     pub fn under(control: Control) -> Self {
         Self { control: Some(control), ..Self::default() }
     }
 
-    /// Tests a solution with a rigid wall, whose gap may be in any memory layout.
+    /// Tests a solution with a rigid wall; its gap may be in any memory layout.
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Value`] for a solution of another problem, or a tolerance that is not positive;
@@ -161,13 +161,13 @@ impl StabilityTest {
         self.run_with(problem, &Projection, solution)
     }
 
-    /// Tests a solution that was found with a constraint. Under springs, as those of [`Penalty`](crate::Penalty), or
+    /// Tests a solution that was found with a constraint. Under springs, as with [`Penalty`](crate::Penalty), or
     /// without a wall ([`NoWall`](crate::NoWall)) every node may move; the stiffness of springs adds to φ''. Under
-    /// springs that [end at a rigid wall](ContactConstraint::ends_rigid), as those of [`Uzawa`](crate::Uzawa) after the
-    /// solve, the nodes that they press do not move.
+    /// springs that [end at a rigid wall](ContactConstraint::ends_rigid), as with [`Uzawa`](crate::Uzawa) after the
+    /// solve, the nodes that springs press do not move.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run`]; [`Error::Unsuited`] for another wall than that of the solution or the law;
+    /// As [`StabilityTest::run`]; [`Error::Unsuited`] for another wall than the wall of the solution or the law;
     /// [`Error::Contract`] if the stiffness of the springs is not finite somewhere.
     pub fn run_with<T: Real>(
         &self,
@@ -184,7 +184,7 @@ impl StabilityTest {
     /// Tests a gap that was kept with its [`Report::relative_error`](crate::Report::relative_error), under a control.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run_with`]; [`Error::Value`] for a negative gap at a rigid wall.
+    /// As [`StabilityTest::run_with`]; [`Error::Value`] for a negative gap at a rigid wall.
     pub fn of_gap<T: Real>(
         &self,
         problem: &mut Problem<T>,
@@ -206,7 +206,7 @@ impl StabilityTest {
     ) -> Result<Stability<T>> {
         Error::positive("tolerance", self.tolerance)?;
         check_gap(&problem, constraint, gap)?;
-        // the value of a mean gap is that of the solution, which springs may make negative
+        // the solution has the value of the mean gap, which springs may make negative
         let kind = if let Control::MeanGap(_) = control { Control::MeanGap(0.0) } else { control };
         let ProblemMut { operator, law, flat, .. } = problem;
         let (load, window) = (flat.load(kind, constraint.wall())?, flat.window.as_ref());

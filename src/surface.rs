@@ -120,7 +120,7 @@ impl Surface {
         &self.grid
     }
 
-    /// The heights, of shape (Nx, Ny), row-major; on a shared grid those of the rows that this process holds.
+    /// The heights, of shape (Nx, Ny), row-major; on a shared grid of the rows that this process holds.
     pub fn heights(&self) -> &Array2<f64> {
         &self.heights
     }

@@ -15,7 +15,7 @@ use crate::solver::{
 
 /// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
 ///
-/// Solver and problem are those of each load. With the feature `serde` a sweep is its own checkpoint: kept and read
+/// Solver and problem are given with each load. With the feature `serde` a sweep is its own checkpoint: kept and read
 /// again, it continues bit for bit, also at a problem that is made anew.
 ///
 /// The first load starts from the default start, or from [`Sweep::starting_from`]; the others
@@ -105,8 +105,8 @@ impl<T: Real> Sweep<T> {
     /// The solution under the next load.
     ///
     /// # Errors
-    /// Those of [`Solver::solve_with`]; [`Error::Shape`](crate::Error::Shape) for a problem on another grid than that of
-    /// the load before.
+    /// As [`Solver::solve_with`]; [`Error::Shape`](crate::Error::Shape) for a problem on another grid than at the load
+    /// before.
     pub fn next(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -119,7 +119,7 @@ impl<T: Real> Sweep<T> {
     /// The same with an observer of the iterations, as in [`Solver::solve_with`].
     ///
     /// # Errors
-    /// Those of [`Self::next`].
+    /// As [`Self::next`].
     pub fn next_observed(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,

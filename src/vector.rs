@@ -4,10 +4,10 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::field::found;
 
-/// The modes of a spectrum whose terms are stored before they are summed: a loop without sums vectorises.
+/// The number of modes of a spectrum with terms that are stored before they are summed: a loop without sums vectorises.
 pub(crate) const BLOCK: usize = 64;
 
-/// The nodes whose terms `sums!` stores before it sums them: few, as each chunk clears their place. Sums are the same.
+/// The number of nodes with terms that `sums!` stores before it sums: few, as each chunk clears their place.
 pub(crate) const NODES: usize = 32;
 
 /// Sums that run side by side.
@@ -65,8 +65,8 @@ found! {
     pub(crate) struct Single { pub(crate) sum: f64 }
 }
 
-/// Sums terms of a chunk's nodes: `|i| term`, or several that go to the fields of a struct of `Sums`, and one of which
-/// the least is found, `|i| { let … } => Name { field: term, …; least field: term }`. Other fields are those of no nodes.
+/// Sums terms of a chunk's nodes: `|i| term`, or several that go to the fields of a struct of `Sums`, and one with a
+/// least value, `|i| { let … } => Name { field: term, …; least field: term }`. Other fields have no nodes.
 macro_rules! sums {
     ([$($read:ident),*], [$($write:ident),*], |$i:ident| { $($body:tt)* } => $Name:ident {
         $($field:ident: $term:expr),* $(; least $least:ident: $low:expr)?

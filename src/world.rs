@@ -70,7 +70,7 @@ impl World {
     /// error that names it. All processes have to ask.
     ///
     /// # Errors
-    /// That of the result, or [`Error::Elsewhere`].
+    /// The error of the result, or [`Error::Elsewhere`].
     pub fn agree<T>(&self, result: Result<T>) -> Result<T> {
         Slab::new((1, 1), self.ranks).agreed(result)
     }

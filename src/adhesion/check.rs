@@ -16,7 +16,7 @@ const ROUNDINGS: f64 = 4.0;
 
 const NODES: usize = 1024;
 
-/// The most nodes of a law that varies whose functions are compared at many gaps.
+/// The number of nodes of a varying law at which functions are compared at many gaps.
 const PLACES: usize = 16;
 
 /// The width over which a smoothed traction is let fall, in ranges.
@@ -39,16 +39,17 @@ const ASKED: [[bool; 3]; 6] = [
 /// A check of a law against the contract of [`AdhesionLaw`], for a test of yours.
 ///
 /// Compares, at 200 gaps between 0 (or half the gap of rest) and `largest_gap`, the traction with central differences
-/// of the energy and the slope with those of the traction, in the precision of the law, to a hundredth of the largest
-/// value of that function. Gaps next to a jump, where the differences grow as their step shrinks, are passed over. It
-/// also holds the law to its [hints](AdhesionLaw::hints), [values](AdhesionLaw::evaluate) and
+/// of the energy and the slope with differences of the traction, in the precision of the law, to a hundredth of the
+/// largest value of the function. Gaps next to a jump, where the differences grow as their step shrinks, are passed
+/// over. It also holds the law to its [hints](AdhesionLaw::hints), [values](AdhesionLaw::evaluate) and
 /// [adaptions](AdhesionLaw::adapted):
 ///
-/// - a law without a range of its own is that [on nodes](AdhesionLaw::on_nodes) that let it end before `largest_gap`;
-/// - a law that is zero has no traction, and that of a concave one does not rise with the gap;
+/// - a law without a range of its own is checked [on nodes](AdhesionLaw::on_nodes) on which its range ends before
+///   `largest_gap`;
+/// - a law that is zero has no traction, and the traction of a concave law does not rise with the gap;
 /// - where the traction jumps, the [smoothed](Discretisation::Smooth) law has none, but the same work of adhesion and
 ///   shape, and its functions agree as well;
-/// - the values at many nodes are those of the functions of one gap, whichever are asked for and wherever slices end;
+/// - values at many nodes equal the functions of one gap, for each choice of values and of slices;
 /// - a law that has a shape has a [coarser](Discretisation::Coarse) one, with the values of every other node, and is
 ///   nowhere stronger than the functions of one gap.
 ///
@@ -137,7 +138,7 @@ impl<T: Real> Checked<'_, T> {
         Error::shape(what, found, expected)
     }
 
-    /// Holds a law whose traction jumps to what its smoothed law has to be.
+    /// Checks the smoothed law of a law with jumps of the traction.
     fn smoothness(&self) -> Result<()> {
         let Some(jump) = self.jump() else { return Ok(()) };
         let compliance = T::lit(SMOOTHING * self.length / self.largest());
@@ -178,7 +179,7 @@ impl<T: Real> Checked<'_, T> {
         values.map(|[value]| value)
     }
 
-    /// Compares the values of many nodes with those of one, or, where they differ by the node, with one another.
+    /// Compares values at many nodes with the functions of one gap, or, for a law that varies, with one another.
     fn nodes(&self) -> Result<()> {
         let (law, shape) = (self.law, self.hints.shape);
         let nodes = shape.map_or(NODES, |(nx, ny)| nx * ny);

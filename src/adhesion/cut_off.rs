@@ -20,7 +20,7 @@ const SLACK: f64 = 1e-2;
 /// and all of the repulsion stay; the energy of the tail is given back before g_c. A law that ends before g_c is not
 /// changed. Cut off and [`Varying`](super::Varying) may be applied in either order.
 ///
-/// The largest traction over that of the law, by the distance from g₀ to g_c over the range ρ:
+/// The largest traction over the largest traction of the law, by the distance from g₀ to g_c over the range ρ:
 ///
 /// | | 1 | 1.5 | 2 | 2.5 | 3 | 4 |
 /// |---|---|---|---|---|---|---|
@@ -53,7 +53,7 @@ impl<L> CutOff<L> {
     ///
     /// # Errors
     /// [`Error::Value`] if g_c is not finite, or less than a range ρ beyond contact or the equilibrium separation; or
-    /// if the energy in contact is not −w, as of a law that does not fall to zero.
+    /// if the energy in contact is not −w, because the law does not fall to zero.
     pub fn new(law: L, distance: f64) -> Result<Self>
     where
         L: AdhesionLaw<f64>,
@@ -120,7 +120,7 @@ impl<L> CutOff<L> {
         ]
     }
 
-    /// A value of the law at a gap, less that of a quintic.
+    /// The difference of a law and a quintic at a gap.
     fn left<T: Real>(&self, gap: T, value: T, of: impl Fn(T, T, [T; 3]) -> T, quintic: impl FnOnce() -> [T; 3]) -> T {
         let [start, distance] = [self.start, self.distance].map(T::lit);
         if gap >= distance {

@@ -12,8 +12,8 @@ use crate::error::Result;
 
 /// An adhesion law in both precisions, whichever it is; a clone shares it.
 ///
-/// A law of the library becomes one by `into`, whose loops over the nodes are compiled with the library; any other
-/// [`AnyLaw`] in an `Arc` is one.
+/// `into` makes a formula of a law of the library, with loops over the nodes that are compiled with the library; any
+/// other [`AnyLaw`] in an `Arc` is a formula.
 ///
 /// ```
 /// use asperity::adhesion::Formula;
@@ -47,7 +47,7 @@ impl dyn AnyLaw {
     /// The law, zero from a gap on.
     ///
     /// # Errors
-    /// Those of [`CutOff::new`].
+    /// As [`CutOff::new`].
     pub fn cut_off(self: Arc<Self>, distance: f64) -> Result<Formula> {
         Ok(Arc::new(CutOff::new(self, distance)?))
     }
@@ -60,7 +60,7 @@ impl dyn AnyLaw {
     /// The law with works of adhesion at the nodes, shape (Nx, Ny).
     ///
     /// # Errors
-    /// Those of [`Varying::new`].
+    /// As [`Varying::new`].
     pub fn varied(self: Arc<Self>, works: ArrayView2<'_, f64>) -> Result<Formula> {
         Ok(Arc::new(Varying::new(self, works)?))
     }

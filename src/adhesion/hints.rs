@@ -18,7 +18,7 @@ pub struct Hints<T> {
     pub concave: bool,
     /// Whether the law is zero at all gaps, so that it need not be evaluated.
     pub zero: bool,
-    /// Whether the range is that of the grid, [`AdhesionLaw::on_nodes`]; before a grid is known it is zero.
+    /// Whether the grid sets the range, by [`AdhesionLaw::on_nodes`]; before a grid is known the range is zero.
     pub of_grid: bool,
     /// Whether surfaces attract each other next to contacts alone, as in the limit of no range: within four nodes of a
     /// contact, or where they have not parted since. Otherwise they attract each other wherever the gap is small.
@@ -61,7 +61,7 @@ impl<T: Real> Hints<T> {
         self.touching && !self.zero
     }
 
-    /// The name by which a solution knows the law: that of no adhesion for every law that is zero.
+    /// The name of the law in a solution; a law that is zero has the name of no adhesion.
     pub(crate) fn known_as(&self) -> &'static str {
         if self.zero { "none" } else { self.name }
     }
@@ -84,7 +84,7 @@ impl<T: Real> Hints<T> {
         Self { rest: Some(gap), ..self }
     }
 
-    /// The same for a law whose energy is concave.
+    /// Hints for a law with a concave energy.
     #[must_use]
     pub fn concave(self) -> Self {
         Self { concave: true, ..self }

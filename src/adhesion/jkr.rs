@@ -7,7 +7,7 @@ use crate::real::Real;
 /// The square of the range on a grid, in units of the work of adhesion times the compliance of a node.
 const SQUARE: f64 = 13.0;
 
-/// The law without a range: that of Johnson, Kendall and Roberts (1971), as short on each grid as its nodes can follow.
+/// The law of Johnson, Kendall and Roberts (1971), without a range: as short on each grid as the nodes can follow.
 ///
 /// ```math
 /// φ(g) = −w (1 − x)⁴ (1 + 2x + 2x²) ,   φ'(g) = 2w/ρ (1 − x)³ (1 + 3x + 6x²) ,   x = g/ρ < 1 ,   0 beyond
@@ -17,9 +17,9 @@ const SQUARE: f64 = 13.0;
 /// The work of adhesion w is all that the limit of large Tabor numbers has. A [`Problem`](crate::Problem) gives the law
 /// its range ρ, [`AdhesionLaw::on_nodes`], by the larger spacing Δx and the contact modulus E* of the shortest waves: the
 /// traction falls no more steeply than 0.29 E*/Δx. So the process zone at the edge of a contact is some three nodes wide,
-/// edges move with the load, and results converge with the first order of Δx to those of the limit. On each of
-/// [nested grids](crate::Nested) the range is another one, and so is it at each node of a law that
-/// [varies](crate::adhesion::Varying). Before, the law attracts in contact alone, with no bound.
+/// edges move with the load, and results converge with the first order of Δx to the limit. Each of [nested
+/// grids](crate::Nested), and each node of a law that [varies](crate::adhesion::Varying), has a range of its own. Until
+/// a grid sets the range, the law attracts in contact alone, with no bound.
 ///
 /// The page [`choosing`](crate::guide::choosing) says how right it is. A law with a range is to be taken where that is
 /// longer than the one here.

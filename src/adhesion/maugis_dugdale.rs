@@ -10,9 +10,9 @@ use crate::real::Real;
 /// φ(g) = −w max(0, 1 − g/ρ) ,   φ'(g) = w/ρ  for g < ρ,  0 beyond
 /// ```
 ///
-/// Maugis (1992); equations (26) and (27) of Rey, Anciaux and Molinari (2017), of which (26) is misprinted. As the
-/// traction jumps at ρ, there are many equilibria at one mean gap. In the [smoothed](Discretisation::Smooth) law it
-/// falls evenly between ρ − d/2 and ρ + d/2, d = σ₀·compliance, at most 2ρ.
+/// Maugis (1992); equations (26), which is misprinted, and (27) of Rey, Anciaux and Molinari (2017). As the traction
+/// jumps at ρ, there are many equilibria at one mean gap. In the [smoothed](Discretisation::Smooth) law it falls evenly
+/// between ρ − d/2 and ρ + d/2, d = σ₀·compliance, at most 2ρ.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, MaugisDugdale};

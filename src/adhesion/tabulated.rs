@@ -20,8 +20,7 @@ const NEAREST: f64 = 1.0 / 256.0;
 /// The bits of the mantissa that number the intervals of an octave: 128 of them.
 const BITS: u32 = 7;
 
-/// A law whose traction is a polynomial of the third degree, piece by piece: [through points](Self::new), or
-/// [of functions](Self::of).
+/// A law with a traction of cubic pieces, [through points](Self::new) or [of functions](Self::of).
 ///
 /// The energy is the exact integral of the traction, and the slope its derivative.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,12 +20,12 @@ pub(crate) struct Neighbourhood {
     slab: Slab,
     periodic: bool,
     near: Field<bool>,
-    /// the contacts of which the neighbourhood is taken in next
+    /// contacts with a neighbourhood that is taken in next
     pub(crate) contact: Field<bool>,
 }
 
 impl Neighbourhood {
-    /// No node, in the rows of a slab of a grid, the opposite sides of which meet if it is `periodic`.
+    /// No node, in the rows of a slab of a grid. Opposite sides meet if `periodic`.
     pub(crate) fn none((grid, slab): (&Grid, Slab), periodic: bool) -> Self {
         let [near, contact] = [(); 2].map(|()| Field::filled(slab.held(), false));
         Self { grid: *grid, slab, periodic, near, contact }

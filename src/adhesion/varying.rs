@@ -8,11 +8,11 @@ use crate::error::{Error, Result};
 use crate::field::{CHUNK, Field, all_finite};
 use crate::real::Real;
 
-/// A law whose work of adhesion differs from node to node, w(x, y): energy, traction and slope in proportion to it.
+/// A law with a work of adhesion w(x, y) at each node: energy, traction and slope are proportional to w.
 ///
 /// With [`Jkr`](crate::Jkr) each node has the range of its own work of adhesion. Functions of one gap, such as μ_ρ, are
-/// those of the strongest node. Memory per node: one `f64`, which clones share; where several processes share a grid,
-/// each has the law at all nodes.
+/// functions of the strongest node. Memory per node: one `f64`, which clones share; where several processes share a
+/// grid, each has the law at all nodes.
 ///
 /// ```
 /// use asperity::adhesion::Varying;
@@ -27,7 +27,7 @@ use crate::real::Real;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varying<L> {
     law: L,
-    /// the work of adhesion at each node over that of the law
+    /// the work of adhesion at each node over the work of adhesion of the law
     shares: Arc<Field<f64>>,
     largest: f64,
     repels: bool,
@@ -80,7 +80,8 @@ impl<L> Varying<L> {
 }
 
 impl<L> Varying<L> {
-    /// The range of a node over that of the law: that of the grid goes with the root of the work of adhesion.
+    /// The range of a node over the range of the law: a range set by the grid grows with the root of the work of
+    /// adhesion.
     fn stretch<T: Real>(&self, share: f64) -> T
     where
         L: AdhesionLaw<T>,

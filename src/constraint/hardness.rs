@@ -11,7 +11,7 @@ use crate::vector::vectors;
 
 /// A rigid wall that yields where the contact pressure reaches a hardness H: perfectly plastic asperities, 0 ≤ λ ≤ H.
 ///
-/// The energy of a node whose surface yields by a depth d is H d, linear, with a corner where the surfaces touch:
+/// The energy of a node that yields by a depth d is H d, linear, with a corner where the surfaces touch:
 ///
 /// ```math
 /// ψ(g) = H ⟨−g⟩₊ ,   λ = H where g < 0 ,   0 ≤ λ ≤ H where g = 0 ,   λ = 0 where g > 0
@@ -28,7 +28,7 @@ use crate::vector::vectors;
 /// its corners. The model leaves out hardening, the volume of what is displaced, and yielding below the surface.
 ///
 /// The contact area corrected for its edge ([`ContactStatistics`](crate::contact::ContactStatistics)) and the error of
-/// the grid ([`GridError`](crate::accuracy::GridError)) are those of elastic contact: take none of a surface that has
+/// the grid ([`GridError`](crate::accuracy::GridError)) hold for elastic contact: use neither for a surface that has
 /// yielded.
 ///
 /// ```
@@ -63,8 +63,8 @@ impl Hardness {
         Ok(Self { mean, least: mean, field: Field::default(), held: Field::default() })
     }
 
-    /// A hardness H at each node of the surface, of shape (Nx, Ny). On coarser grids each node takes that of the
-    /// nearest one.
+    /// A hardness H at each node of the surface, of shape (Nx, Ny). On coarser grids each node takes the hardness of
+    /// the nearest node.
     ///
     /// # Errors
     /// [`Error::Value`] for a value that is not positive and finite; [`Error::Shape`] of an empty field, and from a

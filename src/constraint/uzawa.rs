@@ -17,7 +17,8 @@ use crate::slab::Slab;
 const STIFFEN: f64 = 4.0;
 const SLOW: f64 = 0.25;
 
-/// The largest stiffness of the first springs over that of the shortest wave: stiffer ones only cost iterations.
+/// The largest stiffness of the first springs over the stiffness of the shortest wave: stiffer springs only cost
+/// iterations.
 const STIFFEST: f64 = 10.0;
 
 /// The relative error to which the first round with springs is solved from a given start.
@@ -30,10 +31,10 @@ const NEXT: f64 = 0.1;
 /// from them, λ ← ⟨λ − kg⟩₊, after each round.
 ///
 /// The energy gains (⟨λ − kg⟩₊² − λ²)/2k at each node, and after a round the gap has the error s = (λ − ⟨λ − kg⟩₊)/k. If
-/// more than a quarter of this error is left, the next springs are four times as stiff. The given stiffness, at most ten
-/// times that of the shortest wave, therefore hardly matters. A round is solved as closely as the error of the one
-/// before it is worth, and the last one to the tolerance of the solve. Without a given start the first round is that of a
-/// rigid wall, whose contact pressures are the first multipliers, of springs with ten times the stiffness of that wave.
+/// more than a quarter of this error is left, the next springs are four times as stiff. The given stiffness, at most
+/// ten times the stiffness of the shortest wave, therefore hardly matters. A round is solved to the error of the round
+/// before, and the last round to the tolerance of the solve. Without a given start the first round has a rigid wall.
+/// Its contact pressures are the first multipliers, of springs with ten times the stiffness of the shortest wave.
 ///
 /// The rounds end when the error of the pressure p in the energy norm is at most the tolerance. With κ the stiffness of
 /// the shortest wave, Δλ the change of λ, u the displacement, N the number of nodes and bars for means, the criterion is
@@ -169,7 +170,7 @@ impl<T: Real> ContactConstraint<T> for Uzawa<T> {
         let off = change_squared.sqrt() / k;
         let left = self.stiffest * off.powi(2) + change * change / (nodes * k);
         let allowed = self.tolerance.max(self.solved_to).powi(2) * work;
-        // under a uniform pressure there are no waves but those of rounding
+        // under a uniform pressure rounding alone makes waves
         let rounding = (8.0 * T::epsilon().widen()).powi(2) * squared;
         if left <= allowed || self.stiffest * left <= rounding {
             return Update::Done;

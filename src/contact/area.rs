@@ -87,20 +87,20 @@ impl ContactArea {
     /// The area of a solution, within the edge that its gap and contact pressure tell. Shares are of the nodes that
     /// are not [absent](crate::Surface::with_absent).
     ///
-    /// By [`Jkr`](crate::Jkr) the area of the limit of no range is that by the
-    /// [adhesive energy](crate::Report::adhesive_contact_fraction) less that of the process zone at the edge, with S the
-    /// perimeter along the cells:
+    /// By [`Jkr`](crate::Jkr) the area in the limit of no range is the area by [adhesive
+    /// energy](crate::Report::adhesive_contact_fraction) less the process zone at the edge, with S the perimeter along
+    /// the cells:
     ///
     /// ```math
     /// A = −E_adh/w − 0.16 S Δx
     /// ```
     ///
     /// At the edge of every contact the stress intensity is √(2E\*w), and the range goes with √(wΔx/E\*), so that the
-    /// zone is the same number of nodes wide everywhere. The weaker the adhesion, the less of it is out of contact: where
-    /// that is less than 0.3 nodes for each side of a cell, the edge is in that proportion one without adhesion, and the
-    /// area the corrected one. Where the attraction's reach ends at a step of the surface, as around a flat punch, the
-    /// process zone is within the contact: for that share of its edge the area is that of all nodes within reach. The
-    /// page [`choosing`](crate::guide::choosing) says how right it is.
+    /// zone is the same number of nodes wide everywhere. The weaker the adhesion, the less of the zone is out of
+    /// contact: below 0.3 nodes for each side of a cell, the area goes over to the corrected area without adhesion in
+    /// proportion. Where attraction ends at a step of the surface, as around a flat punch, the process zone is within
+    /// the contact: for this share of the edge all nodes within reach count. The page
+    /// [`choosing`](crate::guide::choosing) says how right it is.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if a field does not have the shape of the grid.
@@ -119,8 +119,8 @@ impl ContactArea {
         }))
     }
 
-    /// The area with that of the limit of no range, from the area by energy, and the share of the edge that is a step of
-    /// the surface with the nodes within reach.
+    /// The area in the limit of no range, from the area by energy, and the share of the edge that is a step of the
+    /// surface with the nodes within reach.
     fn in_the_limit(self, by_energy: f64, grid: &Grid, facing: f64, (steps, within): (f64, usize)) -> Self {
         let (dx, dy) = grid.spacing();
         // on a line the perimeter is a number of points
@@ -137,7 +137,7 @@ impl ContactArea {
         Self { jkr_contact_fraction: Some(inside), process_zone, ..self }
     }
 
-    /// The area within the edge of a contact, of whose nodes so many face the half-space.
+    /// The area within the edge of a contact, with the number of nodes that face the half-space.
     pub(super) fn within_edge<'a, T: Real>(outline: &'a Outline<'a, T>, facing: usize) -> Self {
         let &Outline { map, grid, periodic, modulus, .. } = outline;
         let known = modulus.is_finite() && modulus > 0.0;
@@ -145,7 +145,8 @@ impl ContactArea {
         Self::within(map, grid, periodic, facing, edge)
     }
 
-    /// The area on a map, of whose nodes so many face the half-space, with an edge by the neighbours along x and y.
+    /// The area on a map, with the number of nodes that face the half-space and an edge by the neighbours along x and
+    /// y.
     fn within(
         map: ArrayView2<'_, bool>,
         grid: &Grid,
@@ -214,7 +215,7 @@ fn reach<T: Real>(outline: &Outline<'_, T>, range: f64) -> (f64, usize) {
     (if edges > 0 { steps as f64 / edges as f64 } else { 0.0 }, nodes)
 }
 
-/// The pairs of neighbours along x, and along y, of which one is on the map; across opposite sides if periodic.
+/// The pairs of neighbours along x, and along y, with one on the map; across opposite sides if periodic.
 fn edges(map: ArrayView2<'_, bool>, periodic: bool) -> (usize, usize) {
     let (mut along_x, mut along_y) = (0, 0);
     let ((nx, ny), nodes) = (map.dim(), ordered(map));
@@ -263,7 +264,7 @@ mod tests {
         assert_eq!(count(&["....", "....", "...."]), (0, 0));
         assert_eq!(count(&["####", "####", "####"]), (0, 0));
         assert_eq!(count(&["....", ".#..", "...."]), (2, 2));
-        // a corner, whose sides are on the other end
+        // a corner, with its sides on the other end
         assert_eq!(count(&["#...", "....", "...."]), (2, 2));
         // two neighbours across the boundary are one piece, as anywhere else
         assert_eq!(count(&["#...", "....", "#..."]), (2, 4));

@@ -6,7 +6,7 @@ use ndarray::{Array2, ArrayView2, Axis};
 
 use crate::elastic::Boundary;
 
-/// The pieces of a periodic map that hang together: of neighbours whose cells share a side.
+/// The connected pieces of a periodic map: neighbours share a side of their cells.
 ///
 /// ```
 /// use asperity::contact::Clusters;
@@ -29,24 +29,24 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// The clusters of the nodes that are `true`, on a map whose opposite sides meet. Memory: eight bytes for each
-    /// node, and 24 for each row of nodes side by side.
+    /// The clusters of the nodes that are `true`, on a periodic map. Memory: eight bytes for each node, and 24 for each
+    /// row of nodes side by side.
     pub fn of(map: ArrayView2<'_, bool>) -> Self {
         Self::within(map, Boundary::Periodic)
     }
 
-    /// The clusters as [`Clusters::of`], on a map whose opposite sides meet only if the boundary is periodic.
+    /// The clusters as [`Clusters::of`], on a map with opposite sides that meet only if the boundary is periodic.
     pub fn within(map: ArrayView2<'_, bool>, boundary: Boundary) -> Self {
         let periodic = boundary == Boundary::Periodic;
         Self::meeting(map, [periodic; 2])
     }
 
-    /// The clusters as [`Clusters::of`], on a part of a surface, whose opposite sides do not meet.
+    /// The clusters as [`Clusters::of`], on a part of a surface: opposite sides do not meet.
     pub fn of_part(map: ArrayView2<'_, bool>) -> Self {
         Self::meeting(map, [false; 2])
     }
 
-    /// The clusters on a map of which opposite sides along x, and along y, meet or do not.
+    /// The clusters on a map with opposite sides along x, and along y, that meet or do not.
     pub(super) fn meeting(map: ArrayView2<'_, bool>, [meets_x, meets_y]: [bool; 2]) -> Self {
         let (nx, ny) = map.dim();
         // the runs of nodes side by side along y, from the first to behind the last, and how many are before each row
@@ -111,7 +111,7 @@ impl Clusters {
     }
 }
 
-/// Makes one cluster of those of two runs.
+/// Joins the clusters of two runs.
 fn unite(tree: &mut [usize], a: usize, b: usize) {
     let (a, b) = (root(tree, a), root(tree, b));
     tree[a.max(b)] = a.min(b);
@@ -155,7 +155,7 @@ pub(super) mod tests {
         // nodes that share a corner alone
         check(&[".....", ".#...", "..#..", "....."], &[1, 1]);
         check(&[".....", "..#..", ".#...", "....."], &[1, 1]);
-        // a ring, a spiral, and a comb whose teeth meet late
+        // a ring, a spiral, and a comb with teeth that meet late
         check(&["......", ".####.", ".#..#.", ".####.", "......"], &[10]);
         check(&[".......", ".#####.", ".....#.", ".###.#.", ".#...#.", ".#####.", "......."], &[17]);
         check(&["........", ".#.#.#..", ".#.#.#..", ".#####..", "........"], &[11]);

@@ -42,8 +42,8 @@ const MOST_BINS: usize = 1 << 24;
 
 impl PressureDistribution {
     /// The distribution of the contact pressure over the nodes in contact, in bins from zero to the largest, or to 1
-    /// without any; its integral is the contact fraction. Where some pressures are above the [`bulk`] of them, as
-    /// those of spikes, the last of several bins is wider than the others, and has these.
+    /// without any; its integral is the contact fraction. Where some pressures, as on spikes, are above the [`bulk`],
+    /// the last of several bins is wider and has these pressures.
     ///
     /// # Errors
     /// [`Error::Value`] for no bins, or more than 2²⁴; [`Error::NotFinite`] if a pressure is not finite;
@@ -55,7 +55,7 @@ impl PressureDistribution {
     /// The distribution of the contact pressure of fields from elsewhere; the gap of absent nodes is infinite or NaN.
     ///
     /// # Errors
-    /// Those of [`PressureDistribution::of_contact_pressure`].
+    /// As [`PressureDistribution::of_contact_pressure`].
     pub fn of_fields<T: Real>(
         gap: ArrayView2<'_, T>,
         contact_pressure: ArrayView2<'_, T>,
@@ -74,7 +74,7 @@ impl PressureDistribution {
     /// none at all from −1/2 to 1/2.
     ///
     /// # Errors
-    /// Those of [`PressureDistribution::of_contact_pressure`].
+    /// As [`PressureDistribution::of_contact_pressure`].
     pub fn of_pressure<T: Real>(solution: &Solution<T>, bins: usize) -> Result<Self> {
         let pressure = solution.pressure.view();
         checked("pressure", pressure, bins)?;
@@ -94,7 +94,7 @@ impl PressureDistribution {
         self.edges.windows(2).zip(&self.density).map(|(edges, density)| density * (edges[1] - edges[0])).sum()
     }
 
-    /// Counts the values in bins over a range, of which the last one is wider where there are values above.
+    /// Counts the values in bins over a range. The last bin is wider where there are values above.
     fn count(values: impl Iterator<Item = f64> + Clone, (low, high): (f64, f64), bins: usize, nodes: usize) -> Self {
         let greatest = values.clone().fold(high, f64::max);
         let (high, inner) = match greatest > high {
@@ -117,12 +117,12 @@ impl PressureDistribution {
     }
 }
 
-/// The share of the values at either end that may be those of spikes and scars, and how far from the others these are,
-/// in the range of the others.
+/// The share of the values at either end that may stem from spikes and scars, and their distance from the others, in
+/// the range of the others.
 const OUTLIERS: f64 = 0.01;
 const SLACK: f64 = 1.0;
 
-/// The most values of which the quantiles are taken: a million tell enough of the distribution.
+/// The most values that enter the quantiles: a million tell enough of the distribution.
 const MOST: usize = 1_000_000;
 
 /// The range of values without spikes and scars: from the least to the greatest of those that are no farther from the

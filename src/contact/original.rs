@@ -11,7 +11,7 @@ use crate::problem::Control;
 use crate::real::Real;
 use crate::solver::{Report, Solution};
 
-/// The original of a mirrored map: the nodes from the first on of which all others are mirror images.
+/// The original of a mirrored map: the first nodes; all other nodes are their mirror images.
 ///
 /// A map that [`mirror`](crate::surface::mirror) has made periodic is solved with its images. Gaps,
 /// pressures, energies per area and shares are the same on the original as on the whole, if the solution has the
@@ -62,7 +62,7 @@ impl Original {
     /// The same part of the map on another grid, coarser or finer.
     ///
     /// # Errors
-    /// Those of [`Original::new`].
+    /// As [`Original::new`].
     pub fn on(&self, whole: &Grid) -> Result<Self> {
         let (part, before, now) = (self.grid.shape(), self.whole.shape(), whole.shape());
         let scaled = |nodes: usize, before: usize, now: usize| (nodes * now).div_ceil(before);
@@ -125,8 +125,8 @@ impl Original {
         self.of(contact_map(gap, pressure).view())
     }
 
-    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force and of the load. Means,
-    /// fractions, extremes and energies stay those of the whole.
+    /// The solution on the original: its part of the fields, its nodes in contact, and its share of the force and of
+    /// the load. Means, fractions, extremes and energies stay.
     ///
     /// # Errors
     /// [`Error::Shape`] if the solution is not one of the whole.
@@ -161,7 +161,7 @@ impl Original {
     /// no part of the perimeter.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the solution is not one of the whole, and those of [`ContactStatistics::of`].
+    /// [`Error::Shape`] if the solution does not belong to the whole; otherwise as [`ContactStatistics::of`].
     pub fn statistics<T: Real>(&self, solution: &Solution<T>) -> Result<ContactStatistics> {
         let Solution { gap, contact_pressure, report, law, .. } = solution;
         self.statistics_of_fields(gap.view(), contact_pressure.view(), report.modulus, &**law)

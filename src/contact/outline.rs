@@ -64,7 +64,7 @@ impl Node {
     }
 }
 
-/// Where the contour cuts the side between two nodes of which one is in contact.
+/// Where the contour cuts the side between a node in contact and a node apart.
 #[derive(Clone, Copy, Default)]
 struct Cut {
     /// from the node in contact, in spacings

@@ -1,4 +1,4 @@
-//! Elastic bodies whose properties do not change along their surface, by the stiffness of their waves.
+//! Elastic bodies with properties that do not change along the surface, by the stiffness of their waves.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ pub use layer::{Base, Layer};
 pub use plate::Plate;
 pub use series::Series;
 
-/// An elastic body whose properties do not change along its surface: a wave of displacement û needs a pressure k û.
+/// An elastic body with properties that do not change along its surface: a wave of displacement û needs a pressure k û.
 ///
 /// [`Spectral::of`](crate::Spectral::of) makes an operator of it. [`HalfSpace`], [`Layer`], [`Coating`], [`Plate`] and [`Series`],
 /// two bodies that both deform, are bodies; one of your own is its stiffness and its modulus.
@@ -27,7 +27,7 @@ pub use series::Series;
 /// use asperity::elastic::{Base, Body, Layer, Material};
 /// let rubber = Material::new(2e6, 0.5)?;
 /// let layer = Layer::new(rubber, 1e-3, Base::Bonded)?;
-/// // waves that are short compared with the thickness are those of the half-space
+/// // waves that are short compared with the thickness see a half-space
 /// assert!((layer.stiffness(1e5, 0.0) / (0.5 * 2e6 * 1e5) - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity::Error>(())
 /// ```
@@ -51,16 +51,15 @@ pub trait Body: Send + Sync {
         }
     }
 
-    /// The compression of the whole body under a mean pressure of one, length per pressure, held sideways; zero if that
-    /// cannot be told, as of a half-space. It does not change the gap, but the approach of the base.
+    /// The compression of the whole body under a mean pressure of one, length per pressure, held sideways; zero where
+    /// it is unknown, as for a half-space. The compression changes the approach of the base, not the gap.
     fn mean_compliance(&self) -> f64 {
         0.0
     }
 
     /// The part of the approach of points far away that the waves of a periodic cell do not have, over the mean pressure
-    /// in the cell, length per pressure: that of a load on a part of the cell that is alone on the body. None if it
-    /// cannot be told, as of a body of one's own. It is right to the first order in the size of the contact over the
-    /// cell's.
+    /// in the cell, length per pressure, for a load on a part of the cell that is alone on the body. None if unknown,
+    /// as for a body of your own. Right to the first order in the size of the contact over the size of the cell.
     fn far_compliance(&self, _grid: &Grid) -> Option<f64> {
         None
     }

@@ -104,7 +104,7 @@ fn kernel(grid: &Grid, cell: (f64, f64), modulus: f64) -> Field<f64> {
     kernel
 }
 
-/// The sum of Love's four terms in rows of the first quadrant; each is also that of the next cell, negative.
+/// The sum of Love's four terms in rows of the first quadrant; each term is also a term of the next cell, negative.
 fn quadrant(rows: Range<usize>, columns: usize, (a, b): (f64, f64)) -> Field<f64> {
     let (x, y) = (|i: usize| (2 * i + 1) as f64 * a, |j: usize| (2 * j + 1) as f64 * b);
     // the farthest corners of the cells of a row from the origin, and the terms of the edges that end there along y

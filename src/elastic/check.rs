@@ -19,12 +19,13 @@ const DIMENSION: usize = 20;
 /// - the means of K⁻¹a and K a with zero, and K⁻¹(a + 1) with K⁻¹a (a rigid translation costs nothing);
 /// - K K⁻¹a with a less its mean (each other's inverse);
 /// - Rayleigh quotients of the softest and stiffest fields that twenty applications find with `stiffness_range`;
-/// - the work of a displacement and the products of the preconditioner M with those of the fields, and ⟨a, M b⟩ with
+/// - the work of a displacement and the products of the preconditioner M with products of the fields, and ⟨a, M b⟩ with
 ///   ⟨M a, b⟩;
-/// - if it has a spectral operator, K⁻¹a with that in `f32`, with that of heights in `f64`, and with that after memory was given back.
+/// - with a spectral operator, K⁻¹a with K⁻¹a in `f32`, with K⁻¹a of heights in `f64`, and with K⁻¹a after memory was
+///   given back.
 ///
 /// # Errors
-/// [`Error::Contract`] with the first property that does not hold; those of the operator itself.
+/// [`Error::Contract`] with the first property that does not hold; errors of the operator itself.
 ///
 /// ```
 /// use asperity::elastic::check_operator;

@@ -22,8 +22,8 @@ const LARGEST: usize = 1 << 16;
 
 /// The longest waves of a grid on a foundation that holds the surface where it is in contact.
 ///
-/// With k the stiffness of the waves, α that of the foundation, and χ(x) the share of contact near x, the response z to
-/// a load r is the Galerkin solution of
+/// With k the stiffness of the waves, α the stiffness of the foundation, and χ(x) the share of contact near x, the
+/// response z to a load r is the Galerkin solution of
 ///
 /// ```math
 /// (k + α χ(x)) z = r
@@ -131,7 +131,7 @@ impl CoarseSpace {
         positive
     }
 
-    /// Finds the response to a load, whose half spectrum is given.
+    /// Finds the response to a load, given by its half spectrum.
     pub(super) fn respond<T: Real>(&mut self, spectrum: &HalfSpectrum<T>) {
         let Self { waves, factor, apart, held, load, response, vector, .. } = self;
         spectrum.read(waves.iter().map(|wave| (wave.column, wave.row)), load);
@@ -158,8 +158,8 @@ impl CoarseSpace {
         }
     }
 
-    /// Puts the response into a column of the half spectrum, over that of the uniform foundation, z; `sums` are those
-    /// of the column, the second of r·z and the third of z.
+    /// Puts the response into a column of the half spectrum, over the response z of the uniform foundation; `sums` are
+    /// sums over the column, the second of r·z and the third of z.
     pub(super) fn put<T: Real>(&self, k: usize, column: &mut [Complex<T>], sums: &mut Products) {
         for i in self.columns.get(k).cloned().unwrap_or_default() {
             let (wave, load, response) = (self.waves[i], self.load[i], self.response[i]);

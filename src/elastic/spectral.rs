@@ -78,8 +78,8 @@ impl<T: Real> Spectral<T> {
         self.single = single;
     }
 
-    /// The operator of a body, whose [`modulus`](ElasticOperator::modulus) is its [`modulus_on`](Body::modulus_on) the
-    /// grid: that of the body where waves on the grid are short enough, and a larger one of a thin layer.
+    /// The operator of a body. Its [`modulus`](ElasticOperator::modulus) is the body's [`modulus_on`](Body::modulus_on)
+    /// the grid: the modulus of the body where waves on the grid are short enough, and more for a thin layer.
     ///
     /// ```
     /// use asperity::{ElasticOperator, Grid, Spectral};

@@ -15,8 +15,8 @@ use crate::error::{Error, Result};
 /// ```
 ///
 /// The first gives c for θ from 0 (large contacts) to π/2 (a point), at any Tabor parameter. Maugis (1992); equation
-/// (30) of Rey, Anciaux and Molinari (2017), whose pressure lacks the part beyond a, has the fields. Solutions without
-/// contact are left out.
+/// (30) of Rey, Anciaux and Molinari (2017) has the fields, but no pressure beyond a. Solutions without contact are
+/// left out.
 ///
 /// ```
 /// use asperity::exact::{MaugisDugdale, Sphere};

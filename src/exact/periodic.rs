@@ -206,8 +206,8 @@ impl PeriodicContact {
 
     /// The displacement at the nodes of a grid of this period, as [`Self::pressure_field`]; u = h = 0 at the apex.
     ///
-    /// It is [`Contact::deflection`] and the images' by Ewald's sum, as those of P and the second moment of the
-    /// pressure: valid everywhere but for terms of relative order (a/L)⁴.
+    /// It is [`Contact::deflection`] and the deflection by the images, by Ewald's sum over P and the second moment of
+    /// the pressure: valid everywhere but for terms of relative order (a/L)⁴.
     ///
     /// # Errors
     /// [`Error::Value`] if a side of the grid is not the period.
@@ -319,7 +319,7 @@ mod tests {
             let [left, right] = [-0.7, 0.3].map(|x: f64| images(x, y).0 + 1.0 / x.hypot(y));
             assert_relative_eq!(left, right, epsilon = 1e-13);
         }
-        // the series at the origin meets the formula, and the Laplacian is that of the value
+        // the series at the origin meets the formula, and the Laplacian belongs to the value
         let (below, above) = (origin(0.1), origin(0.1 + 1e-15));
         assert_relative_eq!(below.0, above.0, max_relative = 1e-13);
         assert_relative_eq!(below.1, above.1, max_relative = 1e-12);

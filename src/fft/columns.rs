@@ -26,7 +26,7 @@ pub(crate) struct HalfSpectrum<T> {
     /// what the others get of the modes, and what comes from them
     sent: Shares,
     received: Shares,
-    /// the sums over the own columns, and over those of each process
+    /// the sums over the own columns, and over the columns of each process
     sums: Vec<Products>,
     shares: Shares,
     all: Vec<Products>,

@@ -139,12 +139,12 @@ impl<T: Real> PressedFlat<T> {
         })
     }
 
-    /// The rms of K⁻¹h; zero for a flat surface, of which the stiffness is no number.
+    /// The rms of K⁻¹h; zero for a flat surface, where the stiffness is no number.
     pub(crate) fn rms_pressure(&self) -> f64 {
         (self.stiffness * self.rms_height).max(0.0)
     }
 
-    /// The grid of the surface, of which the operator's is the `whole`.
+    /// The grid of the surface; the operator's grid is the `whole`.
     pub(super) fn grid<'a>(&'a self, whole: &'a Grid) -> &'a Grid {
         self.window.as_ref().map_or(whole, Window::grid)
     }

@@ -13,7 +13,7 @@ use crate::slab::Slab;
 use crate::surface::Surface;
 
 /// The nodes of the operator's grid that face a surface; the others have neither wall nor law. The surface is on the
-/// first nodes along both axes, of which some may be absent. Shared grids may be divided differently: work at the nodes
+/// first nodes along both axes; some of these may be absent. Shared grids may be divided differently: work at the nodes
 /// of the surface is done by the process that has them on the operator's grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
@@ -111,8 +111,8 @@ impl Window {
         self.grid.slab().moved(field.into(), &self.held)
     }
 
-    /// A field of the surface's grid on that of the operator: values not finite or beyond the window are interpolated,
-    /// linearly along the rows, then between rows; opposite sides meet.
+    /// A field of the surface's grid, extended to the operator's grid: values not finite or beyond the window are
+    /// interpolated, linearly along the rows, then between rows; opposite sides meet.
     pub(crate) fn extend<T: Real>(&self, field: ArrayView2<'_, T>) -> Array2<T> {
         self.extended(self.hold(field).view())
     }
@@ -141,7 +141,7 @@ impl Window {
         extended
     }
 
-    /// A field of the operator's grid on that of the surface.
+    /// A field of the operator's grid, cropped to the surface's grid.
     pub(crate) fn crop<T: Real>(&self, field: &Array2<T>, absent: T) -> Array2<T> {
         self.held.moved(self.cut(field, absent).into_array().into(), &self.grid.slab()).into_owned()
     }
@@ -209,7 +209,7 @@ fn between(known: &[usize], n: usize, mut f: impl FnMut(usize, usize, usize, f64
 mod tests {
     use super::*;
 
-    /// A window of 3 × 4 nodes on 6 × 8, of which two are absent.
+    /// A window of 3 × 4 nodes on 6 × 8, two of them absent.
     fn window() -> Window {
         let grid = Grid::new((3, 4), (3.0, 4.0)).unwrap();
         let absent = Array2::from_shape_fn((3, 4), |node| node == (0, 1) || node == (2, 0));

@@ -26,7 +26,7 @@ impl<T: Real> PressedFlat<T> {
         self.yielded.as_ref().map_or(0.0, |yielded| yielded.mean)
     }
 
-    /// A plastic depth on the surface's grid, on that of the operator.
+    /// A plastic depth of the surface's grid, on the operator's grid.
     pub(super) fn placed(&self, operator: &dyn ElasticOperator<T>, depth: ArrayView2<'_, T>) -> Result<Field<T>> {
         let grid = *operator.grid();
         let surface = self.window.as_ref().map_or(&grid, |window| window.grid());

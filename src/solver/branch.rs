@@ -14,7 +14,7 @@ use crate::problem::{Load, PressedFlat};
 use crate::real::Real;
 
 /// The distance allowed between solutions of one equilibrium, over the sum of their certified errors: the stiffness of
-/// the elastic body over that of the equilibrium.
+/// the elastic body over the stiffness of the equilibrium.
 const SOFT: f64 = 100.0;
 
 /// The branch of equilibria on which a solve with adhesion starts.
@@ -39,10 +39,11 @@ const SOFT: f64 = 100.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Branch {
-    /// That of surfaces pressed together from afar. A solve starts from the gap that the wall alone leaves under the
-    /// load, under a tension from undeformed surfaces that touch.
+    /// The branch of surfaces pressed together from afar. A solve starts from the gap that the wall alone leaves under
+    /// the load, under a tension from undeformed surfaces that touch.
     Loading,
-    /// That of surfaces pressed flat before. A solve starts from full contact, at a given mean gap from a uniform gap.
+    /// The branch of surfaces pressed flat before. A solve starts from full contact, at a given mean gap from a uniform
+    /// gap.
     Unloading,
 }
 

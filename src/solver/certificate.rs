@@ -25,7 +25,7 @@ const PROGRESS: f64 = 0.95;
 /// Iterations without progress until the direction is dropped, and until the solve has stalled.
 const STALL: (usize, usize) = (10, 30);
 
-/// The same numbers at the floor: where the error is at most [`NEAR_FLOOR`] times that of rounding.
+/// The same numbers at the floor: where the error is at most [`NEAR_FLOOR`] times the error by rounding.
 const STALL_AT_FLOOR: (usize, usize) = (3, 6);
 const NEAR_FLOOR: f64 = 2.0;
 
@@ -33,7 +33,7 @@ const NEAR_FLOOR: f64 = 2.0;
 const NO_LOAD: f64 = 8.0;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
-    /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least that of rounding.
+    /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least the error by rounding.
     pub(super) fn relative_error(&self) -> f64 {
         let (scale, rounding) = self.error_scale();
         // where every node is in contact no gap is wrong
@@ -43,13 +43,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if error.is_nan() { f64::INFINITY } else { error }
     }
 
-    /// The scale of a certificate, the mean of u·p, and the rounding floor. The floor is the certificate of a gap whose
-    /// only error is rounding, ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)). Its first term is the rounding of p = K⁻¹h + K⁻¹g where
-    /// the two cancel. Its second term is the rounding of the gap, which a transform spreads evenly over all waves, with
-    /// k the stiffness of the shortest wave.
+    /// The scale of a certificate, the mean of u·p, and the rounding floor. The floor is the certificate of a gap with
+    /// no error but rounding, ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)). Its first term is the rounding of p = K⁻¹h + K⁻¹g where
+    /// the two cancel. Its second term is the rounding of the gap, which a transform spreads evenly over all waves,
+    /// with k the stiffness of the shortest wave.
     pub(super) fn error_scale(&self) -> (f64, f64) {
         let epsilon = T::epsilon().widen();
-        // flats that attract each other have no waves but those of rounding
+        // flats that attract each other have waves by rounding alone
         let traction = self.mean_traction();
         let (softest, stiffest) = self.posed.stiffness_range();
         // nor have flats held apart by their mean gap, or by a law with gaps of its range
@@ -75,7 +75,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if waves >= flat {
             return (waves, rounding);
         }
-        // that of flats which only the law holds is the error of the load at each node
+        // flat surfaces held by the law alone: scale by the error of the load at each node
         let held = if self.posed.has_no_wall() { traction.max(self.sums.given.abs()).powi(2) / stiffest } else { 0.0 };
         (flat.max(held), 0.0)
     }
@@ -119,7 +119,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// A pressure as a share of the larger of |p̄| and the mean contact pressure.
     pub(super) fn share_of_load(&self, pressure: f64) -> f64 {
         let contact = self.sums.given + self.mean_traction();
-        // a relaxed spring carries only the rounding of its length, and surfaces apart under no load that of K⁻¹h
+        // a relaxed spring carries only the rounding of its length, and surfaces apart under no load the rounding of
+        // K⁻¹h
         let lengths = self.mean_gap().abs() + self.posed.load.rest().abs();
         let unloaded = self.sums.given == 0.0 && self.sums.tally.contact == 0.0;
         let of_surface = if unloaded { self.posed.flat.rms_pressure() } else { 0.0 };

@@ -17,7 +17,7 @@ const DIMENSION: f64 = 4.0;
 /// The stiffness of the contacts, over that which the surface meets as it is pressed flat: the best on any grid.
 const STIFFNESS: f64 = 2.5;
 
-/// The stiffness of the mean gap without contacts, over that of the softest wave.
+/// The stiffness of the mean gap without contacts, over the stiffness of the softest wave.
 const MEAN: f64 = 1e-3;
 
 /// The iterations before the first renewal of the contact map, which costs conjugacy, and the ratio of later intervals.
@@ -56,8 +56,8 @@ impl Coarse {
         iteration >= self.due && (self.ready || settled)
     }
 
-    /// Takes the contact map from a field. `stiffness` is that which the surface meets as it is pressed flat, `spring`
-    /// that of a spring, `range` of the softest and stiffest wave; with `held` the mean gap is given.
+    /// Takes the contact map from a field. `stiffness` resists the surface as it is pressed flat, `spring` belongs to a
+    /// spring, `range` to the softest and stiffest wave; with `held` the mean gap is given.
     pub(crate) fn renew<T: Real>(
         &mut self,
         iteration: usize,

@@ -23,19 +23,19 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         ROUNDINGS * (T::epsilon().widen() / self.posed.nodes().sqrt() + f64::EPSILON) * size
     }
 
-    /// The rounding of the corrections, beyond that of the state.
+    /// The rounding of the corrections, beyond the rounding of the state.
     pub(super) fn rounding_of_corrections(&self) -> f64 {
         Lo::epsilon().widen() - T::epsilon().widen()
     }
 
-    /// The rounding of the work that a correction does, as a share of it, beyond that of the state.
+    /// The rounding of the work that a correction does, as a share of this work, beyond the rounding of the state.
     pub(super) fn update_noise(&self) -> f64 {
         ROUNDINGS * self.rounding_of_corrections() / self.posed.nodes().sqrt()
     }
 
-    /// Whether the pressure has gathered rounding of the corrections compared with which the residual is no longer
-    /// large. A transform spreads that of a change c evenly over all waves: in the certificate's norm it is
-    /// ε √(k⟨c, c⟩), with k the stiffness of the shortest.
+    /// Whether the rounding that corrections leave in the pressure is comparable to the residual. A transform spreads
+    /// the rounding of a change c evenly over all waves: in the certificate's norm it is ε √(k⟨c, c⟩), with k the
+    /// stiffness of the shortest.
     pub(super) fn has_lost_its_pressure(&self) -> bool {
         let rounding = STALE * self.rounding_of_corrections();
         self.sums.certificate < rounding * rounding * self.posed.stiffness_range().1 * self.steps.updates

@@ -180,7 +180,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// The share of contact that the adhesive energy tells, if it does: of a law whose range is that of the grid.
+    /// The share of contact by adhesive energy, for a law with a range set by the grid.
     fn adhesive_contact_fraction(&self, share: f64, plastic: Option<Plastic>) -> Option<f64> {
         let hints = self.posed.law().hints();
         // below a wall that gives the energy continues

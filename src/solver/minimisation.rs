@@ -38,7 +38,7 @@ pub(super) struct Totals {
 pub enum Nearness {
     #[default]
     Afar,
-    /// the contacts of another load, whose stiffness and places are like those of the solution
+    /// the contacts of another load, with stiffness and places like the solution's
     Loaded,
     /// all but the edges of the contacts, where they move from load to load
     Ahead,

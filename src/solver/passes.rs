@@ -27,7 +27,7 @@ pub(super) struct Fields<T, Lo> {
     pub(super) pressure: Field<T>,
     /// the residual r' (negative zero: a node outside of the working set), or during a step K⁻¹c of the change c
     pub(super) residual: Field<Lo>,
-    /// the preconditioned residual z = M r', until then that of the previous state
+    /// the preconditioned residual z = M r', until then of the previous state
     pub(super) preconditioned: Field<Lo>,
     /// the change c, a multiple of the last step, during the next one not yet scaled to the mean gap; the direction t
     /// of [`Method::Rey2017`](crate::solver::Method)

@@ -20,7 +20,8 @@ use crate::real::Real;
 /// are the better start without adhesion on a periodic grid.
 const HARDLY_PRESSED: f64 = 1e-3;
 
-/// The stiffness of springs, over that of the stiffest wave, above which a solve with them starts from a rigid wall.
+/// The stiffness of springs, over the stiffness of the stiffest wave, above which a solve with springs starts from a
+/// rigid wall.
 const STIFF: f64 = 8.0;
 
 /// The energy to be minimised, and how well. A phase may change load and goal, and with the goal law and wall.

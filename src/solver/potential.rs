@@ -43,7 +43,7 @@ pub(crate) fn bounded<T: Real>(least: Least<T>, gap: T, wanted: T) -> T {
     if wanted < least { least } else { wanted }
 }
 
-/// The local energy of every node, zero at those that face no surface, whose gap is free: passes are
+/// The local energy of every node, zero at nodes that face no surface and have a free gap: passes are
 /// [divided](Self::run).
 #[derive(Clone, Copy)]
 pub(crate) struct Potential<'a, T> {
@@ -93,7 +93,7 @@ impl<'a, T: Real> Potential<'a, T> {
     }
 
     /// Runs a pass `f(potential, first node on the surface's grid, nodes)` over the chunks, as [`Reducer::run`], in
-    /// pieces of which all nodes face the surface, or none does.
+    /// pieces: all nodes of a piece face the surface, or none does.
     pub(crate) fn run<A: Parts<Part: Nodes>, S: Sums>(
         &self,
         reducer: &mut Reducer,
@@ -103,7 +103,7 @@ impl<'a, T: Real> Potential<'a, T> {
         self.run_where(reducer, |_| true, chunks, f)
     }
 
-    /// Runs a pass over the chunks whose number is `wanted`, as [`Reducer::run_where`].
+    /// Runs a pass over the chunks with a `wanted` number, as [`Reducer::run_where`].
     pub(crate) fn run_where<A: Parts<Part: Nodes>, S: Sums>(
         &self,
         reducer: &mut Reducer,
@@ -246,7 +246,7 @@ impl<'a, T: Real> Potential<'a, T> {
         self.evaluate(Of::Slope, first, gaps, slopes);
     }
 
-    /// Those of the law alone, which continues to g < 0 as its tangent at g = 0.
+    /// Values of the law alone, which continues to g < 0 as its tangent at g = 0.
     pub(crate) fn law(&self, of: Of, first: usize, gaps: &[T], out: &mut [T]) {
         if self.hints.zero {
             return out.fill(T::zero());

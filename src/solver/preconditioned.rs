@@ -92,8 +92,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         self.try_step()
     }
 
-    /// A step of the mean gap alone, as long as that of the spring and without the rounding of a response. `false` if
-    /// it ends at a wall, or does not lower the energy.
+    /// A step of the mean gap alone, as long as the spring's and without the rounding of a response. `false` if it ends
+    /// at a wall, or does not lower the energy.
     fn shift(&mut self) -> Result<bool> {
         let imbalance = self.imbalance();
         let length = std::mem::replace(&mut self.steps.step_length, 1.0);
@@ -212,7 +212,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         if of_both_signs && scales { self.scale_apart(trial) } else { trial }
     }
 
-    /// A change of which the gaps above zero alone are scaled: all of them, of both signs, may have hardly any mean.
+    /// A change that scales only the gaps above zero: all gaps, of both signs, may have hardly any mean.
     fn scale_apart(&mut self, trial: Trial) -> Trial {
         let local = self.posed.potential();
         let Fields { reducer, gap, change, .. } = &mut self.fields;

@@ -8,7 +8,7 @@ use crate::elastic::Foundation;
 use crate::error::Result;
 use crate::real::Real;
 
-/// The least stiffness of the contacts, as a share of that of the softest wave.
+/// The least stiffness of the contacts, over the stiffness of the softest wave.
 const SOFTEST: f64 = 0.1;
 
 /// The least stiffness of the mean gap, in the same unit.
@@ -21,7 +21,8 @@ const LOADED: f64 = 0.3;
 /// The same for the relative error with adhesion.
 const SETTLED: f64 = 0.1;
 
-/// The stiffness of one node over that of the stiffest wave: the reciprocal of a square grid's mean compliance.
+/// The stiffness of one node over the stiffness of the stiffest wave: the reciprocal of a square grid's mean
+/// compliance.
 const ALONE: f64 = 0.4;
 
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
@@ -69,7 +70,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     }
 
     /// The stiffness of the mean gap in the preconditioner: of the contacts, and of a spring. On the way from a far
-    /// start the geometric mean of that of the contacts, too small for light loads, and of the softest wave.
+    /// start the geometric mean of the contacts' stiffness, too small for light loads, and the stiffness of the softest
+    /// wave.
     pub(super) fn mean_stiffness(&self) -> f64 {
         let (softest, stiffest) = self.posed.stiffness_range();
         if stiffest <= 0.0 {
@@ -91,7 +93,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         soft && self.sums.tally.contact == 0.0
     }
 
-    /// The mean of r over the nodes apart; where all are, without that of p, whose rounding is much to a soft spring.
+    /// The mean of r over the nodes apart; where all are apart, without the mean of p: a soft spring would feel its
+    /// rounding.
     pub(super) fn imbalance(&self) -> f64 {
         let balance = || self.sums.given + self.mean_traction();
         if self.hangs_on_spring() { balance() } else { self.sums.tally.sum_r / self.sums.tally.free }

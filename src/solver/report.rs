@@ -22,7 +22,8 @@ use crate::real::Real;
 pub enum Status {
     /// The criterion was met, on the fields that were returned: they are the solution to the tolerance.
     Converged,
-    /// The iterations ran out: a feasible state whose [`relative_error`](Report::relative_error) says how far it got.
+    /// The iterations ran out: the state is feasible, and its [`relative_error`](Report::relative_error) says how far
+    /// the solve got.
     IterationLimit,
     /// No more progress is possible in this precision.
     Stalled,
@@ -54,8 +55,8 @@ pub struct Iteration {
     pub relative_error: f64,
     /// The relative error of the load, [`Report::load_error`].
     pub load_error: f64,
-    /// The energy that is minimised, per area of the operator's grid: elastic, adhesive, that of springs, and under
-    /// pressure control p̄ times the mean gap. Summed up step by step, in `f64` to the rounding of `f32`.
+    /// The energy that is minimised, per area of the operator's grid: elastic, adhesive, in springs, and under pressure
+    /// control p̄ times the mean gap. Summed up step by step, in `f64` to the rounding of `f32`.
     pub energy: f64,
     /// The mean gap; with a free boundary or absent nodes over the operator's grid.
     pub mean_gap: f64,
@@ -86,7 +87,7 @@ pub struct Report {
     /// the pressure. Without any contact ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may vanish. Where nodes bear their
     /// own attraction, so that ⟨u, p⟩ is rounding, the work of this attraction alone on the stiffest wave stands for it.
     ///
-    /// With [`NoWall`](crate::NoWall) the norm is that of K⁻¹ + κ, with κ = max(φ'', 0) the slope of the nodes that the
+    /// With [`NoWall`](crate::NoWall) the norm belongs to K⁻¹ + κ, with κ = max(φ'', 0) the slope of the nodes that the
     /// law holds: √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩ takes the place of √⟨r', K r'⟩, with s = (1 + κ/k)⁻², k 0.4 times
     /// the stiffness of the shortest wave, and r' less its mean weighted by s² where the mean gap is given.
     pub relative_error: f64,
@@ -104,7 +105,8 @@ pub struct Report {
     pub complementarity: f64,
     /// The number of steps.
     pub iterations: usize,
-    /// The number of operator applications, each a forward and an inverse transform, without that of the problem.
+    /// The number of operator applications, each a forward and an inverse transform, without the application of the
+    /// problem.
     pub operator_applications: usize,
     /// The boundary of the elastic body.
     pub boundary: Boundary,
@@ -149,7 +151,7 @@ pub struct Report {
     pub elastic_energy: f64,
     /// The adhesive energy, the mean of φ(g) over the nominal area.
     pub adhesive_energy: f64,
-    /// The range ρ of a law that has that of the grid, as [`Jkr`](crate::Jkr); none of others.
+    /// The range ρ of a law with a range set by the grid, as [`Jkr`](crate::Jkr); none for other laws.
     pub range: Option<f64>,
     /// The traction in contact, 2w/ρ, of a law that has the range of the grid; none of others.
     pub peak_traction: Option<f64>,

@@ -51,10 +51,10 @@ pub enum Start<'a, T> {
     /// equilibrium found then becomes the start, all within the same solve.
     #[default]
     Default,
-    /// A gap, as that of an equilibrium at another load. With adhesion it chooses the branch. The jumps of a law are
+    /// A gap, such as an equilibrium at another load. With adhesion the gap chooses the branch. The jumps of a law are
     /// smoothed on the way, as for a default start: else the grid holds the edges of contacts where they are, and a
-    /// loop of such solves bears too much tension. So a start that is an equilibrium of such a law takes some iterations,
-    /// and may end at another one.
+    /// loop of such solves bears too much tension. So a start at an equilibrium of a law with jumps takes some
+    /// iterations, and may end at another equilibrium.
     From(&'a ArrayRef2<T>),
     /// The gap of the solution of the same problem in another precision or on another grid, which is not copied. Its
     /// error is of short waves: the first steps are shorter than with [`Start::From`]. [`Nested`](crate::Nested) starts
@@ -167,8 +167,8 @@ pub(super) fn given_start<T: Real>(
 
 /// The gap so many steps beyond the last of two, on the operator's grid; nodes come no closer than they may in a step.
 ///
-/// Over `long` steps the power 3/4 of the gap is extrapolated at a wall. Next to a contact, whose edge moves with the
-/// load, the gap grows as the power 3/2 of the distance from the edge, and elsewhere it is smooth in the load.
+/// Over `long` steps the power 3/4 of the gap is extrapolated at a wall. Next to a contact, with an edge that moves
+/// with the load, the gap grows as the power 3/2 of the distance from the edge, and elsewhere it is smooth in the load.
 pub(crate) fn extrapolated<T: Real>(
     [before, last]: [&Array2<T>; 2],
     steps: f64,

@@ -208,7 +208,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.go_on_with(found);
     }
 
-    /// Takes r' from the gradient r less the level before, of which that of the state differs little.
+    /// Takes r' from the gradient r less the level before, which differs little from the level of the state.
     fn take_level(&mut self) {
         let working = self.working_set(T::lit(self.sums.residual.level).widen());
         let found = passes::release(&mut self.fields, &self.posed.potential(), working);

@@ -70,7 +70,7 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         matches!(self.load, Load::Pressure(load) if -load > BETWEEN * facing * self.strongest_traction())
     }
 
-    /// The gap of nodes that touch: zero at a wall, and that of rest where the law itself repels.
+    /// The gap of nodes that touch: zero at a wall, the gap of rest where the law itself repels.
     pub(super) fn closest(&self) -> T {
         let rest = if self.projects() { None } else { self.law().hints().rest };
         rest.unwrap_or_else(T::zero)

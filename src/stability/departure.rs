@@ -18,7 +18,7 @@ use crate::solver::{
 pub struct Departure<T: Real> {
     /// The state in which the minimisation ended.
     pub solution: Solution<T>,
-    /// The drop of the energy (under pressure control with that of the load) per area; zero or less if there is none.
+    /// The drop of the energy (under pressure control with the load's) per area; zero or less if there is none.
     pub energy_drop: f64,
     /// The root mean square of the change of the gap.
     pub distance: f64,
@@ -39,7 +39,7 @@ impl<T: Real> Stability<T> {
     ///
     /// # Errors
     /// [`Error::Shape`], [`Error::Value`] or [`Error::Unsuited`] if the solution is of another problem,
-    /// [`Error::Unsuited`] for springs, and those of [`Solver::solve_with`].
+    /// [`Error::Unsuited`] for springs; otherwise as [`Solver::solve_with`].
     ///
     /// ```
     /// use asperity::stability::StabilityTest;

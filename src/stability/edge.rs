@@ -24,10 +24,11 @@ const ON_LINES: Factors = Factors { sum: STIFF, scatter: 0.5, excess: 0.0 };
 /// The estimated error that the grid leaves in a contact stiffness, and in the mean gap of the same solution.
 ///
 /// The contact edge moves node by node. From one step to the next the stiffness of the grid stays the same, while the
-/// true one grows: its error over the load is a sawtooth, and that of the mean gap its integral. A node on the edge
-/// with the contact pressure λ, which gains τ per approach, came into contact an approach of a = λ/τ ago; a neighbour
-/// with the gap g, which loses v per approach, will touch in b = g/v. The step is T = a + b, of which t = a/T has
-/// passed. Means over the neighbours across the edge give each node its T and t, and means over the nodes of the grid
+/// true one grows: its error over the load is a sawtooth, and the error of the mean gap the integral of the sawtooth. A
+/// node on the edge with the contact pressure λ, which gains τ per approach, came into contact an approach of a = λ/τ
+/// ago; a neighbour with the gap g, which loses v per approach, will touch in b = g/v. The step is T = a + b, and the
+/// share t = a/T has passed. Means over the neighbours across the edge give each node its T and t, and means over the
+/// nodes of the grid
 ///
 /// ```math
 /// δk = c ⟨R (1/2 − t)₊⟩ − c ⟨R' (t − 1/2)₊⟩ ,   δḡ = c ⟨(R + R') T (t(1 − t)/2 − 1/12)⟩ / 2k ,
@@ -41,8 +42,8 @@ const ON_LINES: Factors = Factors { sum: STIFF, scatter: 0.5, excess: 0.0 };
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeError {
-    /// The error of the mean gap under a given load, a length; times the stiffness that of the mean pressure under a
-    /// given mean gap.
+    /// The error of the mean gap under a given load, a length; times the stiffness, the error of the mean pressure
+    /// under a given mean gap.
     pub gap: f64,
     /// The error of the stiffness, a pressure per length.
     pub stiffness: f64,

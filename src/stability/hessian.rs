@@ -83,7 +83,7 @@ impl<'a, T: Real> Hessian<'a, T> {
 
     /// A lower bound of the eigenvalues: the sum of the least eigenvalues of K⁻¹ and φ''.
     pub(super) fn simple_bound(&self) -> f64 {
-        // a uniform change costs no elastic energy, but that of a spring
+        // a uniform change costs no elastic energy, but energy of a spring
         let softest = self.operator.stiffness_range().0;
         let elastic = if self.centred { softest } else { softest.min(self.spring) };
         elastic + self.least_slope()

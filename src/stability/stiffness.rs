@@ -39,7 +39,7 @@ const MOST: usize = 500;
 /// G = 2k / (E* (ρ₁ + ρ₂)) ,
 /// ```
 ///
-/// and that of a circular spot of radius a Holm's 4a/(ρ₁ + ρ₂).
+/// and a circular spot of radius a has Holm's 4a/(ρ₁ + ρ₂).
 ///
 /// ```
 /// use asperity::stability::ContactStiffness;
@@ -69,31 +69,31 @@ pub struct ContactStiffness {
     /// The number of operator applications.
     pub operator_applications: usize,
     /// The estimated error of the grid in a periodic cell. `None` with a free boundary or absent nodes, where no node
-    /// or every one is in contact, under springs or a law in place of the wall, and by a law with the range of the grid,
-    /// whose edges move.
+    /// or every one is in contact, under springs or a law in place of the wall, and by a law with the range of the
+    /// grid: there edges move.
     pub edge: Option<EdgeError>,
 }
 
 impl ContactStiffness {
-    /// A relative error far below that of any affordable grid, in either precision.
+    /// A relative error far below the error of any affordable grid, in either precision.
     pub const TOLERANCE: f64 = 1e-4;
 
-    /// The contact stiffness of a solution with a rigid wall, whose gap may be in any memory layout. Memory per node:
+    /// The contact stiffness of a solution with a rigid wall; its gap may be in any memory layout. Memory per node:
     /// seven scalars.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run`](super::StabilityTest::run), but for its tolerance.
+    /// As [`StabilityTest::run`](super::StabilityTest::run), but for the tolerance.
     pub fn of<T: Real>(problem: &mut Problem<T>, solution: &Solution<T>) -> Result<Self> {
         Self::of_constrained(problem, &Projection, solution, if T::NAME == f32::NAME { Self::TOLERANCE } else { 1e-6 })
     }
 
     /// The contact stiffness of a solution that was found with a constraint, to a relative error. Springs of the
     /// constraint, and laws without a wall, resist with their slopes; no node is fixed then. Under springs that
-    /// [end at a rigid wall](ContactConstraint::ends_rigid), as those of [`Uzawa`](crate::Uzawa) after the solve, the nodes
-    /// that they press are fixed.
+    /// [end at a rigid wall](ContactConstraint::ends_rigid), as with [`Uzawa`](crate::Uzawa) after the solve, the nodes
+    /// that springs press are fixed.
     ///
     /// # Errors
-    /// Those of [`StabilityTest::run_with`](super::StabilityTest::run_with), its tolerance included.
+    /// As [`StabilityTest::run_with`](super::StabilityTest::run_with), with the tolerance.
     pub fn of_constrained<T: Real>(
         problem: &mut Problem<T>,
         constraint: &dyn ContactConstraint<T>,

@@ -10,8 +10,8 @@ use crate::error::{Error, Result};
 use crate::fft::synthesise;
 use crate::grid::Grid;
 
-/// The largest difference of a coefficient from the complex conjugate of that of the opposite wave, relative to the
-/// larger of them: files have some seven digits.
+/// The largest difference of a coefficient from the complex conjugate of the opposite wave's coefficient, relative to
+/// the larger of the two: files have some seven digits.
 const CONJUGATE: f64 = 1e-6;
 
 /// A surface as a Fourier series, by the coefficients ĥ of its waves with m periods along x and n along y:
@@ -22,7 +22,7 @@ const CONJUGATE: f64 = 1e-6;
 ///
 /// Heights are real: a wave stands for its opposite, (−m, −n), too, which has the complex conjugate. A half spectrum is
 /// hence enough, such as FFTW and `numpy.fft.rfft2` have it; where both are given they have to agree, and count once.
-/// Coefficients are as FFTW's inverse transform takes them, those of its forward transform over the number of nodes.
+/// Coefficients are as FFTW's inverse transform takes them: results of its forward transform over the number of nodes.
 /// Node (0, 0) is at x = y = 0.
 ///
 /// ```
@@ -61,7 +61,7 @@ impl FourierSeries {
     ///
     /// # Errors
     /// [`Error::Value`] if a number is not finite, a number of periods is not whole or at least half the number of
-    /// nodes along its side, the wave has a coefficient already, or that of its opposite is not the complex conjugate.
+    /// nodes along its side, the wave has a coefficient already, or the opposite wave's is not the complex conjugate.
     pub fn add(&mut self, (m, n): (f64, f64), (re, im): (f64, f64)) -> Result<()> {
         Error::finite("real part of the coefficient", re)?;
         Error::finite("imaginary part of the coefficient", im)?;
@@ -99,7 +99,7 @@ impl FourierSeries {
         Ok(())
     }
 
-    /// The surface, its heights in units of `unit`: those of the grid's lengths, if it is 1.
+    /// The surface, with heights in units of `unit`, or of the grid's lengths if `unit` is 1.
     ///
     /// # Errors
     /// [`Error::Value`] if the unit is not positive, or no wave has a coefficient; [`Error::NotFinite`] if heights

@@ -14,7 +14,7 @@ use crate::grid::Grid;
 const ROUNDING: f64 = 1e-12;
 
 /// Heights with side lengths `lengths` = (Lx, Ly) without the waves shorter than a `cut_off`, a wavelength in the unit
-/// of the side lengths; those of this length stay.
+/// of the side lengths; waves of this length stay.
 ///
 /// ```math
 /// h(x) = Σ ĥ(q) exp(iq·x) ,   |q| ≤ 2π/λ_c

@@ -16,8 +16,7 @@ use crate::grid::Grid;
 
 /// Heights on `nodes` = (Mx, My) nodes of the same sides, finer or coarser, by Fourier interpolation.
 ///
-/// The heights are the trigonometric polynomial through the Nx × Ny nodes, of which those of the new nodes are
-/// values:
+/// The heights are values, at the new nodes, of the trigonometric polynomial through the Nx × Ny nodes:
 ///
 /// ```math
 /// h(x, y) = Σₖ Σₗ ĥₖₗ exp(2πi(kx/Lx + ly/Ly)) ,   |k| ≤ Nx/2 , |l| ≤ Ny/2
@@ -50,12 +49,12 @@ pub fn resample(heights: Array2<f64>, nodes: (usize, usize)) -> Result<Array2<f6
     on_nodes(heights, nodes, |n, m| 0.5 / m as f64 - 0.5 / n as f64)
 }
 
-/// [`resample`], with node 0 in its place: all old nodes are among those of grids that are finer by whole numbers.
+/// [`resample`], with node 0 in its place: all old nodes are among the nodes of grids that are finer by whole numbers.
 pub(crate) fn refine(heights: Array2<f64>, nodes: (usize, usize)) -> Result<Array2<f64>> {
     on_nodes(heights, nodes, |_, _| 0.0)
 }
 
-/// Heights on other nodes, of which the first one has moved by a share of the side.
+/// Heights on other nodes; the first node has moved by a share of the side.
 fn on_nodes(heights: Array2<f64>, nodes: (usize, usize), moved: impl Fn(usize, usize) -> f64) -> Result<Array2<f64>> {
     Grid::new(nodes, (1.0, 1.0))?.slab().afford("a resampled map", 32)?;
     all_finite("heights", heights.view())?;
@@ -66,8 +65,8 @@ fn on_nodes(heights: Array2<f64>, nodes: (usize, usize), moved: impl Fn(usize, u
     Ok(by_lines(heights, |lines| resampled(lines, nodes.0), |lines| resampled(lines, nodes.1)))
 }
 
-/// Heights whose lines along y and then those along x, the rows of a field each, are changed, about the mean height: a
-/// large datum costs no digits.
+/// Heights with changed lines along y, then along x, the rows of a field each, about the mean height: a large datum
+/// costs no digits.
 pub(super) fn by_lines(
     mut heights: Array2<f64>,
     along_x: impl FnOnce(&Array2<f64>) -> Array2<f64>,
@@ -119,7 +118,7 @@ pub(super) fn changed(
     result
 }
 
-/// The modes of a line of other length, of which the first node has moved by a share of the side: those that both
+/// The modes of a line of other length with a first node that has moved by a share of the side: modes that both
 /// resolve, with the shortest of the two shared between k and −k.
 fn spread(from: &[Complex<f64>], to: &mut [Complex<f64>], moved: f64) {
     let (n, m) = (from.len(), to.len());

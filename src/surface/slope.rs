@@ -15,7 +15,7 @@ pub fn rms_slope(heights: ArrayView2<'_, f64>, spacing: (f64, f64), periodic: bo
         let pairs = [Some(inside), edge].into_iter().flatten();
         let step =
             |before: &f64, after: &f64| (before.is_finite() && after.is_finite()).then(|| (after - before).abs());
-        // in units of the steepest, of which no square leaves the range of `f64`
+        // in units of the steepest: no square leaves the range of `f64`
         let most = |most: f64, a: &f64, b: &f64| step(a, b).filter(|step| *step > most).unwrap_or(most);
         let most: f64 = pairs.clone().fold(0.0, |found, pairs| pairs.fold(found, most)) / spacing;
         if most.is_infinite() {

@@ -7,9 +7,9 @@ use super::{Surface, rms_slope};
 
 /// The statistics of a rough surface, in the unit of the heights: [`Surface::statistics`].
 ///
-/// Spectral slopes and curvatures are those of the smooth periodic surface through the nodes. Finite differences,
-/// periodic too, are smaller, by (qΔ)²/24 of a slope and (qΔ)²/12 of a curvature for a wave number q along an axis of
-/// spacing Δ. If the two differ much, the grid does not resolve the surface, or its edges do not meet.
+/// Spectral slopes and curvatures belong to the smooth periodic surface through the nodes. Finite differences, periodic
+/// too, are smaller, by (qΔ)²/24 of a slope and (qΔ)²/12 of a curvature for a wave number q along an axis of spacing Δ.
+/// If the two differ much, the grid does not resolve the surface, or its edges do not meet.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -57,7 +57,7 @@ impl Surface {
         }
         let mean = self.mean();
         let rms_height = self.rms_about(mean);
-        // of heights over the rms height, whose fourth powers stay in range
+        // of heights over the rms height: fourth powers stay in range
         let power = |n: i32| self.grid.mean(self.heights.view(), |h| ((h - mean) / rms_height).powi(n));
         let laplacian = self.rms_laplacian();
         let spectrum = self.spectrum();

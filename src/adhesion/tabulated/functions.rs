@@ -10,8 +10,8 @@ use crate::error::{Error, Result};
 /// The functions of a law, which [`Tabulated::of`](crate::Tabulated::of) reads: energy, traction and slope at many gaps
 /// at once.
 ///
-/// A closure that returns the three at one gap is such functions. Write an implementation for functions that may fail,
-/// for those of many gaps, or to name work of adhesion and range.
+/// A closure that returns the three values at one gap implements the trait. Write an implementation for functions that
+/// may fail, for functions of many gaps, or to name work of adhesion and range.
 ///
 /// ```
 /// use asperity::adhesion::Functions;
@@ -39,7 +39,7 @@ pub trait Functions {
     /// Sets the values at gaps: energies for order 0, tractions for 1, slopes for 2.
     ///
     /// # Errors
-    /// Those of the functions, as [`Error::raised`].
+    /// Errors of the functions, as [`Error::raised`].
     fn set(&self, order: usize, gaps: &[f64], values: &mut [f64]) -> Result<()>;
 
     /// The work of adhesion; by default −φ in contact, or at the equilibrium separation of a law that repels.

@@ -84,8 +84,8 @@ fn rest(law: &impl Functions, in_contact: f64) -> Result<(Option<f64>, f64)> {
     }
 }
 
-/// The least gap below that of rest down to which the law repels more and more, up to the strongest repulsion, and
-/// whether it ends so, and not where it is no longer defined.
+/// The least gap below rest down to which repulsion grows, up to the strongest repulsion, and whether the strongest
+/// repulsion ends the range, not an undefined law.
 fn deepest(law: &impl Functions, rest: f64, range: f64, strongest: f64) -> (Option<f64>, bool) {
     let gaps = Vec::from_iter(DEPTHS.map(|half| rest - range * (0.5 * f64::from(half)).exp2()));
     // a law may refuse negative gaps

@@ -15,8 +15,8 @@ use crate::grid::Grid;
 /// ```
 ///
 /// Burmister, J. Appl. Phys. 16 (1945); O'Sullivan and King, J. Tribol. 110 (1988). Waves that are short compared with
-/// the thickness have the stiffness of a half-space of the coating, long ones that of the substrate. On a substrate
-/// that does not yield the coating is a bonded [`Layer`](super::Layer).
+/// the thickness have the stiffness of a half-space of the coating, long waves the stiffness of the substrate. On a
+/// substrate that does not yield the coating is a bonded [`Layer`](super::Layer).
 ///
 /// ```
 /// use asperity::elastic::{Body, Coating, Material};
@@ -52,7 +52,7 @@ impl Coating {
         let m = material.shear_modulus() / substrate.shear_modulus();
         let [c1, c2] = [material, substrate].map(|material| 2.0 - 4.0 * material.poisson());
         let (b1, b2) = (1.0 + c1, 1.0 + c2);
-        // κ = (m − 1)/u and λ = (m b₂ − b₁)/v, of which the differences lose their digits where m is large or small
+        // κ = (m − 1)/u and λ = (m b₂ − b₁)/v: the differences lose digits where m is large or small
         let (u, v) = (m + b1, 1.0 + m * b2);
         Ok(Self {
             material,
@@ -88,7 +88,7 @@ impl Body for Coating {
         self.thickness / self.material.confined_modulus()
     }
 
-    /// That of the substrate, and 1/k of long waves beyond it.
+    /// The far compliance of the substrate, and 1/k of long waves beyond it.
     fn far_compliance(&self, grid: &Grid) -> Option<f64> {
         let Self { far, thin, bends, flows, .. } = *self;
         // N and D of the formula and their derivatives by α, where α is zero

@@ -40,7 +40,7 @@ pub enum Base {
     Sliding,
 }
 
-/// The α beyond which the stiffness is that of the half-space to the last digit.
+/// The α beyond which the stiffness equals the half-space's to the last digit.
 pub(super) const THICK: f64 = 25.0;
 
 impl Layer {

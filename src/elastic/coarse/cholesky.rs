@@ -5,7 +5,7 @@ use crate::vector::{LANES, vectorised};
 /// Rows of a matrix that are decomposed together.
 pub(super) const ROWS: usize = 4;
 
-/// The place of a row of a lower triangle, whose rows are stored one after the other.
+/// The place of a row of a lower triangle that is stored row after row.
 pub(super) fn start(row: usize) -> usize {
     row * (row + 1) / 2
 }

@@ -71,7 +71,7 @@ impl<T: Real> Columns<T> {
     }
 }
 
-/// The stiffness of the homogeneous half-space, and that of its softest and stiffest wave.
+/// The stiffness of the homogeneous half-space, and the stiffness of its softest and stiffest wave.
 pub(crate) fn waves<T: Real>(grid: &Grid, modulus: f64) -> Result<(Stiffness<T>, (f64, f64))> {
     let ((nx, ny), (lx, ly)) = (grid.shape(), grid.lengths());
     let unit = PI * modulus / lx;

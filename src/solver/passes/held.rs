@@ -1,9 +1,9 @@
 //! The passes that fit the preconditioner to nodes which springs, or a law by its repulsion, hold.
 //!
-//! The compliance M knows nothing of their stiffness κ, often several times that of the stiffest wave. With
-//! s = 1/(1 + κ/k)² at each node, and k its stiffness among its neighbours, the preconditioner is
-//! S M S + (1 − S²)/(k + κ): M where nothing holds, the compliance of the node where it is held. Of a residual that
-//! pulls, springs take no more than their pressure.
+//! The compliance M knows nothing of their stiffness κ, often several times the stiffness of the stiffest wave. With s
+//! = 1/(1 + κ/k)² at each node, and k its stiffness among its neighbours, the preconditioner is S M S + (1 − S²)/(k +
+//! κ): M where nothing holds, the compliance of the node where it is held. Of a residual that pulls, springs take no
+//! more than their pressure.
 
 use super::Fields;
 use crate::field::{CHUNK, found, read, write};
@@ -20,13 +20,13 @@ fn share<T: Real>(slope: T, stiffness: T) -> (T, T) {
     ((stiffness * own).powi(2).max(T::epsilon()), own)
 }
 
-/// The share s of a node in the waves, of which the part (1 − s) of a residual that pulls is at most the `limit`.
+/// The share s of a node in the waves: the part (1 − s) of a residual that pulls is at most the `limit`.
 #[inline(always)]
 fn limited<T: Real>(share: T, r: T, limit: T) -> T {
     if r < T::zero() { share.max(T::one() + limit / r) } else { share }
 }
 
-/// The residual r' of which [`limited`] has left s r'.
+/// The residual r' before [`limited`] left s r'.
 #[inline(always)]
 fn whole<T: Real>(share: T, left: T, limit: T) -> T {
     let r = left / share;

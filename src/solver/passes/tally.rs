@@ -124,7 +124,7 @@ mod tests {
         (x >> 40) as i64
     }
 
-    /// Sums over n² nodes besides those of integers. Runs of 256 chunks of 256 nodes leave less than 3·256 roundings.
+    /// Sums over n² nodes against sums of integers. Runs of 256 chunks of 256 nodes leave less than 3·256 roundings.
     fn sums_are_accurate(n: usize) {
         const UNIT: f64 = 1.0 / (1 << 24) as f64;
         let gap = |i: usize| if i.is_multiple_of(3) { 0 } else { bits(i, 1) };
