@@ -1,10 +1,10 @@
 //! Projection, penalty and Uzawa side by side, each with the settings that bring its pressures to the same error: on the
 //! sphere of Table 2 of Rey, Anciaux and Molinari (2017) and on a rough surface, without adhesion and with it.
 //!
-//! `cargo bench --bench baselines`. At the end stands a table: the error of the pressures that each reaches, in L² over
-//! that of a projection to 1e-10, its operator applications, the stiffness of a penalty over that of the shortest wave,
-//! Uzawa's rounds, and times of the processor over that of projection, as medians on one thread. With `-- --test` each
-//! is solved once, and the table has no times.
+//! `cargo bench --bench baselines`. At the end stands a table: the error of the pressures that each reaches, in L²
+//! against a projection to 1e-10, its operator applications, the stiffness of a penalty over the stiffness of the
+//! shortest wave, Uzawa's rounds, and times of the processor over the time of projection, as medians on one thread.
+//! With `-- --test` each is solved once, and the table has no times.
 
 mod common;
 
@@ -65,7 +65,7 @@ impl Scene {
         (solution, solver.constraint)
     }
 
-    /// A solve with its rounds. The stiffness is over that of the shortest wave.
+    /// A solve with its rounds. The stiffness is given over the stiffness of the shortest wave.
     fn solve(&self, method: Method, stiffness: f64, tolerance: f64) -> (Solution<f64>, usize) {
         let k = stiffness * problem(&self.surface, none::<f64>()).operator().stiffness_range().1;
         match method {

@@ -3,9 +3,9 @@
 //!
 //! `cargo run --release -p asperity-examples --example adhesion_map`
 //!
-//! Tabor parameters whose adhesive zone the grid does not resolve (μ_ρ above 0.5) are left out. Lengths are in units of
-//! R, pressures of E*, and forces are drawn over πwR. The constant traction of Maugis–Dugdale is the largest of
-//! Lennard-Jones, 1.026 w/z₀.
+//! Tabor parameters are left out where the grid does not resolve the adhesive zone (μ_ρ above 0.5). Lengths are in
+//! units of R, pressures of E*, and forces are drawn over πwR. The constant traction of Maugis–Dugdale is the largest
+//! of Lennard-Jones, 1.026 w/z₀.
 
 use std::f64::consts::PI;
 use std::path::{Path as File, PathBuf};

@@ -21,7 +21,7 @@ struct Arguments {
     /// Take scenes of surfaces that yield at a hardness in the place of the others
     #[arg(long)]
     yielding: bool,
-    /// Take raw maps, to a fifth and more of which a law of short range sticks
+    /// Take raw maps: a law of short range sticks to a fifth of them and more
     #[arg(long, conflicts_with = "yielding")]
     sticky: bool,
 }

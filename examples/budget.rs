@@ -2,8 +2,8 @@
 //!
 //! `RAYON_NUM_THREADS=1 cargo run --release -p asperity-examples --example budget`
 //!
-//! An application is timed alone, in `f32` and in `f64`. Of those of a solve in `f64` two in each iteration are in `f32`,
-//! and the others in `f64`.
+//! An application is timed alone, in `f32` and in `f64`. A solve in `f64` has two applications in each iteration in
+//! `f32`, and the others in `f64`.
 
 use std::ops::ControlFlow;
 use std::time::Instant;

@@ -122,7 +122,7 @@ struct Row {
     pressure: f64,
     /// The law, or the branch of the law with a range.
     law: &'static str,
-    /// In %, corrected for its edge; with `jkr` that of the limit.
+    /// In %, corrected for its edge; with `jkr` the area in the limit.
     area: f64,
     pressures: Vec<f64>,
     gaps: Vec<f64>,

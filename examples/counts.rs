@@ -18,7 +18,7 @@ struct Arguments {
     /// The largest grid, in nodes along a side
     #[arg(default_value_t = 512, value_parser = arguments::nodes::<128>)]
     largest: usize,
-    /// The largest grid of Algorithm 3, whose applications grow with the grid
+    /// The largest grid of Algorithm 3: its applications grow with the grid
     #[arg(long, value_name = "N", default_value_t = 512)]
     algorithm_3: usize,
 }

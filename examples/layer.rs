@@ -47,7 +47,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The peak pressure over those of the thick and the thin limit, and the operator applications of the solve.
+/// The peak pressure over the peaks of the thick and the thin limit, and the operator applications of the solve.
 fn press(layer: Layer, thin: f64) -> Result<(f64, f64, usize)> {
     let grid = Grid::square(SIZE, 1.0)?;
     let layer = Spectral::<f64>::of(grid, layer)?;

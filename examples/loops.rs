@@ -17,7 +17,7 @@ use clap::Parser;
 use common::{Outcome, arguments, quantile};
 use ndarray::{Axis, Slice};
 
-/// The least dissipated energy of a cycle whose error is told, as a share of the work of adhesion.
+/// The least dissipated energy of a cycle with an error, as a share of the work of adhesion.
 const HYSTERETIC: f64 = 2e-3;
 
 #[derive(Parser)]
@@ -95,7 +95,7 @@ fn cycle(scene: &Scene, settings: PathSettings, tolerance: Option<f64>) -> asper
     let mut solver = Solver::new(Settings::default().tolerance(tolerance));
     let mut path = Path::new([scene.far, scene.near, scene.far].map(Control::MeanGap), settings)?;
     let mut found = Cycle { mu_rho: problem.mu_rho(), ..Cycle::default() };
-    // also those of steps that are taken back
+    // also of steps that are taken back
     let (mut applications, mut solve) = (0, 0);
     while let Some(step) = path.next_observed(&mut solver, &mut problem, |state| {
         applications += if state.operator_applications < solve { solve } else { 0 };

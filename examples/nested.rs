@@ -1,4 +1,4 @@
-//! Operator applications of nested grids against those of the finest grid alone, over a set of scenes.
+//! Operator applications of nested grids against the finest grid alone, over a set of scenes.
 //!
 //! `cargo run --release -p asperity-examples --example nested`
 

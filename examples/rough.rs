@@ -197,7 +197,8 @@ fn tell(name: &str, solution: &Solution<f64>, failures: &mut usize) -> Outcome<P
     })
 }
 
-/// The solution with adhesion whose mean contact pressure is the load, by the secant method over external pressures.
+/// The solution with adhesion at which the mean contact pressure is the load, by the secant method over external
+/// pressures.
 fn at_contact_pressure(
     surface: &Surface,
     law: Exponential,
@@ -359,8 +360,8 @@ fn slope_without_adhesion(points: &[(f64, f64)]) -> f64 {
     tangent(&points, Load::External, |p| p.nodes, 0.0).1
 }
 
-/// Load and area extrapolated to Δx = 0 from two grids: from nodes, whose error is of first order, and from areas within
-/// the edge, where it is nearly of second order.
+/// Load and area extrapolated to Δx = 0 from two grids: from nodes, with an error of first order, and from areas within
+/// the edge, with an error nearly of second order.
 fn extrapolated(fine: &Curve, coarse: Option<&Curve>) -> Option<[Vec<(f64, f64)>; 2]> {
     let coarse = coarse?;
     let finer = fine.n as f64 / coarse.n as f64;

@@ -6,9 +6,9 @@
 //! ```
 //!
 //! One operator application, and solves of a rough surface at 3 % contact and given mean pressure, to a certified error
-//! of 1e-6 in `f64` and 1e-4 in `f32`, by the default, nested grids, and Algorithm 3. The exponent in the legend is
-//! that of the number of nodes, by least squares; it includes the misses of the caches. Grids that were not measured
-//! are left out.
+//! of 1e-6 in `f64` and 1e-4 in `f32`, by the default, nested grids, and Algorithm 3. The legend has the exponent of
+//! the number of nodes, by least squares; it includes the misses of the caches. Grids that were not measured are left
+//! out.
 
 use std::fs;
 use std::path::{Path, PathBuf};

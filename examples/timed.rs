@@ -3,8 +3,9 @@
 //! `cargo run --release -p asperity-examples --example timed`
 //!
 //! `seconds` counts from the heights in memory to the solution in memory, `solve` only the solve without the
-//! construction of operator and problem; `processor` is the processor's time of `seconds`, that of all threads. `peak` is the largest resident memory of the process, in bytes, from before
-//! the repetition to its end (Linux only). `benches/peers` runs this against other programs.
+//! construction of operator and problem; `processor` is the time of all threads in `seconds`. `peak` is the largest
+//! resident memory of the process, in bytes, from before the repetition to its end (Linux only). `benches/peers` runs
+//! this against other programs.
 
 use std::fs;
 use std::ops::ControlFlow;
@@ -29,7 +30,7 @@ const SINGLE: f64 = 1e-4;
 #[derive(Parser)]
 #[command(group(ArgGroup::new("job").required(true)))]
 struct Options {
-    /// Heights on a square of side 1 (or a rectangle of square cells, Lx = 1), whose contact modulus is 1
+    /// Heights on a square of side 1 (or a rectangle of square cells, Lx = 1), with a contact modulus of 1
     heights: PathBuf,
     /// The mean pressure that is held
     #[arg(long, value_name = "P", group = "job", allow_negative_numbers = true)]

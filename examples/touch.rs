@@ -1,4 +1,4 @@
-//! What closed loops of approach and withdrawal dissipate in the limit of no range: a sphere, whose loop is known, and
+//! What closed loops of approach and withdrawal dissipate in the limit of no range: a sphere, with a known loop, and
 //! random surfaces, grid by grid.
 //!
 //! `cargo run --release -p asperity-examples --example touch -- --surfaces 20`

@@ -54,7 +54,7 @@ pub fn group<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a,
     group
 }
 
-/// The time of so many iterations: that of a solve, less that of one without its first iterations.
+/// The time of so many iterations: the time of a solve, less the time of a solve without its first iterations.
 pub fn iterations<T: Real>(problem: &mut Problem<T>, control: Control, count: usize) -> Duration {
     let mut time = |max_iterations| {
         let settings = Settings::default().max_iterations(max_iterations).tolerance(1e-14);

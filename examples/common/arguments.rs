@@ -4,7 +4,7 @@ use std::process::exit;
 
 use clap::{Parser, ValueEnum};
 
-/// The arguments of the example with the given source, whose first paragraph begins its help.
+/// The arguments of an example; the first paragraph of its source begins the help.
 ///
 /// Ends here where help is asked for, and, with a line on standard error and exit code 1, where an argument is unknown,
 /// missing, malformed or one too many.

@@ -150,7 +150,7 @@ fn plain(value: &f64) -> String {
     ((1e6 * value).round() / 1e6 + 0.0).to_string()
 }
 
-/// A number of a logarithmic axis, far from one as a power of ten; of a decade those of 1, 2 and 5.
+/// A number of a logarithmic axis, far from one as a power of ten; 1, 2 and 5 of a decade.
 fn power(value: &f64) -> String {
     let scientific = format!("{value:.0e}");
     if !scientific.starts_with(['1', '2', '5']) {

@@ -1,4 +1,4 @@
-//! A law whose jumps stay.
+//! A law that keeps its jumps.
 
 use asperity::AdhesionLaw;
 use asperity::adhesion::Hints;

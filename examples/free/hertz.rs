@@ -27,7 +27,7 @@ fn solve(surface: &Surface, operator: impl ElasticOperator<f64> + 'static) -> Re
     best.ok_or(Error::Value { name: "number of solves", value: 0.0, requirement: "positive" })
 }
 
-/// Prints the error of the approach, the applications, and the time over that of the periodic solve.
+/// Prints the error of the approach, the applications, and the time over the time of the periodic solve.
 pub fn table(largest: usize) -> Result<()> {
     let exact = Hertz::new(RADIUS, 1.0)?.at_load(FORCE)?;
     println!("sphere by force, against Hertz and the periodic solve of the same window");

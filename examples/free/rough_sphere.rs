@@ -1,7 +1,7 @@
 //! A rough sphere without adhesion: its contact area over the load, on the formula of Pastewka and Robbins (2016).
 //!
 //! Under light loads one asperity touches; then the area is the load over p_rms = E*h'/2, as on a rough plane; and
-//! under heavy loads it is that of Hertz. The formula joins the last two.
+//! under heavy loads the area of Hertz. The formula joins the last two.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,5 @@
-//! A sphere with concentric waves, together and apart under given approach: its jumps next to those of Guduru (2007).
+//! A sphere with concentric waves, together and apart under given approach: its jumps next to the jumps of Guduru
+//! (2007).
 
 use asperity::exact::WavySphere;
 use asperity::path::{Event, Path, PathSettings};

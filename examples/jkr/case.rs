@@ -64,7 +64,7 @@ impl Areas {
         ZONE * self.edge
     }
 
-    /// The area by energy less that of the zone at its edge.
+    /// The area by energy less the zone at its edge.
     pub fn less_zone(&self) -> f64 {
         self.by_energy - self.zone()
     }
@@ -107,7 +107,7 @@ pub fn pull_off(problem: &mut Problem<f64>, tolerance: f64, preload: Option<f64>
     PullOff::default().tolerance(tolerance).preload(preload).find(&mut solver(), problem)
 }
 
-/// The stiffness between loads on both sides of that of a solution: pressure over mean gap, or over approach.
+/// The stiffness between loads on both sides of a solution's load: pressure over mean gap, or over approach.
 pub fn secant(problem: &mut Problem<f64>, solution: &Solution<f64>) -> Result<f64> {
     let report = &solution.report;
     let step = STEP * report.mean_contact_pressure;
@@ -126,7 +126,7 @@ pub fn tension(found: &FoundPullOff<f64>) -> f64 {
     found.lost.map_or(borne, |lost| borne.midpoint(lost))
 }
 
-/// The value to which those of a grid and of one with half the nodes along the sides converge with the first order.
+/// The value to which a grid and a grid with half the nodes along the sides converge with the first order.
 pub fn extrapolated(fine: f64, coarse: f64) -> f64 {
     2.0 * fine - coarse
 }

@@ -2,7 +2,7 @@
 
 use crate::scene::{Kind, Level, Scene};
 
-/// The difference of the areas less their zones, over that of the zone, above which the grid is too coarse.
+/// The difference of the areas less their zones, over the zone, above which the grid is too coarse.
 const FAR: f64 = 0.5;
 
 /// The factor of the error where that may be far larger.
@@ -82,7 +82,8 @@ impl Quantity {
         if self == Self::Pressure { finest.contact_pressure } else { limit.abs() }
     }
 
-    /// The factors of the zone and of the difference to the coarser grid in the error, and that of the zone alone.
+    /// The factors of the zone and of the difference to the coarser grid in the error, and the factor of the zone
+    /// alone.
     fn factors(self) -> [f64; 3] {
         match self {
             Self::Area => [0.6, 1.2, 1.0],

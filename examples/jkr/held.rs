@@ -1,4 +1,4 @@
-//! Fronts that the grid holds: with the work of adhesion of which laws whose range is short for the grid act.
+//! Fronts that the grid holds: the effective work of adhesion of laws with a range that is short for the grid.
 
 use std::ops::ControlFlow;
 
@@ -30,7 +30,7 @@ const WORKS: [f64; 14] = [0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.
 enum Law {
     Exponential,
     MaugisDugdale,
-    /// The same, of which solves do not smooth the jump.
+    /// The same, with a jump that solves do not smooth.
     Sharp,
 }
 

@@ -334,8 +334,8 @@ pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
     Ok(())
 }
 
-/// Spheres whose contacts have radii by the theory of Johnson, Kendall and Roberts of a share of a node to several: in how
-/// many the pull-off is within its error, and how many have the reason why it has none.
+/// Spheres with contact radii, by the theory of Johnson, Kendall and Roberts, of a share of a node to several nodes:
+/// how many have a pull-off within its error, and how many a reason for no error.
 pub fn spheres(count: usize) -> Outcome<()> {
     let (side, nodes) = (1.6, 64);
     let [mut within, mut missed, mut few, mut others] = [0; 4];

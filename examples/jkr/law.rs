@@ -42,7 +42,7 @@ impl Shape {
         self.name().to_owned() + of_library
     }
 
-    /// Some steepest slopes, and that of the law of the library if it has this shape.
+    /// Some steepest slopes, and the slope of the law of the library if it has this shape.
     pub fn slopes(self, some: &[f64]) -> Vec<f64> {
         let mut slopes = some.to_vec();
         if self == Self::QuinticStep {
@@ -96,7 +96,7 @@ impl Shape {
     }
 }
 
-/// A law of a work of adhesion, whose traction falls on each grid no more steeply than `steepest` over the compliance of
+/// A law of a work of adhesion: on each grid its traction falls no more steeply than `steepest` over the compliance of
 /// a node.
 #[derive(Clone, Copy)]
 pub struct Short {

@@ -35,9 +35,9 @@ use rayon::ThreadPoolBuilder;
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Table {
-    /// A sphere on a free half-space, next to that of Johnson, Kendall and Roberts.
+    /// A sphere on a free half-space, next to the theory of Johnson, Kendall and Roberts.
     Sphere,
-    /// A wave on a line and on a grid, next to that of Johnson.
+    /// A wave on a line and on a grid, next to Johnson's theory.
     Wave,
     /// Other shapes of the law, and other steepest slopes.
     Shapes,

@@ -52,7 +52,7 @@ impl Short {
     }
 }
 
-/// Draws the pull-off of a rough surface, and that of a sphere.
+/// Draws the pull-offs of a rough surface and of a sphere.
 pub fn draw(quick: bool, path: &Path) -> Outcome<()> {
     let root = SVGBackend::new(path, (1200, 560)).into_drawing_area();
     root.fill(&WHITE)?;

@@ -14,7 +14,7 @@ pub struct Rough {
     pub load: f64,
 }
 
-/// The surfaces whose pull-off is found, and those whose area.
+/// The surfaces for pull-offs, and the surfaces for areas.
 pub const PULL_OFF: Rough = Rough { slope: 0.5, shortest: 8.0, work_of_adhesion: 1.5e-3, load: 0.02 };
 pub const AREA: Rough = Rough { slope: 1.0, shortest: 16.0, work_of_adhesion: 7e-5, load: 0.01 };
 const SEEDS: [u64; 6] = [3, 11, 12, 13, 14, 15];

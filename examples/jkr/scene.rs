@@ -61,7 +61,7 @@ pub enum Kind {
 /// A random scene.
 pub struct Scene {
     pub kind: Kind,
-    /// Nodes along a side of the grid whose error is estimated.
+    /// Nodes along a side of the grid with an estimated error.
     pub n: usize,
     /// Over n, the finest grid.
     pub finest: usize,
@@ -126,7 +126,7 @@ impl Scene {
         if self.kind == Kind::Sphere { SIDE } else { 1.0 }
     }
 
-    /// The surface on a grid; on one that is coarser than that of n² nodes it has every second node of that.
+    /// The surface on a grid; on a coarser grid than n² nodes it has every second node of the n² nodes.
     fn surface(&self, n: usize) -> Outcome<Surface> {
         let fine = n.max(self.n);
         let grid = Grid::square(fine, self.side())?;

@@ -90,7 +90,7 @@ pub fn tables(quick: bool) -> Outcome<()> {
     held_fronts(quick)
 }
 
-/// The pull-off of the wave, whose fronts are straight, on many grids: where they are between the nodes is by chance.
+/// The pull-off of the wave on many grids: its fronts are straight, and their place between the nodes is by chance.
 fn held_fronts(quick: bool) -> Outcome<()> {
     let grids = if quick { vec![128, 150] } else { vec![360, 400, 450, 486, 512, 540, 576, 600, 640, 720, 800, 1024] };
     let title = format!("Pull-off of the wave over the exact one, and the range over √(wΔx/E*), on {grids:?} nodes");

@@ -1,4 +1,4 @@
-//! A sphere on a free half-space, next to that of Johnson, Kendall and Roberts.
+//! A sphere on a free half-space, next to the theory of Johnson, Kendall and Roberts.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! A wave in one direction, next to that of Johnson (1995).
+//! A wave in one direction, next to the theory of Johnson (1995).
 
 use std::f64::consts::{PI, TAU};
 

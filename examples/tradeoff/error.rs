@@ -10,7 +10,7 @@ use common::Outcome;
 
 /// The largest grid that has no coarser ones below it.
 const COARSEST: usize = 64;
-/// The largest grid for Algorithm 3, whose applications grow with the number of nodes along a side.
+/// The largest grid for Algorithm 3: its applications grow with the number of nodes along a side.
 const SLOW: usize = 256;
 
 /// Relative root mean squares over the loads: of the displacement at the nodes in the energy norm, of the share of

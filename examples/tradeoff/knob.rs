@@ -68,8 +68,8 @@ impl Scene {
     }
 }
 
-/// All scenes: seeds, Hurst exponents, laws and loads; a mean gap is that under a pressure. The factors of the
-/// estimates were fitted to other seeds and exponents, those of the area to these as well.
+/// All scenes: seeds, Hurst exponents, laws and loads; a mean gap belongs to a pressure. The factors of the estimates
+/// were fitted to other seeds and exponents, the factors of the area to these as well.
 fn scenes(quick: bool) -> Outcome<Vec<Scene>> {
     let (seeds, hursts) = if quick { (11..12, &[0.8][..]) } else { (11..15, &[0.3, 0.6, 0.9][..]) };
     let mut all = Vec::new();

@@ -15,8 +15,8 @@
 //! and the truth, and the solver error that between the solution found and the converged one. Pictures have their sum:
 //! in the difference of the solution found from the truth they may cancel by luck.
 //!
-//! Counts and errors are deterministic. Times are those of one solve, from the heights to the
-//! figures, on as many threads as `RAYON_NUM_THREADS` says.
+//! Counts and errors are deterministic. Times count one solve, from the heights to the figures, on as many threads as
+//! `RAYON_NUM_THREADS` says.
 
 mod error;
 mod estimates;

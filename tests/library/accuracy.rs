@@ -19,7 +19,7 @@ fn free(grid: Grid) -> Result<Boussinesq<f64>> {
     Boussinesq::new(grid, 1.0)
 }
 
-/// A surface whose shortest wave is an eighth of the side, the same on every grid.
+/// A surface with a shortest wave of an eighth of the side, the same on every grid.
 fn surface(n: usize, seed: u64) -> Surface {
     let amplitude = Amplitude::RmsSlope(0.1);
     let rough = SelfAffine::default().k_l(1.0).k_r(2.0).k_s(8.0).amplitude(amplitude).random_phase(true).seed(seed);
@@ -49,7 +49,7 @@ fn truth(seed: u64, control: Control) -> Level {
     levels_of(Nested::default().stiffness(1e-5), &surface(512, seed), control).pop().unwrap()
 }
 
-/// Plateaus of radius 0.1, with flanks of a few cells, whose interpolation between the nodes has ripples.
+/// Plateaus of radius 0.1, with flanks of a few cells: interpolation between the nodes has ripples.
 fn plateau(flank: f64) -> Surface {
     let height = |x: f64, y: f64| -0.01 * ((x.hypot(y) - 0.1) / flank).clamp(0.0, 1.0);
     Surface::from_fn(Grid::square(64, 1.0).unwrap(), height).unwrap()
@@ -256,7 +256,7 @@ fn strips_diagonals_and_lattices_are_as_right_as_is_asked() {
     add((32, 1), &[[1.0, 0.0], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]], &shares);
     let shares = [0.1, 0.15, 0.2, 0.27, 0.45, 0.7];
     add((32, 32), &[[2.0, 0.0], [0.0, 3.0], [1.0, 1.0], [2.0, -1.0], [4.0, 4.0]], &shares);
-    // the area of a lattice is that of one of its cells
+    // the area of a lattice is the area of one of its cells
     for (vector, pressure) in [([2.0, 0.0], 0.3), ([2.0, 1.0], 0.1), ([3.0, 3.0], 0.2), ([4.0, 0.0], 0.6)] {
         let control = Control::MeanPressure(pressure * TAU * HIGH * f64::hypot(vector[0], vector[1]));
         let of_cell = |n| {
@@ -320,7 +320,7 @@ fn grids_that_say_nothing_leave_the_error_unknown() {
     // fewer than eight nodes on the coarser grid
     assert!(estimate(128, Quantity::Area, 12.0, 0.0, 1e-3).unwrap().rough);
     // the coarser grid has fewer than four, does not resolve the adhesion, was not solved, or is not there: the waves
-    // tell the error of the area, and nothing that of the others
+    // tell the error of the area, and nothing tells the errors of the others
     for (n, nodes_per_wave, mu_rho, tolerance) in
         [(128, 7.9, 0.0, 1e-3), (128, waves, 0.36, 1e-3), (128, waves, 0.0, 1e-1), (32, waves, 0.0, 1e-3)]
     {

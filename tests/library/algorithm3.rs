@@ -5,7 +5,7 @@ use asperity::*;
 use ndarray::Array2;
 use oracles::rough::rough;
 
-/// The misprints, each of which can be left in.
+/// The misprints; each can be left in.
 #[derive(Clone, Copy)]
 struct Printed {
     /// R is summed over I, all nodes, not over I_nc, where the surfaces are apart

@@ -24,8 +24,8 @@ fn stiffness(body: &impl Body, q: f64) -> f64 {
 type State = [f64; 4];
 
 /// The stiffness of a wave on a plate of a material, by integrating the equations of plane strain through its
-/// thickness: with these amplitudes four linear ones, whose right-hand sides stay finite for ν = ½. Two states that are
-/// possible at its lower face are carried to the free one, and combined there so that T = 0.
+/// thickness: four linear equations in these amplitudes, with right-hand sides that stay finite for ν = ½. Two possible
+/// states at the lower face are carried to the free face, and combined there so that T = 0.
 fn integrated(q: f64, thickness: f64, material: Material, lower: [State; 2]) -> f64 {
     let (e, nu) = (material.modulus(), material.poisson());
     let side = nu / (1.0 - nu);

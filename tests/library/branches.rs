@@ -30,8 +30,8 @@ impl AdhesionLaw<f64> for Held {
     }
 }
 
-/// The equilibrium to which solutions under held tractions lead, each that of the tractions at the gap before: down
-/// from a gap above all equilibria to the largest, up from full contact to the smallest.
+/// The equilibrium to which solutions under held tractions lead, each under the tractions at the gap before: down from
+/// a gap above all equilibria to the largest, up from full contact to the smallest.
 fn by_held_tractions(
     surface: &Surface,
     law: &impl AdhesionLaw<f64>,

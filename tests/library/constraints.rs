@@ -111,7 +111,7 @@ fn springs_have_the_same_values_together_as_one_by_one() {
     }
 }
 
-/// Springs whose rounds need not be solved, and which are met by whatever is found.
+/// Springs that are content with any state, so that rounds need not be solved.
 struct Content(Penalty, usize);
 
 impl ContactConstraint<f64> for Content {
@@ -430,7 +430,7 @@ fn figures_of_penalty_and_uzawa_on_a_rough_surface() {
     }
 }
 
-/// Springs of which one function is wrong, or that give way.
+/// Springs with one wrong function, or that give way.
 struct Spoiled(f64, f64);
 
 impl ContactConstraint<f64> for Spoiled {

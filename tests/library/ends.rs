@@ -89,7 +89,7 @@ fn laws_that_end_keep_the_order_of_the_branches_and_hold_what_they_can() {
         }
     }
     println!("{lost} of {tensions} tensions that hold are not found, {missed} searches have no end");
-    // a law that jumps has many equilibria under one load, of which a search from load to load may keep another
+    // a law that jumps has many equilibria under one load, and a search from load to load may keep another
     assert!(lost * 200 <= tensions + 200 && missed <= tensions / 4 / 1000 + 1, "{lost} of {tensions}, {missed}");
 }
 
@@ -125,7 +125,7 @@ fn surfaces_apart_are_at_one_equilibrium() {
     assert!(same >= 50, "{same}");
 }
 
-/// The greatest traction of the law of Lennard-Jones is 16/(9√3) w/ρ, that of Morse w/2ρ.
+/// The greatest traction of the law of Lennard-Jones is 16/(9√3) w/ρ, of the law of Morse w/2ρ.
 #[test]
 fn flat_and_nearly_flat_surfaces_hold_what_their_law_holds() {
     let grid = Grid::square(16, 1.0).unwrap();

@@ -47,7 +47,7 @@ fn hertz_with_periodic_images() {
         let found = solve(&mut problem, Control::MeanGap(gap), 1e-8).report.mean_pressure;
         // the contact radius is 30 to 55 nodes: errors of the order of their inverse square, up and down with the nodes
         assert_relative_eq!(found, periodic_hertz(2.0, gap, surface.mean()), max_relative = 3e-5);
-        // the mean height is that of the nodes: the continuous one makes ten times the error
+        // the mean height of the nodes: the continuous mean makes ten times the error
         let continuous = periodic_hertz(2.0, gap, -1.0 / 24.0);
         assert!((found / continuous - 1.0).abs() > 9e-5, "{gap}");
     }

@@ -8,7 +8,7 @@ use asperity::exact::*;
 use asperity::{Control, Error, Grid, Problem, Settings, Solver, Start, Status, Surface, Westergaard};
 
 /// The integral of `f` from `a` to `b` by tanh-sinh quadrature, which takes square-root singularities at the ends;
-/// those of 1/√ to 1e-8 only, as `f` knows the distance from the end only to rounding.
+/// singularities of 1/√ to 1e-8 only, as `f` knows the distance from the end only to rounding.
 fn integral(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     let (step, half) = (1.0 / 16.0, 0.5 * (b - a));
     let mut sum = 0.0;
@@ -549,7 +549,7 @@ fn what_has_no_solution_is_refused_by_name() {
 fn a_wavy_sphere_is_that_of_its_parts() {
     use asperity::exact::WavySphere;
     let (radius, work) = (20.0, 1e-3);
-    // without a wave it is that of Johnson, Kendall and Roberts, whose one branch ends where contact is lost
+    // without a wave it is the sphere of Johnson, Kendall and Roberts: its one branch ends where contact is lost
     let (plain, jkr) = (WavySphere::new(radius, 1.0, work, (0.0, 1.0)).unwrap(), Jkr::new(radius, 1.0, work).unwrap());
     for a in [0.1, 0.7, 2.0] {
         let contact = jkr.at_contact_radius(a).unwrap();

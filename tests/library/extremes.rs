@@ -315,7 +315,7 @@ fn a_datum_a_billion_heights_away_costs_the_digits_that_it_takes_and_no_more() {
     }
 }
 
-/// An exponential whose functions do not agree, or jump.
+/// An exponential with functions that do not agree, or jump.
 struct Odd(u8);
 
 impl<T: Real> AdhesionLaw<T> for Odd {

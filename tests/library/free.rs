@@ -454,8 +454,8 @@ fn single_precision_and_nested_grids_come_to_the_same_state() {
     }
 }
 
-/// All applications in units of one on the finest grid, against those of that grid alone: with contact on a part of the
-/// window, and on most of it.
+/// All applications in units of one on the finest grid, against the applications of the finest grid alone: with contact
+/// on a part of the window, and on most of it.
 #[test]
 fn nested_grids_take_few_applications_under_every_control() {
     let grid = Grid::square(256, 1.0).unwrap();

@@ -1,4 +1,4 @@
-//! The law of JKR, whose range is that of the grid: exact solutions of the limit of no range, on every body and grid.
+//! The law of JKR, with a range set by the grid: exact solutions in the limit of no range, on every body and grid.
 
 use std::f64::consts::PI;
 
@@ -183,7 +183,7 @@ fn a_front_peels_alike_along_x_and_y_and_the_diagonal() {
     let diagonal = plane((128, 128), (1.0, 1.0), 0.5_f64.sqrt());
     println!("pull-off over Johnson's: along x {along_x}, along y {along_y}, {fine}, on the diagonal {diagonal}");
     assert!((along_x / along_y - 1.0).abs() < 2e-3);
-    // the larger spacing is four times that of the others
+    // the larger spacing is four times the spacing of the others
     assert!((along_x - 1.0).abs() < 0.05 && (fine - 1.0).abs() < 0.015 && (diagonal - 1.0).abs() < 0.02);
 }
 
@@ -201,7 +201,7 @@ fn a_flat_punch_and_a_cone_come_off_as_they_do_in_the_limit() {
         let heights = grid.sample(|x, y| if x.hypot(y) <= 0.25 { 0.0 } else { f64::NAN });
         let nodes = heights.iter().filter(|height| height.is_finite()).count() as f64;
         let radius = (nodes / PI).sqrt() * side / n as f64;
-        // that of Kendall (1971), whether the punch has a foot or its nodes alone face the half-space
+        // the pull-off of Kendall (1971), whether the punch has a foot or its nodes alone face the half-space
         let kendall = (8.0 * PI * work * radius.powi(3)).sqrt() / (side * side);
         let foot = Surface::new(grid, heights.mapv(|height| if height.is_nan() { -1.0 } else { height })).unwrap();
         let [_, alone] = [foot, surface_with_absent(grid, heights).unwrap()].map(|surface| {

@@ -1,4 +1,4 @@
-//! Loops by the law without a range, whose limits are known: what they dissipate, and where surfaces touch and part.
+//! Loops by the law without a range, with known limits: what loops dissipate, and where surfaces touch and part.
 
 use std::f64::consts::PI;
 

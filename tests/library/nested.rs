@@ -198,13 +198,13 @@ fn nested_grids_need_no_more_memory_than_the_finest_alone() {
         let field = (surface.grid().nodes() * size_of::<T>()) as f64;
         rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| {
             let info = allocation_counter::measure(|| drop(solve::<T>(&surface, law(), control, 1e-2)));
-            // without the coarse space, that of N nodes: 8 N^(2/3) numbers in f64, and up to 5 N^(2/3) for a contact
-            // map with its moments
+            // without the coarse space, on N nodes: 8 N^(2/3) numbers in f64, and up to 5 N^(2/3) for a contact map
+            // with its moments
             (info.bytes_max as f64 - 13.0 * 8.0 * (surface.grid().nodes() as f64).powf(2.0 / 3.0)) / field
         })
     }
-    // five, of which the start becomes one; in f32 seven, or six and the start while the heights are in f64; the rest
-    // is what does not grow with the nodes
+    // five, with the start; in f32 seven, or six and the start while the heights are in f64; the rest is what does not
+    // grow with the nodes
     for control in [PRESSED, APART] {
         for peak in [peak::<f64>(none, control), peak::<f64>(exponential, control)] {
             assert!((5.0..5.3).contains(&peak), "{peak}");

@@ -145,7 +145,7 @@ fn anisotropic_symbols_act_on_their_waves() {
                 assert_relative_eq!(p, symbol(qx, qy) * u, epsilon = 1e-11);
             }
         }
-        // the Nyquist waves, whose sign of q is undefined, keep the operator symmetric
+        // the Nyquist waves, with an undefined sign of q, keep the operator symmetric
         let (a, b) = (noise(shape, 5), noise(shape, 6));
         assert_relative_eq!(dot(&a, &apply(&mut operator, &b)), dot(&b, &apply(&mut operator, &a)), epsilon = 1e-13);
     }
@@ -299,7 +299,7 @@ fn every_operator_and_every_wrapper_keeps_the_contract() {
         check_operator(&mut boxed).unwrap();
     }
     fn all<T: Real>(grid: Grid) {
-        // the modulus of steel in Pa, and that of a gel in GPa
+        // the modulus of steel in Pa, and the modulus of a gel in GPa
         for modulus in [3.0, 2e11, 1e-6] {
             conforms(Westergaard::<T>::new(grid, modulus).unwrap());
         }

@@ -74,7 +74,7 @@ fn jumps_are_found_where_they_are_however_long_the_steps() {
             let jump = jumps[k];
             let width = (jump.mean_gap.1 - jump.mean_gap.0).abs();
             assert!(width <= 1.001 * smallest_step * 0.015);
-            // within its own width, and that of a step at which the branch before it is lost
+            // within its own width, and the width of a step at which the branch before it is lost
             assert!((jump.mean_gap.0 - last.mean_gap.0).abs() <= 3.0 * width, "{jump:?} {last:?}");
             let unsure = width * (jump.mean_pressure.1 - jump.mean_pressure.0).abs();
             assert!((jump.energy_drop - last.energy_drop).abs() <= 2.0 * unsure);
@@ -459,7 +459,7 @@ fn a_path_does_not_creep_where_its_states_are_at_the_floor_of_rounding() {
     // a tenth more, as rounding differs between processors
     assert!(double.0 <= 217 && double.1 == 0, "{double:?} and not (197, 0)");
     assert!(single.0 <= 141 && (1..=8).contains(&single.1), "{single:?} and not (128, 4)");
-    // compared with the energy of the surface pressed flat that of the adhesion is less than a hundred roundings
+    // the energy of adhesion is less than a hundred roundings of the energy of the surface pressed flat
     let weak = there_and_back::<f32>(128, 1e-6);
     assert!(weak.0 <= 135 && weak.1 <= 10, "{weak:?} and not (123, 5)");
 }

@@ -49,7 +49,7 @@ fn a_stiff_sphere_comes_off_as_bradley_says() {
     let (radius, work, range) = (2.0, 1e-7, 2e-3);
     let found = force(&mut sphere(96, 0.7, radius, Exponential::new(work, range).unwrap()));
     let bradley = 2.0 * PI * radius * work;
-    // Derjaguin's sum of all tractions, of which the window cuts 1e-3
+    // Derjaguin's sum of all tractions; the window cuts 1e-3
     assert!((found / bradley - 1.0).abs() < 0.02, "{found} {bradley}");
 }
 

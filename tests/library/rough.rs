@@ -7,7 +7,7 @@ use asperity::surface::rms_slope;
 use asperity::surface::{Psd, Spectrum};
 use asperity::{Amplitude, Error, Grid, SelfAffine, Surface};
 
-/// A surface of which a quick test resolves all waves.
+/// A surface with waves that a quick test resolves.
 fn short(seed: u64) -> SelfAffine {
     SelfAffine::default().k_l(2.0).k_r(4.0).k_s(20.0).seed(seed)
 }
@@ -153,7 +153,7 @@ fn the_target_has_plateau_power_law_and_ends() {
     for (k, share) in [(3.0, 1.0), (10.0, 1.0), (20.0, 2_f64.powf(-2.4)), (50.0, 5_f64.powf(-2.4))] {
         assert_relative_eq!(at(&line, k), share * at(&line, 5.0), max_relative = 1e-12);
     }
-    // along the rings of a surface, of which some hold waves of one length only: its first in k
+    // along the rings of a surface; some hold waves of one length only: its first in k
     let plane = rough.spectrum(Grid::square(128, 1.0).unwrap()).unwrap().radial_psd();
     let near = |k: f64| plane.wave_numbers.iter().position(|q| (q / TAU - k).abs() < 0.5).unwrap();
     for i in [near(20.0), near(30.0), near(45.0)] {
@@ -165,8 +165,8 @@ fn the_target_has_plateau_power_law_and_ends() {
     );
 }
 
-/// Each |ĥ|² has an exponential distribution, whose standard deviation is its mean, so that a mean over m independent
-/// waves has a relative standard error of 1/√m.
+/// Each |ĥ|² has an exponential distribution, with a standard deviation equal to its mean, so that a mean over m
+/// independent waves has a relative standard error of 1/√m.
 #[test]
 fn gaussian_surfaces_have_the_target_for_their_mean_spectrum() {
     let grid = Grid::square(96, 1.0).unwrap();
@@ -209,7 +209,7 @@ fn amplitudes_and_heights_are_gaussian() {
         assert!((share(limit) - expected).abs() < 4.0 * (expected / 4e4).sqrt(), "{limit}: {}", share(limit));
     }
     let statistics = line.statistics();
-    // standard errors √(6/m) and √(24/m), with m the number of independent heights, twice that of waves
+    // standard errors √(6/m) and √(24/m), with m the number of independent heights, twice the number of waves
     assert!(statistics.skewness.abs() < 4.0 * (6.0_f64 / 8e4).sqrt(), "{}", statistics.skewness);
     assert!((statistics.kurtosis - 3.0).abs() < 4.0 * (24.0_f64 / 8e4).sqrt(), "{}", statistics.kurtosis);
     assert!((-6.0..-3.0).contains(&(statistics.lowest / statistics.rms_height)));

@@ -75,7 +75,7 @@ fn area_without_adhesion_is_proportional_to_small_loads() {
             *slope += 0.25 * corrected / load;
         }
     }
-    // between Persson's theory, and that of Bush, Gibson and Thomas, which is the limit of no load
+    // between Persson's theory, and the theory of Bush, Gibson and Thomas, the limit of no load
     let (persson, bush) = ((8.0 / PI).sqrt(), (2.0 * PI).sqrt());
     assert!(slopes.iter().all(|slope| (persson..bush).contains(slope)), "{slopes:?}");
     assert!(slopes.is_sorted_by(|a, b| a > b), "{slopes:?}");
@@ -102,7 +102,7 @@ fn adhesion_opens_no_gap_at_the_same_external_load_and_adds_contact() {
             assert!(found.report.contact_nodes > last.report.contact_nodes);
             last = found;
         }
-        // under the same contact pressure, part of which only balances the attraction, there is less of it
+        // under the same contact pressure there is less contact, as a part of the pressure only balances the attraction
         let alike = areas(n, seed, &[last.report.mean_contact_pressure])[0][0];
         assert!(last.report.contact_fraction < 0.95 * alike, "{} {alike}", last.report.contact_fraction);
     }

@@ -98,7 +98,7 @@ fn a_fraction_past_which_the_contact_jumps_is_not_claimed() {
 
 #[test]
 fn a_jump_of_adhesion_is_told_from_its_side() {
-    // a wave whose crest snaps into contact, and off it
+    // a wave with a crest that snaps into contact, and off it
     let line = Grid::new((256, 1), (1.0, 1.0 / 256.0)).unwrap();
     let wave = Surface::from_fn(line, |x, _| 1e-3 * (std::f64::consts::TAU * x).cos()).unwrap();
     let law = Exponential::new(1e-4, 5e-4).unwrap();

@@ -34,7 +34,7 @@ fn the_certificate_is_never_below_the_true_error() {
             let exact = solve(&mut problem, Control::MeanGap(state.report.mean_gap), 1e-12);
             assert_eq!(exact.report.status, Status::Converged);
             let (error, size, flat) = oracles::energy_norms(&surface, &mut operator, &exact.gap, &state.gap);
-            // without contact the surface's own size may stand for that of the displacement
+            // without contact the surface's own size may stand for the size of the displacement
             let size = if state.report.contact_nodes > 0 { size } else { size.max(flat) };
             let (error, bound) = ((error / size).sqrt(), state.report.relative_error);
             assert!(error <= bound * (1.0 + 1e-6) + 2e-12, "{control:?} {iterations}: {error:e} > {bound:e}");
@@ -77,7 +77,7 @@ fn applications(problem: &mut Problem<f64>, control: Control) -> usize {
     report.operator_applications + 1
 }
 
-/// The cases of which the applications are counted, on `n`² nodes.
+/// The cases with counted applications, on `n`² nodes.
 fn counts(n: usize) -> Vec<(&'static str, usize)> {
     // where a grid is too coarse for waves of 64 periods it just resolves 63
     let shortest = if n < 256 { 63 } else { 64 };
@@ -506,7 +506,7 @@ fn a_solve_needs_five_fields_of_f64_and_seven_of_f32() {
     assert!(built < 8.0 && (5.75..5.75 + small).contains(&solved), "{built} {solved}");
 }
 
-/// An exponential law whose work of adhesion is a share of its own at each node.
+/// An exponential law with its own share of the work of adhesion at each node.
 struct ByNode(Exponential, Vec<f64>);
 
 impl AdhesionLaw<f64> for ByNode {
@@ -520,7 +520,7 @@ impl AdhesionLaw<f64> for ByNode {
         self.0.slope(gap)
     }
     fn evaluate(&self, first: usize, gaps: &[f64], values: Values<'_, f64>) {
-        // one function after another, so that energies are not those of tractions
+        // one function after another, so that energies do not belong to tractions
         values.each(|order, values| {
             self.0.evaluate(first, gaps, Values::one(order, values));
             values.iter_mut().zip(&self.1[first..]).for_each(|(value, share)| *value *= share);
@@ -557,7 +557,7 @@ impl AdhesionLaw<f64> for Counting {
         if values.tractions.is_none() && values.energies.is_some() {
             self.energies.fetch_add(gaps.len(), Ordering::Relaxed);
         }
-        // one function after another, so that energies are not those of tractions
+        // one function after another, so that energies do not belong to tractions
         values.each(|order, values| self.law.evaluate(first, gaps, Values::one(order, values)));
     }
 }

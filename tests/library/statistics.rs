@@ -1,4 +1,4 @@
-//! Contact statistics on solutions whose contact is known.
+//! Contact statistics on solutions with a known contact.
 
 use std::f64::consts::PI;
 
@@ -356,7 +356,7 @@ fn patches_share_out_the_contact_by_their_work_of_adhesion() {
     fn patched<T: Real>(works: usize) {
         let grid = Grid::square(48, 1.0).unwrap();
         let surface = Surface::wave_2d(grid, 0.01, 2).unwrap();
-        // stripes along y, of which those without adhesion come first
+        // stripes along y, stripes without adhesion first
         let work = grid.sample(|x, _| 2e-5 * ((works as f64 * (x + 0.5)).floor() / works as f64));
         let law = Varying::new(Exponential::new(2e-5, 3e-3).unwrap(), work.view()).unwrap();
         let mut problem = Problem::new(&surface, Westergaard::<T>::new(grid, 1.0).unwrap(), law).unwrap();

@@ -101,7 +101,7 @@ fn with<T: Real, C: ContactConstraint<T> + 'static>(scene: &Scene, constraint: C
     Ok(Judged { end, iterations: report.iterations, distance, verdicts })
 }
 
-/// That the energy never rises within a round, but for rounding, which in `f64` is that of changes in `f32`.
+/// Checks that the energy never rises within a round, but for rounding, in `f64` the rounding of changes in `f32`.
 fn falls<T: Real>(scene: &Scene, history: &[Iteration], magnitude: f64) -> Result<(), String> {
     if matches!(scene.constraint, Constraint::Uzawa | Constraint::Paper) {
         return Ok(());
@@ -238,7 +238,7 @@ impl Account {
         account
     }
 
-    /// The combinations, laws, constraints and precisions of which more end badly than what is held lets expect, by three
+    /// The combinations, laws, constraints and precisions with more bad ends than what is held lets expect, by three
     /// standard deviations and one.
     fn missed(&self) -> Vec<String> {
         let mut groups = BTreeMap::<String, [[f64; 2]; 2]>::new();
@@ -477,7 +477,7 @@ fn certified(scene: &Scene, gap: Array2<f64>) -> f64 {
 
 /// Light loads leave a displacement that is the small difference of heights and gap. The error of a gap in `f32`,
 /// computed in `f64`, is no larger than certified where the solve has converged, and where it has stalled hardly larger
-/// than that of the exact gap rounded to `f32`.
+/// than the error of the exact gap rounded to `f32`.
 #[test]
 fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
     let features = Features { precisions: &[Precision::Single], ..Features::HARD };
@@ -521,7 +521,7 @@ fn f32_is_as_good_as_it_says_and_is_given_up_at_its_floor() {
     );
 }
 
-/// The work ⟨u, p⟩ of which rounding makes a share ε².
+/// The work ⟨u, p⟩ to which rounding adds a share ε².
 fn rounded_work(scene: &Scene, mean_gap: f64) -> f64 {
     let (surface, dense) = (scene.centred(), scene.dense());
     let rms = surface.iter().map(|h| h * h).sum::<f64>().sqrt() / (surface.len() as f64).sqrt();

@@ -178,7 +178,7 @@ fn operators_apply_to_slabs<T: Bits>(world: &World, shape: (usize, usize)) -> Re
     Ok(())
 }
 
-/// The shortest wave of a surface is that of the whole, also where there are more processes than bands.
+/// The shortest wave of a surface is the wave of the whole, also where there are more processes than bands.
 fn shortest_waves_are_those_of_the_whole(world: &World, shape: (usize, usize)) -> Result<()> {
     let alone = Grid::new(shape, (1.0, 0.7))?;
     let shared = world.share(alone)?;
@@ -455,7 +455,7 @@ fn paths_are_shared(world: &World) -> Result<()> {
 }
 
 fn clusters_hang_together_across_slabs(world: &World) -> Result<()> {
-    // pieces of every width, along both sides, some of which go around the cell
+    // pieces of every width, along both sides; some go around the cell
     let maps: [fn(f64, f64) -> bool; 4] = [
         |x, y| (40.0 * x + 5.0 * (9.0 * y).sin()).sin() > 0.3,
         |x, y| (40.0 * y + 5.0 * (9.0 * x).sin()).sin() > 0.3,
@@ -497,7 +497,7 @@ fn exchanges_are_what_the_formula_says(world: &World) -> Result<()> {
     body.pressure(u.view(), p.view_mut())?;
     let sent = world.bytes_sent() - before;
     let held = grid.rows().len();
-    // of 257 columns, of which others have all but a share like that of the rows
+    // of 257 columns others have all but a share like the rows' share
     let others = |own: usize| 257 - own;
     let own = (257 * (grid.rows().start + held) / 512) - 257 * grid.rows().start / 512;
     let expected = if world.size() == 1 { 0 } else { 16 * (held * others(own) + own * (512 - held)) };

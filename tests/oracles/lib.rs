@@ -81,7 +81,7 @@ impl<A: serde::Serialize + serde::de::DeserializeOwned> Kept for A {
     }
 }
 
-/// The energy never rises by more than the rounding of its own sum, which in `f64` is that of changes in `f32`.
+/// The energy never rises by more than the rounding of its own sum, which in `f64` is the rounding of changes in `f32`.
 pub fn falls(history: &[Iteration], epsilon: f64) {
     let size = history.iter().map(|i| i.energy.abs()).fold(0.0, f64::max);
     let allowed = (64.0 * epsilon).max(f64::from(f32::EPSILON)) * size;
@@ -115,7 +115,7 @@ pub fn check<T: Real>(solution: &Solution<T>) {
         other => panic!("{other:?} is not checked here"),
     }
     if report.status == Status::Converged && contact > 0 {
-        // the balance of forces, of which the residual is what the criterion leaves
+        // the balance of forces: the criterion leaves the residual
         let traction = gap.iter().map(|&g| solution.law().traction(g).widen()).sum::<f64>() / nodes;
         let size = mean(&pressure.mapv(|p| p.abs())).max(traction);
         let balance = report.mean_contact_pressure - traction - report.mean_pressure;

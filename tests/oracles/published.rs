@@ -14,7 +14,7 @@ use asperity_fft::double;
 use asperity_fft::num_complex::Complex;
 use ndarray::{Array2, Axis};
 
-/// The nodes along a side, of which the published runs have these.
+/// The nodes along a side in the published runs.
 pub const NODES: usize = 2048;
 /// The side of the cell; the contact modulus is 1.
 const SIDE: f64 = 2.0;
@@ -66,7 +66,7 @@ impl Run {
     /// half-space, as it prints it.
     ///
     /// # Errors
-    /// Those of the solve.
+    /// Errors of the solve.
     pub fn by_springs(&self, surface: &Surface) -> Result<[String; 4]> {
         let stiffness = 0.45 * SQRT_2 * PI * surface.grid().shape().0 as f64 / SIDE;
         let solution = self.solved(surface, Penalty::new(stiffness)?, 1e-9)?;
@@ -80,7 +80,7 @@ impl Run {
     /// The run with a hard wall.
     ///
     /// # Errors
-    /// Those of the solve.
+    /// Errors of the solve.
     pub fn by_a_hard_wall(&self, surface: &Surface) -> Result<Solution<f64>> {
         self.solved(surface, Projection, 1e-6)
     }
@@ -136,7 +136,7 @@ impl Rand {
         this
     }
 
-    /// r_i = r_(i−3) + r_(i−31), of which a draw has all but the last bit.
+    /// r_i = r_(i−3) + r_(i−31): a draw has all but the last bit.
     pub fn draw(&mut self) -> u32 {
         let i = self.next;
         self.last[i] = self.last[i].wrapping_add(self.last[(i + 28) % 31]);
@@ -149,7 +149,7 @@ impl Rand {
 /// the peaks are.
 ///
 /// # Errors
-/// Those of the surface.
+/// Errors of the surface.
 pub fn surface(nodes: usize) -> Result<Surface> {
     let mut random = Rand::new(4711);
     for _ in 0..100 {

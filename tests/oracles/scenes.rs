@@ -154,7 +154,7 @@ pub struct Law {
     pub range: f64,
     pub wall: bool,
     pub cut_off: Option<f64>,
-    /// the works of adhesion over that of the law
+    /// the works of adhesion over the work of adhesion of the law
     pub shares: Option<Array2<f64>>,
 }
 
@@ -172,7 +172,7 @@ impl Law {
         Self { shares: None, ..self.clone() }.boxed()
     }
 
-    /// The range of the law that has that of the grid, on nodes of this compliance.
+    /// The range of the law with a range set by the grid, on nodes of this compliance.
     fn range_on(&self, compliance: f64) -> f64 {
         let law: Arc<dyn AdhesionLaw<f64>> = Jkr::new(self.work).unwrap().on_nodes(compliance).unwrap();
         law.hints().range
@@ -408,7 +408,7 @@ impl Scene {
         }
     }
 
-    /// What a scene has that those of [`Features::ALL`] lack; of a wall that yields, that alone.
+    /// What a scene has and the scenes of [`Features::ALL`] lack; for a wall that yields, the wall alone.
     pub fn physics(&self) -> Vec<&'static str> {
         if self.constraint == Constraint::Hardness {
             return vec![if self.law.is_none() { "hardness" } else { "hardness with adhesion" }];
@@ -554,7 +554,7 @@ impl Scene {
         faces.iter().map(|h| h - mean).collect()
     }
 
-    /// What holds the displacement of a dense body: that of the gap and the [centred](Self::centred) heights.
+    /// What holds the displacement of a dense body: the gap and the [centred](Self::centred) heights.
     pub fn held(&self, dense: &Dense) -> Held {
         let (heights, (lx, ly)) = (self.centred(), self.grid.lengths());
         let top = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);

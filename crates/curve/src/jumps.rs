@@ -1,4 +1,4 @@
-//! The jumps of a curve: steps that stand out, and those of a fit.
+//! The jumps of a curve: steps that stand out, and jumps of a fit.
 
 use crate::curve::{Curve, Fit, Seen, Side, Sides};
 use crate::squares::Prediction;
@@ -51,7 +51,7 @@ impl Curve {
             return Sides::default();
         }
         let point = self.scales.point + self.scales.length * fit.parameters.point;
-        // the baseline is that of the fit
+        // the baseline of the fit
         let rest: Vec<f64> = self.force.iter().zip(&room.load).map(|(force, load)| force - load).collect();
         let mut cleared = rest.clone();
         self.clear(&mut cleared);

@@ -8,14 +8,14 @@ use crate::tip::Model;
 const FEW: usize = 150;
 /// Of so many fits along the Tabor parameter one has a beginning of its own.
 const NEIGHBOURS: usize = 8;
-/// The most rounds in which fits take their own jumps, and those of their neighbours.
+/// The most rounds in which fits take their own jumps, and jumps of their neighbours.
 const ROUNDS: usize = 4;
 /// The parts of a variance of the noise that the last step of a fit may change: on the way, and in the end.
 const ROUGH: f64 = 0.1;
 const FINE: f64 = 1e-2;
 /// Fits that are worse by so many variances of the noise are not likely, whatever their last digits.
 const FAR: f64 = 60.0;
-/// Squares over those of the best fit behind which its neighbours learn nothing from a fit.
+/// Squares over the squares of the best fit, behind which neighbours learn nothing from a fit.
 const WORSE: f64 = 4.0;
 /// The width of a likelihood over the logarithm of the Tabor parameter for which the rows are close enough.
 const WIDE: f64 = 1.0;
@@ -27,8 +27,7 @@ const AROUND: [f64; 4] = [0.75, 1.5, 2.25, 3.0];
 pub struct Asked<'a> {
     /// the models
     pub models: &'a [Model],
-    /// the models of the fits and their logarithms of the Tabor parameter, with those of one model beside each other, in
-    /// their order
+    /// the models of the fits and their logarithms of the Tabor parameter, by models, in order
     pub rows: Vec<(usize, f64)>,
     /// for each model whether its work of adhesion varies
     pub adheres: Vec<bool>,
@@ -43,7 +42,8 @@ pub struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// The best fits of a curve, in the order of the rows, with others at more Tabor parameters among those of the full model.
+    /// The best fits of a curve, in the order of the rows, with others at more Tabor parameters among the rows of the
+    /// full model.
     #[must_use]
     pub fn search(&self, curve: &Curve) -> Vec<Fit> {
         let mut room = Prediction::default();

@@ -173,7 +173,7 @@ impl Curve {
         (squares, normal, gradient)
     }
 
-    /// Goes to the parameters of least squares near to those of a fit, by the method of Levenberg and Marquardt.
+    /// Goes to the parameters of least squares near a fit, by the method of Levenberg and Marquardt.
     ///
     /// The last step changes the squares by less than a part of the variance of the noise.
     pub fn improve(&self, models: &[Model], fit: &mut Fit, part: f64, least: f64, room: &mut Prediction) {

@@ -19,7 +19,7 @@ impl Clusters {
         Self::of(nodes, 1)
     }
 
-    /// As many nodes, none of which is in a cluster.
+    /// As many nodes, none in a cluster.
     pub fn closed(nodes: usize) -> Self {
         Self::of(nodes, 0)
     }
@@ -54,7 +54,7 @@ impl Clusters {
         }
     }
 
-    /// Makes one cluster of those of two nodes, the second of which is so many cells from the first.
+    /// Joins the clusters of two nodes; the second node is so many cells from the first.
     pub fn join(&mut self, first: usize, second: usize, cells: [i32; 2]) -> Joined {
         let ((a, to_first), (b, to_second)) = (self.root(first), self.root(second));
         let between = difference(sum(to_first, cells), to_second);
@@ -71,7 +71,7 @@ impl Clusters {
 
 /// What a step between two nodes joins.
 pub(crate) enum Joined {
-    /// Two clusters: the root of one has become a child of that of the other.
+    /// Two clusters: one root has become a child of the other root.
     Clusters { root: usize, child: usize },
     /// A cluster with itself, to a loop that goes so many cells along x and along y.
     Loop { root: usize, cells: [i32; 2] },

@@ -20,8 +20,8 @@ const PRESSED: f64 = 1e-6;
 /// holds whatever the shape and the number of the spots: J. R. Barber, Proc. R. Soc. A 459, 53 (2003). A circular spot of
 /// radius a has dF/dδ = 2aE*, and R = (ρ₁ + ρ₂)/4a (Holm). The spots conduct perfectly, and the gap not at all.
 ///
-/// The stiffness has to be that of a problem on half-spaces without adhesion, with the gap of the solution: the slope
-/// of a law between the spots carries load, but no current.
+/// The stiffness has to belong to a problem on half-spaces without adhesion, with the gap of the solution: the slope of
+/// a law between the spots carries load, but no current.
 ///
 /// ```
 /// use asperity::stability::ContactStiffness;
@@ -40,11 +40,11 @@ const PRESSED: f64 = 1e-6;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conductance {
-    /// The conductance per area of the map, that of a length over a resistivity and an area.
+    /// The conductance per area of the map, in units of a length over a resistivity and an area.
     pub per_area: f64,
     /// The conductance 1/R of the whole map.
     pub whole: f64,
-    /// The relative error of the stiffness: that of its solve and, where it is known, the estimated one of the grid.
+    /// The relative error of the stiffness: the error of its solve and, where known, the estimated error of the grid.
     pub relative_error: f64,
 }
 
@@ -65,7 +65,7 @@ impl Conductance {
         Self::checked((pressure_per_length, stiffness.force_per_length, error), modulus, resistivities)
     }
 
-    /// That of a stiffness per area, of the whole, and of its relative error.
+    /// The conductance by a stiffness per area, by the stiffness of the whole, and by its relative error.
     fn checked(
         (per_area, whole, relative_error): (f64, f64, f64),
         modulus: f64,
@@ -78,8 +78,8 @@ impl Conductance {
         Ok(Self { per_area: per_stiffness * per_area, whole: per_stiffness * whole, relative_error })
     }
 
-    /// The conductance of spots of contact on a grid, in a periodic cell or between free half-spaces: with a law too, which
-    /// leaves the spots what they are. The error is that of the solves alone.
+    /// The conductance of spots of contact on a grid, in a periodic cell or between free half-spaces: with a law too,
+    /// which leaves the spots what they are. The error contains the solves alone.
     ///
     /// ```
     /// use asperity::Grid;
@@ -92,7 +92,7 @@ impl Conductance {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::of`], and [`Error::Shape`] if the contact is not on the grid.
+    /// As [`Self::of`], and [`Error::Shape`] if the contact is not on the grid.
     pub fn of_spots(
         contact: ArrayView2<'_, bool>,
         grid: Grid,

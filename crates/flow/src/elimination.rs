@@ -11,8 +11,8 @@ use crate::network::Network;
 /// as sparse as the matrix, and its quality hardly depends on the contrast: R. Kyng, S. Sachdeva, FOCS 2016, 573; Y.
 /// Gao, R. Kyng, D. A. Spielman, arXiv:2303.00709 (2023).
 ///
-/// The vertices go in rounds. In each go some of which none is a neighbour of another one, of no more neighbours than
-/// the mean, and the others are numbered anew: neighbours stay near each other in memory.
+/// The vertices go in rounds. Each round takes vertices that are no neighbours of one another and have no more
+/// neighbours than the mean, and numbers the others anew: neighbours stay near each other in memory.
 pub(crate) struct Elimination {
     /// The vertices in the order of their elimination.
     order: Vec<u32>,
@@ -162,8 +162,8 @@ struct Graph {
 }
 
 impl Graph {
-    /// The graph of edges; several between the same vertices become one. The number of the ground is that of the
-    /// vertices.
+    /// The graph of edges; several between the same vertices become one. The ground has the number behind the last
+    /// vertex.
     fn new(names: Vec<u32>, edges: impl Iterator<Item = (u32, u32, f64)> + Clone) -> Self {
         let n = names.len();
         let (mut starts, mut ground) = (vec![0_usize; n + 2], vec![0.0; n]);

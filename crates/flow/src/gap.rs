@@ -41,8 +41,8 @@ const OVERLAP: f64 = 1e-6;
 
 /// The gap between two surfaces, at the nodes of a grid: where it is positive it is open, elsewhere it is closed.
 ///
-/// A node is a cell of the size of the spacing, with the gap at its middle. In a periodic gap opposite sides meet, and
-/// otherwise they are the sides from one to the other of which a fluid flows.
+/// A node is a cell of the size of the spacing, with the gap at its middle. In a periodic gap opposite sides meet;
+/// otherwise a fluid flows from one side to the opposite side.
 ///
 /// ```
 /// use asperity::Grid;
@@ -68,7 +68,7 @@ impl<'a> Gap<'a> {
     /// A periodic gap. Nodes without a surface, where `values` are not finite, are closed.
     ///
     /// # Errors
-    /// Those of [`of_solution`](Self::of_solution); [`Error::Value`] if a value is below -1e-6 of the greatest, as heights
+    /// As [`of_solution`](Self::of_solution); [`Error::Value`] if a value is below -1e-6 of the greatest, as heights
     /// are.
     pub fn new(values: impl Into<ArrayView2<'a, f64>>, grid: Grid) -> Result<Self> {
         let values = values.into();
@@ -101,7 +101,7 @@ impl<'a> Gap<'a> {
         Ok(Self { values: rows(values), grid, periodic: true, absent: 0.0 })
     }
 
-    /// The gap on a part of a surface, whose opposite sides do not meet.
+    /// The gap on a part of a surface: opposite sides do not meet.
     #[must_use]
     pub fn free(mut self) -> Self {
         self.periodic = false;

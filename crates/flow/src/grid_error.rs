@@ -12,10 +12,10 @@ const COARSE: f64 = 1e-4;
 /// corners it is 0.72.
 const SLOWEST: f64 = 0.7;
 
-/// The factor on what is left of the differences, whose fall may slow down.
+/// The factor on what is left of the differences: their fall may slow down.
 const SAFETY: f64 = 1.5;
 
-/// Keeps the differences of the transmissivities along both axes, relative to those of the finer grid, that are larger.
+/// Keeps the differences of the transmissivities along both axes, relative to the finer grid, that are larger.
 fn keep_largest(differences: &mut [f64; 2], fine: &Leak, coarse: &Leak) {
     for (axis, difference) in Axis::BOTH.into_iter().zip(differences) {
         let [fine, coarse] = [fine, coarse].map(|leak| leak.along(axis).transmissivity.upper);
@@ -50,7 +50,7 @@ impl Leakage {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::through`].
+    /// As [`Self::through`].
     pub fn grid_error(&self, gap: &Gap<'_>, leak: &Leak) -> Result<[Option<f64>; 2]> {
         self.grid_error_while(gap, leak, &|| true)
     }
@@ -58,7 +58,7 @@ impl Leakage {
     /// The same, by [`Self::through_while`].
     ///
     /// # Errors
-    /// Those of [`Self::through`].
+    /// As [`Self::through`].
     pub fn grid_error_while(
         &self,
         gap: &Gap<'_>,
@@ -70,7 +70,7 @@ impl Leakage {
             return Ok([None; 2]);
         }
         let settings = self.tolerance(self.tolerance.max(COARSE));
-        // the differences from a grid to those of half and of a quarter of the nodes, the larger ones
+        // the differences from a grid to grids of half and of a quarter of the nodes, the larger ones
         let (mut halves, mut quarters) = ([0.0; 2], [0.0; 2]);
         for first in 0..2 {
             let half_gap = gap.every_second(first)?;

@@ -32,13 +32,13 @@ const CLOSED: f64 = 64.0;
 /// Δy/Δx for neighbours along x. The transmissivity of this network is enclosed. *Any* pressure p that falls by one has
 /// Σ c (Δp)² ≥ 12 T (Dirichlet's principle), and *any* flow f that is conserved at each node, F over all, has
 /// F²/Σ(f²/c) ≤ 12 T (Thomson's principle). The pressure comes from conjugate gradients, preconditioned by an approximate
-/// elimination; the flow is that of the pressure, in integers, with what is not conserved sent along a tree of the largest
-/// conductances, so that conservation is exact. Both bounds are widened by the rounding of their sums. A gap through which
-/// nothing percolates has a transmissivity of zero, both bounds.
+/// elimination; the pressure drives the flow, in integers, with what is not conserved sent along a tree of the largest
+/// conductances, so that conservation is exact. Both bounds are widened by the rounding of their sums. Where nothing
+/// percolates, both bounds are zero.
 ///
-/// The least upper bound and the greatest lower one are kept. Among them are those of a pressure that is uniform across the
-/// axis, the harmonic mean along it of the arithmetic means of g³ across it, and of a flow along straight lines, the
-/// arithmetic mean across the axis of the harmonic means along it: a gap of stripes needs no iteration.
+/// The least upper bound and the greatest lower bound are kept. A pressure that is uniform across the axis gives the
+/// harmonic mean along the axis of the arithmetic means of g³ across it; a flow along straight lines gives the
+/// arithmetic mean across the axis of the harmonic means along it. So a gap of stripes needs no iteration.
 ///
 /// The distance of the bounds does not tell what the grid itself leaves out: compare two grids for that.
 ///
@@ -107,7 +107,7 @@ pub struct Flow {
     pub reached: bool,
     /// The iterations of conjugate gradients.
     pub iterations: usize,
-    /// The number of nodes through which the fluid may flow, those of dead ends among them.
+    /// The number of nodes through which the fluid may flow, dead ends among them.
     pub nodes: usize,
 }
 
@@ -147,9 +147,8 @@ impl Leakage {
         self
     }
 
-    /// The memory that the flow through a gap takes at most, in bytes: 290 for each open node, or twice as many of a
-    /// free gap, whose axes have a network each, and 64 for each closed one. The results are among them, and the gap is
-    /// not.
+    /// The memory that the flow through a gap takes at most, in bytes: 290 for each open node, or twice as many for a
+    /// free gap with a network for each axis, and 64 for each closed node. The results are included, the gap is not.
     pub fn memory(gap: &Gap<'_>) -> f64 {
         let open = if gap.is_periodic() { OPEN } else { 2.0 * OPEN };
         (0..gap.grid().nodes()).map(|node| if gap.at(node) > 0.0 { open } else { CLOSED }).sum()
@@ -168,7 +167,7 @@ impl Leakage {
     /// close as the tolerance.
     ///
     /// # Errors
-    /// Those of [`Self::through`].
+    /// As [`Self::through`].
     pub fn through_while(&self, gap: &Gap<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> Result<Leak> {
         self.check()?;
         let ((nx, ny), bytes) = (gap.grid().shape(), Self::memory(gap));
@@ -192,7 +191,7 @@ impl Leakage {
     /// The flow through a gap along an axis, with its percolation.
     ///
     /// # Errors
-    /// Those of [`Self::through`].
+    /// As [`Self::through`].
     pub fn along(&self, gap: &Gap<'_>, percolation: &Percolation, axis: Axis) -> Result<Flow> {
         self.along_while(gap, percolation, axis, &|| true)
     }
@@ -303,7 +302,7 @@ impl Enclosed {
             iterations: 0,
         };
         for mut start in [tree.still(network, axis), network.layered(gap, axis)] {
-            // the pressure of the ground, behind those of the rims, is zero
+            // the pressure of the ground, behind the rims, is zero
             start.truncate(n + 1);
             best.keep_pressure(network, &start, axis);
         }

@@ -45,9 +45,9 @@ pub(crate) struct Way {
 /// the held pressure falls by one over the cell; both axes have the same network. In a free one those at the first side
 /// have e = −1, and lead to the *ground*, which is both sides at once. The flow along the axis is Σ f e.
 ///
-/// The hubs are the nodes of one colour of a checkerboard, and the rims those of the other one. The pressure of a hub
-/// at which the flow is conserved is the mean of those of its rims, by their conductances: the pressures of the rims
-/// suffice. Where two rims are neighbours, the face between them is a hub, with twice the conductance to either.
+/// The hubs are the nodes of one colour of a checkerboard, and the rims the nodes of the other. Flow is conserved at a
+/// hub with the mean pressure of its rims, weighted by conductances: the pressures of the rims suffice. Where two rims
+/// are neighbours, the face between them is a hub, with twice the conductance to either.
 ///
 /// The vertices are the rims, the ground and the hubs, one after the other.
 pub(crate) struct Network {
@@ -215,7 +215,7 @@ impl Network {
         }
     }
 
-    /// An upper bound of the conductance: that of any pressure, by Dirichlet's principle, Σ c (Δp)².
+    /// An upper bound of the conductance by any pressure, Σ c (Δp)², by Dirichlet's principle.
     pub fn upper(&self, pressure: &[f64], axis: Axis) -> f64 {
         let mut power = Total::default();
         self.fall(pressure, axis, |k, edge, fall| {
@@ -230,8 +230,8 @@ impl Network {
         power.get() * (1.0 + ROUNDING)
     }
 
-    /// A lower bound of the conductance: that of any flow that is conserved, by Thomson's principle, F²/Σ(f²/c) with the
-    /// flow F along the axis. The flow is in integers, so that what is conserved is conserved to the last unit.
+    /// A lower bound of the conductance by any conserved flow, F²/Σ(f²/c) with the flow F along the axis, by Thomson's
+    /// principle. The flow is in integers, conserved to the last unit.
     pub fn lower(&self, flow: &[i64], axis: Axis) -> f64 {
         let ways = self.ways.iter().zip(flow);
         let along: i128 = ways.map(|(way, flow)| i128::from(way.held[axis as usize]) * i128::from(*flow)).sum();

@@ -22,11 +22,11 @@ pub struct Constriction {
 
 /// Along which axes a gap lets something through.
 ///
-/// Neighbours are nodes whose cells share a side, as in the network of the [leakage](crate::Leakage). A free gap
-/// percolates along an axis if open nodes connect both sides; a periodic one if a cluster of open nodes *winds* around the
-/// cell along this axis, alone or along the other one as well: M. E. J. Newman, R. M. Ziff, Phys. Rev. E 64, 016706
-/// (2001). The contact of self-affine surfaces closes the last channel at a contact fraction of some 0.42: B. N. J. Persson,
-/// C. Yang, J. Phys.: Condens. Matter 20, 315011 (2008); W. B. Dapp et al., Phys. Rev. Lett. 108, 244301 (2012).
+/// Neighbours share a side of their cells, as in the network of the [leakage](crate::Leakage). A free gap percolates
+/// along an axis if open nodes connect both sides; a periodic gap if a cluster of open nodes *winds* around the cell
+/// along this axis, alone or along the other axis as well: M. E. J. Newman, R. M. Ziff, Phys. Rev. E 64, 016706 (2001).
+/// The contact of self-affine surfaces closes the last channel at a contact fraction of some 0.42: B. N. J. Persson, C.
+/// Yang, J. Phys.: Condens. Matter 20, 315011 (2008); W. B. Dapp et al., Phys. Rev. Lett. 108, 244301 (2012).
 ///
 /// Memory per node: 33 bytes, besides the gap.
 #[derive(Clone, Debug)]

@@ -64,8 +64,8 @@ impl Tree {
         pressure
     }
 
-    /// The flow that a pressure drives, in integers, and conserved; the second is the flow of a unit. None if the numbers
-    /// leave the range of integers, as of a pressure that has nothing of the solution.
+    /// The flow that a pressure drives, in integers, and conserved; the second is the flow of a unit. None if the
+    /// numbers leave the range of integers, for a pressure far from the solution.
     pub fn conserved(&self, network: &Network, pressure: &[f64], axis: Axis) -> Option<(Vec<i64>, f64)> {
         let mut driven = Vec::with_capacity(network.edges.len());
         network.fall(pressure, axis, |_, edge, fall| driven.push(edge.conductance * fall));

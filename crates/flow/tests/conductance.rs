@@ -1,4 +1,4 @@
-//! Conductance against that of a circle and of an ellipse.
+//! Conductance against the formulas of a circle and of an ellipse.
 
 use approx::assert_relative_eq;
 use asperity::stability::ContactStiffness;
@@ -8,7 +8,7 @@ use ndarray::Array2;
 
 const MODULUS: f64 = 3.0;
 
-/// Holm's conductance of one spot that a flat punch makes, whose outline is where `inside` is below 1.
+/// Holm's conductance of the spot of a flat punch, where `inside` is below 1.
 fn of_punch(n: usize, inside: impl Fn(f64, f64) -> f64) -> (Conductance, ContactStiffness) {
     let grid = Grid::square(n, 1.0).unwrap();
     // so far below that it stays apart
@@ -21,7 +21,7 @@ fn of_punch(n: usize, inside: impl Fn(f64, f64) -> f64) -> (Conductance, Contact
 
 #[test]
 fn a_circle_conducts_as_holm_says_and_an_ellipse_by_its_integral() {
-    // the outline is known to a part of a node: a radius of that of the area
+    // the outline is known to a part of a node: a radius by the area
     let n = 128;
     let area = |a: f64, b: f64| {
         let inside = |k: usize, c: f64| (k as f64 - (n / 2) as f64) / n as f64 / c;

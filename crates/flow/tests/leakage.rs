@@ -105,7 +105,7 @@ fn a_checkerboard_tends_to_the_geometric_mean() {
 fn dense(values: &Array2<f64>, (lx, ly): (f64, f64), periodic: bool, axis: Axis) -> f64 {
     let ((nx, ny), sides) = (values.dim(), [lx / values.dim().0 as f64, ly / values.dim().1 as f64]);
     let (n, number) = (nx * ny, |i: usize, j: usize| i * ny + j);
-    // from, to (none at a side), conductance, pressure that falls besides that of the nodes
+    // from, to (none at a side), conductance, pressure that falls besides the pressure of the nodes
     let mut edges: Vec<(usize, Option<usize>, f64, f64)> = Vec::new();
     for (i, j) in (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j))) {
         for way in Axis::BOTH {
@@ -173,7 +173,7 @@ fn bounds_enclose_dense_solutions_and_close() {
                 let flow = Leakage::default().tolerance(tolerance).along(&gap, &gap.percolation(), axis).unwrap();
                 let bounds = flow.transmissivity;
                 assert!(flow.reached && bounds.width() <= tolerance, "{case}: {bounds:?}");
-                // the rounding of the dense solution, whose power is right to its second order
+                // the rounding of the dense solution: its power is right to second order
                 let slack = 1e-13 * exact;
                 assert!(bounds.lower <= exact + slack && exact - slack <= bounds.upper, "{case}: {exact} {bounds:?}");
                 assert_eq!(bounds.upper > 0.0, gap.percolation().along(axis).is_some());
@@ -443,7 +443,7 @@ fn a_gap_of_2048_squared_nodes_near_percolation_is_enclosed() {
         let (flow, constriction) = (leak.along(axis), leak.percolation.along(axis).unwrap());
         println!("{axis:?} {:?} {} iterations", flow.transmissivity, flow.iterations);
         assert!(flow.reached && flow.transmissivity.lower > 0.0);
-        // far below that of the widest gap everywhere
+        // far below the transmissivity of the widest gap everywhere
         let widest = values.iter().copied().fold(0.0, f64::max);
         assert!(flow.transmissivity.upper < widest.powi(3) / 12.0 && constriction.gap < 0.1 * widest);
     }
@@ -461,7 +461,7 @@ fn a_leakage_that_does_not_go_on_has_bounds_that_hold() {
         let [(own, reached), (ended, early)] =
             [&whole, &cut].map(|leak| (leak.along(axis).transmissivity, leak.along(axis).reached));
         assert!(reached && !early && ended.lower < own.lower && own.upper < ended.upper, "{own:?} {ended:?}");
-        // the first looks are those of the preparation
+        // the preparation has the first looks
         assert_eq!(cut.along(axis).iterations, 0);
     }
 }

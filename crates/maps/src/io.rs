@@ -97,14 +97,14 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 ///   - Missing points are words, as nan, `1.#QNAN`, `#N/A`, NA, Bad or null, or nothing between separators.
 ///   - `#`, `%`, `!` and `//` start a comment at the start of a line or behind a blank, `;` at the start of a line.
 ///   - Comments and headings of the form `name: number unit` or `name = number unit` tell sizes, pixels and units, as
-///     those of Gwyddion in any language, SPIP, Attocube, Nova, Keyence and ESRI. The lines are those of an image then.
-///     A comment such as `heights in nm` tells the unit of the map.
-///     What may tell a size and is not understood is in [`Topography::unread`].
-///   - Blocks of numbers with blank lines or headings between are channels, of which a [`Reading`] takes one.
+///     texts of Gwyddion in any language, SPIP, Attocube, Nova, Keyence and ESRI do. The lines are lines of an image
+///     then. A comment such as `heights in nm` tells the unit of the map. What may tell a size and is not understood is
+///     in [`Topography::unread`].
+///   - Blocks of numbers with blank lines or headings between are channels; a [`Reading`] takes one.
 ///   - Three columns x, y and z of a whole grid are points, as in `.xyz`. A line with the names of the columns gives
-///     their order, and may name others. Without names, coordinates in other columns are refused, as are lines of which
+///     their order, and may name others. Without names, coordinates in other columns are refused, as are lines where
 ///     each comma may be within a number.
-/// - text of which the name ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
+/// - text with a name that ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
 ///   order. Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its
 ///   spacing. A heading may tell units, as `X[um] Y[um] Z[nm]`, or a line below it. Nx and Ny follow from the spacings,
 ///   and the side lengths are Nx Δx and Ny Δy.
@@ -163,7 +163,7 @@ pub fn channels(name: &str, bytes: &[u8]) -> Result<Vec<Channel>> {
 /// Reads the rows of a height map that `rows` chooses by its shape (Nx, Ny), and tells that shape; otherwise as
 /// [`read_topography`]. Of a `.npy` in row-major order no more is read than these rows.
 ///
-/// For a grid that several processes share, of which each holds the rows [`Grid::rows`](asperity::Grid::rows).
+/// For a grid that several processes share: each holds the rows [`Grid::rows`](asperity::Grid::rows).
 ///
 /// ```
 /// use asperity_maps::io::{read_rows, write_npy};
@@ -280,7 +280,7 @@ enum Format {
     },
 }
 
-/// The format of a file that starts so, and whose name has an ending; refused if it is known and not read.
+/// The format of a file with a start and an ending of its name; refused if it is known and not read.
 fn format_of(start: &[u8], ending: &str) -> Parsed<Format> {
     Ok(match () {
         () if start.starts_with(GWY) => Format::Gwy,
@@ -296,7 +296,7 @@ fn format_of(start: &[u8], ending: &str) -> Parsed<Format> {
     })
 }
 
-/// Reads a map of `size` bytes from a file whose name has an ending.
+/// Reads a map of `size` bytes from a file; `ending` belongs to its name.
 fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, reading: &Reading) -> Parsed<Topography> {
     let format = format_of(reader.fill_buf().map_err(unreadable)?, ending)?;
     let is_text = matches!(format, Format::Text { .. } | Format::Points);
@@ -324,7 +324,7 @@ fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, reading: 
             .and_then(|text| text.map(reading))
             .map_err(|refusal| binary.map_or(refusal, Refusal::Reason)),
     }?;
-    // units that are not those of the file may have made them so
+    // other units than the file's may have made them so
     if let Some((lx, ly)) = map.lengths.filter(|(lx, ly)| !(is_side(*lx) && is_side(*ly))) {
         return refuse(format!(
             "has side lengths of {lx} and {ly}, expected positive numbers: save it again with them"

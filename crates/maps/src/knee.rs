@@ -11,12 +11,12 @@ const CLASSES: f64 = 8.0;
 const LAST: usize = 4;
 /// The least number of independent waves in these: of fewer the slope of the spectrum there is not known to 0.25.
 const LEAST_WAVES: f64 = 1600.0;
-/// The slopes of the logarithm of the density up to which a profile and a surface are flat: half of those of
-/// self-affine ones, −1 − 2H and −2 − 2H, at a Hurst exponent H of 0.
+/// The slopes of the logarithm of the density up to which a profile and a surface are flat: half of the self-affine
+/// slopes, −1 − 2H and −2 − 2H, at a Hurst exponent H of 0.
 const FLAT: [f64; 2] = [0.5, 1.0];
-/// The least rms of the noise over that of the heights: rounding to `f32` makes some 1e-7.
+/// The least rms of the noise over the rms height: rounding to `f32` makes some 1e-7.
 const LEAST: f64 = 1e-6;
-/// The density at the knee over that of the floor, where noise and surface have one density.
+/// The density at the knee over the density of the floor, where noise and surface have one density.
 const ABOVE: f64 = 2.0;
 /// The least excess of a density over the floor, in standard deviations of a mean over so many waves of noise.
 const SURE: f64 = 5.0;
@@ -36,9 +36,9 @@ struct Class {
 /// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
 /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid falls
 /// with less than the wave number, or its square root of a profile, half of what it does for a self-affine surface
-/// of a Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. The knee is where the
-/// surface has the density of the floor, and the spectrum that of twice the floor. Waves that are shorter tell of
-/// the noise: [`Topography::low_pass`](crate::Topography::low_pass) leaves them out.
+/// of a Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. At the knee the surface
+/// has the density of the floor, and the spectrum twice this density. Waves that are shorter tell of the noise:
+/// [`Topography::low_pass`](crate::Topography::low_pass) leaves them out.
 ///
 /// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as
 /// on 90 × 90 nodes or a profile of 10 000, are too few to tell.
@@ -116,7 +116,8 @@ fn classes(psd: &Psd, end: f64) -> Vec<Class> {
     classes
 }
 
-/// The slope of the logarithm of the density over that of the wave number, by least squares, each class by its waves.
+/// The slope of the logarithm of the density over the logarithm of the wave number, by least squares, each class by its
+/// waves.
 fn slope(classes: &[Class]) -> f64 {
     let filled = || classes.iter().filter(|class| class.waves > 0.0);
     let mean = |of: &dyn Fn(&Class) -> f64| {
@@ -163,7 +164,7 @@ mod tests {
             assert_eq!(knee_wavelength(&clean), None, "{n} {hurst}");
             let noisy = clean.heights() + noise * white(grid.shape());
             let found = knee_wavelength(&Surface::new(grid, noisy).unwrap()).unwrap();
-            // the density of the surface falls through that of the noise, σ² Δx Δy/4π²
+            // the density of the surface falls through the density of the noise, σ² Δx Δy/4π²
             let floor = (noise * grid.spacing().0 / TAU).powi(2);
             let psd = clean.spectrum().radial_psd();
             let last = psd.densities.iter().rposition(|density| *density > floor).unwrap();
@@ -175,7 +176,7 @@ mod tests {
     #[test]
     fn without_a_floor_there_is_no_knee() {
         let grid = Grid::square(256, 1.0).unwrap();
-        // a surface that ends at some wave, whose rounding is flat; in f32 too; and noise alone, or on few nodes
+        // a surface that ends at some wave, with flat rounding; in f32 too; and noise alone, or on few nodes
         let ends = SelfAffine::default().k_s(40.0).surface(grid).unwrap();
         let single = ends.heights().mapv(|height| f64::from(height as f32));
         let knee = |grid: Grid, heights: Array2<f64>| knee_wavelength(&Surface::new(grid, heights).unwrap());

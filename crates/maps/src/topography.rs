@@ -98,7 +98,8 @@ impl Topography {
     }
 
     /// The root mean square slope between neighbours that are not missing, if the side lengths are known: along the
-    /// sides that have such neighbours, and NaN if neither has. [`Surface::statistics`] has that of a periodic surface.
+    /// sides that have such neighbours, and NaN if neither has. [`Surface::statistics`] has the slope of a periodic
+    /// surface.
     ///
     /// ```
     /// # use asperity_maps::Topography;
@@ -159,11 +160,11 @@ impl Topography {
     /// w(x) = ½(1 − cos(πd/(fL))) for d < fL, 1 elsewhere
     /// ```
     ///
-    /// with d the distance from the nearer edge of the side L, half a spacing more than that of the outermost node,
-    /// and `fraction` f the share of the side that is tapered at each of its two ends (Tukey's window). In the middle,
-    /// heights are only shifted by a common constant; in the tapered strips they shrink towards the mean, and with
-    /// them the rms height of the whole, by √⟨w²⟩ where heights do not know of the window. Remove a tilt first. On a
-    /// line only x is tapered.
+    /// with d the distance from the nearer edge of the side L, half a spacing beyond the outermost node, and `fraction`
+    /// f the share of the side that is tapered at each of its two ends (Tukey's window). In the middle, heights are
+    /// only shifted by a common constant; in the tapered strips they shrink towards the mean, and with them the rms
+    /// height of the whole, by √⟨w²⟩ where heights do not know of the window. Remove a tilt first. On a line only x is
+    /// tapered.
     ///
     /// The window is made for spectra. In contact, the frame is a flat piece at the mean height that the surface does
     /// not have: it touches under loads that bring the mean height close, or where long waves are deep. Look at the
@@ -210,7 +211,7 @@ impl Topography {
         let (mx, my) = heights.dim();
         self.lengths = self.lengths.map(|(lx, ly)| (lx * (mx / nx) as f64, ly * (my / ny) as f64));
         self.heights = heights;
-        // an original of which the map is not whole images any more, as after resampling, is forgotten
+        // an original is forgotten where the map is not whole images of it, as after resampling
         self.original = self.original.filter(|&(x, y)| nx % x == 0 && ny % y == 0).or(Some((nx, ny)));
         self
     }

@@ -188,8 +188,8 @@ impl Warning {
     }
 
     /// The probable mistakes in a measured map that is still to be prepared: [`MissingCode`](WarningCode::MissingCode),
-    /// and, where no such code is there, those of a surface: with known side lengths [`Steep`](WarningCode::Steep), which
-    /// here is an rms slope above 100, and [`Smooth`](WarningCode::Smooth), and without missing points
+    /// and, where no such code is there, mistakes in a surface: with known side lengths [`Steep`](WarningCode::Steep),
+    /// which here is an rms slope above 100, and [`Smooth`](WarningCode::Smooth), and without missing points
     /// [`Tilt`](WarningCode::Tilt), [`OpenEdges`](WarningCode::OpenEdges), [`Spikes`](WarningCode::Spikes) and
     /// [`LineOffsets`](WarningCode::LineOffsets). Before these, numbers that are no heights, as
     /// [`of_surface`](Self::of_surface) finds them.
@@ -251,8 +251,8 @@ impl Warning {
         found
     }
 
-    /// A solution on a mirrored map whose contact is not that of its mirror images, [`Images`](WarningCode::Images):
-    /// its `original` does not stand for the whole.
+    /// A solution on a mirrored map with another contact than its mirror images, [`Images`](WarningCode::Images): its
+    /// `original` does not stand for the whole.
     ///
     /// ```
     /// use asperity::contact::Original;

@@ -411,7 +411,7 @@ fn rolled(hurst: f64, lay: usize, seed: u64) -> Topography {
     if lay == 1 { map } else { map.resample((128, 128)).unwrap() }
 }
 
-/// A map less its values, with those of a function of the node added, in rms steps along y.
+/// A map less its values, plus a function of the node, in rms steps along y.
 fn with(map: &Topography, added: impl Fn(usize, usize) -> f64) -> Topography {
     let mut map = map.clone();
     let steps: f64 = map

@@ -12,7 +12,7 @@ use asperity::Result;
 ///
 /// The axes reach over all points that are finite, and on a logarithmic one positive; other points break a curve. Where
 /// no coloured curve has more than thirty points, each point of them has a dot. A curve without points is an entry of
-/// the legend alone. Units are written as those of a [`Map`](super::Map).
+/// the legend alone. Units are written as in a [`Map`](super::Map).
 ///
 /// ```
 /// use asperity_plot::{Chart, DPI};
@@ -50,9 +50,9 @@ pub struct Chart<'a> {
 /// The style of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style {
-    /// The number of its colour, of which there are eight in turn; black if there is none.
+    /// The number of its colour, eight in turn; black if there is none.
     pub colour: Option<usize>,
-    /// The number of its dashes, of which there are four in turn; 0 is a solid line.
+    /// The number of its dashes, four in turn; 0 is a solid line.
     pub dashes: usize,
 }
 
@@ -114,7 +114,7 @@ impl Chart<'_> {
     /// As [`draw`](Self::draw), with the whole picture so wide, in points. The text has the same size at any width.
     ///
     /// # Errors
-    /// As of [`draw`](Self::draw).
+    /// As [`draw`](Self::draw).
     pub fn draw_across(&self, dpi: f64, width: f64) -> Result<Picture> {
         self.draw_plot(dpi, (0.5 * width).max(LEAST), |left| (width - left - 3.0 * MARGIN).max(LEAST))
     }

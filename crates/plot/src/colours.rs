@@ -43,9 +43,9 @@ pub enum Colouring {
     ///
     /// On a map drawn with fewer pixels than nodes, the colours are mixed by the share of each.
     Contact,
-    /// Clusters of contact, by the labels of [`Clusters`](asperity::contact::Clusters): nine colours in turn, those of
-    /// the largest clusters first, white where the label is 0, and grey where it is not finite. Pixels are mixed as
-    /// those of contact.
+    /// Clusters of contact, by the labels of [`Clusters`](asperity::contact::Clusters): nine colours in turn, the
+    /// largest clusters first, white where the label is 0, and grey where it is not finite. Pixels are mixed as for
+    /// contact.
     Clusters,
 }
 
@@ -55,8 +55,8 @@ impl Colouring {
         matches!(self, Self::Contact | Self::Clusters)
     }
 
-    /// The colours of a scale in 256 steps, from the least value to the greatest; of contact those of nodes apart, in
-    /// contact, attractive and yielded; of clusters those of the labels from 0 to 9.
+    /// The colours of a scale in 256 steps, from the least value to the greatest; of contact the colours of nodes
+    /// apart, in contact, attractive and yielded; of clusters the labels from 0 to 9.
     ///
     /// ```
     /// use asperity_plot::Colouring;
@@ -120,7 +120,7 @@ impl Colours {
             (Colouring::Sequential, None) => widened(low, high),
             (Colouring::Diverging, limits) => {
                 let noise = NOISE * high.max(-low);
-                // each end is that of its sign
+                // each end has its own sign
                 let scale = |sign, largest, end: Option<f64>| match largest > noise.max(TINY) {
                     true => LoadScale::of_sign(&values, sign, end),
                     false => LoadScale { end: end.unwrap_or(0.0), ..LoadScale::default() },
@@ -171,7 +171,7 @@ impl Colours {
         [colour.r, colour.g, colour.b]
     }
 
-    /// The colour of a block of nodes: that of the mean of their values, or for classes the mean of their colours.
+    /// The colour of a block of nodes, by the mean of their values, or for classes the mean of their colours.
     pub(super) fn of_block(&self, values: impl Iterator<Item = f64> + Clone) -> Colour {
         let count = values.clone().count() as f64;
         if !self.colouring.is_of_classes() {
@@ -300,7 +300,7 @@ mod tests {
 
     #[test]
     fn smooth_contacts_are_shown_to_their_greatest_pressure() {
-        // Hertz: p = √(1 − r²); and the pressures of a rough contact, of which the density is p exp(−p²/2)
+        // Hertz: p = √(1 − r²); and the pressures of a rough contact, with the density p exp(−p²/2)
         let hertz = Array2::from_shape_fn((200, 200), |(i, j)| {
             f64::max(1.0 - 1.5e-4 * ((i as f64 - 99.5).powi(2) + (j as f64 - 99.5).powi(2)), 0.0).sqrt()
         });

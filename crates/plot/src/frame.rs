@@ -110,8 +110,8 @@ impl Texts<'_> {
     }
 }
 
-/// The dashes of the pieces of a curve, whose lengths alternate with those of the spaces between them; the pieces
-/// themselves if there are no lengths.
+/// The dashes of the pieces of a curve: lengths of dashes and of spaces alternate; the pieces themselves if there are
+/// no lengths.
 pub(super) fn dashed(pieces: Vec<Vec<(f64, f64)>>, lengths: &[f64]) -> Vec<Vec<(f64, f64)>> {
     if lengths.is_empty() {
         return pieces;

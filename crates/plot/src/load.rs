@@ -9,7 +9,7 @@ const QUARTILES: f64 = 4.0;
 /// The greatest pressure, in ends of the scale, up to which the scale continues to it.
 const SLACK: f64 = 4.0 / 3.0;
 
-/// The most values of which the quartile is taken: a million tell enough of the distribution.
+/// The most values that enter the quartile: a million tell enough of the distribution.
 const MOST: usize = 1_000_000;
 
 /// The scale of the pressures of one sign, which are tensions where they are negative: where it ends, and the share of
@@ -40,8 +40,7 @@ pub struct LoadScale {
 }
 
 impl LoadScale {
-    /// The scale of those of the values that are positive and finite, to an `end` that is given, or by the lower
-    /// quartile of the load.
+    /// The scale of the positive and finite values, to a given `end`, or by the lower quartile of the load.
     pub fn of<'a>(values: impl IntoIterator<Item = &'a f64, IntoIter: Clone>, end: Option<f64>) -> Self {
         Self::of_sign(values, 1.0, end)
     }

@@ -68,8 +68,8 @@ pub struct Map<'a> {
     pub label: &'a str,
     /// The unit of the values.
     pub unit: Option<&'a str>,
-    /// The values at the ends of the colour bar, as for maps that are to be compared; those of the field if `None`.
-    /// With [`Colouring::Diverging`] each is that of its sign.
+    /// The values at the ends of the colour bar, as for maps that are to be compared; the values of the field if
+    /// `None`. With [`Colouring::Diverging`] each end has its own sign.
     pub limits: Option<(f64, f64)>,
     /// The names of negative and of positive values, such as "tension" and "compression", at colour bars of their own;
     /// the label stands at both if they are empty.
@@ -159,7 +159,7 @@ impl<'a> Map<'a> {
         Ok((picture, plot))
     }
 
-    /// The colours with their values: of contact those of the legend, of clusters all, else evenly along each colour bar.
+    /// The colours with their values: of contact as in the legend, of clusters all, else evenly along each colour bar.
     fn key(&self, colours: &Colours) -> Vec<(Colour, String)> {
         let classes = self.legend().into_iter().map(|entry| (entry.colour, entry.text));
         match self.colouring {

@@ -186,7 +186,7 @@ impl File {
         self.bytes.extend_from_slice(b"\nendstream\nendobj\n");
     }
 
-    /// The file with the table of its objects, of which none is missing.
+    /// The file with the table of its objects; none is missing.
     fn finish(mut self) -> Vec<u8> {
         let (table, size) = (self.bytes.len(), self.objects.len() + 1);
         let mut end = format!("xref\n0 {size}\n0000000000 65535 f \n");

@@ -54,7 +54,7 @@ impl Scale {
         if unit.is_empty() { name.to_owned() } else { format!("{name} ({})", unit.trim_end()) }
     }
 
-    /// A printed number with its unit and power of ten, for an axis whose label has none.
+    /// A printed number with its unit and power of ten, for an axis with a label that has neither.
     fn with_unit(&self, number: &str) -> String {
         let text = match self.exponent {
             0 => format!("{number} {}", self.unit),

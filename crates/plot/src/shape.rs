@@ -1,10 +1,10 @@
-//! The shapes of which pictures consist. All lengths are in points, 1/72 inch, from the upper left corner.
+//! The shapes that make pictures. All lengths are in points, 1/72 inch, from the upper left corner.
 
 /// A colour: red, green and blue.
 pub(super) type Colour = [u8; 3];
 
 pub(super) const BLACK: Colour = [0; 3];
-/// The colour of frames and ticks, another one than that of data: a dark page draws it lighter.
+/// The colour of frames and ticks, no colour of data: a dark page draws it lighter.
 pub(super) const INK: Colour = [17; 3];
 pub(super) const WHITE: Colour = [255; 3];
 pub(super) const GREY: Colour = [211; 3];
@@ -84,7 +84,7 @@ pub(super) struct Curve {
     pub(super) pieces: Vec<Vec<(f64, f64)>>,
     pub(super) width: f64,
     pub(super) colour: Colour,
-    /// The area at the edges of which it is cut off.
+    /// The area; shapes are cut off at its edges.
     pub(super) within: Area,
 }
 

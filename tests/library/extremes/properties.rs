@@ -1,5 +1,5 @@
-//! Symmetries of the answer, and that the controls agree, on random small scenes. Two states of which each is certified
-//! differ by no more than the sum of what is certified; nothing else is allowed, but for the rounding of the pressures.
+//! Symmetries of the answer, and that the controls agree, on random small scenes. Two certified states differ by no
+//! more than the sum of their certificates; nothing else is allowed, but for the rounding of the pressures.
 
 use asperity::*;
 use ndarray::Array2;
@@ -178,7 +178,7 @@ fn both_controls_agree() {
             return None;
         }
         let pressed = Scene { control: Control::MeanPressure(held.report.mean_pressure), ..scene.clone() };
-        // the residual of the one is that of the other but for a mean, of which the certificate is free
+        // both have one residual but for a mean, from which the certificate is free
         let near = Scene { start: Some(held.gap.clone()), ..pressed.clone() };
         let same = solve::<T>(&near, 10.0 * tolerance)?;
         held.agrees(&same.gap, same.promise, scene);

@@ -27,7 +27,7 @@ fn solve_from<T: Real, C: ContactConstraint<T> + 'static>(
     solver.solve_with(problem, control, start, |_| ControlFlow::Continue(())).unwrap()
 }
 
-/// There are no waves in a plane but those of rounding, to which errors must not be related.
+/// Only rounding makes waves in a plane, and errors must not be related to rounding.
 fn planes_stay_at_a_mean_gap_from_any_start<T: Real>() {
     // in f32 the heights of the 285 nodes are their own rounding: an error of 1.3e-3
     let settings = Settings::default().tolerance(if T::NAME == "f32" { 2e-3 } else { 1e-6 });

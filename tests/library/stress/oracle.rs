@@ -32,13 +32,13 @@ pub struct Judge<'a, T: Real> {
     /// what the law and the springs of a wall do at each node: tractions
     tractions: Vec<f64>,
     springs: Vec<f64>,
-    /// the share of the law at each node: that of its work of adhesion, and none where surfaces do not attract each other
+    /// the share of the law at each node, by its work of adhesion, and none where surfaces do not attract each other
     share: Vec<f64>,
     /// the pressure that rounding makes of a gap
     rounding: f64,
     /// the same as an energy norm
     noise: f64,
-    /// the scale of the relative error: the mean of u·p that the report says, without contact that of the surface
+    /// the scale of the relative error: the mean of u·p that the report says, without contact the surface's
     scale: Option<f64>,
 }
 
@@ -181,7 +181,7 @@ impl<'a, T: Real> Judge<'a, T> {
         self.neighbour()
     }
 
-    /// Feasibility, and that the figures are those of the fields.
+    /// Checks feasibility, and that figures and fields agree.
     fn fields(&self) -> Result<(), String> {
         let Self { scene, report, solution, contact, pressure, depth, most, .. } = self;
         let (raw, gap) = (&self.gap, self.gap.iter().zip(depth).map(|(gap, depth)| gap + depth).collect::<Vec<_>>());
@@ -287,7 +287,7 @@ impl<'a, T: Real> Judge<'a, T> {
         Some(self.report.relative_error * self.scale?.sqrt())
     }
 
-    /// That the pressure is that of the displacement, and the energies are those of the fields.
+    /// Checks that the pressure belongs to the displacement, and the energies to the fields.
     fn elasticity(&self) -> Result<(), String> {
         let Self { scene, report, dense, gap, pressure, rounding, .. } = self;
         let u = self.displacement();
@@ -413,7 +413,7 @@ impl<'a, T: Real> Judge<'a, T> {
         (residual, release, clear)
     }
 
-    /// That the certificate is no less than that of the matrix, nor far more.
+    /// Checks that the certificate is no less than the certificate of the matrix, nor far more.
     fn certificate(&self) -> Result<(), String> {
         let (mut residual, _, clear) = self.residual();
         // with multipliers the last round is what was certified, and the stiffness of springs, or of a law without a
@@ -525,7 +525,7 @@ impl<'a, T: Real> Judge<'a, T> {
             let others: Vec<f64> = exact.iter().enumerate().map(|(i, &g)| local(i, g)[1]).collect();
             allowed += unbalanced * self.reach(&free, held, &slopes).max(self.reach(&free, held, &others));
         }
-        // the norm in which a law holds nodes is not that of the waves alone
+        // the norm in which a law holds nodes is not the norm of the waves alone
         allowed *= amplified * if self.scene.constraint == Constraint::None { 1.1 } else { 1.01 };
         need(distance <= allowed, || {
             format!(
@@ -559,8 +559,8 @@ impl<'a, T: Real> Judge<'a, T> {
         if step.len() == free.len() { dense.work(&step).sqrt() } else { 0.0 }
     }
 
-    /// That the verdicts on the stability are those of the pivots of the second derivative: under the control, and
-    /// under the pressure that holds a given mean gap. Which they are.
+    /// Checks the verdicts on the stability by the pivots of the second derivative: under the control, and under the
+    /// pressure that holds a given mean gap. Returns the verdicts.
     pub fn stability(
         &self,
         problem: &mut Problem<T>,
@@ -603,7 +603,7 @@ impl<'a, T: Real> Judge<'a, T> {
         loads.iter().map(verdict).collect()
     }
 
-    /// The terms of which the energy is the sum, per area.
+    /// The terms of the sum of the energy, per area.
     pub fn magnitude(&self) -> f64 {
         let u = self.rounding / (ROUNDINGS * Self::epsilon());
         let lengths = self.mean(&self.gap.iter().map(|g| g.abs()).collect::<Vec<_>>());

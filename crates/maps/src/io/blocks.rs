@@ -23,7 +23,7 @@ pub(super) struct Block {
     pub columns: usize,
     /// The place of its numbers among all.
     pub values: Range<usize>,
-    /// The numbers of rows of which the first and the last field are empty.
+    /// The numbers of rows with an empty first and an empty last field.
     open: [usize; 2],
     /// Whether nothing but a comment stands before it, which may be one within a map.
     is_remarked: bool,

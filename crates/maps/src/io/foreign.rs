@@ -52,7 +52,7 @@ const NETCDF: &str = "in Python: numpy.save(\"heights.npy\", xarray.open_dataset
 const MATLAB: &str = "in MATLAB: writematrix(heights, \"heights.txt\", \"Delimiter\", \" \")";
 const PICKLE: &str = "load it in Python, and save its heights by numpy.save";
 
-/// The endings of binary files whose starts tell nothing.
+/// The endings of binary files with starts that tell nothing.
 const ENDINGS: [(&str, &str, &str); 4] = [
     ("ibw", "an Igor file (.ibw)", GWYDDION),
     ("plu", "a Sensofar file (.plu)", GWYDDION),
@@ -75,7 +75,7 @@ pub(super) fn by_start(start: &[u8]) -> Option<String> {
     found.map(|(_, name, remedy)| format!("is {name}: {remedy}"))
 }
 
-/// Why a file that cannot be read as a text is not read, if that is since it is binary; `ending` is that of its name.
+/// Why a binary file cannot be read as a text; `ending` belongs to its name.
 pub(super) fn by_ending(start: &[u8], ending: &str) -> Option<String> {
     let known = || ENDINGS.iter().find(|(other, ..)| *other == ending);
     let (_, name, remedy) = start.contains(&0).then(|| known().unwrap_or(&("", "a binary file", GWYDDION)))?;

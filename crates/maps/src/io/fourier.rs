@@ -15,12 +15,12 @@ const COLUMNS: &str = "expected lines of four numbers: qX, qY, and the real and 
 const BINARY: &str =
     "is no text: give the coefficients as a text, or their columns to asperity.surface.fourier in Python";
 
-/// Reads a surface on a grid from a text of Fourier coefficients, as that of the contact-mechanics challenge (Müser et
-/// al., *Tribology Letters* 65:118, 2017); its heights are in units of `unit`.
+/// Reads a surface on a grid from a text of Fourier coefficients, such as the file of the contact-mechanics challenge
+/// (Müser et al., *Tribology Letters* 65:118, 2017); heights are in units of `unit`.
 ///
 /// A line has the whole numbers qX and qY of periods along the sides, of either sign, and the real and the imaginary
 /// part of the coefficient, separated by white space or by commas; `#` and `%` start a comment. Waves without a line
-/// have none. The series is that of [`FourierSeries`]: a half spectrum is enough, and coefficients are as FFTW's inverse
+/// have none. The series is a [`FourierSeries`]: a half spectrum is enough, and coefficients are as FFTW's inverse
 /// transform takes them.
 ///
 /// ```

@@ -19,7 +19,7 @@ pub(super) const GWY: &[u8] = b"GWYP";
 /// only one of heights.
 ///
 /// Behind four letters there is one object, and in objects there are items: name, letter of the type, value. Objects
-/// and arrays have their size before them, so that those of no interest are skipped unread.
+/// and arrays have their size before them, so that others are skipped unread.
 pub(super) fn read_gwy(reader: &mut impl Read, size: u64, reading: &Reading) -> Parsed<Topography> {
     let mut bytes = Vec::new();
     reserve(&mut bytes, usize::try_from(size).unwrap_or(usize::MAX))?;

@@ -12,7 +12,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// The pair of a line: `name: value`, `name = value`, or fields of which the first is the name.
+    /// The pair of a line: `name: value`, `name = value`, or fields with the name first.
     fn of(line: &str) -> Option<Self> {
         let fields = line.split_once("\",\"").filter(|_| line.starts_with('"'));
         let (name, value) = fields
@@ -102,7 +102,8 @@ const WORDS: [(&str, Option<Kind>, &[usize]); 17] = [
 /// Words that say nothing next to others.
 const OTHERS: &str = "scan image map number of in";
 
-/// What a name says, if all of its words are known; its value may say of what kind it is, and that of no axis is of all.
+/// What a name says, if all of its words are known; its value may say the kind, and a name without an axis is of all
+/// axes.
 fn meaning(name: &str) -> Option<(Option<Kind>, &'static [usize])> {
     let (mut kind, mut axes): (Option<Kind>, &[usize]) = (None, &[]);
     let name = name.to_lowercase();
@@ -138,7 +139,7 @@ pub(super) struct Heading {
     pairs: Vec<Pair>,
     /// The columns, if x and y are among them.
     columns: Option<Columns>,
-    /// The unit of heights in words, and whether it is that of x and y too.
+    /// The unit of heights in words, and whether x and y have this unit too.
     said: Option<(&'static str, bool)>,
     /// Of the lines of words that are no comments the first and the last number, and why the first one is no row.
     words: Option<(usize, usize, String)>,
@@ -224,7 +225,7 @@ impl Heading {
                 None => {}
                 Some((Some(Kind::Unit), axes)) => {
                     let is_default = axes.is_empty();
-                    // one unit, or those of x, y and z
+                    // one unit, or units of x, y and z
                     let each = units(&pair.value).filter(|_| is_default);
                     let each = each.unwrap_or_else(|| [(); 3].map(|()| bare(&pair.value).to_owned()));
                     for &axis in if is_default { &[0, 1, 2] } else { axes } {
@@ -289,7 +290,7 @@ pub(super) struct Sizes {
     pub sides: Option<((f64, f64), String)>,
     /// The units along x and y, and of the heights.
     pub units: [Option<String>; 3],
-    /// The unit of heights in words, and whether it is that of x and y too.
+    /// The unit of heights in words, and whether x and y have this unit too.
     pub said: Option<(&'static str, bool)>,
     /// The factor of the heights.
     pub factor: Option<f64>,
@@ -335,14 +336,14 @@ impl Sizes {
         Ok(())
     }
 
-    /// Whether the lines of the block are those of an image, from the top.
+    /// Whether the lines of the block are lines of an image, from the top.
     pub fn is_image(&self) -> bool {
         self.sides.is_some() || self.pixels.iter().all(Option::is_some)
     }
 }
 
-/// The unit of heights that a comment ends with, in words, as `heights in nm`, `z [um]` or `x, y, z in nm`, and whether it
-/// is that of x and y too.
+/// The unit of heights that a comment ends with, in words, as `heights in nm`, `z [um]` or `x, y, z in nm`, and whether
+/// x and y have this unit too.
 fn said(line: &str) -> Option<(&'static str, bool)> {
     const HEIGHTS: &str = " z height heights elevation topography unit units values data all ";
     const BESIDE: &str = " x y and axis lengths numbers are is given measured in of the map ";

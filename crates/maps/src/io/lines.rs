@@ -5,7 +5,7 @@ use std::io::BufRead;
 
 use super::{Parsed, Reading, quoted, reserve, unreadable};
 
-/// Words for missing points, in small letters, besides nan and those of [`is_error_value`].
+/// Words for missing points, in small letters, besides nan and [`is_error_value`].
 const MISSING: &str = "|na|n/a|n.a.|bad|null|none|nil|void|invalid|missing|no data|nodata|no_data|undefined|-|--|---|";
 
 /// A line of a text.

@@ -16,7 +16,7 @@ use super::{DAMAGED, Parsed, is_side, quoted, refuse, unreadable};
 use crate::Topography;
 use asperity::{Error, Grid, Real, Result};
 
-/// The first bytes of a zip file: those of its first entry, or those of its end if it has none.
+/// The first bytes of a zip file: of its first entry, or of its end if it has none.
 pub(super) const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
 /// Deflate cannot do better than this: a zip entry that claims more is damaged.
 const MAX_COMPRESSION: u64 = 1032;
@@ -89,7 +89,7 @@ pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topog
     Ok(map)
 }
 
-/// The name of an array, from that of its entry in the archive.
+/// The name of an array, from the name of its entry in the archive.
 fn array(entry: &str) -> &str {
     entry.strip_suffix(".npy").unwrap_or(entry)
 }
@@ -312,7 +312,7 @@ mod tests {
                 for flip in [1, 0x80, 0xff] {
                     let mut damaged = file.clone();
                     damaged[position] ^= flip;
-                    // a damaged name is that of an array that is not read
+                    // a damaged name belongs to an array that is not read
                     if let Ok(map) = read_map(damaged, "a.npz")
                         && map != whole
                         && map.unread.is_empty()

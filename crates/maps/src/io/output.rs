@@ -57,12 +57,12 @@ impl Step {
 }
 
 impl OutputFolder {
-    /// Prepares a folder at `path`, existing or not, for a run whose files have names among these, and creates nothing
-    /// there yet. With `force` the run takes the place of a former one, whose files of these `names` go, also where it
+    /// Prepares a folder at `path`, existing or not, for a run with files of these `names`, and creates nothing there
+    /// yet. With `force` the run takes the place of a former run: its files of these `names` go, also where the run
     /// does not write them itself; other files in the folder are left alone.
     ///
     /// If there are several names, the first one stands for the run: its file goes before any other one changes, and
-    /// comes after all of them. So a file of this name is never next to those of two runs, even if the process is
+    /// comes after all of them. So a file of this name is never next to files of two runs, even if the process is
     /// killed.
     ///
     /// # Errors

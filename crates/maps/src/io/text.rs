@@ -225,7 +225,7 @@ mod tests {
         // what is told on top holds for all
         let text = "# x-length: 1\n# y-length: 1\n# z-unit: nm\n1 2\n3 4\n\n5 6\n7 8\n";
         assert_eq!(channel(text, "1").unwrap().heights, array![[7e-9, 5e-9], [8e-9, 6e-9]]);
-        // as are those of one shape with comments between
+        // as are frames of one shape with comments between
         assert_refused(read("# Frame 1\n1 2\n3 4\n# Frame 2\n5 6\n7 8\n"), &["2 channels (0 \"2 x 2 numbers\""]);
         assert_eq!(read("1 2\n3 4\n# two more\n5 6\n# last\n7 8\n9 0\n1 2\n").unwrap().dim(), (6, 2));
         assert_eq!(read("# y = 1\n1 2\n# y = 2\n3 4\n# y = 3\n5 6\n").unwrap().dim(), (3, 2));

@@ -31,8 +31,8 @@ pub(super) fn is_length(unit: &str) -> bool {
     per_metre(unit).is_some()
 }
 
-/// A map of which the file gives side lengths and heights each in a unit, which may be empty for unknown: in metres,
-/// or in the unit that they share.
+/// A map from a file that gives side lengths and heights each in a unit, empty for unknown: in metres, or in the unit
+/// that they share.
 pub(super) fn in_one_unit(
     mut heights: Array2<f64>,
     lengths: Option<(f64, f64)>,

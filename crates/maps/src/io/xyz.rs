@@ -87,7 +87,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// The finest axis of which all values are nodes, but for rounding and noise.
+    /// The finest axis with all values on nodes, but for rounding and noise.
     fn new(mut values: Vec<f64>) -> Option<Self> {
         values.sort_unstable_by(f64::total_cmp);
         let (first, last) = (*values.first()?, *values.last()?);

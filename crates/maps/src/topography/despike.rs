@@ -3,7 +3,7 @@
 use super::{Topography, median};
 use asperity::{Error, Result};
 
-/// The nodes of a neighbourhood on either side of its middle: 5 × 5 nodes, of which spikes may have up to twelve.
+/// The nodes of a neighbourhood on either side of its middle: 5 × 5 nodes; spikes may have up to twelve of these.
 const REACH: isize = 2;
 /// The least pairs of opposite neighbours, as there are along an edge.
 const PAIRS: usize = 2;
@@ -28,10 +28,10 @@ impl Topography {
     /// The spikes of the map, by a median filter and a robust threshold (Hampel's identifier).
     ///
     /// A node is a spike if its height is farther than `threshold` standard deviations from the median of the 5 × 5
-    /// nodes around it. The standard deviation is that of such distances over the whole map by their median magnitude,
+    /// nodes around it. The standard deviation belongs to such distances over the whole map, by their median magnitude,
     /// σ = 1.4826 median |h − ĥ|, which no spike carries; by their mean magnitude, if more than half of all distances
-    /// are 0. Gaussian noise does not reach 6 on any map, while edges and grains of a real surface may: with 10 little
-    /// of these is taken.
+    /// are 0. Gaussian noise does not reach 6 on any map, while edges and grains of a real surface may: a threshold of
+    /// 10 takes little of these.
     ///
     /// Neighbours count in pairs on opposite sides, so that a slope at the edge of the map is no spike. Where there are
     /// less than two pairs, as in a corner or next to a hole, all neighbours count, and a spike is also farther from

@@ -16,8 +16,7 @@ const ACCURACY: f64 = 1e-12;
 /// Braess, Computing 55, 1995).
 const OVERCORRECTION: f64 = 1.8;
 
-/// Gives heights that are missing, NaN or infinite, those of a membrane that spans the hole from its edge. `spacing` is
-/// (Δx, Δy).
+/// Fills missing heights, NaN or infinite, with a membrane that spans the hole from its edge. `spacing` is (Δx, Δy).
 ///
 /// The heights of the membrane obey the discrete Laplace equation
 ///
@@ -57,11 +56,10 @@ pub fn fill(mut heights: Array2<f64>, spacing: (f64, f64)) -> Result<Array2<f64>
     Ok(heights)
 }
 
-/// A surface from heights of which those that are NaN are [absent nodes](Surface::with_absent), with the heights of
-/// [`fill()`] there.
+/// A surface from heights: NaN are [absent nodes](Surface::with_absent), with the heights of [`fill()`] there.
 ///
 /// # Errors
-/// Those of [`Surface::new`] and [`Surface::with_absent`].
+/// As [`Surface::new`] and [`Surface::with_absent`].
 pub fn surface_with_absent(grid: Grid, mut heights: Array2<f64>) -> Result<Surface> {
     let absent = heights.mapv(f64::is_nan);
     heights.mapv_inplace(|height| if height.is_nan() { 0.0 } else { height });

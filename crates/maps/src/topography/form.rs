@@ -76,12 +76,12 @@ impl Topography {
     /// h → h − ẑ ,   ẑ = arg min over z of  Σ (h − z)²
     /// ```
     ///
-    /// over all spheres, or circular cylinders, of which z(x, y) is the side that faces up or down, with the sum over
-    /// all points that are not missing. Distances are taken along z. A part of a sphere that is much smaller than its
+    /// over all spheres, or circular cylinders, with z(x, y) the side that faces up or down, with the sum over all
+    /// points that are not missing. Distances are taken along z. A part of a sphere that is much smaller than its
     /// radius is nearly a [`Trend::Quadric`], which fits two curvatures freely; a form has one.
     ///
-    /// By Levenberg and Marquardt's method, from the quadric; for a cylinder from both principal curvatures, since that of
-    /// the roughness across a narrow map may be the greater one.
+    /// By Levenberg and Marquardt's method, from the quadric; for a cylinder from both principal curvatures, since
+    /// across a narrow map the curvature of the roughness may be the greater.
     ///
     /// ```
     /// use asperity_maps::Form;

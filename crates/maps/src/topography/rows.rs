@@ -46,7 +46,7 @@ impl FromStr for ScanAxis {
 }
 
 impl RowAlignment {
-    /// The names of the ways; an order may follow that of a polynomial, as in `polynomial:2`.
+    /// The names of the ways; an order may follow `polynomial`, as in `polynomial:2`.
     pub const NAMES: [&str; 3] = ["median", "median-difference", "polynomial"];
 }
 
@@ -80,7 +80,7 @@ impl Topography {
     /// ```
     /// use asperity_maps::{RowAlignment, ScanAxis};
     /// use asperity_maps::Topography;
-    /// // three lines along x, of which the second is 3 too high
+    /// // three lines along x; the second is 3 too high
     /// let map = Topography::new(ndarray::array![[0.0, 3.0, 0.0], [1.0, 4.0, 1.0], [2.0, 5.0, 2.0]]);
     /// let aligned = map.align_rows(RowAlignment::Median, ScanAxis::X)?;
     /// assert_eq!(aligned.heights.row(0), ndarray::array![1.0, 1.0, 1.0]);
@@ -128,12 +128,12 @@ pub(crate) struct LineSteps {
     pub shared: f64,
     /// The median change of that from one step to the next.
     pub change: f64,
-    /// The rms step of single nodes about that of their line, the median over the lines.
+    /// The rms step of single nodes about the step of their line, the median over the lines.
     pub single: f64,
 }
 
 impl LineSteps {
-    /// Those of the measured points; NaN where none are.
+    /// The steps of the measured points; NaN where none are.
     pub fn of(heights: &Array2<f64>, along: ScanAxis) -> Self {
         let lines: Vec<_> = heights.lanes(Axis(usize::from(along == ScanAxis::Y))).into_iter().collect();
         let step = |pair: &[ArrayView1<'_, f64>]| {

@@ -27,7 +27,7 @@ pub struct Scars {
 }
 
 impl Topography {
-    /// The scars along the scan lines of a map: pieces of one to four lines, of 16 nodes and more, all of which are
+    /// The scars along the scan lines of a map: pieces of one to four lines, of 16 nodes and more, with all nodes
     /// higher, or all lower, than both lines next to the piece, each node by more than `threshold` rms differences of
     /// neighbouring lines.
     ///
@@ -106,8 +106,8 @@ impl Topography {
     }
 }
 
-/// Marks the pieces of so many neighbouring lines that stand out by more than a limit, upwards or downwards, and whose
-/// steps are greater than those of the lines beyond them.
+/// Marks the pieces of so many neighbouring lines that stand out by more than a limit, upwards or downwards, with steps
+/// that are greater than the steps of the lines beyond.
 fn mark(on_scar: &mut Array2<bool>, lines: ArrayView2<'_, f64>, (width, sign): (usize, f64), limit: f64) {
     let (nodes, count) = lines.dim();
     for first in 1..count.saturating_sub(width) {

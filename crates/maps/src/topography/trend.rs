@@ -15,7 +15,7 @@ pub enum Trend {
     Mean,
     /// The plane a + bx + cy.
     Plane,
-    /// The quadric a + bx + cy + dx² + exy + fy², as of a sphere or a cylinder.
+    /// The quadric a + bx + cy + dx² + exy + fy², as for a sphere or a cylinder.
     Quadric,
     /// The polynomial of all terms xⁱyᵏ with i + k up to an order, at most [`Trend::MOST`]: orders 0, 1 and 2 are the
     /// three above.

@@ -9,8 +9,8 @@ use super::part::Part::Figure;
 use super::{Warning, WarningCode};
 
 impl Warning {
-    /// A body whose stiffness for the shortest waves on a `grid` does not grow as their wave number to 5 %, unlike that
-    /// of a half-space, [`ThinBody`](WarningCode::ThinBody): figures that assume a half-space do not hold.
+    /// A body with a stiffness that does not grow as the wave number to 5 % for the shortest waves on a `grid`, unlike
+    /// a half-space, [`ThinBody`](WarningCode::ThinBody): figures that assume a half-space do not hold.
     ///
     /// ```
     /// use asperity::Grid;

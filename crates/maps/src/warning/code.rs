@@ -30,20 +30,20 @@ macro_rules! codes {
 codes! {
     /// The map as a whole is inclined: opposite edges differ by the drop of its plane.
     Tilt = "tilt",
-    /// The heights fall to all edges, or end before them, like those of a sphere: a body, which in a periodic cell has
-    /// images of itself as neighbours.
+    /// The heights fall to all edges, or end before them, as on a sphere: a body, which in a periodic cell has images
+    /// of itself as neighbours.
     Ends = "ends",
     /// The step across the periodic edge is far greater than any between neighbouring rows or columns inside.
     OpenEdges = "open-edges",
-    /// The rms slope exceeds ½, that of a measured map 100: heights and lengths may be in different units.
+    /// The rms slope exceeds ½, or 100 for a measured map: heights and lengths may be in different units.
     Steep = "steep",
     /// The rms slope is less than 1e-8: heights and lengths may be in different units.
     Smooth = "smooth",
-    /// The contact modulus E* is below that of any solid in the unit that the lengths ask for.
+    /// The contact modulus E* is below any solid's in the unit that the lengths ask for.
     Modulus = "modulus",
     /// A contact pressure exceeds the contact modulus E*.
     BeyondModulus = "beyond-modulus",
-    /// The stiffness of the shortest waves is not that of a half-space: a layer may be thinner than some nodes.
+    /// The shortest waves do not have the stiffness of a half-space: a layer may be thinner than some nodes.
     ThinBody = "thin-body",
     /// Single nodes are far above or below their neighbours.
     Spikes = "spikes",
@@ -51,7 +51,7 @@ codes! {
     MissingCode = "missing-code",
     /// The first line or column, or two columns of several, are like coordinates.
     Axes = "axes",
-    /// The magnitudes of the numbers are those of bytes in the wrong order.
+    /// The numbers have magnitudes of bytes in the wrong order.
     ByteOrder = "byte-order",
     /// The cells of the grid are far from square.
     Cells = "cells",
@@ -63,7 +63,7 @@ codes! {
     Flat = "flat",
     /// Contact or traction reaches the edge of a free boundary's window.
     WindowEdge = "window-edge",
-    /// The contact of a mirrored map is not that of its mirror images.
+    /// The contact of a mirrored map differs from the contact of its mirror images.
     Images = "images",
     /// The lines along one axis are offset from one another at random, like scan lines of an instrument that drifts.
     LineOffsets = "line-offsets",
@@ -71,7 +71,7 @@ codes! {
     ScanAxis = "scan-axis",
     /// Much of the load is on single lines, such as scars of a measurement.
     Scars = "scars",
-    /// Much of the load is on single nodes, such as those of noise.
+    /// Much of the load is on single nodes, as noise makes.
     Noise = "noise",
     /// Most of the load is above a tenth of the contact modulus E*, where most solids yield.
     Hardness = "hardness",

@@ -27,7 +27,7 @@ const TILT_STANDS_OUT: f64 = 3.0;
 /// scatters little.
 const OPEN_EDGE: f64 = 3.0;
 
-/// The same on a line, where the edge is one step alone, and that of Gaussian heights reaches no 6.
+/// The same on a line, where the edge is one step alone; the step of Gaussian heights stays below 6.
 const OPEN_END: f64 = 6.0;
 
 /// The rms step across the periodic edge from which it stands out, in the greatest rms step inside: a surface of
@@ -39,12 +39,11 @@ const STANDS_OUT: f64 = 1.5;
 const FALLS: f64 = 0.5;
 
 /// The bend of mean height across the periodic edge, in the greatest one inside, from which the edge is a crease. The
-/// bends of a mirrored map are as great along its mirror lines inside. That of a sphere goes with the number of nodes,
-/// and is 7 on 16; that of a cone, which has an apex inside, is 4 on 32.
+/// bends of a mirrored map are as great along its mirror lines inside. The bend of a sphere goes with the number of
+/// nodes, and is 7 on 16; the bend of a cone, which has an apex inside, is 4 on 32.
 const CREASE: f64 = 4.0;
 
-/// The contact modulus in Pa below which lengths in metres have another unit of pressure next to them: that of soft
-/// gels.
+/// The contact modulus in Pa below which lengths in metres have another unit of pressure next to them: soft gels.
 const SOFTEST: f64 = 1e3;
 
 /// The spacing of nodes below which lengths are in metres: in millimetres it would be less than an atom.
@@ -120,7 +119,7 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
     Some(Warning::told(WarningCode::OpenEdges, worst, text, [Word(axes.join(" and ")), Length(step)]))
 }
 
-/// The highest of heights along the edges, without those of absent nodes; −∞ if all of these are absent.
+/// The greatest height along the edges, without absent nodes; −∞ if all are absent.
 fn highest_at_edges(surface: &Surface, heights: &Array2<f64>) -> f64 {
     let (nx, ny) = heights.dim();
     let rows = [0, nx - 1].into_iter().flat_map(|i| (0..ny).map(move |j| (i, j)));

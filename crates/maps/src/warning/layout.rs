@@ -22,11 +22,11 @@ const MOST_TURNS: f64 = 3.0;
 /// The rms difference of two lines of a smooth surface, in the rms of one.
 const LIKE: f64 = 0.1;
 
-/// The most nodes of a grid for each point of a table, of which few or many may be missing.
+/// The most nodes of a grid for each point of a table; few or many points may be missing.
 const MOST_NODES: f64 = 2.0;
 
-/// The decades between the quartiles of magnitudes from which bytes are in the wrong order: those of heights have one or
-/// two, those of exponents made of other bytes dozens.
+/// The decades between the quartiles of magnitudes from which bytes are in the wrong order: heights have one or two,
+/// exponents made of other bytes dozens.
 const DECADES: f64 = 12.0;
 
 /// The most magnitudes that are looked at.
@@ -77,7 +77,7 @@ pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
     told("the {} like coordinates, up to {}: {}", [Word(what.into()), last, remedy(lines)])
 }
 
-/// Numbers of which the bytes are in the wrong order.
+/// Numbers with bytes in the wrong order.
 pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
     let stride = heights.len().div_ceil(MOST).max(1);
     let magnitudes = heights.iter().step_by(stride).map(|h| h.abs());
@@ -131,7 +131,7 @@ mod tests {
         });
         assert!(found(&traced)[0].contains("first column runs like coordinates"), "{:?}", found(&traced));
         assert!(found(&traced.t().to_owned())[0].contains("a profile?"));
-        // points in any order of columns, of which half are missing
+        // points in any order of columns, half of them missing
         let points = |i: usize| [(i % 6) as f64 * 0.4, rough(i, i), (i / 6) as f64 * 0.5, 1.0];
         let table = Array2::from_shape_fn((24, 4), |(i, j)| points(2 * i)[j]);
         assert!(found(&table)[0].starts_with("axes: columns 1 and 3 are the coordinates"), "{:?}", found(&table));

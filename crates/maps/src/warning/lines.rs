@@ -55,9 +55,9 @@ pub(super) fn offsets(heights: &Array2<f64>, unit: f64) -> Option<Warning> {
 }
 
 impl Warning {
-    /// A measured map whose scan lines, which are to be brought to one height, are probably not those along the given
-    /// axis: [`ScanAxis`](WarningCode::ScanAxis). Lines along the other axis are offset from one another by more than
-    /// half the rms step of their nodes, five times as irregularly as those along this one, neither as smoothly as the
+    /// A measured map that probably has its scan lines, which are to be brought to one height, along the other axis:
+    /// [`ScanAxis`](WarningCode::ScanAxis). Lines along the other axis are offset from one another by more than half
+    /// the rms step of their nodes, five times as irregularly as lines along this axis, neither as smoothly as the
     /// profile of a surface nor on one that is rougher across them. Nothing where there are fewer than 64 lines.
     ///
     /// ```

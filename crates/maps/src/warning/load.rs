@@ -8,7 +8,7 @@ use super::{Warning, WarningCode};
 /// How many times harder a node presses than both nodes next to it, along an axis, to stand alone: pressures change
 /// little from node to node in a contact that the nodes resolve, but for its edge, where one side is harder.
 const ALONE: f64 = 3.0;
-/// The least number of nodes of a piece of a line, all of which are alone across it: contacts of a rough surface are
+/// The least number of nodes of a piece of a line with all nodes alone across it: contacts of a rough surface are
 /// rounder.
 const LENGTH: usize = 8;
 /// The shares of the load from which it is much, on lines and on single nodes: where a contact of some hundred nodes has

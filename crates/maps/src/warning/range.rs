@@ -75,8 +75,8 @@ impl Warning {
 }
 
 /// By μ_ρ, with how many times the given work of adhesion a front acts that the grid holds, on approach and on
-/// withdrawal: the farthest from one of the exponential law and that of Maugis and Dugdale, by Johnson's wave on a line,
-/// whose straight fronts along the grid are held most (example `jkr`, table `held`).
+/// withdrawal: the factor farthest from one of the exponential law and the law of Maugis and Dugdale, by Johnson's wave
+/// on a line, where straight fronts along the grid are held most (example `jkr`, table `held`).
 const HELD: [(f64, [f64; 2]); 7] = [
     (0.5, [0.99, 1.01]),
     (0.7, [0.98, 1.03]),

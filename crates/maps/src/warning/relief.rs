@@ -13,7 +13,7 @@ pub struct Side {
     nodes: usize,
     /// The rise of the least-squares plane over the length of the side.
     pub drop: f64,
-    /// The mean height of the first line less that of the last.
+    /// The mean height of the first line less the mean of the last.
     pub mean_edge: f64,
     /// The greatest difference of mean heights between neighbouring lines inside.
     pub greatest_mean_step: f64,
@@ -73,7 +73,7 @@ impl Side {
 /// Heights about the middle between the lowest and the highest, in units of half of their distance: so no square
 /// leaves the range of `f64`.
 pub struct Relief {
-    /// The unit of all lengths here, in that of the heights.
+    /// The unit of all lengths here, in the unit of the heights.
     pub unit: f64,
     pub heights: Array2<f64>,
     /// Along x and along y.

@@ -22,9 +22,9 @@ pub struct Spikes {
 }
 
 impl Spikes {
-    /// The nodes whose distance from the mean of their eight neighbours (two on a line) exceeds the rms height about
-    /// the plane, [`SPIKE`] times the rms of this distance, and [`LONE`] times the range of the neighbours; nothing if
-    /// there are none. The edges of the map are left out.
+    /// The nodes at a distance from the mean of their eight neighbours (two on a line) that exceeds the rms height
+    /// about the plane, [`SPIKE`] times the rms of this distance, and [`LONE`] times the range of the neighbours;
+    /// nothing if there are none. The edges of the map are left out.
     pub fn of(relief: &Relief) -> Option<Self> {
         let Relief { heights, rms, .. } = relief;
         let (nx, ny) = heights.dim();

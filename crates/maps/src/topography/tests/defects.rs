@@ -6,7 +6,7 @@ use super::super::{RowAlignment, ScanAxis, Topography};
 use super::{map, pierced, rough};
 use asperity::Error;
 
-/// A rough map whose lines along x have offsets, with a lost line and lost points.
+/// A rough map with offset lines along x, a lost line and lost points.
 fn scanned(offset: impl Fn(usize, usize) -> f64) -> Topography {
     let mut map = pierced(rough((60, 41), 12.0), |i, j| j == 17 || (7 * i + 3 * j).is_multiple_of(29));
     map.heights.indexed_iter_mut().for_each(|((i, j), h)| *h += offset(i, j));
