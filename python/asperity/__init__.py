@@ -11,38 +11,43 @@ Fields have shape (Nx, Ny), with x along the first axis. Units may be any consis
 Results do not depend on the number of threads. The interpreter's lock is free during a solve.
 """
 
-from . import _laws, contact, exact, surface
-from ._accuracy import Plan
+import sys
+
+from . import contact, exact, surface
 from ._asperity import VERSION as __version__
 from ._asperity import Iteration, Law, check_law
-from ._body import Coating, Layer, Symbol
-from ._contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
-from ._cycle import Cycle, CycleLimit, Step
-from ._flow import Flow, Leakage, leakage
-from ._folder import load, report
-from ._interface import Interface
-from ._laws import *
-from ._laws import CutOff, Tabulated, Varying
-from ._pair import contact_modulus
-from ._prepare import prepare
-from ._progress import progress
-from ._pull_off import PullOff
-from ._solution import (
+from .answers.cycle import Cycle, CycleLimit, Step
+from .answers.findings import (
     Conductance,
     Constriction,
     ContactStatistics,
     Percolation,
+    Plan,
     PressureDistribution,
-    Solution,
+    Stability,
 )
-from ._stability import Stability
-from ._sweep import Sweep
-from ._topography import Topography, from_topography, read
-from ._types import OwnLaw, Report
-from ._viscoelastic import Moment, Viscoelastic
-from ._wall import Penalty, Uzawa
-from ._warnings import AccuracyWarning, ConvergenceWarning, InputWarning
+from .answers.folder import load, report
+from .answers.interface import Interface
+from .answers.leakage import Flow, Leakage, leakage
+from .answers.pull_off import PullOff
+from .answers.solution import Solution
+from .answers.sweep import Sweep
+from .api.contact import Contact, cycle, interface, pull_off, solve, stability, sweep, viscoelastic
+from .bodies.body import Coating, Layer, Symbol
+from .bodies.wall import Penalty, Uzawa
+from .common.progress import progress
+from .common.types import OwnLaw, Report
+from .common.warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from .curves import CurveFit, CurveMap, Estimate, ForceCurve, ModelFit, TipTable, fit_curve, fit_curves, read_curve
+from .laws import laws as _laws
+from .laws.laws import *
+from .laws.laws import CutOff, Tabulated, Varying
+from .maps.files import read
+from .maps.packages import from_topography
+from .maps.pair import contact_modulus
+from .maps.prepare import prepare
+from .maps.topography import Topography
+from .relaxation.viscoelastic import Moment, Viscoelastic
 
 __all__ = [
     "AccuracyWarning",
@@ -111,3 +116,30 @@ __all__ = [
     "viscoelastic",
 ]
 __all__ += _laws.__all__
+
+# modules by which pickles of earlier versions name the classes
+sys.modules.update(
+    {
+        f"{__name__}.{name}": sys.modules[f"{__name__}.{place}"]
+        for name, place in {
+            "_accuracy": "answers.findings",
+            "_body": "bodies.body",
+            "_contact": "answers.posed",
+            "_cycle": "answers.cycle",
+            "_flow": "answers.leakage",
+            "_interface": "answers.interface",
+            "_progress": "common.progress",
+            "_pull_off": "answers.pull_off",
+            "_solution": "answers.solution",
+            "_stability": "answers.findings",
+            "_sweep": "answers.sweep",
+            "_theory": "exact.theory",
+            "_topography": "maps.topography",
+            "_viscoelastic": "relaxation.viscoelastic",
+            "_wall": "bodies.wall",
+            "_warnings": "common.warnings",
+            "curves.maps": "curves.curve_map",
+            "curves.read": "curves.files.read",
+        }.items()
+    }
+)

@@ -3,8 +3,8 @@
 import signal
 import sys
 
-from . import _convert
 from ._asperity import command
+from .api import convert as _convert
 
 
 def main() -> int:

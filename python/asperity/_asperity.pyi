@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
-from ._topography import Topography
+from .maps.topography import Topography
 
 __all__ = [
     "AdhesiveWavyLine",

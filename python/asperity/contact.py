@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _asperity
-from ._solution import ContactStatistics, Solution
-from ._summary import summarised
-from ._topography import field_of
+from .answers.findings import ContactStatistics
+from .answers.solution import Solution
+from .common.summary import summarised
+from .maps.arrays import field_of
 
 __all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
 

@@ -17,11 +17,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity
-from ._summary import summarised
-from ._topography import Heights, Topography, _lengths, plain, sides, taken
-from ._types import AxisOrder, Lengths, Quantity, Shape, Tilt
-from ._units import given
-from ._words import checked
+from .common.summary import summarised
+from .common.types import AxisOrder, Lengths, Quantity, Shape, Tilt
+from .common.units import given, plain
+from .common.words import checked
+from .maps.arrays import side_lengths
+from .maps.heights import Heights, taken
+from .maps.topography import Topography, sides
 
 __all__ = [
     "PowerSpectralDensity",
@@ -223,7 +225,7 @@ def _made(
     **body: Any,
 ) -> Topography:
     nodes, is_line = _nodes(shape)
-    both = _lengths(lengths, nodes)
+    both = side_lengths(lengths, nodes)
     body["tilt"] = None if tilt is None else np.ravel(tilt)
     heights = _asperity.made(nodes, both, plain(body), None if roughness is None else plain(roughness))
     unit = "m" if given.get() else None
@@ -274,7 +276,7 @@ def fourier(
     if given.get() and fourier_unit is None:
         raise ValueError("the side lengths have a unit, but the coefficients have none: give fourier_unit, as '0.1mm'")
     nodes, is_line = _nodes(shape)
-    both = _lengths(lengths, nodes)
+    both = side_lengths(lengths, nodes)
     source = os.fspath(coefficients) if isinstance(coefficients, str | os.PathLike) else None
     rows: Any = source or np.atleast_2d(np.asarray(coefficients, dtype=np.float64))
     if source is None and rows.shape[1] != 4:

@@ -399,7 +399,7 @@ def test_long_calls_show_progress_to_people_by_default(rough, monkeypatch, capsy
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     # a short one has none
     assert shown() == ""
-    monkeypatch.setattr("asperity._progress._PATIENCE", 0.0)
+    monkeypatch.setattr("asperity.common.progress._PATIENCE", 0.0)
     assert " iterations, error " in shown()
     monkeypatch.setenv("TQDM_DISABLE", "1")
     assert shown() == ""

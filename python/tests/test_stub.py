@@ -5,7 +5,8 @@ import pathlib
 import re
 
 import asperity
-from asperity import _asperity, _laws
+from asperity import _asperity
+from asperity.laws import laws as _laws
 
 FOLDER = pathlib.Path(__file__).resolve().parents[1] / "asperity"
 LAWS = _laws._Formula.__subclasses__()
@@ -27,7 +28,7 @@ def class_of(law):
 
 def files():
     """What the stub and the module have to be, by their paths."""
-    core, laws = FOLDER / "_asperity.pyi", FOLDER / "_laws.pyi"
+    core, laws = FOLDER / "_asperity.pyi", FOLDER / "laws" / "laws.pyi"
     exported = "".join(f'    "{name}",\n' for name in sorted(_asperity.__all__))
     stub = re.sub(r"(?s)(?<=__all__ = \[\n).*?(?=\]\n)", exported, core.read_text(encoding="utf-8"))
     classes = "\n".join(line for law in LAWS for line in class_of(law)) + "\n"

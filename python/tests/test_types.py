@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import _types
+from asperity.common import types
 
 
 def check(kind, value, where):
@@ -88,12 +88,12 @@ def test_reports_and_rows_are_what_json_reads_of_them(rough):
 @pytest.mark.parametrize(
     ("keyword", "kind"),
     [
-        ("boundary", _types.Boundary),
-        ("wall", _types.WallName),
-        ("method", _types.Method),
-        ("precision", _types.Precision),
-        ("branch", _types.Branches),
-        ("accuracy_of", _types.AccuracyOf),
+        ("boundary", types.Boundary),
+        ("wall", types.WallName),
+        ("method", types.Method),
+        ("precision", types.Precision),
+        ("branch", types.Branches),
+        ("accuracy_of", types.AccuracyOf),
     ],
 )
 def test_names_are_those_of_the_core(rough, keyword, kind):
@@ -107,10 +107,10 @@ def test_names_are_those_of_the_core(rough, keyword, kind):
 @pytest.mark.parametrize(
     ("keyword", "kind"),
     [
-        ("align_rows", _types.RowAlignment),
-        ("scan_axis", _types.ScanAxis),
-        ("remove_form", _types.RemovedForm),
-        ("detrend", _types.Trend),
+        ("align_rows", types.RowAlignment),
+        ("scan_axis", types.ScanAxis),
+        ("remove_form", types.RemovedForm),
+        ("detrend", types.Trend),
     ],
 )
 def test_names_of_preparation_are_those_of_the_core(rough, keyword, kind):

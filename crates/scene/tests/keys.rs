@@ -43,7 +43,7 @@ fn python() -> String {
         "\"\"\"The keywords of solves, by the keys of scenes. Written by `UPDATE=1 cargo test -p asperity-scene --test keys`.\"\"\"\n\n\
          from __future__ import annotations\n\nfrom typing import TYPE_CHECKING, Literal, TypedDict\n\n\
          if TYPE_CHECKING:\n    from collections.abc import Iterable\n\n    from numpy.typing import ArrayLike\n\n    \
-         from ._types import OwnLaw, Quantity\n    from ._wall import Penalty, Uzawa\n",
+         from ..bodies.wall import Penalty, Uzawa\n    from ..common.types import OwnLaw, Quantity\n",
     );
     for (name, about, list) in KEYWORDS {
         let _ = write!(text, "\n\nclass {name}Keywords(TypedDict, total=False):\n    \"\"\"{about}.\"\"\"\n\n");
@@ -75,7 +75,7 @@ fn document() -> String {
 #[test]
 fn keywords_of_python_and_the_table_of_the_documents_are_the_keys() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    for (file, text) in [("python/asperity/_keys.py", python()), ("docs/program/keys.md", document())] {
+    for (file, text) in [("python/asperity/api/keys.py", python()), ("docs/program/keys.md", document())] {
         let path = root.join(file);
         if std::env::var_os("UPDATE").is_some() {
             std::fs::write(&path, &text).expect("a file that can be written");

@@ -1,9 +1,9 @@
 """Force curves of tips: their files, their fits, and the equilibria of tips of any shape."""
 
+from .curve_map import CurveMap, fit_curves
+from .files.read import ForceCurve, read_curve
 from .fit import CurveFit, fit_curve
 from .likelihood import Estimate, ModelFit
-from .maps import CurveMap, fit_curves
-from .read import ForceCurve, read_curve
 from .tip_table import TipTable
 
 __all__ = [

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._types import Quantity
-from .._units import given, in_unit, number
+from ..common.types import Quantity
+from ..common.units import given, in_unit, number
 from .branches import ordered
 from .curve import Curve, Direction
 from .tip_table import TipTable

@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _asperity, _plot
-from .._types import Quantity
-from .._warnings import InputWarning, warn
-from .._words import checked
+from .. import _asperity
+from ..common.types import Quantity
+from ..common.warnings import InputWarning, warn
+from ..common.words import checked
+from ..plot import figures
 from .asked import Asked, asked
 from .curve import Direction
 from .likelihood import DOUBTFUL, LEVEL, UNLIKELY, Estimate, Likelihood, ModelFit
-from .plot import force_curve
+from .pictures import force_curve
 from .search import search
 from .tip_table import TipTable
 from .tips import Array
@@ -105,12 +106,12 @@ class CurveFit:
             found: Estimate | None = getattr(self, name)
             if found is not None:
                 shown = (1.0, unit if self._is_si else None)
-                factor, unit = _plot._scaled([end for end in found if np.isfinite(end)], shown)
+                factor, unit = figures._scaled([end for end in found if np.isfinite(end)], shown)
                 value, lower, upper = _digits(factor, found)
                 lines.append(f"{name.replace('_', ' '):<18}{value:>12}   {lower} to {upper} {unit}".rstrip())
         lines.append(f"{'':<18}{'rms residual':>12}   AIC   probability")
         for name, model in self.models.items():
-            factor, unit = _plot._scaled([model.rms], (1.0, "N" if self._is_si else None))
+            factor, unit = figures._scaled([model.rms], (1.0, "N" if self._is_si else None))
             rms = f"{factor * model.rms:.4g} {unit}".rstrip()
             lines.append(f"{name:<18}{rms:>12}   {model.aic:.1f}   {model.p_value:.2g}")
         return "\n".join([*lines, self.verdict])
@@ -131,7 +132,7 @@ class CurveFit:
         ndarray of two matplotlib Axes
         """
         own = ("m", "N") if self._is_si else (None, None)
-        length, force = _plot.shown("length_unit", own[0], length_unit), _plot.shown("force_unit", own[1], force_unit)
+        length, force = figures.shown("length_unit", own[0], length_unit), figures.shown("force_unit", own[1], force_unit)
         return force_curve(self.z, self.force, self.fitted, self._turn, length, force, ax)
 
 

@@ -11,13 +11,13 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from .. import _asperity
-from .._body import Coating, Layer
-from .._contact import Contact, cycle
-from .._topography import Heights
-from .._types import AxisOrder, Lengths, OwnLaw, Quantity
-from .._units import number
-from .._warnings import InputWarning, warn
-from .tips import Array, flat, scipy
+from ..api.contact import Contact, cycle
+from ..bodies.body import Coating, Layer
+from ..common.types import AxisOrder, Lengths, OwnLaw, Quantity
+from ..common.units import number
+from ..common.warnings import InputWarning, warn
+from ..maps.heights import Heights
+from .tips import Array, scipy
 
 #: Distances and forces.
 Pair: TypeAlias = tuple[Array, Array]

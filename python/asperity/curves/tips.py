@@ -8,8 +8,9 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _asperity, exact
-from .._optional import package
+from .. import _asperity
+from ..common.optional import package
+from ..exact import solutions as exact
 
 Array: TypeAlias = NDArray[np.float64]
 

@@ -1,0 +1,1 @@
+"""What solves return: solutions, tables of them, and folders."""

@@ -1,0 +1,1 @@
+"""Contact problems as users pose them."""

@@ -1,0 +1,1 @@
+"""Elastic bodies and walls of springs."""

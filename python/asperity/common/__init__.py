@@ -1,0 +1,1 @@
+"""What all rooms use: types, units, messages, warnings, progress."""

@@ -1,0 +1,66 @@
+"""Keywords that are not those of a function, and the ones that they may mean."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, ParamSpec, TypeVar
+
+from .. import _asperity
+from .units import given
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+#: The names of loads by the keywords of their sequences.
+PLURALS = {
+    "mean_pressures": "mean_pressure",
+    "mean_gaps": "mean_gap",
+    "normal_forces": "normal_force",
+    "approaches": "approach",
+    "springs": "spring",
+    "reduced_pressures": "reduced_pressure",
+    "contact_fractions": "contact_fraction",
+}
+
+
+def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
+    """Refuses keywords that a function does not have, with those that they may mean."""
+    for word in given:
+        if word not in known:
+            raise TypeError(f"{function}() has no keyword {word}: {_meant(word, known)}")
+
+
+def _meant(word: str, known: Sequence[str]) -> str:
+    one = PLURALS.get(word)
+    many = next((plural for plural, single in PLURALS.items() if single == word), None)
+    if one in known:
+        return f"give {one}, or many loads to asperity.sweep, as {word}=[...]"
+    if many in known:
+        return f"give {many}=[...], or one load to asperity.solve, as {word}"
+    right = _asperity.meant(word, known)
+    return f"did you mean {right}?" if right else f"it has {', '.join(known)}"
+
+
+def checked(function: Callable[P, R]) -> Callable[P, R]:
+    """A function of the package, as users see it.
+
+    It reads quantities with units, and suggests what an unknown keyword may mean.
+    """
+    known = tuple(inspect.signature(function).parameters)
+
+    @functools.wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        check(function.__name__, kwargs, known)
+        count = min(len(args), len(known))
+        values, is_si = _asperity.in_si([*zip(known, args), *kwargs.items()])
+        numbers: Any = (*values[:count], *args[count:])
+        keywords: Any = dict(zip(kwargs, values[count:]))
+        token = given.set(is_si)
+        try:
+            return function(*numbers, **keywords)
+        finally:
+            given.reset(token)
+
+    return call

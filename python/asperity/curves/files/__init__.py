@@ -1,0 +1,1 @@
+"""Files of force curves: columns of text, and the files of instruments."""

@@ -1,0 +1,32 @@
+"""The arrays of an adhesion law, by which tables in files are known again."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._asperity import Law
+from .laws import CutOff, Tabulated, Varying
+
+
+def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:
+    """Gaps and tractions and the works of adhesion of a law, and whether it may differ from others of its name."""
+    law, works = unwrapped(law)
+    table = np.column_stack([law.gaps, law.tractions]) if isinstance(law, Tabulated) else None
+    own = law is not None and not isinstance(law, Law)
+    if works is None:
+        return table, None, own
+    # the law that varies may be one of another work of adhesion than the largest
+    return table, np.atleast_2d(works), own or getattr(law, "work_of_adhesion", None) != np.max(works)
+
+
+def unwrapped(law: Any) -> tuple[Any, Any]:
+    """The law of which a law that ends or varies is made, and its works of adhesion."""
+    works = None
+    while isinstance(law, (CutOff, Varying)):
+        if isinstance(law, Varying):
+            works = law.work_of_adhesion
+        law = law.law
+    return law, works

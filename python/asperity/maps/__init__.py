@@ -1,0 +1,1 @@
+"""Maps of heights: arrays, files, other packages, preparation."""

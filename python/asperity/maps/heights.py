@@ -1,0 +1,56 @@
+"""Heights as functions take them: maps, arrays, files and the objects of other packages."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+from numpy.typing import ArrayLike
+
+from ..common.types import AxisOrder, HeightMap
+from ..common.units import given as units
+from .arrays import array_of, is_data_array, labelled, order_of, side_lengths
+from .files import read
+from .packages import from_data_array, from_topography, is_topography
+from .topography import Topography, in_metres
+
+#: A map as functions take it.
+Heights: TypeAlias = ArrayLike | Topography | HeightMap | str | os.PathLike[str]
+
+
+def taken(
+    heights: Heights, lengths: Any = None, axes: AxisOrder | None = None, si: bool | None = None, name: str = "heights"
+) -> Topography:
+    """The map of whatever holds heights, with the side lengths that are given for it; in metres with units."""
+    topography = found(heights, axes, name)
+    if units.get() if si is None else si:
+        topography = in_metres(topography)
+    return topography if lengths is None else replace(topography, lengths=side_lengths(lengths, topography.heights.shape))
+
+
+def found(heights: Heights, axes: AxisOrder | None, name: str = "heights") -> Topography:
+    """The map of whatever holds heights, in float64; the data are not copied where they are that already."""
+    if axes is not None and knows_axes(heights):
+        raise ValueError(f"axes is {axes!r}, but a file or a map knows its axes: leave it out, or give an array")
+    if isinstance(heights, Topography):
+        return heights
+    if isinstance(heights, str | os.PathLike):
+        return read(heights)
+    if is_topography(heights):
+        return from_topography(heights)
+    heights = labelled(heights, axes, name)
+    if is_data_array(heights):
+        return from_data_array(heights, axes)
+    array, is_line = array_of(heights, name, axes)
+    return Topography(array, _is_line=is_line)
+
+
+def knows_axes(heights: Heights) -> bool:
+    """Whether heights are a map or a file, whose axes are known."""
+    return isinstance(heights, Topography | str | os.PathLike) or is_topography(heights)
+
+
+def axes_of(heights: Heights, axes: AxisOrder | None) -> AxisOrder:
+    """The order of the axes of heights: that of a map, of the names of dimensions, or the one that is given."""
+    return "xy" if knows_axes(heights) else order_of(labelled(heights, axes), axes)
