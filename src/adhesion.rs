@@ -76,7 +76,7 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
     /// The adhesive traction φ'(g), force per area; positive attracts.
     fn traction(&self, gap: T) -> T;
 
-    /// The slope of the traction φ''(g), traction per length; where the traction jumps, that next to the jump.
+    /// The slope of the traction φ''(g), traction per length; at a jump of the traction, the slope next to the jump.
     fn slope(&self, gap: T) -> T;
 
     /// Work of adhesion, range, and whatever else a solve may know beforehand; by default [`Hints::of`] the functions.
@@ -110,17 +110,18 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
         }
     }
 
-    /// Sets the shares −φ(g)/w of their energy in contact that the nodes from `first` on have: the contact area of each
-    /// that the theory of Johnson, Kendall and Roberts means. A node without a work of adhesion has one where it touches.
+    /// Sets the share −φ(g)/w of the energy in contact for each node from `first` on: the contact area of the node in
+    /// the theory of Johnson, Kendall and Roberts. A node without a work of adhesion has the share one where it
+    /// touches.
     fn contact_shares(&self, first: usize, gaps: &[T], shares: &mut [T]) {
         let work = self.hints().work_of_adhesion;
         self.evaluate(first, gaps, Values::one(0, shares));
         shares.iter_mut().for_each(|share| *share = (T::zero() - *share) / work);
     }
 
-    /// The law on nodes of this compliance, length per pressure: for a law without a range of its own, as
-    /// [`Jkr`], which is as short there as the nodes can follow. None, the default, for a law that is the same
-    /// on every grid. [`Problem::new`](crate::Problem::new) asks, with Δx/E*, and so on each of nested grids.
+    /// The law on nodes of this compliance, length per pressure: for a law without a range of its own, as [`Jkr`]: as
+    /// short as the nodes can follow. None, the default, for a law that is the same on every grid.
+    /// [`Problem::new`](crate::Problem::new) asks with Δx/E*, on each of nested grids.
     fn on_nodes(&self, compliance: T) -> Option<Arc<dyn AdhesionLaw<T>>> {
         let _ = compliance;
         None
@@ -139,8 +140,8 @@ pub trait AdhesionLaw<T: Real>: Send + Sync {
 pub enum Discretisation<T> {
     /// The coarser grid of every nx-th and every ny-th node: for a law that varies over the surface.
     Coarse(usize, usize),
-    /// The finer grid of nx times and ny times as many nodes, on which every node stands for those behind it: for a law
-    /// that varies over the surface.
+    /// The finer grid of nx times and ny times as many nodes, where every node stands for the nodes behind it: for a
+    /// law that varies over the surface.
     Fine(usize, usize),
     /// Nodes of this compliance, length per pressure: for a law with jumps of the traction. Slopes of at most one over
     /// the compliance replace the jumps; the functions still agree, and the work of adhesion stays.
@@ -202,7 +203,7 @@ pub(crate) fn noticeable<T: Real>(law: &dyn AdhesionLaw<T>) -> f64 {
     if scale.is_finite() { NOTICEABLE * scale } else { 0.0 }
 }
 
-/// The law on the nodes of a grid, if it is another one there, on a body of contact `modulus` E*.
+/// The law on the nodes of a grid, on a body of contact `modulus` E*, if the law differs there.
 pub(crate) fn on_grid<T: Real>(law: &dyn AdhesionLaw<T>, grid: &Grid, modulus: f64) -> Option<Arc<dyn AdhesionLaw<T>>> {
     law.on_nodes(T::lit(grid.largest_spacing() / modulus))
 }

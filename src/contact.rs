@@ -32,13 +32,13 @@ pub use patch::Patch;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Region {
-    /// They touch, as [`Solution::contact_map`] says.
+    /// The surfaces touch, as [`Solution::contact_map`] says.
     Contact,
-    /// They attract each other without contact, as [`ContactStatistics::attractive_fraction`] counts it.
+    /// The surfaces attract each other without contact, as [`ContactStatistics::attractive_fraction`] counts it.
     Attractive,
-    /// They do not notice each other.
+    /// The surfaces are apart, without a noticeable attraction.
     Apart,
-    /// There is no surface: the node is [absent](crate::Surface::with_absent).
+    /// No surface: the node is [absent](crate::Surface::with_absent).
     Absent,
 }
 
@@ -83,7 +83,7 @@ impl<T: Real> Solution<T> {
 type Whole<'a, T> = CowArray<'a, T, Ix2>;
 
 /// Whether each node attracts without contact: whether its adhesive traction is noticeable, and for a law that attracts
-/// next to contacts alone, whether there is one.
+/// next to contacts alone, whether the node is next to a contact.
 fn attracting<T: Real>(
     contact: &Array2<bool>,
     gap: ArrayView2<'_, T>,
@@ -128,9 +128,9 @@ fn whole<'a, T: Real>(
 /// Fractions are of the nodes that are not [absent](crate::Surface::with_absent): without absent nodes, of the nominal
 /// area Lx·Ly. Contact, attractive and apart fraction add up to one. With a free boundary opposite sides do not meet.
 ///
-/// The corrected contact area is that within the edge of the contact between the nodes. As a straight edge moves from
-/// one row of nodes to the next, the contact pressure λ of the row inside rises from zero, and the gap g of the row
-/// outside falls to zero, both in proportion. So the edge is a fixed number β of spacings Δ inside the contour on
+/// The corrected contact area is the area within the edge of the contact between the nodes. As a straight edge moves
+/// from one row of nodes to the next, the contact pressure λ of the row inside rises from zero, and the gap g of the
+/// row outside falls to zero, both in proportion. So the edge is a fixed number β of spacings Δ inside the contour on
 /// which
 ///
 /// ```math

@@ -97,7 +97,7 @@ pub trait ElasticOperator<T: Real>: Send {
     }
 }
 
-/// What a solve asks of an operator, by its spectral one or by the applications alone.
+/// What a solve asks of an operator, by its spectral operator or by applications alone.
 impl<T: Real> dyn ElasticOperator<T> + '_ {
     /// The elastic pressure p = K⁻¹u, and the mean of u·K⁻¹u.
     pub(crate) fn pressure_and_work(
@@ -233,8 +233,8 @@ fn mean_product<S: Real, T: Real>(grid: &Grid, a: ArrayView2<'_, S>, b: ArrayVie
     grid.mean_of_both(a, b, |a: S, b: T| a.widen() * b.widen())
 }
 
-/// The methods of an operator that is another one, `$inner` of `$this`, with the boundary and the spectral operator of
-/// its own.
+/// The methods of an operator that wraps another, `$inner` of `$this`, with a boundary and a spectral operator of its
+/// own.
 macro_rules! delegate {
     ($this:ident => $inner:expr, $boundary:expr, $spectral:expr) => {
         fn grid(&self) -> &Grid {

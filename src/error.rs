@@ -100,7 +100,7 @@ pub enum Error {
     Unresolved {
         /// The wave number k_s of the shortest waves, in units of 2π/Lx.
         k_s: f64,
-        /// The wave number that this grid no longer resolves, in the same unit.
+        /// The least wave number that this grid does not resolve, in the same unit.
         limit: f64,
         /// The grid's shape, `(Nx, Ny)`.
         shape: (usize, usize),
@@ -152,9 +152,9 @@ pub enum Breach {
     /// A law that [says](crate::adhesion::Hints) that it is zero has no traction.
     Zero,
     /// The traction of a law that [says](crate::adhesion::Hints::concave) that it is concave does not rise with the
-    /// gap: at a smaller one it is this.
+    /// gap: at a smaller gap it is this value.
     Concave(f64),
-    /// A traction that falls at once, from this, has a [smoothed](crate::adhesion::Discretisation::Smooth) law.
+    /// A traction that jumps, from this value, has a [smoothed](crate::adhesion::Discretisation::Smooth) law.
     Jump(f64),
     /// The traction has the sign of the derivative of the energy, which changes by this up to the next gap.
     Sign(f64),

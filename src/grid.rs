@@ -197,7 +197,7 @@ impl Grid {
         (self.lengths.0 / self.shape().0 as f64, self.lengths.1 / self.shape().1 as f64)
     }
 
-    /// The larger of Δx and Δy; that along the other side where one side has a single node.
+    /// The larger of Δx and Δy; the spacing along the other side where one side has a single node.
     pub fn largest_spacing(&self) -> f64 {
         let (dx, dy) = self.spacing();
         match self.shape() {

@@ -1,8 +1,9 @@
 //! The functions that take long to compile, by name: they are compiled once for each precision, with this crate.
 //!
-//! Generic functions are compiled with each crate that calls them. A function of this table is called as one of the
-//! scalar, `T::solve(…)`, and calls the one next to it here: for `f32` and `f64` alike, or for each its own; with
-//! `[within]` on one of the workers, as it has many short loops. As a table of contents it names functions of all floors.
+//! Generic functions are compiled with each crate that calls them. A function of this table is called as a function of
+//! the scalar, `T::solve(…)`, and calls the function next to it: one for `f32` and `f64`, or one for each; with
+//! `[within]` on one of the workers, as it has many short loops. As a table of contents it names functions of all
+//! floors.
 
 use asperity_fft::num_complex::Complex;
 use asperity_fft::{Transform, double, single};

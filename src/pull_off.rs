@@ -22,7 +22,7 @@ const FIRST: f64 = 1.0 / 16.0;
 /// The attraction of surfaces at rest, over their energy of adhesion and its range: a tension that is tried.
 const AT_REST: f64 = 0.1;
 
-/// The least and the largest tension after one that is borne, over that one, as long as none is too large.
+/// The least and the largest next tension over the last tension borne, as long as no tension is too large.
 const GROWTH: (f64, f64) = (1.2, 2.5);
 
 /// The share of a bracket that a tension leaves to both sides at least.
@@ -30,13 +30,13 @@ const MARGIN: f64 = 0.1;
 
 /// A search for the pull-off: the greatest tension under which surfaces that adhere stay together.
 ///
-/// The tension grows, each solve from the gap under the greatest one that was borne, until the surfaces come apart
+/// The tension grows, each solve from the gap under the greatest tension borne, until the surfaces come apart
 /// ([`Status::Detached`]); then the pull-off is between the two, and their bracket is narrowed until it is `tolerance`
-/// wide. A loss counts from a state within the tolerance of it: from one farther off it may be a jump that shorter steps
-/// do not make, and is tried again from a closer one. Contacts that are lost on the way are lost under the load, as on a
-/// soft spring. Before, the surfaces are pressed flat, as on the branch of unloading ([`Branch`]), or to a `preload`. On
-/// the branch of unloading that is the largest tension that has an equilibrium at all, if the traction of the law falls
-/// with the gap.
+/// wide. A loss counts only from a state within the tolerance of the lost tension: from a farther state it may be a
+/// jump that shorter steps avoid, and is tried again from a closer state. Contacts that are lost on the way are lost
+/// under the load, as on a soft spring. Before, the surfaces are pressed flat, as on the branch of unloading
+/// ([`Branch`]), or to a `preload`. On the branch of unloading the pull-off is the largest tension with an equilibrium,
+/// if the traction of the law falls with the gap.
 ///
 /// | field | default | meaning | range |
 /// |---|---|---|---|
@@ -75,10 +75,10 @@ pub struct PullOff {
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct FoundPullOff<T: Real> {
-    /// The state under the greatest tension that was borne; its mean pressure is minus that.
+    /// The state under the greatest tension borne; its mean pressure is minus this tension.
     pub solution: Solution<T>,
-    /// The least tension under which the surfaces came apart, a pressure; none if there was no such one. If
-    /// [`reached`](Self::reached), they did so from a state under a tension within the tolerance of it.
+    /// The least tension under which the surfaces came apart, a pressure; none if they never did. If
+    /// [`reached`](Self::reached), they came apart from a state within the tolerance of this tension.
     pub lost: Option<f64>,
     /// Whether the bracket is as narrow as the tolerance.
     pub reached: bool,
@@ -253,7 +253,7 @@ impl Held {
     }
 }
 
-/// The tensions that are borne, in their order, and the least one that is not.
+/// The tensions that are borne, in their order, and the least tension that is not.
 #[derive(Debug)]
 struct Bracket {
     borne: Vec<Held>,

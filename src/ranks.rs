@@ -141,7 +141,7 @@ mod job {
     /// The bytes that this process has sent to others in exchanges.
     static BYTES: AtomicU64 = AtomicU64::new(0);
 
-    /// A buffer of nothing has an address, as that which empty slices of bytes have means something else to MPI.
+    /// The address of an empty buffer: the address of an empty slice of bytes means something else to MPI.
     fn placed<'a, E>(buffer: &'a [E], somewhere: &'a [E]) -> &'a [E] {
         if buffer.is_empty() { &somewhere[..0] } else { buffer }
     }

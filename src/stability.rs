@@ -61,9 +61,9 @@ names!(Verdict { Stable = "stable", Unstable = "unstable", Undecided = "undecide
 /// conjugate gradients (Knyazev, *SIAM J. Sci. Comput.* 23 (2001)) with the compliance as preconditioner, two operator
 /// applications an iteration.
 ///
-/// Their Rayleigh quotient is above λ; a larger tolerance makes it likelier that it is the second eigenvalue. If it is
-/// negative, that proves instability. If it is positive, the lower bound is the softest stiffness plus the least φ''
-/// if that will do, and otherwise one from a Lanczos iteration on the Hessian with the found mode lifted, and Temple's
+/// Their Rayleigh quotient is above λ; a larger tolerance makes the second eigenvalue likelier. A negative quotient
+/// proves instability. With a positive quotient the lower bound is the softest stiffness plus the least φ'' if this is
+/// enough, and otherwise a bound by a Lanczos iteration on the Hessian with the found mode lifted, and Temple's
 /// inequality: close near limit points, and wrong for one in a million random starts (every run has the same).
 ///
 /// | field | default | meaning | range |
@@ -272,7 +272,7 @@ fn check_gap<T: Real>(
     if problem.flat.window.is_none() {
         problem.grid().finite("gap", gap.view())?;
     }
-    let yields = "a surface that yields is not that of an energy: it does not come back where the load is taken away";
+    let yields = "a surface that yields has no energy: it does not come back where the load is taken away";
     refuse_hardness(constraint.wall(), yields)?;
     check_wall(problem.law, constraint.wall())?;
     let negative = gap.iter().find(|&&gap| constraint.wall().is_rigid() && gap < T::zero());

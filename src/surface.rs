@@ -58,8 +58,8 @@ impl Surface {
     }
 
     /// The surface with absent nodes, of shape (Nx, Ny): they neither touch nor attract. The heights there count in
-    /// statistics and in the scale of errors alone, and best continue those around them: `surface_with_absent` of
-    /// `asperity-maps` makes such heights where they are missing.
+    /// statistics and in the scale of errors alone, and should continue the heights around them: `surface_with_absent`
+    /// of `asperity-maps` makes such heights where they are missing.
     ///
     /// # Errors
     /// [`Error::Shape`] if they do not fit the grid, [`Error::Value`] if all nodes are absent.
@@ -151,7 +151,7 @@ impl Surface {
         datum + above
     }
 
-    /// A height, the first one, and how far the mean is above it: that is not rounded to the digits of a large datum.
+    /// The first height, and the distance of the mean above it, which is not rounded to the digits of a large datum.
     pub(crate) fn datum_and_mean(&self) -> [f64; 2] {
         let datum = self.grid.each(self.heights.first().copied().unwrap_or_default())[0];
         [datum, self.grid.mean(self.heights.view(), |h| h - datum)]

@@ -13,7 +13,7 @@ use crate::solver::{
     check_hardness, extrapolated, unload,
 };
 
-/// A sweep of one problem through a sequence of loads, each solve from where the ones before lead.
+/// A sweep of one problem through a sequence of loads, each solve from where the solves before lead.
 ///
 /// Solver and problem are given with each load. With the feature `serde` a sweep is its own checkpoint: kept and read
 /// again, it continues bit for bit, also at a problem that is made anew.
@@ -25,8 +25,8 @@ use crate::solver::{
 /// - with adhesion, in the same way as long as the load continues in one direction and the two gaps before the last one
 ///   had led to it, which they do not across a jump;
 /// - otherwise, and where loads are not of one kind, from the last gap;
-/// - from the default start under a pressure or force of more than four times the last one, which says little of it; with
-///   adhesion only if the last load had started so on the branch of loading.
+/// - from the default start under a pressure or force of more than four times the last, as the last gap says little of
+///   it; with adhesion only if the last load had started so on the branch of loading.
 ///
 /// A sweep with adhesion follows its branch of equilibria up to the instability at which it jumps, and surfaces that
 /// were pulled apart ([`Status::Detached`](crate::Status)) stay so until they are pressed together again.
@@ -74,8 +74,7 @@ pub(crate) const MOST_STEPS: f64 = 2.0;
 /// The ratio of two loads above which the second one starts anew.
 const FAR: f64 = 4.0;
 
-/// The distance of a gap from that which the two before it foretold, over that from the one before it, from which on it
-/// may have jumped.
+/// The error of an extrapolated gap, over the last change of the gap, above which the branch may have jumped.
 const FORETOLD: f64 = 0.5;
 
 impl<T> Default for Sweep<T> {
@@ -183,7 +182,7 @@ impl<T: Real> Sweep<T> {
         Ok(solution)
     }
 
-    /// The start under a load to which the history leads; of its gaps only those stay that the start after it needs.
+    /// The start under a load by the history, which keeps only the gaps that the next start needs.
     fn next_start(&mut self, problem: &Problem<T>, least: Least<T>, load: Control) -> Option<Begin<'_, T>> {
         let adheres = !problem.law_on_grid().hints().zero;
         let ahead = |two, load| ahead(problem, least, two, load);
@@ -244,7 +243,7 @@ fn ahead<T: Real>(
     Some(extrapolated([&before.1.gap, &last.1.gap], steps.clamp(-MOST_STEPS, MOST_STEPS), (least, true), on))
 }
 
-/// Whether a load presses by so much more than the one before that its gap says little.
+/// Whether a load presses so much more than the load before that the last gap says little.
 fn is_far(before: Control, load: Control) -> bool {
     match (before, load) {
         (Control::MeanPressure(a), Control::MeanPressure(b)) | (Control::Force(a), Control::Force(b)) => {
@@ -264,7 +263,7 @@ fn is_last_unloading(before: Control, load: Control) -> bool {
     }
 }
 
-/// Whether a gap was foretold, without a jump: it is closer to the one that was than the one before.
+/// Whether a gap was foretold, without a jump: the extrapolation is closer to it than the gap before.
 fn foretells<T: Real>(problem: &Problem<T>, foretold: &Array2<T>, [before, last]: [&(Control, Place<T>); 2]) -> bool {
     let apart = |gap: &Array2<T>| {
         let square = |a: T, b: T| (a - b).widen().powi(2);

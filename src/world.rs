@@ -66,8 +66,8 @@ impl World {
         grid.within(Slab::new(grid.shape(), self.ranks))
     }
 
-    /// The result of this process; if another one before it has an error, or this one has none and another has, an
-    /// error that names it. All processes have to ask.
+    /// The result of this process, or an error that names another process: if a process before it has an error, or this
+    /// process has none and another has. All processes have to ask.
     ///
     /// # Errors
     /// The error of the result, or [`Error::Elsewhere`].
@@ -81,8 +81,8 @@ impl World {
         String::from_utf8_lossy(&self.ranks.lists(own)).into_owned()
     }
 
-    /// The bytes that this process has sent to others in exchanges of fields: of P processes, in each of the two of an
-    /// operator application, about 16·Nx(Ny/2 + 1)/P·(1 − 1/P) in `f64`, and half of that in `f32`.
+    /// The bytes that this process has sent to others in exchanges of fields: with P processes, in each of the two
+    /// exchanges of an operator application, about 16·Nx(Ny/2 + 1)/P·(1 − 1/P) in `f64`, and half of that in `f32`.
     pub fn bytes_sent(&self) -> u64 {
         self.job.bytes_sent()
     }

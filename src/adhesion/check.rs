@@ -149,7 +149,7 @@ impl<T: Real> Checked<'_, T> {
         let [work, left] = [self.hints, smooth.hints].map(|hints| hints.work_of_adhesion.widen());
         let keeps = (left - work).abs() <= SHARE * work.abs();
         if !keeps {
-            let requirement = "that of the law, which a smoothed one keeps";
+            let requirement = "the work of adhesion of the law itself";
             return Err(Error::Value { name: "work of adhesion of the smoothed law", value: left, requirement });
         }
         if smooth.jump().is_some() { Err(jump) } else { smooth.nodes() }

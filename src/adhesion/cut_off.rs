@@ -73,7 +73,7 @@ impl<L> CutOff<L> {
             return Err(Error::Value {
                 name: "adhesive energy in contact, or at rest, of the law to be cut off",
                 value: energy,
-                requirement: "minus its work of adhesion, which a law has that falls to zero at large gaps",
+                requirement: "minus its work of adhesion: the law must fall to zero at large gaps",
             });
         }
         Ok(Self::between(law, start, distance))

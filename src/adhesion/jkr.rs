@@ -21,8 +21,8 @@ const SQUARE: f64 = 13.0;
 /// grids](crate::Nested), and each node of a law that [varies](crate::adhesion::Varying), has a range of its own. Until
 /// a grid sets the range, the law attracts in contact alone, with no bound.
 ///
-/// The page [`choosing`](crate::guide::choosing) says how right it is. A law with a range is to be taken where that is
-/// longer than the one here.
+/// The page [`choosing`](crate::guide::choosing) says how right it is. Take a law with a range where its range is
+/// longer than the range on the grid.
 ///
 /// ```
 /// use asperity::{AdhesionLaw, Grid, Jkr, Problem, Surface, Westergaard};
@@ -52,7 +52,7 @@ impl Jkr {
         Ok(Self { work_of_adhesion, range: 0.0, touching: true })
     }
 
-    /// The law in the place of one with a range, which attracts wherever the gap is smaller.
+    /// A substitute for a law with a range, which attracts wherever the gap is below the range of the grid.
     pub(crate) fn with_range_of_grid(work_of_adhesion: f64) -> Result<Self> {
         Ok(Self { touching: false, ..Self::new(work_of_adhesion)? })
     }

@@ -48,7 +48,7 @@ impl<L: AdhesionLaw<f64>> Varying<L> {
         let hints = law.hints();
         let own = Error::positive("work of adhesion of the law that varies", hints.work_of_adhesion)?;
         if hints.shape.is_some() {
-            let requirement = "one: give the law that the varying one is made of";
+            let requirement = "one: give the law before it varies";
             return Err(Error::Value { name: "number of works of adhesion at a node", value: 2.0, requirement });
         }
         if works.is_empty() {

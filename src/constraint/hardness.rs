@@ -17,10 +17,10 @@ use crate::vector::vectors;
 /// ψ(g) = H ⟨−g⟩₊ ,   λ = H where g < 0 ,   0 ≤ λ ≤ H where g = 0 ,   λ = 0 where g > 0
 /// ```
 ///
-/// A law that pulls with a traction t where the surfaces touch does a part of that work, and H − t of each depth is
-/// dissipated. The gap g of the surface as it was is negative where this has yielded, by the plastic depth −g. A
-/// [`Solution`](crate::Solution) has the gap to the surface as it is now, which is zero there, and the
-/// [depth](crate::Solution::plastic_depth) next to it. A solve is monotonic loading of its problem's surface;
+/// A law that pulls with a traction t where the surfaces touch does a part of this work, and H − t is dissipated per
+/// depth. Where the surface has yielded, the gap g to the surface before is negative, by the plastic depth −g. A
+/// [`Solution`](crate::Solution) has the gap to the yielded surface, zero there, and the
+/// [depth](crate::Solution::plastic_depth). A solve is monotonic loading of its problem's surface;
 /// [`Problem::flatten`](crate::Problem::flatten) keeps a depth, so that unloading from there is elastic, as
 /// [`Sweep`](crate::Sweep) and [`Path`](crate::path::Path) do from load to load.
 ///

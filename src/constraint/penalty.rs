@@ -8,8 +8,8 @@ use crate::real::Real;
 /// Penalty springs of stiffness k that resist interpenetration: the energy gains ½k⟨−g⟩₊² at each node.
 ///
 /// The surfaces interpenetrate by the contact pressure over k, at worst by [`Report::min_gap`](crate::Report). A
-/// solve with stiff springs starts from the state of a rigid wall, and takes hardly more iterations than one with
-/// [`Projection`](super::Projection), with which this is to be compared.
+/// solve with stiff springs starts from the state of a rigid wall, and takes hardly more iterations than a solve with
+/// [`Projection`](super::Projection).
 ///
 /// ```
 /// use asperity::{Control, Grid, NoAdhesion, Penalty, Problem, Settings, Solver, Surface, Westergaard};

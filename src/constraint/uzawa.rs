@@ -12,8 +12,7 @@ use crate::par::{self, Parts};
 use crate::real::Real;
 use crate::slab::Slab;
 
-/// The factor by which the springs become stiffer, and the share of the interpenetration above which they do so if it is
-/// left after a round.
+/// The factor by which the springs stiffen after a round that leaves more than its reciprocal of the interpenetration.
 const STIFFEN: f64 = 4.0;
 const SLOW: f64 = 0.25;
 
@@ -24,7 +23,7 @@ const STIFFEST: f64 = 10.0;
 /// The relative error to which the first round with springs is solved from a given start.
 const FIRST: f64 = 1e-2;
 
-/// The share of the error of a round to which the next one is solved: rounds leave more than it.
+/// The share of the error of a round to which the next round is solved: rounds leave a larger share.
 const NEXT: f64 = 0.1;
 
 /// The augmented Lagrangian of Uzawa: springs of stiffness k, and multipliers λ that take over the contact pressure

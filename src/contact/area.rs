@@ -19,7 +19,7 @@ const EDGE_EXCESS: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) /
 /// The width of the process zone at the edge of a contact, by its adhesive energy, in nodes for each side of a cell.
 const ZONE: f64 = 0.16;
 
-/// The energy of the nodes out of contact, in nodes for each side of a cell, from which the edge is one of adhesion.
+/// The energy of the nodes out of contact, in nodes for each side of a cell, from which on the edge is adhesive.
 const ADHESIVE: f64 = 0.3;
 
 /// The most of the area by energy that the process zone takes: contacts of a few nodes have no other inside.
@@ -55,10 +55,10 @@ pub struct ContactArea {
     pub perimeter: f64,
     /// The number of neighbours between which the edge runs.
     pub edges: usize,
-    /// The contact area that the theory of Johnson, Kendall and Roberts means, as a share of the nominal area, of a
-    /// solution by [`Jkr`](crate::Jkr): [`ContactArea::of_solution`].
+    /// The contact area in the theory of Johnson, Kendall and Roberts, as a share of the nominal area, of a solution by
+    /// [`Jkr`](crate::Jkr): [`ContactArea::of_solution`].
     pub jkr_contact_fraction: Option<f64>,
-    /// The area of the process zone at the edge of the contact, by its adhesive energy, with that; zero without adhesion.
+    /// The area of the process zone at the edge of the contact, in the area by adhesive energy; zero without adhesion.
     pub process_zone: f64,
     /// How many of the `edges` are at independent places between the nodes; 1 for a strip along the nodes.
     pub places: f64,
@@ -271,7 +271,7 @@ mod tests {
         assert_eq!(count(&["#..#", "....", "...."]), (4, 2));
         // a band around the cell has two straight edges
         assert_eq!(count(&["....", "####", "...."]), (8, 0));
-        // where a side has two nodes they are neighbours twice, and a single one is its own
+        // two nodes along a side are neighbours twice, and a single node is its own neighbour
         assert_eq!(count(&["#...", "...."]), (2, 2));
         assert_eq!(count(&["##..#"]), (0, 2));
     }

@@ -37,7 +37,7 @@ pub struct PressureDistribution {
     pub density: Vec<f64>,
 }
 
-/// The most bins; more are a slip of the pen.
+/// The most bins; more are a mistake.
 const MOST_BINS: usize = 1 << 24;
 
 impl PressureDistribution {
@@ -125,9 +125,9 @@ const SLACK: f64 = 1.0;
 /// The most values that enter the quantiles: a million tell enough of the distribution.
 const MOST: usize = 1_000_000;
 
-/// The range of values without spikes and scars: from the least to the greatest of those that are no farther from the
-/// inner 98 % than these are wide. All values count where the inner ones are equal, and where there are less than 100;
-/// those that are not finite are left out. None without values.
+/// The range of values without spikes and scars: from the least to the greatest value that is no farther from the inner
+/// 98 % than the inner 98 % are wide. All values count where the inner values are equal, and below 100 values; values
+/// that are not finite are left out. None without values.
 ///
 /// ```
 /// use asperity::contact::bulk;

@@ -18,7 +18,7 @@ const SOFTNESS: f64 = 2.0 * E / PI;
 const SHIFT_PERIODIC: f64 = 0.190_009_285_9;
 const SHIFT_FREE: f64 = 0.174_653_2;
 
-/// How much less far an edge along the diagonals is inside the contour, by plane waves and Hertz contacts.
+/// How much less an edge along the diagonals lies inside the contour, by plane waves and Hertz contacts.
 const SLANT: f64 = 0.0147;
 
 /// The area that a full turn of the edge adds, in cells; fitted to Hertz contacts with radii of 3 to 40 nodes.
@@ -37,7 +37,7 @@ pub struct Outline<'a, T> {
 }
 
 pub struct Edge {
-    /// the area of the nodes in contact beyond that within the edge, in cells
+    /// the area of the nodes in contact beyond the area within the edge, in cells
     pub excess: f64,
     /// the neighbours between which the edge runs, and how many are at independent places
     pub edges: usize,

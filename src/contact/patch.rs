@@ -20,11 +20,11 @@ pub struct Patch {
     pub attractive_fraction: f64,
 }
 
-/// A work of adhesion, and the nodes that have it: all, those in contact, and those that attract.
+/// A work of adhesion, and its nodes: all, in contact, and attracting.
 type Counts = (f64, [u64; 3]);
 
-/// The patches by work of adhesion, from whether each node is in contact and attracts, with nothing for absent ones.
-/// `None` if the law is the same everywhere, or of more than [`MOST`] works of adhesion.
+/// The patches by work of adhesion, from contact and attraction of each node, with nothing for absent nodes. `None` if
+/// the law is the same everywhere, or of more than [`MOST`] works of adhesion.
 pub(super) fn patches<T: Real>(
     law: &dyn AdhesionLaw<T>,
     nodes: impl ExactSizeIterator<Item = Option<[bool; 2]>>,

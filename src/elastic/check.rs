@@ -65,9 +65,12 @@ pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<
     let condition = stiffest / softest;
     operator.displacement(of_a.view(), of_b.view_mut())?;
     let centred = a.mapv(|x| x - T::lit(mean(&a)));
-    holds("displacement of a pressure, against the one that made it", largest(&(&of_b - &centred)), 0.0, {
-        rounding * condition
-    })?;
+    holds(
+        "displacement by a pressure, against the displacement that made the pressure",
+        largest(&(&of_b - &centred)),
+        0.0,
+        { rounding * condition },
+    )?;
     operator.displacement(a.view(), of_a.view_mut())?;
     operator.displacement(b.view(), of_b.view_mut())?;
     let soft = rounding / softest;
@@ -88,7 +91,7 @@ pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<
 
     operator.pressure(a.view(), of_a.view_mut())?;
     if let Boundary::Free { window, mean_compliance } = operator.boundary() {
-        holds("spacing of the window over that of the grid", window.spacing().0 / grid.spacing().0, 1.0, 1e-12)?;
+        holds("spacing of the window over the spacing of the grid", window.spacing().0 / grid.spacing().0, 1.0, 1e-12)?;
         holds("sign of the mean compliance", mean_compliance.signum(), 1.0, 0.0)?;
     }
     let mut space = None;

@@ -1,4 +1,4 @@
-//! What a solve asks of an operator besides its applications, by its spectral one and by the applications alone.
+//! What a solve asks of an operator besides its applications, by its spectral operator and by applications alone.
 
 use ndarray::Array2;
 

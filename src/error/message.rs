@@ -38,7 +38,7 @@ impl fmt::Display for Error {
             Self::Contract { place: Place::Gap(gap), breach: Breach::Rough, .. } => write!(
                 f,
                 "the functions of the law do not agree with one another, or are rough, at gaps from {gap:e} on: the \
-                 traction must be the derivative of the energy and the slope that of the traction; check_functions \
+                 traction must be the derivative of the energy, the slope the derivative of the traction; check_functions \
                  says which is not"
             ),
             Self::Contract { place: Place::Gap(gap), breach: Breach::Decay(range), .. } => write!(
@@ -73,7 +73,7 @@ impl fmt::Display for Error {
             Self::Memory { what, bytes } => {
                 write!(
                     f,
-                    "{what} takes {} of memory, which there is not: take fewer nodes, or more memory",
+                    "{what} takes {} of memory, more than is free: take fewer nodes, or more memory",
                     Bytes(*bytes)
                 )
             }
@@ -112,8 +112,8 @@ impl Breach {
                 (Some(other), " as the derivative of the traction: correct one of the two")
             }
             Self::Derivative(other) => (Some(other), " as the derivative of the energy: correct one of the two"),
-            Self::Zero => (None, ": it must be 0, since the law is zero by its `hints`"),
-            Self::Concave(other) => (Some(other), " at a smaller one: the energy is not concave, as its `hints` say"),
+            Self::Zero => (None, ": it must be 0, since the `hints` say that the law is zero"),
+            Self::Concave(other) => (Some(other), " at a smaller gap: the energy is not concave, against its `hints`"),
             Self::Jump(other) => (
                 Some(other),
                 " just below, and the edge of the adhesive zone would stay where an iteration left it: give the law \
@@ -121,15 +121,13 @@ impl Breach {
             ),
             Self::Alike(other) => (
                 Some(other),
-                " by another function of the law: those of many gaps give what those of one gap do, or the law has a \
-                 `shape` in its `hints` and those of one gap are of its strongest node",
+                " by another function of the law: functions of many gaps must agree with functions of one gap, or the \
+                 `hints` have a `shape` and functions of one gap belong to the strongest node",
             ),
             Self::Sign(_) | Self::Attract | Self::Rough | Self::Decay(_) => (None, ", which breaks the contract"),
             Self::Operator(other) => (Some(other), " in an operator that keeps its contract"),
             Self::Stiff => (None, ": it must be positive and finite in the precision of the fields"),
-            Self::Even(other) => {
-                (Some(other), " for the opposite one: the two are the same wave, and have one stiffness")
-            }
+            Self::Even(other) => (Some(other), " for the opposite wave: the two are one wave, with one stiffness"),
         }
     }
 }

@@ -48,7 +48,7 @@ pub trait Sphere: Family {
     /// The stable contact at the approach δ.
     ///
     /// # Errors
-    /// [`Error::Value`] if the approach is not finite, or below that at which contact is lost.
+    /// [`Error::Value`] if the approach is not finite, or below the approach at which contact is lost.
     fn at_approach(&self, approach: f64) -> Result<Contact> {
         Error::finite("approach", approach)?;
         let curvature = self.body().0.recip();

@@ -15,7 +15,7 @@ const STEPS: f64 = 16.0;
 /// F₁ = 4E*a³/3R + 2E*Ak a² ∫ sin²θ sin(ka sin θ) dθ ,   δ₁ = a²/R + Ak a ∫ sin(ka sin θ) dθ    over 0 ≤ θ ≤ π/2
 /// ```
 ///
-/// F₁ and δ₁ are those without adhesion, which Guduru (2007) has in Bessel and Struve functions. For A = 0 it is
+/// F₁ and δ₁ hold without adhesion; Guduru (2007) has them in Bessel and Struve functions. For A = 0 it is
 /// [`Jkr`](super::Jkr). The contact is taken to be a disc. Where a wave makes δ fall with a, the contact
 /// [jumps](Self::jumps), and dissipates energy.
 ///

@@ -65,7 +65,7 @@ impl Control {
         }
     }
 
-    /// The control that holds a share of the area, or several of it, as this one holds all: of their force.
+    /// The control on a share of the area, or on several areas, as this control on the area: with their force.
     pub(crate) fn of_share(self, share: f64) -> Self {
         match self {
             Self::Force(force) => Self::Force(share * force),
@@ -75,7 +75,7 @@ impl Control {
     }
 }
 
-/// The control on the operator's grid: what its mean gap m, over all nodes, is held by.
+/// The control on the operator's grid: what holds its mean gap m over all nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Load {
     /// m itself

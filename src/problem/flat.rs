@@ -83,7 +83,7 @@ impl<T: Real> PressedFlat<T> {
                 (lx, _) if lx != expected.lengths().0 => ("side length Lx of the surface", lx),
                 (_, ly) => ("side length Ly of the surface", ly),
             };
-            return Err(Error::Value { name, value, requirement: "the same as of the elastic operator's grid" });
+            return Err(Error::Value { name, value, requirement: "as on the grid of the elastic operator" });
         }
         // gap, pressure and K⁻¹h, and in f32 the other fields of a solve
         slab.afford("a solve", 3 * size_of::<T>() + 16)?;

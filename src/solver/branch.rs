@@ -19,9 +19,10 @@ const SOFT: f64 = 100.0;
 
 /// The branch of equilibria on which a solve with adhesion starts.
 ///
-/// With adhesion a load may have several equilibria. If the traction of the law falls with the gap, one has the largest
-/// gap at every node, to which surfaces pressed together from afar come, and one the smallest, to which surfaces that
-/// were pressed flat come. The page [`branches`](crate::guide::branches) says how well a solve keeps to its branch.
+/// With adhesion a load may have several equilibria. If the traction of the law falls with the gap, surfaces pressed
+/// together from afar come to the equilibrium with the largest gap at every node, and surfaces that were pressed flat
+/// to the equilibrium with the smallest gap. The page [`branches`](crate::guide::branches) says how well a solve keeps
+/// to its branch.
 ///
 /// ```
 /// use asperity::{Branch, Control, Exponential, Grid, Problem, Settings, Solver, Surface, Westergaard};

@@ -52,7 +52,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         // flats that attract each other have waves by rounding alone
         let traction = self.mean_traction();
         let (softest, stiffest) = self.posed.stiffness_range();
-        // nor have flats held apart by their mean gap, or by a law with gaps of its range
+        // flats held apart by their mean gap, or by a law with gaps of its range, have no other waves
         let lifted = match self.posed.wall() {
             Wall::None => self.mean_gap().abs().max(self.posed.law().hints().range.widen()),
             _ if self.sums.tally.contact > 0.0 => 0.0,
@@ -65,7 +65,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let rounding = epsilon * epsilon * carried;
         let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
         let mut waves = self.mean_work().max(apart);
-        // nodes that bear their own attraction deform hardly anything: what it would deform without contact
+        // contact carries the attraction, so ⟨u, p⟩ ≈ 0: use the energy that attraction would cause without contact
         let adhesion = self.attraction();
         if traction.max(adhesion) >= self.sums.given.abs() && rounding > (self.tolerance() / NEAR_FLOOR).powi(2) * waves
         {
@@ -107,8 +107,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// How far the mean gap is from one that is held, beyond rounding, as a share of it. Where the law alone keeps the
-    /// surfaces apart a mean gap may be nearly zero: then as a share of the range.
+    /// The distance of the mean gap from a held mean gap, beyond rounding, as a share of the held gap; where the law
+    /// alone keeps the surfaces apart, and mean gaps may be nearly zero, as a share of the range.
     fn gap_error(&self, held: f64) -> f64 {
         let off = (self.mean_gap() - held).abs();
         let rounding = SCALED * T::epsilon().widen() * (held.abs() + self.posed.flat.rms_height);

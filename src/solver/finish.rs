@@ -68,7 +68,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         };
         let gap = gap.or_else(|| yields.then(|| solution.gap.clone()));
         if yields {
-            // the gap to the surface that has yielded
+            // the gap to the yielded surface
             solution.gap.mapv_inplace(|gap| gap.max(T::zero()));
         }
         if flat.boundary != Boundary::Periodic {
@@ -135,7 +135,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let given = self.sums.detached.unwrap_or(mean);
         // the mean of the displacement is no wave; its pressure is that at which the energy is least
         let of_mean = 0.5 * flat.boundary.mean_compliance() * mean.powi(2);
-        // to the surface as it is now, compared with that as it was before the solve
+        // the gap to the yielded surface, compared with the gap to the surface before the solve
         let facing_mean = if flat.window.is_some() { carried.gap / facing } else { self.mean_gap() };
         let deeper = plastic.map_or(0.0, |plastic| plastic.depth_mean - flat.mean_depth() * nodes / facing);
         Report {

@@ -33,7 +33,7 @@ pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) smoothed: Option<&'a dyn AdhesionLaw<T>>,
     /// the law where surfaces attract each other next to their contacts alone
     pub(super) touched: Option<Touched<'a, T>>,
-    /// whether they may touch at further nodes, before which a round need not be solved to the tolerance
+    /// whether surfaces may touch at further nodes: until then a round need not be solved to the tolerance
     pub(super) spreads: bool,
     /// the law of the problem, as it was given
     pub(super) given: &'a SharedLaw<T>,
@@ -107,7 +107,7 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         if rigid { &Projection } else { &*self.constraint }
     }
 
-    /// Whether springs end at a rigid wall, or are so stiff that its gap is near theirs.
+    /// Whether springs end at a rigid wall, or are so stiff that their gap is near the gap at a rigid wall.
     pub(super) fn nearly_rigid(&self) -> bool {
         let Wall::Springs(springs) = self.constraint.wall() else { return false };
         let stiffness = springs.slope(0, self.pressed()).widen();

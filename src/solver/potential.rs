@@ -14,7 +14,7 @@ pub(super) const CLOSER: f64 = 0.5;
 /// The least gap of a node after a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Least<T> {
-    /// the gap at which a node lands that comes from above it
+    /// the gap at which a node from above lands
     rest: T,
     /// the share of its gap that a node below `rest` keeps
     share: T,
@@ -168,8 +168,8 @@ impl<'a, T: Real> Potential<'a, T> {
         matches!(self.wall, Some(Wall::Springs(_) | Wall::None))
     }
 
-    /// The stiffness with which springs, or a law that repels, hold nodes, and up to which load that pulls: springs bear
-    /// no more than their pressure, with which they are at rest.
+    /// The stiffness with which springs, or a law that repels, hold nodes, and the largest load that pulls: springs
+    /// bear no more than their pressure at rest.
     pub(crate) fn holds(&self, first: usize, gaps: &[T], slopes: &mut [T], limits: &mut [T]) {
         let Some(Wall::Springs(springs)) = self.wall else {
             self.law(Of::Slope, first, gaps, slopes);

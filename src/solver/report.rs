@@ -29,8 +29,8 @@ pub enum Status {
     Stalled,
     /// The observer stopped the solve: a feasible state.
     Stopped,
-    /// A tensile mean pressure under which no equilibrium was found: from the default start at no mean gap either, from
-    /// a given start on its branch. The fields are of the surfaces held apart, at rest, out of each other's reach.
+    /// A tensile mean pressure under which no equilibrium was found: with the default start at any mean gap, with a
+    /// given start on its branch. The fields show the surfaces at rest, held out of each other's reach.
     Detached,
 }
 
@@ -82,23 +82,24 @@ pub struct Report {
     pub status: Status,
     /// The certified relative error of the gap in the energy norm, √(⟨r', K r'⟩/⟨u, p⟩), on the returned fields.
     ///
-    /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control that at the
-    /// same mean gap); with adhesion it bounds the error where the equilibrium is stable. It includes the rounding of
-    /// the pressure. Without any contact ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may vanish. Where nodes bear their
-    /// own attraction, so that ⟨u, p⟩ is rounding, the work of this attraction alone on the stiffest wave stands for it.
+    /// Without adhesion it bounds the distance from the exact discrete solution (under pressure control the solution at
+    /// the same mean gap); with adhesion it bounds the error where the equilibrium is stable. It includes the rounding
+    /// of the pressure. Without any contact ⟨h, K⁻¹h⟩ stands for a smaller ⟨u, p⟩, which may vanish. Where nodes bear
+    /// their own attraction, so that ⟨u, p⟩ is rounding, the work of this attraction alone on the stiffest wave stands
+    /// for it.
     ///
     /// With [`NoWall`](crate::NoWall) the norm belongs to K⁻¹ + κ, with κ = max(φ'', 0) the slope of the nodes that the
     /// law holds: √⟨s r', K s r'⟩ + √⟨(1 − s)² r'²/κ⟩ takes the place of √⟨r', K r'⟩, with s = (1 + κ/k)⁻², k 0.4 times
     /// the stiffness of the shortest wave, and r' less its mean weighted by s² where the mean gap is given.
     pub relative_error: f64,
-    /// The ⟨u, p⟩ per area to which this error is relative, or what stands for it.
+    /// The scale of this error: ⟨u, p⟩ per area, or its substitute.
     pub error_scale: f64,
     /// The branch of the start; none without adhesion, from a given start, and of [`Method::Rey2017`].
     pub branch: Option<Branch>,
     /// The error of the load, relative to the larger of |p̄| and the mean contact pressure: the larger of the imbalance
-    /// of the nodes apart and the difference from the load that the fields carry. One without a contact that the load
-    /// needs. Under no load the energy of adhesion over its range is a pressure as well that it may be relative to, since
-    /// nodes at rest have no traction. Of a mean gap that is held it is how far that is missed, beyond rounding, as a
+    /// of the nodes apart and the difference from the load that the fields carry. It is one without a contact that the
+    /// load needs. Under no load it may also be relative to the energy of adhesion over its range, a pressure, since
+    /// nodes at rest have no traction. For a held mean gap it is the distance from this gap, beyond rounding, as a
     /// share of it.
     pub load_error: f64,
     /// The paper's criterion ε = Σ|g r'|, in units of E*·√(Lx·Ly), on the returned fields.
@@ -143,7 +144,7 @@ pub struct Report {
     /// The largest traction at the edge of a free boundary's window over the largest anywhere; none in a periodic cell.
     pub edge_traction: Option<f64>,
     /// Whether contact, or more than a thousandth of the largest traction, reaches the edge of a free boundary's
-    /// window, which is then too small unless the body ends there. False of bodies apart, with less than 1 % of w/ρ.
+    /// window, which is then too small unless the body ends there. False for bodies apart with less than 1 % of w/ρ.
     pub reaches_edge: bool,
     /// The smallest gap: zero in contact, negative only where the constraint lets the surfaces interpenetrate.
     pub min_gap: f64,
@@ -153,12 +154,12 @@ pub struct Report {
     pub adhesive_energy: f64,
     /// The range ρ of a law with a range set by the grid, as [`Jkr`](crate::Jkr); none for other laws.
     pub range: Option<f64>,
-    /// The traction in contact, 2w/ρ, of a law that has the range of the grid; none of others.
+    /// The traction in contact, 2w/ρ, for a law with a range set by the grid; none for other laws.
     pub peak_traction: Option<f64>,
-    /// The share of contact by the adhesive energy, −E_adh/w, of a law that has the range of the grid, at a hard wall, and
-    /// where nothing has yielded: in the theory of Johnson, Kendall and Roberts each area of contact has the energy −w.
-    /// Where w varies it is taken node by node, and nodes without a work of adhesion count where they touch. It is smooth
-    /// in the load, and too large by the process zone at the edges; see
+    /// The share of contact by the adhesive energy, −E_adh/w, for a law with a range set by the grid, at a hard wall,
+    /// and where nothing has yielded: in the theory of Johnson, Kendall and Roberts each area of contact has the energy
+    /// −w. Where w varies it is taken node by node, and nodes without a work of adhesion count where they touch. It is
+    /// smooth in the load, and too large by the process zone at the edges; see
     /// [`ContactArea::of_solution`](crate::contact::ContactArea::of_solution).
     pub adhesive_contact_fraction: Option<f64>,
     /// The resolution measure μ_ρ of [`Problem::mu_rho`](crate::Problem::mu_rho).
@@ -202,7 +203,7 @@ impl Report {
     pub const RESOLVED_MU_RHO: f64 = 0.5;
 }
 
-/// A name that a report has; behind a word of its own, which derived data does not treat as a borrowed one.
+/// A name in a report; a type of its own, which derived data does not treat as borrowed.
 type Name = &'static str;
 
 #[cfg(feature = "serde")]
@@ -229,7 +230,7 @@ fn named<'de, D: serde::Deserializer<'de>>(from: D) -> std::result::Result<Name,
 #[derive(Clone, Debug)]
 pub struct Solution<T: Real> {
     /// The gap g ≥ 0 between the surfaces, infinite at [absent nodes](crate::Surface::with_absent). Where the surface
-    /// has yielded it is that to the surface as it is now.
+    /// has yielded, it is the gap to the yielded surface.
     pub gap: Array2<T>,
     /// The full elastic pressure p + p̄: the contact pressure less the adhesive traction; zero at absent nodes.
     pub pressure: Array2<T>,
@@ -237,8 +238,8 @@ pub struct Solution<T: Real> {
     pub contact_pressure: Array2<T>,
     /// The plastic depth by which the surface has yielded, at a [`Hardness`](crate::Hardness); zero at absent nodes.
     pub plastic_depth: Option<Array2<T>>,
-    /// Where the surfaces attract each other, by a law that does so next to contacts alone, as [`Jkr`](crate::Jkr); none of
-    /// other laws, and where they do so everywhere, as on the branch of [unloading](crate::Branch).
+    /// Where surfaces attract each other by a law that attracts next to contacts alone, as [`Jkr`](crate::Jkr); none
+    /// for other laws, and where all nodes attract, as on the branch of [unloading](crate::Branch).
     pub touched: Option<Array2<bool>>,
     /// The grid of the surface, and of the fields.
     pub grid: Grid,
@@ -256,7 +257,7 @@ impl<T: Real> Solution<T> {
 }
 
 impl<T: Real> PartialEq for Solution<T> {
-    /// Of fields, grid and report, which names the law.
+    /// Compares fields, grid and report, which names the law.
     fn eq(&self, other: &Self) -> bool {
         let Self { gap, pressure, contact_pressure, plastic_depth, touched, grid, report, law: _ } = self;
         (gap, pressure, contact_pressure) == (&other.gap, &other.pressure, &other.contact_pressure)
@@ -265,7 +266,7 @@ impl<T: Real> PartialEq for Solution<T> {
     }
 }
 
-/// A solution, and what only other solves need of it.
+/// A solution, with what other solves need.
 pub struct Solved<T: Real> {
     pub(crate) solution: Solution<T>,
     /// the gap on the operator's grid, with that grid, if not all of its nodes face the surface, or some may yield
@@ -316,7 +317,7 @@ impl<T: Real> Solution<T> {
         Cow::Owned(Self { gap, pressure, contact_pressure, plastic_depth, touched, grid, report, law })
     }
 
-    /// Refuses an adhesion law of another name or work of adhesion than that under which the solution was found.
+    /// Refuses an adhesion law of another name or work of adhesion than the solution's.
     pub(crate) fn check_law(&self, law: &dyn AdhesionLaw<T>) -> Result<()> {
         let hints = law.hints();
         let (value, known) = (hints.work_of_adhesion.widen(), self.report.work_of_adhesion);
@@ -326,11 +327,11 @@ impl<T: Real> Solution<T> {
             true => "work of adhesion of a law of another name",
             false => "work of adhesion",
         };
-        let requirement = "that of the law of the solution: give the law of its problem";
+        let requirement = "the solution's: give the law of its problem";
         Err(Error::Value { name, value, requirement })
     }
 
-    /// Refuses to take the solution for one of a problem with another grid, body, law or wall.
+    /// Refuses a problem with another grid, body, law or wall than the solution's.
     pub(crate) fn check(&self, problem: &ProblemMut<'_, T>, constraint: &dyn ContactConstraint<T>) -> Result<()> {
         let (own, grid, wall) = (self.grid.lengths(), problem.grid(), constraint.wall().name());
         Error::shape("solution", self.grid.shape(), grid.shape())?;
@@ -341,7 +342,7 @@ impl<T: Real> Solution<T> {
         ];
         let other = |(_, found, expected): &(_, f64, f64)| found.total_cmp(expected).is_ne();
         if let Some((name, value, _)) = figures.into_iter().find(other) {
-            return Err(Error::Value { name, value, requirement: "the same as of the problem" });
+            return Err(Error::Value { name, value, requirement: "as in the problem" });
         }
         if self.report.wall != wall {
             let reason = "the solution was found with another wall: give the constraint of its solver";

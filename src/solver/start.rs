@@ -22,7 +22,7 @@ use crate::real::Real;
 /// A gap has the shape (Nx, Ny) of the surface, with any values at absent nodes and in any memory layout, and is scaled
 /// to a mean gap that is given. The start matters for the work, and with adhesion for the equilibrium that is found.
 ///
-/// The solution in `f32` as a start near that in `f64`:
+/// The solution in `f32` as a start near the solution in `f64`:
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -91,8 +91,8 @@ impl<'a, T> Begin<'a, T> {
         matches!(self, Self::At(Start::Default) | Self::On(_))
     }
 
-    /// The gap that has the contacts before, if that is not the gap of the start, and the nodes that have not parted since,
-    /// which are taken out.
+    /// The gap with the contacts before, if it is not the gap of the start, and the nodes that have not parted since;
+    /// takes both out.
     pub(super) fn last(&mut self) -> (Option<&'a Array2<T>>, Option<Cow<'a, Array2<bool>>>) {
         match self {
             Self::Found(place) => (None, place.not_parted.take().map(Cow::Owned)),
@@ -120,7 +120,7 @@ pub(super) fn uniform_start<T: Real>(law: &dyn AdhesionLaw<T>, flat: &PressedFla
     }
 }
 
-/// The gap that is given, if one is, as a start under a load.
+/// The given gap, if any, as a start under a load.
 pub(super) fn given_start<T: Real>(
     begin: Begin<'_, T>,
     grid: &Grid,
@@ -181,7 +181,7 @@ pub(crate) fn extrapolated<T: Real>(
     grid.reducer().run(write(&mut next).zip(par::chunks(&before, CHUNK)), |first, (gaps, before)| {
         for ((gap, &before), node) in gaps.iter_mut().zip(before).zip(first..) {
             let straight = *gap + steps * (*gap - before);
-            // not a number below the wall, where the gap of a free half-space is that to no surface
+            // not a number below the wall, where a free half-space faces no surface
             let bent = power(*gap) + steps * (power(*gap) - power(before));
             let wanted = if bends && bent > T::zero() { bent * bent.cbrt() } else { straight };
             let feasible = bounded(least, *gap, wanted);

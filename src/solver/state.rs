@@ -126,7 +126,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
         self.take_pressure()
     }
 
-    /// Takes out of the gap the rounding that its mean has summed up, if it is worth a pass.
+    /// Removes from the gap the rounding that its mean has gathered, if that is worth a pass.
     fn restore_mean(&mut self, mean: f64) {
         let (nodes, sum, projects) = (self.posed.nodes(), self.sums.tally.sum_gap, self.posed.projects());
         let (scale, present) = (mean * nodes / sum, sum / nodes);

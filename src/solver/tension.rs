@@ -88,7 +88,8 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
         gaps.map(|gap| self.law().traction(gap).widen()).fold(0.0, f64::max)
     }
 
-    /// The load that holds a mean gap: that, or a spring as stiff as the stiffest wave if nodes face no surface.
+    /// The load that holds a mean gap: the mean gap itself, or a spring as stiff as the stiffest wave if nodes face no
+    /// surface.
     fn holding(&self, gap: f64) -> Load {
         match self.flat.window {
             None => Load::Gap(gap),
@@ -215,7 +216,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         Ok((!matches!(end, End::Cut(_))).then(|| self.multiplier() - self.sums.given))
     }
 
-    /// Scales the gaps of nodes apart to a given mean gap, or makes all gaps that.
+    /// Scales the gaps of nodes apart to a given mean gap, or sets all gaps to it.
     fn open_to(&mut self, mean: f64) {
         let (nodes, closest) = (self.posed.nodes(), self.posed.closest());
         let Fields { reducer, gap, .. } = &mut self.fields;

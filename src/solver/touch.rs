@@ -1,8 +1,8 @@
-//! Where surfaces attract each other without a range: at the nodes within four nodes of a contact, and at those that have
-//! not parted since they were. In the limit of no range surfaces do not feel each other before they touch.
+//! Where surfaces attract each other without a range: at the nodes within four nodes of a contact, and at nodes that
+//! were and have not parted since. In the limit of no range surfaces do not feel each other before they touch.
 //!
 //! A minimisation begins with the neighbourhood of the contacts of its start. It takes in the neighbourhood of contacts
-//! that spread within it as they do, and of others once it has come to rest, until nothing is added.
+//! as they spread, and of other contacts once it has come to rest, until nothing is added.
 
 use ndarray::Array2;
 

@@ -14,8 +14,8 @@
 //!
 //! of the spread, for any ε and any spectrum (compare Kuczyński and Woźniakowski, *SIAM J. Matrix Anal. Appl.* 13
 //! (1992)). The start is M½ times normal numbers: its component along a unit vector has a variance no less than the
-//! least eigenvalue of M, and is below δ standard deviations with a probability below δ√(2/π). So is that at the other
-//! end, which bounds the spread.
+//! least eigenvalue of M, and is below δ standard deviations with a probability below δ√(2/π). So is the component at
+//! the other end, which bounds the spread.
 
 use super::eigenpair::Eigenpair;
 use super::hessian::Hessian;

@@ -17,14 +17,14 @@ const MOST: usize = 500;
 /// The contact stiffness of an equilibrium: how much the load grows as the bodies approach each other by a length.
 ///
 /// With δ the approach, p̄ the mean pressure and F = p̄·Lx·Ly, the stiffness is k = dp̄/dδ, a pressure per length, and
-/// dF/dδ, a force per length. In a periodic cell it is that against the mean gap, k = −dp̄/dḡ. To first order the
-/// nodes in contact stay in contact, and the others change their gaps by v at a mean of 1, with
+/// dF/dδ, a force per length. In a periodic cell it is the stiffness against the mean gap, k = −dp̄/dḡ. To first order
+/// the nodes in contact stay in contact, and the others change their gaps by v at a mean of 1, with
 ///
 /// ```math
 /// v = 0 on the contact ,   K⁻¹v + φ''(g) v = k elsewhere ,   ⟨v⟩ = 1 ,   k = ⟨v, (K⁻¹ + φ''(g)) v⟩ .
 /// ```
 ///
-/// Without adhesion that is a flat punch with the outline of the contact, and k is the least energy of all such v,
+/// Without adhesion this is a flat punch with the outline of the contact, and k is the least energy of all such v,
 /// found by conjugate gradients from above; ⟨r, K r⟩ ≥ ⟨v − v*, K⁻¹(v − v*)⟩ with the residual r bounds
 /// [`relative_error`](Self::relative_error). A contact of radius a on a free half-space has dF/dδ = 2aE* (Sneddon
 /// 1965). On rough surfaces the grid leaves some 1 % with 8 nodes in the shortest wave, and 0.3 % with 16.
@@ -32,8 +32,8 @@ const MOST: usize = 500;
 /// It is zero without contact and adhesion, infinite where all nodes are in contact, and under adhesion possibly
 /// negative: then the equilibrium needs a given mean gap, or a stiff spring.
 ///
-/// A contact conducts as it resists (Barber, *Proc. R. Soc. A* 459, 53 (2003)): between half-spaces of resistivities
-/// ρ₁ and ρ₂ (for heat, reciprocal conductivities) the conductance per area is
+/// The conductance follows from the stiffness (Barber, *Proc. R. Soc. A* 459, 53 (2003)): between half-spaces of
+/// resistivities ρ₁ and ρ₂ (for heat, reciprocal conductivities) the conductance per area is
 ///
 /// ```math
 /// G = 2k / (E* (ρ₁ + ρ₂)) ,
@@ -151,7 +151,7 @@ impl ContactStiffness {
 struct LeastEnergy<T> {
     energy: f64,
     relative_error: f64,
-    /// That v, and its pressure, if wanted and v exists.
+    /// The field v, and its pressure, if wanted and v exists.
     tangent: Option<Tangent<T>>,
 }
 

@@ -49,7 +49,7 @@ impl Surface {
         let (ours, theirs, (dx, dy)) = (grid.lengths(), other.grid.lengths(), grid.spacing());
         let sides = [("side length Lx of the other surface", ours.0, theirs.0), ("side length Ly", ours.1, theirs.1)];
         if let Some(&(name, _, value)) = sides.iter().find(|(_, our, their)| (their / our - 1.0).abs() > SAME) {
-            return Err(Error::Value { name, value, requirement: "that of the surface on this side" });
+            return Err(Error::Value { name, value, requirement: "as on the surface on this side" });
         }
         let (x, y) = (in_nodes("shift along x", sx, dx, nx)?, in_nodes("shift along y", sy, dy, ny)?);
         grid.slab().afford("the surface between two", 24)?;

@@ -117,7 +117,7 @@ impl SelfAffine {
         Surface::new(grid, heights)
     }
 
-    /// The spectrum aimed at, about which |ĥ|² of a wave has an exponential distribution if amplitudes are Gaussian.
+    /// The target spectrum: |ĥ|² of a wave has an exponential distribution about it if amplitudes are Gaussian.
     ///
     /// # Errors
     /// As for [`SelfAffine::surface`].
@@ -155,7 +155,7 @@ impl SelfAffine {
         }
     }
 
-    /// The factor that turns a surface with a mean square of `sum` into one with the given one.
+    /// The factor that turns a surface with a mean square of `sum` into a surface with the given mean square.
     fn scale(&self, grid: &Grid, sum: f64) -> Result<f64> {
         if sum == 0.0 {
             let requirement = "at least 1: move k_l and k_s further apart";

@@ -89,7 +89,7 @@ fn every_law_and_every_wrapper_keeps_the_contract() {
     // a map of works cannot be given twice
     let varying = Varying::new(MaugisDugdale::new(w, range).unwrap(), works.view()).unwrap();
     let twice = Varying::new(CutOff::new(varying, end).unwrap(), works.view()).unwrap_err();
-    assert!(twice.to_string().contains("give the law that the varying one is made of"), "{twice}");
+    assert!(twice.to_string().contains("give the law before it varies"), "{twice}");
 }
 
 /// A law that says everything, and keeps the name of the method that it was asked by last.

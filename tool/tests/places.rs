@@ -281,5 +281,5 @@ fn what_takes_more_memory_than_there_is_is_refused() {
     let rough = "surface --size 8192 --rms-slope 0.1 --out rough.npy";
     assert_too_large(&bench, "1000000", rough, &["a random surface on 8192 x 8192 nodes takes 2.0 GiB of memory"]);
     let fine = "prepare map.npy --resample 8192 8192 --out fine.npz";
-    assert_too_large(&bench, "1000000", fine, &["8192 x 8192 nodes takes 2.0 GiB of memory, which there is not"]);
+    assert_too_large(&bench, "1000000", fine, &["8192 x 8192 nodes takes 2.0 GiB of memory, more than is free"]);
 }

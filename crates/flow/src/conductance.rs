@@ -57,7 +57,7 @@ impl Conductance {
     pub fn of(stiffness: &ContactStiffness, modulus: f64, resistivities: (f64, f64)) -> Result<Self> {
         let pressure_per_length = stiffness.pressure_per_length;
         if pressure_per_length.is_nan() || pressure_per_length < 0.0 {
-            let requirement = "at least zero: take that of a problem without adhesion";
+            let requirement = "at least zero: take the stiffness of a problem without adhesion";
             return Err(Error::Value { name: "contact stiffness", value: pressure_per_length, requirement });
         }
         let grid = stiffness.edge.map_or(0.0, |edge| (edge.stiffness / pressure_per_length).abs());

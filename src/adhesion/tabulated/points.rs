@@ -25,7 +25,7 @@ impl Tabulated {
     pub fn new(gaps: &[f64], tractions: &[f64]) -> Result<Self> {
         let wrong = |name, value, requirement| Err(Error::Value { name, value, requirement });
         if gaps.len() != tractions.len() {
-            return wrong("number of tractions in the table", tractions.len() as f64, "that of the gaps");
+            return wrong("number of tractions in the table", tractions.len() as f64, "the number of gaps");
         }
         if gaps.len() < 3 {
             return wrong("number of points in the table", gaps.len() as f64, "at least three");

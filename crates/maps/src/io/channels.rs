@@ -42,8 +42,8 @@ pub(super) fn chosen(channels: &[Channel], asked: Option<&str>) -> Parsed<usize>
     match (&fits[..], asked) {
         (&[place], _) => Ok(place),
         (_, None) if channels.is_empty() => refuse("holds no channel of heights: save one in it"),
-        ([], Some(asked)) => refuse(format!("holds {found}, none of which is {}: name one of these", quoted(asked))),
-        (_, Some(asked)) => refuse(format!("holds {found}, several of which are {}: give a number", quoted(asked))),
+        ([], Some(asked)) => refuse(format!("holds {found}, but no {}: name one of these", quoted(asked))),
+        (_, Some(asked)) => refuse(format!("holds {found}, several named {}: give a number", quoted(asked))),
         (_, None) => refuse(format!(
             "holds {found}, {} of them of heights: choose one, by asperity prepare --channel NUMBER",
             fits.len()

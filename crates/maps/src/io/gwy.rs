@@ -258,7 +258,7 @@ mod tests {
         assert_refused(read_one(&same, "Height"), &["several", "give a number"]);
         assert_refused(read(gwy(&[volts])), &["\"V\""]);
         assert_refused(read(gwy(&[])), &["no channel of heights"]);
-        assert_refused(read_one(b"1 2\n3 4\n", "1"), &["1 channels (0 \"2 x 2 numbers\")", "none of which is \"1\""]);
+        assert_refused(read_one(b"1 2\n3 4\n", "1"), &["1 channels (0 \"2 x 2 numbers\")", "but no \"1\""]);
     }
 
     #[test]

@@ -206,7 +206,7 @@ mod tests {
             Reading { channel: Some(channel.into()), ..Reading::default() }.read_bytes("a.txt", text.as_bytes())
         };
         assert_eq!(channel(blocks, "1").unwrap().heights, array![[5.0, 6.0], [7.0, 8.0]]);
-        assert_refused(channel(blocks, "2"), &["2 channels (0 \"2 x 2 numbers\"", "none of which"]);
+        assert_refused(channel(blocks, "2"), &["2 channels (0 \"2 x 2 numbers\"", "but no"]);
         let titled = |unit: &str| {
             format!(
                 "# Channel: A\n# Width: 1 um\n# Height: 1 um\n# Value units: nm\n1 2\n3 4\n\

@@ -89,7 +89,7 @@ impl Warning {
         Some(Self::told(
             WarningCode::ScanAxis,
             0.0,
-            "lines along {} are offset {} times as much as those along {}: choose scan axis {}",
+            "lines along {} are offset {} times as much as lines along {}: choose scan axis {}",
             [across.clone(), times, along, across],
         ))
     }
