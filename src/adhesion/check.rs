@@ -70,7 +70,7 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
     let on_nodes = law.on_nodes(T::lit(compliance));
     let law: &dyn AdhesionLaw<T> = on_nodes.as_deref().unwrap_or(law);
     let hints = law.hints();
-    let (gaps, length) = looked_at(&hints, largest_gap);
+    let (gaps, length) = checked_gaps(&hints, largest_gap);
     let checked = Checked { law, hints, gaps, length };
     checked.functions()?;
     checked.smoothness()?;
@@ -80,7 +80,7 @@ pub fn check_law<T: Real>(law: &impl AdhesionLaw<T>, largest_gap: f64) -> Result
 }
 
 /// The range of gaps at which a law is looked at, and the length over which it varies.
-pub(super) fn looked_at<T: Real>(hints: &Hints<T>, largest_gap: f64) -> ((f64, f64), f64) {
+pub(super) fn checked_gaps<T: Real>(hints: &Hints<T>, largest_gap: f64) -> ((f64, f64), f64) {
     // closer than half its gap of rest a law may grow without bound
     let least = hints.rest.map_or(0.0, |rest| 0.5 * rest.widen());
     ((least, largest_gap), hints.range.widen().clamp(1e-3 * largest_gap, largest_gap))
@@ -194,9 +194,9 @@ impl<T: Real> Checked<'_, T> {
             .collect();
         for asked in ASKED {
             let [mut whole, mut parts] = [(); 2].map(|()| [(); 3].map(|()| vec![T::zero(); gaps.len()]));
-            law.evaluate(0, &gaps, of(&mut whole, asked));
+            law.evaluate(0, &gaps, slices(&mut whole, asked));
             let middle = gaps.len() / 3;
-            let mut values = of(&mut parts, asked);
+            let mut values = slices(&mut parts, asked);
             law.evaluate(0, &gaps[..middle], values.part(0..middle));
             law.evaluate(middle, &gaps[middle..], values.part(middle..gaps.len()));
             for (order, (whole, parts)) in whole.iter().zip(&parts).enumerate().filter(|(order, _)| asked[*order]) {
@@ -259,7 +259,7 @@ fn broken(order: usize, value: f64, place: Place, breach: Breach) -> Error {
     Error::Contract { function: NAMES[order], value, place, breach }
 }
 
-fn of<T>(values: &mut [Vec<T>; 3], asked: [bool; 3]) -> Values<'_, T> {
+fn slices<T>(values: &mut [Vec<T>; 3], asked: [bool; 3]) -> Values<'_, T> {
     let [energies, tractions, slopes] = values.each_mut().map(|values| Some(values.as_mut_slice()));
     let [energies, tractions, slopes] = [(energies, asked[0]), (tractions, asked[1]), (slopes, asked[2])]
         .map(|(values, asked)| values.filter(|_| asked));

@@ -121,7 +121,13 @@ impl<L> CutOff<L> {
     }
 
     /// The difference of a law and a quintic at a gap.
-    fn left<T: Real>(&self, gap: T, value: T, of: impl Fn(T, T, [T; 3]) -> T, quintic: impl FnOnce() -> [T; 3]) -> T {
+    fn less_quintic<T: Real>(
+        &self,
+        gap: T,
+        value: T,
+        of: impl Fn(T, T, [T; 3]) -> T,
+        quintic: impl FnOnce() -> [T; 3],
+    ) -> T {
         let [start, distance] = [self.start, self.distance].map(T::lit);
         if gap >= distance {
             T::zero()
@@ -134,7 +140,7 @@ impl<L> CutOff<L> {
     }
 
     fn one<T: Real>(&self, gap: T, value: T, of: impl Fn(T, T, [T; 3]) -> T) -> T {
-        self.left(gap, value, of, || self.quintic(self.end.map(T::lit)))
+        self.less_quintic(gap, value, of, || self.quintic(self.end.map(T::lit)))
     }
 
     fn all<T: Real>(&self, first: usize, gaps: &[T], values: &mut [T], of: impl Fn(T, T, [T; 3]) -> T)
@@ -144,7 +150,7 @@ impl<L> CutOff<L> {
         let strongest = self.quintic(self.end.map(T::lit));
         for (node, (value, &gap)) in (first..).zip(values.iter_mut().zip(gaps)) {
             let quintic = || if self.varies { self.quintic(self.end_at(node)) } else { strongest };
-            *value = self.left(gap, *value, &of, quintic);
+            *value = self.less_quintic(gap, *value, &of, quintic);
         }
     }
 

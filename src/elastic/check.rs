@@ -69,7 +69,7 @@ pub fn check_operator<T: Real>(operator: &mut dyn ElasticOperator<T>) -> Result<
         "displacement by a pressure, against the displacement that made the pressure",
         largest(&(&of_b - &centred)),
         0.0,
-        { rounding * condition },
+        rounding * condition,
     )?;
     operator.displacement(a.view(), of_a.view_mut())?;
     operator.displacement(b.view(), of_b.view_mut())?;

@@ -182,7 +182,7 @@ impl<T: Real> PressedFlat<T> {
             Control::MeanGap(gap) => Load::Gap(Error::non_negative(name, gap)? + self.mean_depth()),
             Control::MeanPressure(_) => Load::Pressure(on_grid(held()?)),
             Control::Force(_) => Load::Pressure(on_grid(held()? / self.area)),
-            Control::Approach(_) => self.held(held()?),
+            Control::Approach(_) => self.load_at_approach(held()?),
             Control::Spring { stiffness, rest } => {
                 Error::positive("stiffness of the spring", stiffness)?;
                 held()?;
@@ -212,7 +212,7 @@ impl<T: Real> PressedFlat<T> {
 
     /// An approach as a load: a spring, or a mean gap over a body that does not yield in the mean, as a bonded
     /// incompressible layer.
-    fn held(&self, approach: f64) -> Load {
+    fn load_at_approach(&self, approach: f64) -> Load {
         let (rest, compliance) = (self.resting(approach), self.approach_compliance());
         if compliance == 0.0 {
             return Load::Gap(rest + self.mean_depth());

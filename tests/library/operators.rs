@@ -324,7 +324,7 @@ fn the_checker_names_what_is_broken() {
     for (kind, named) in [
         (1, "mean of a pressure"),
         (2, "symmetry of the stiffness"),
-        (3, "displacement of a pressure"),
+        (3, "displacement by a pressure"),
         (4, "softest stiffness"),
         (5, "stiffest stiffness"),
     ] {

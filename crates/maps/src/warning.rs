@@ -85,7 +85,7 @@ impl fmt::Display for Warning {
 }
 
 impl Warning {
-    fn told(code: WarningCode, severity: f64, text: &'static str, parts: impl Into<Vec<Part>>) -> Self {
+    fn new(code: WarningCode, severity: f64, text: &'static str, parts: impl Into<Vec<Part>>) -> Self {
         let parts = parts.into();
         debug_assert_eq!(text.matches("{}").count(), parts.len());
         Self { code, severity, text, parts }
@@ -171,7 +171,7 @@ impl Warning {
         found.extend(layout::axes(heights));
         if is_flat(&extremes) {
             let text = "all heights are {}: check the file, or the map";
-            found.push(Self::told(WarningCode::Flat, 0.0, text, [Length(extremes.low)]));
+            found.push(Self::new(WarningCode::Flat, 0.0, text, [Length(extremes.low)]));
             return found;
         }
         let codes = extremes.codes();
@@ -242,7 +242,7 @@ impl Warning {
             return found;
         }
         let greatest = pressures().fold(f64::NEG_INFINITY, f64::max);
-        found.push(Self::told(
+        found.push(Self::new(
             WarningCode::BeyondModulus,
             greatest / modulus,
             "the contact pressure is up to {}, {} E*: check the load and the units",
@@ -278,7 +278,7 @@ impl Warning {
             return Ok(None);
         }
         let percent = |contact: f64, grid: &Grid| Figure(100.0 * contact / grid.nodes() as f64);
-        Ok(Some(Self::told(
+        Ok(Some(Self::new(
             WarningCode::Images,
             (part - expected).abs() / expected.max(1.0),
             "{} % of the original touch, but {} % of the whole: look at the whole",
@@ -294,5 +294,5 @@ fn is_flat(extremes: &Extremes) -> bool {
 fn window_edge<T: Real>(solution: &Solution<T>) -> Option<Warning> {
     let share = solution.report.edge_traction.filter(|_| solution.report.reaches_edge)?;
     let text = "contact or traction reaches the edge, {} of the largest: widen the map";
-    Some(Warning::told(WarningCode::WindowEdge, share, text, [Figure(share)]))
+    Some(Warning::new(WarningCode::WindowEdge, share, text, [Figure(share)]))
 }

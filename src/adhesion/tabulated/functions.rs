@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use super::scales::Scales;
-use crate::adhesion::check::{NAMES, looked_at};
+use crate::adhesion::check::{NAMES, checked_gaps};
 use crate::derivatives::{self, Named};
 use crate::error::{Error, Result};
 
@@ -102,7 +102,7 @@ pub fn check_functions(functions: impl Functions, largest_gap: Option<f64>) -> R
     };
     let named: [Named<'_>; 3] =
         [(NAMES[0], &|gap| value(0, gap)), (NAMES[1], &|gap| value(1, gap)), (NAMES[2], &|gap| value(2, gap))];
-    let (gaps, length) = looked_at(&hints, largest_gap);
+    let (gaps, length) = checked_gaps(&hints, largest_gap);
     let checked = derivatives::check::<f64>(named, gaps, length);
     raised.into_inner().map_or(checked, Err)
 }

@@ -153,7 +153,7 @@ impl Heading {
     pub fn read(&mut self, line: &str) {
         if self.pairs.len() < MOST_LINES {
             self.pairs.extend(Pair::of(line));
-            self.said = self.said.or_else(|| said(line));
+            self.said = self.said.or_else(|| unit_in_words(line));
         }
         match &mut self.columns {
             Some(columns) => columns.take_units(line),
@@ -344,7 +344,7 @@ impl Sizes {
 
 /// The unit of heights that a comment ends with, in words, as `heights in nm`, `z [um]` or `x, y, z in nm`, and whether
 /// x and y have this unit too.
-fn said(line: &str) -> Option<(&'static str, bool)> {
+fn unit_in_words(line: &str) -> Option<(&'static str, bool)> {
     const HEIGHTS: &str = " z height heights elevation topography unit units values data all ";
     const BESIDE: &str = " x y and axis lengths numbers are is given measured in of the map ";
     let is_in = |words: &str, word: &str| words.contains(&format!(" {} ", word.to_lowercase()));

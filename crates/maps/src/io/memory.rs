@@ -16,13 +16,13 @@ pub const SMALL: f64 = 67_108_864.0;
 /// assert!(wanted.memory > 0.0);
 /// ```
 pub fn available_memory() -> f64 {
-    told("MemAvailable:").unwrap_or(f64::INFINITY)
+    memory_line("MemAvailable:").unwrap_or(f64::INFINITY)
 }
 
 /// A line of `/proc/meminfo`, in bytes.
-fn told(name: &str) -> Option<f64> {
-    let told = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = told.lines().find_map(|line| line.strip_prefix(name))?;
+fn memory_line(name: &str) -> Option<f64> {
+    let text = fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok().map(|kilobytes| 1024.0 * kilobytes)
 }
 
@@ -51,5 +51,5 @@ pub(super) fn is_there(bytes: f64) -> bool {
     if cfg!(target_family = "wasm") {
         return bytes < usize::MAX as f64 && Vec::<u8>::new().try_reserve_exact(bytes as usize).is_ok();
     }
-    bytes <= SMALL || bytes <= available_memory() + told("SwapFree:").unwrap_or(0.0)
+    bytes <= SMALL || bytes <= available_memory() + memory_line("SwapFree:").unwrap_or(0.0)
 }

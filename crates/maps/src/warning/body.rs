@@ -32,6 +32,6 @@ impl Warning {
         let growth = body.stiffness(PI / spacing, 0.0) / body.stiffness(0.5 * PI / spacing, 0.0);
         let off = (growth - 2.0).abs();
         let text = "half the wavelength is {} times as stiff, not 2: use the contact fraction";
-        (off > 0.1).then(|| Self::told(WarningCode::ThinBody, off, text, [Figure(growth)]))
+        (off > 0.1).then(|| Self::new(WarningCode::ThinBody, off, text, [Figure(growth)]))
     }
 }

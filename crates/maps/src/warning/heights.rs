@@ -66,7 +66,7 @@ pub(super) fn cells(grid: &Grid) -> Option<Warning> {
     if nx == 1 || ny == 1 || aspect <= CELLS {
         return None;
     }
-    Some(Warning::told(
+    Some(Warning::new(
         WarningCode::Cells,
         aspect,
         "cells are {} by {}, {} times as long as wide: check the side lengths",
@@ -78,7 +78,7 @@ pub(super) fn missing_code(value: f64, count: usize) -> Warning {
     // all digits, as the remedy needs them
     let value = if (1e-3..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") };
     let nodes = format!("{count} {}", if count == 1 { "node" } else { "nodes" });
-    Warning::told(
+    Warning::new(
         WarningCode::MissingCode,
         count as f64,
         "{} stands at {}: use prepare --missing {} --fill",
@@ -99,7 +99,7 @@ pub(super) fn tilt(relief: &Relief, grid: &Grid) -> Option<Warning> {
     let (lx, ly) = grid.lengths();
     let [x, y] = [&relief.sides[0], &relief.sides[1]].map(|side| side.drop * relief.unit);
     let times = (x.abs() + y.abs()) / (relief.rms * relief.unit);
-    Some(Warning::told(
+    Some(Warning::new(
         WarningCode::Tilt,
         times,
         "the map is tilted by {} along x, {} along y: remove a plane",
@@ -116,7 +116,7 @@ pub(super) fn open_edges(relief: &Relief) -> Option<Warning> {
     let worst = sides.iter().map(|side| side.edge / side.rms_step).reduce(f64::max)?;
     let step = sides.iter().map(|side| side.edge * relief.unit).fold(0.0, f64::max);
     let text = "opposite edges do not meet along {}, by {} rms: mirror the map";
-    Some(Warning::told(WarningCode::OpenEdges, worst, text, [Word(axes.join(" and ")), Length(step)]))
+    Some(Warning::new(WarningCode::OpenEdges, worst, text, [Word(axes.join(" and ")), Length(step)]))
 }
 
 /// The greatest height along the edges, without absent nodes; −∞ if all are absent.
@@ -132,7 +132,7 @@ fn highest_at_edges(surface: &Surface, heights: &Array2<f64>) -> f64 {
 pub(super) fn ends_within(surface: &Surface) -> Option<Warning> {
     let text = "no surface along the edges: use a free boundary, except for an array of pillars";
     let ends = surface.absent().is_some() && highest_at_edges(surface, surface.heights()) == f64::NEG_INFINITY;
-    ends.then(|| Warning::told(WarningCode::Ends, 0.0, text, []))
+    ends.then(|| Warning::new(WarningCode::Ends, 0.0, text, []))
 }
 
 /// A body that falls to the edges, which are creases between it and its images.
@@ -146,7 +146,7 @@ pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warnin
         return None;
     }
     let text = "the heights fall to all edges, by {} or more: use a free boundary";
-    Some(Warning::told(WarningCode::Ends, 0.0, text, [Length(below * relief.unit)]))
+    Some(Warning::new(WarningCode::Ends, 0.0, text, [Length(below * relief.unit)]))
 }
 
 impl Warning {
@@ -169,7 +169,7 @@ impl Warning {
         if modulus == 1.0 || modulus >= SOFTEST || !in_metres {
             return None;
         }
-        Some(Self::told(
+        Some(Self::new(
             WarningCode::Modulus,
             0.0,
             "the contact modulus is {}, below {} Pa: give it in Pa, since lengths are in m",
@@ -186,14 +186,14 @@ pub(super) fn slope(slope: f64, most: f64) -> Option<Warning> {
         _ => return None,
     };
     let text = "the rms slope by differences is {}, {}: check the units";
-    Some(Warning::told(code, severity, text, [Figure(slope), Word(than)]))
+    Some(Warning::new(code, severity, text, [Figure(slope), Word(than)]))
 }
 
 pub(super) fn spikes(relief: &Relief) -> Option<Warning> {
     let Spikes { count, farthest, node: (i, j) } = Spikes::of(relief)?;
     let nodes = format!("{count} single {}", if count == 1 { "node stands" } else { "nodes stand" });
     let (times, node) = (farthest / relief.rms, format!("[{i}, {j}]"));
-    Some(Warning::told(
+    Some(Warning::new(
         WarningCode::Spikes,
         times,
         "{} out, by up to {}, at {}: use despike",
@@ -214,7 +214,7 @@ impl Warning {
         let share = spikes as f64 / points as f64;
         (share > MANY_SPIKES).then(|| {
             let text = "{} % of the points are spikes, more than {} %: raise the threshold of despike";
-            Self::told(WarningCode::Spikes, share, text, [Figure(100.0 * share), Figure(100.0 * MANY_SPIKES)])
+            Self::new(WarningCode::Spikes, share, text, [Figure(100.0 * share), Figure(100.0 * MANY_SPIKES)])
         })
     }
 }

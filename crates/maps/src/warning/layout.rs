@@ -53,11 +53,11 @@ fn is_profile(x: ArrayView1<'_, f64>, z: ArrayView1<'_, f64>) -> bool {
 
 /// Coordinates on the first line or column of a table, or in two columns of points.
 pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
-    let told = |text, parts: [Part; 3]| Some(Warning::told(WarningCode::Axes, 0.0, text, parts));
+    let warning = |text, parts: [Part; 3]| Some(Warning::new(WarningCode::Axes, 0.0, text, parts));
     if let Some(columns) = coordinates(heights.view(), MOST_NODES) {
         let [first, second] = columns.map(|column| Figure(column as f64 + 1.0));
         let remedy = Word("write a file .xyz".into());
-        return told("columns {} and {} are the coordinates of a grid: {}", [first, second, remedy]);
+        return warning("columns {} and {} are the coordinates of a grid: {}", [first, second, remedy]);
     }
     let is_axis = |axis: Axis| {
         let (lines, line) = (heights.len_of(axis), |index| heights.index_axis(axis, index));
@@ -74,7 +74,7 @@ pub(super) fn axes(heights: &Array2<f64>) -> Option<Warning> {
         [false, true] => ("first column runs", heights.column(0), heights.ncols()),
     };
     let last = Figure(numbers[numbers.len() - 1]);
-    told("the {} like coordinates, up to {}: {}", [Word(what.into()), last, remedy(lines)])
+    warning("the {} like coordinates, up to {}: {}", [Word(what.into()), last, remedy(lines)])
 }
 
 /// Numbers with bytes in the wrong order.
@@ -95,7 +95,7 @@ pub(super) fn byte_order(heights: &Array2<f64>) -> Option<Warning> {
     }
     let power = |power: f64| Word(format!("1e{power:.0}"));
     let text = "half of the magnitudes are from {} to {}: swap the bytes";
-    Some(Warning::told(WarningCode::ByteOrder, high - low, text, [power(low), power(high)]))
+    Some(Warning::new(WarningCode::ByteOrder, high - low, text, [power(low), power(high)]))
 }
 
 #[cfg(test)]

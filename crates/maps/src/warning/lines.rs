@@ -46,7 +46,7 @@ pub(super) fn offsets(heights: &Array2<f64>, unit: f64) -> Option<Warning> {
     let [x, y] = AXES.map(|(axis, _)| LineSteps::of(heights, axis));
     let found = [(&x, &y, "x"), (&y, &x, "y")].into_iter().find(|(lines, others, _)| are_offset(lines, others, OFFSET));
     let (lines, _, axis) = found?;
-    Some(Warning::told(
+    Some(Warning::new(
         WarningCode::LineOffsets,
         lines.shared / lines.single,
         "lines along {} are offset by {}: use align-rows median, scan axis {}",
@@ -86,7 +86,7 @@ impl Warning {
         let [along, across] = axes.map(|(_, name)| Word(name.to_owned()));
         let times =
             if asked.change > 0.0 { Figure(other.change / asked.change) } else { Word("infinitely many".into()) };
-        Some(Self::told(
+        Some(Self::new(
             WarningCode::ScanAxis,
             0.0,
             "lines along {} are offset {} times as much as lines along {}: choose scan axis {}",

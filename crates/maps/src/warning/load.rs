@@ -85,13 +85,13 @@ pub(super) fn of_load<T: Real>(solution: &Solution<T>, scars_removed: Option<f64
     let (nodes, axis) = kinds.into_iter().filter(much).max_by(|a, b| a.0.load.total_cmp(&b.0.load))?;
     let (share, percent) = (nodes.load / all.load, Figure(100.0 * nodes.load / all.load));
     Some(match axis.map(str::to_owned) {
-        Some(axis) => Warning::told(
+        Some(axis) => Warning::new(
             WarningCode::Scars,
             share,
             "{} % of the load is on lines along {}: {}",
             [percent, Word(axis.clone()), Word(remedy(&axis, scars_removed))],
         ),
-        None => Warning::told(
+        None => Warning::new(
             WarningCode::Noise,
             share,
             "{} % of the load is on single nodes: use despike, or cut off short waves",
@@ -118,7 +118,7 @@ impl Warning {
         let size = if bytes < 0.1 * GIB { String::new() } else { format!(", {:.1} GiB", bytes / GIB) };
         let few = if nodes < 1.5 { "one node or less".to_owned() } else { format!("{nodes:.0} nodes") };
         let remedy = if bytes <= memory { "refine to" } else { "too large for this memory are" };
-        Self::told(
+        Self::new(
             WarningCode::FewNodes,
             nodes.recip(),
             "{} of a contact bear the pull-off, which is too few: {} {} x {} nodes{}",
@@ -153,6 +153,6 @@ impl Warning {
         }
         let text = "{} % of the load is above E*/10, {}: give the hardness of the softer body";
         let parts = [Figure(100.0 * above / all), Pressure(BORNE * modulus)];
-        Some(Self::told(WarningCode::Hardness, above / all, text, parts))
+        Some(Self::new(WarningCode::Hardness, above / all, text, parts))
     }
 }

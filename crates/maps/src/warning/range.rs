@@ -30,8 +30,8 @@ impl Warning {
         let farther = f64::min(0.5 * Discretisation::<T>::SMOOTHING * mu_rho(law, grid, modulus).powi(2), 1.0);
         let is_smoothed = smooth && law.adapted(Discretisation::Smooth(T::infinity())).is_some();
         let text = "smoothed, the law reaches {} % farther and cycles dissipate less: refine the map";
-        let told = || Self::told(WarningCode::Range, farther, text, [Figure(100.0 * farther)]);
-        (is_smoothed && farther > FARTHER).then(told)
+        let warning = || Self::new(WarningCode::Range, farther, text, [Figure(100.0 * farther)]);
+        (is_smoothed && farther > FARTHER).then(warning)
     }
 
     /// The probable mistakes in the range of `law` on a surface pressed against a body of contact `modulus` E*:
@@ -44,7 +44,7 @@ impl Warning {
         let (range, span) = (law.hints().range.widen(), Extremes::of(surface.whole().heights()).span());
         let mut found = Vec::new();
         if mu_rho > RESOLVED {
-            found.push(Self::told(
+            found.push(Self::new(
                 WarningCode::Range,
                 mu_rho / RESOLVED,
                 "mu_rho = {} exceeds {}: the grid makes w act as {} w: use jkr",
@@ -52,7 +52,7 @@ impl Warning {
             ));
         }
         if law.hints().work_of_adhesion > T::zero() && span > 0.0 && range > span {
-            found.push(Self::told(
+            found.push(Self::new(
                 WarningCode::Range,
                 range / span,
                 "the range of adhesion, {}, exceeds the heights, {}: check its unit",
@@ -63,7 +63,7 @@ impl Warning {
         let work = law.hints().work_of_adhesion.widen() / modulus;
         let share = work / if surface.grid().is_line() { lx } else { lx.max(ly) };
         if share > MOST_WORK && share.is_finite() || share > 0.0 && share < LEAST_WORK {
-            found.push(Self::told(
+            found.push(Self::new(
                 WarningCode::Work,
                 share.max(share.recip()),
                 "w/E* is {}, {} sides: check the units of work of adhesion and modulus",
@@ -89,12 +89,12 @@ const HELD: [(f64, [f64; 2]); 7] = [
 
 /// The interval of this table at a μ_ρ above the least, in words.
 fn held(mu_rho: f64) -> String {
-    let told = |[low, high]: [f64; 2], [less, more]: [&str; 2]| {
+    let words = |[low, high]: [f64; 2], [less, more]: [&str; 2]| {
         format!("{less}{low:.2} to {more}{high:.*}", if high < 2.0 { 2 } else { 1 })
     };
     let Some(pair) = HELD.windows(2).find(|pair| mu_rho <= pair[1].0) else {
-        return told(HELD[HELD.len() - 1].1, ["<", ">"]);
+        return words(HELD[HELD.len() - 1].1, ["<", ">"]);
     };
     let share = (mu_rho / pair[0].0).ln() / (pair[1].0 / pair[0].0).ln();
-    told([0, 1].map(|k| pair[0].1[k].powf(1.0 - share) * pair[1].1[k].powf(share)), [""; 2])
+    words([0, 1].map(|k| pair[0].1[k].powf(1.0 - share) * pair[1].1[k].powf(share)), [""; 2])
 }
