@@ -39,9 +39,9 @@ from .common.progress import progress
 from .common.types import OwnLaw, Report
 from .common.warnings import AccuracyWarning, ConvergenceWarning, InputWarning
 from .curves import CurveFit, CurveMap, Estimate, ForceCurve, ModelFit, TipTable, fit_curve, fit_curves, read_curve
-from .laws import laws as _laws
-from .laws.laws import *
-from .laws.laws import CutOff, Tabulated, Varying
+from .laws.composite import CutOff, Varying
+from .laws.formulas import JKR, Exponential, LennardJones, MaugisDugdale, Morse, PowerLaw, VanDerWaals
+from .laws.tabulated import Tabulated
 from .maps.files import read
 from .maps.packages import from_topography
 from .maps.pair import contact_modulus
@@ -63,20 +63,26 @@ __all__ = [
     "Cycle",
     "CycleLimit",
     "Estimate",
+    "Exponential",
     "Flow",
     "ForceCurve",
     "InputWarning",
     "Interface",
     "Iteration",
+    "JKR",
     "Law",
     "Layer",
     "Leakage",
+    "LennardJones",
+    "MaugisDugdale",
     "ModelFit",
     "Moment",
+    "Morse",
     "OwnLaw",
     "Penalty",
     "Percolation",
     "Plan",
+    "PowerLaw",
     "PressureDistribution",
     "PullOff",
     "Report",
@@ -89,6 +95,7 @@ __all__ = [
     "TipTable",
     "Topography",
     "Uzawa",
+    "VanDerWaals",
     "Varying",
     "Viscoelastic",
     "__version__",
@@ -115,7 +122,6 @@ __all__ = [
     "sweep",
     "viscoelastic",
 ]
-__all__ += _laws.__all__
 
 # modules by which pickles of earlier versions name the classes
 sys.modules.update(

@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 from . import _asperity
 from .answers.findings import ContactStatistics
 from .answers.solution import Solution
-from .common.summary import summarised
+from .common.summary import summary
 from .maps.arrays import field_of
 
 __all__ = ["Clusters", "ContactStatistics", "ContactTables", "Density", "clusters", "tables"]
 
 
-@summarised
 class Clusters(NamedTuple):
     """The pieces of a periodic map that hang together.
 
@@ -30,6 +29,9 @@ class Clusters(NamedTuple):
 
     sizes: NDArray[np.int64]
     labels: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def clusters(contact: Any) -> Clusters:
@@ -57,7 +59,6 @@ def clusters(contact: Any) -> Clusters:
     return Clusters(sizes, labels.reshape(given.shape))
 
 
-@summarised
 class Density(NamedTuple):
     """Probability density of a gap or a pressure over the nodes, in bins that are equally wide in its logarithm.
 
@@ -77,8 +78,10 @@ class Density(NamedTuple):
     edges: NDArray[np.float64]
     exponent: dict[str, Any] | None
 
+    def __repr__(self) -> str:
+        return summary(self)
 
-@summarised
+
 class ContactTables(NamedTuple):
     """The contact of a solution in tables.
 
@@ -100,6 +103,9 @@ class ContactTables(NamedTuple):
     autocorrelation: NDArray[np.float64]
     clusters: NDArray[np.float64]
     figures: dict[str, Any]
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def tables(solution: Solution) -> ContactTables:

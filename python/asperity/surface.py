@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _asperity
-from .common.summary import summarised
+from .common.summary import summary
 from .common.types import AxisOrder, Lengths, Quantity, Shape, Tilt
 from .common.units import given, plain
 from .common.words import checked
@@ -41,7 +41,6 @@ __all__ = [
 ]
 
 
-@summarised
 class SurfaceStatistics(NamedTuple):
     """Moments of heights, slopes and curvatures; lengths in the unit of the heights.
 
@@ -73,8 +72,10 @@ class SurfaceStatistics(NamedTuple):
     rms_curvature_differences: float
     nayak: float
 
+    def __repr__(self) -> str:
+        return summary(self)
 
-@summarised
+
 class PowerSpectralDensity(NamedTuple):
     """A power spectral density over wave numbers of both signs.
 
@@ -94,6 +95,9 @@ class PowerSpectralDensity(NamedTuple):
     densities: NDArray[np.float64]
     waves: NDArray[np.int64]
     cell: float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 @checked

@@ -454,7 +454,7 @@ def test_a_code_may_be_a_text():
         (lambda h: asperity.prepare(h, detrand="plane"), r"prepare\(\) has no keyword detrand: did you mean detrend"),
         (lambda h: asperity.Exponential(work_of_adhesion=1.0, rho=1.0), r"Exponential\(\) .* rho: did you mean range"),
         (lambda h: asperity.VanDerWaals(A=1.0, range=1.0), r"VanDerWaals\(\) has no keyword A: did you mean hamaker"),
-        (lambda h: asperity.Morse(1.0), r"Morse\(\) is without range"),
+        (lambda h: asperity.Morse(1.0, None), r"Morse\(\) is without range"),
         (lambda h: asperity.Morse(1.0, 1.0, colour=1.0), "it has work_of_adhesion, range"),
     ],
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _asperity
-from ..common.summary import summarised
+from ..common.summary import summary
 from ..common.warnings import AccuracyWarning, warn
 from ..plot import figures
 from .rows import Rows
@@ -59,7 +59,6 @@ class Step:
         return f"Step({self.direction}, leg {self.leg}: mean_gap={gap:.7g}, mean_pressure={pressure:.7g}{event})"
 
 
-@summarised
 class CycleLimit(NamedTuple):
     """The limits of no range of a cycle with `JKR`, from the grid and the grid of half as many nodes along the sides.
 
@@ -79,6 +78,9 @@ class CycleLimit(NamedTuple):
     work_error: float
     tension: float
     tension_error: float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Cycle(Rows[Step]):

@@ -7,10 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..common.summary import summarised
+from ..common.summary import summary
 
 
-@summarised
 class ContactStatistics(NamedTuple):
     """Contact area and clusters, and the area that attracts without contact; fractions of nodes not absent.
 
@@ -42,8 +41,10 @@ class ContactStatistics(NamedTuple):
     attractive_fraction: float
     apart_fraction: float
 
+    def __repr__(self) -> str:
+        return summary(self)
 
-@summarised
+
 class PressureDistribution(NamedTuple):
     """The distribution of the contact pressure over the nodes: a histogram, as a probability density.
 
@@ -59,8 +60,10 @@ class PressureDistribution(NamedTuple):
     density: NDArray[np.float64]
     edges: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        return summary(self)
 
-@summarised
+
 class Constriction(NamedTuple):
     """The narrowest place of the widest passage through a gap.
 
@@ -78,8 +81,10 @@ class Constriction(NamedTuple):
     node: tuple[int, int]
     path: NDArray[np.int64]
 
+    def __repr__(self) -> str:
+        return summary(self)
 
-@summarised
+
 class Percolation(NamedTuple):
     """Whether a gap is open from side to side, or around a periodic cell.
 
@@ -91,6 +96,9 @@ class Percolation(NamedTuple):
 
     x: Constriction | None
     y: Constriction | None
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Conductance(NamedTuple):
@@ -111,7 +119,6 @@ class Conductance(NamedTuple):
     relative_error: float | None
 
 
-@summarised
 class Stability(NamedTuple):
     """Stability of an equilibrium; eigenvalues are pressures per length.
 
@@ -143,6 +150,9 @@ class Stability(NamedTuple):
     smoothed: bool
     operator_applications: int
     mode: NDArray[np.floating[Any]]
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Plan(NamedTuple):

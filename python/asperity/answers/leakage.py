@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _asperity
-from ..common.summary import summarised
+from ..common.summary import summary
 from ..common.types import Boundary, Lengths, Quantity
 from ..common.units import number
 from ..common.warnings import ConvergenceWarning, warn
@@ -20,7 +20,6 @@ from .findings import Constriction
 from .solution import Solution
 
 
-@summarised
 class Flow(NamedTuple):
     """Flow along one axis.
 
@@ -51,6 +50,9 @@ class Flow(NamedTuple):
     constriction: Constriction | None
     pressure: NDArray[np.float64]
     flow: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Leakage(NamedTuple):

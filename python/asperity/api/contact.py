@@ -26,7 +26,8 @@ from ..common.progress import by_default
 from ..common.types import AxisOrder, Lengths
 from ..common.units import shown
 from ..common.warnings import ConvergenceWarning, InputWarning, warn
-from ..laws.laws import FORMULAS, Varying
+from ..laws.composite import Varying
+from ..laws.formulas import FORMULAS
 from ..maps.arrays import field_of
 from ..maps.heights import Heights, axes_of, taken
 from ..maps.pair import along_both, between

@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 from .. import _asperity
-
-T = TypeVar("T", bound=tuple[Any, ...])
-
-
-def summarised(kind: type[T]) -> type[T]:
-    """Prints a named tuple by `summary`."""
-    setattr(kind, "__repr__", summary)
-    return kind
 
 
 def summary(found: Any, units: dict[str, str | None] | None = None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, ParamSpec, TypeVar
 
@@ -41,6 +42,21 @@ def _meant(word: str, known: Sequence[str]) -> str:
         return f"give {many}=[...], or one load to asperity.solve, as {word}"
     right = _asperity.meant(word, known)
     return f"did you mean {right}?" if right else f"it has {', '.join(known)}"
+
+
+def named(function: Callable[P, R]) -> Callable[P, R]:
+    """A function that suggests what an unknown keyword may mean."""
+    code = inspect.unwrap(function).__code__
+    known = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    own = [name for name in known if name not in ("self", "cls")]
+    name = re.sub(r"\.__(new|init)__$", "", function.__qualname__).rpartition(".")[-1]
+
+    @functools.wraps(function)
+    def call(*args: P.args, **keywords: P.kwargs) -> R:
+        check(name, keywords, own)
+        return function(*args, **keywords)
+
+    return call
 
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from copy import deepcopy
 from dataclasses import dataclass
-from operator import attrgetter
 from typing import Any, ClassVar
 
 import numpy as np
@@ -19,28 +18,24 @@ class _States:
     """States of a solution, with their numbers as properties."""
 
     #: The numbers by which a state is printed.
-    _told: ClassVar[tuple[str, ...]]
-
-    def __init_subclass__(cls) -> None:
-        for name in cls.__annotations__:
-            setattr(cls, name, property(attrgetter(f"_found.{name}")))
+    _shown: ClassVar[tuple[str, ...]]
 
     def __init__(self, solution: Formula, way: str, *at: ArrayLike) -> None:
         # another process finds it again by these
         self._made = solution, way, *deepcopy(at)
-        self._solution, self._found = solution, getattr(solution._of, way)(*at)
+        self._solution, self._state = solution, getattr(solution._of, way)(*at)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._made
 
     def __repr__(self) -> str:
-        values = {name: getattr(self, name) for name in self._told}
-        shape = np.shape(values[self._told[0]])
+        values = {name: getattr(self, name) for name in self._shown}
+        shape = np.shape(values[self._shown[0]])
         told = f"{shape}" if shape else f"({', '.join(f'{name}={value:.6g}' for name, value in values.items())})"
         return f"{type(self).__name__}{told} of {self._solution._called()}"
 
     def _field(self, name: str, places: ArrayLike) -> Any:
-        return getattr(self._found, name)(self._solution._read("distance", places))
+        return getattr(self._state, name)(self._solution._read("distance", places))
 
     def pressure(self, places: ArrayLike, /) -> Any:
         """Pressure p, compression positive."""
@@ -58,30 +53,42 @@ class _States:
 class Contact(_States):
     """Axisymmetric contacts of a paraboloid −r²/2R with a half-space; numbers have the shape of what they were found at.
 
-    Attributes
-    ----------
-    contact_radius, adhesion_radius : float or ndarray
-        Radii up to which the surfaces touch, and attract each other.
-    load : float or ndarray
-        Load P, compression positive.
-    approach : float or ndarray
-        Approach δ of the half-space at infinity.
-    radius_of_curvature, second_moment : float or ndarray
-        Radius R, and the integral of r²p.
-
     Notes
     -----
     Fields are at the distances r ≥ 0 from the axis: the shape of the contacts, then that of r.
     """
 
-    contact_radius: Any
-    adhesion_radius: Any
-    load: Any
-    approach: Any
-    radius_of_curvature: Any
-    second_moment: Any
+    _shown = ("contact_radius", "load", "approach")
 
-    _told = ("contact_radius", "load", "approach")
+    @property
+    def contact_radius(self) -> Any:
+        """Radius a up to which the surfaces touch, a length."""
+        return self._state.contact_radius
+
+    @property
+    def adhesion_radius(self) -> Any:
+        """Radius up to which the surfaces attract each other, a length."""
+        return self._state.adhesion_radius
+
+    @property
+    def load(self) -> Any:
+        """Load P, a force, compression positive."""
+        return self._state.load
+
+    @property
+    def approach(self) -> Any:
+        """Approach δ of the half-space at infinity, a length."""
+        return self._state.approach
+
+    @property
+    def radius_of_curvature(self) -> Any:
+        """Radius of curvature R, a length."""
+        return self._state.radius_of_curvature
+
+    @property
+    def second_moment(self) -> Any:
+        """Integral of r²p over the contact, a force times an area."""
+        return self._state.second_moment
 
     def deflection(self, places: ArrayLike, /) -> Any:
         """Deflection u + δ."""
@@ -91,23 +98,27 @@ class Contact(_States):
 class WaveContact(_States):
     """Contacts of a wave h₀ cos(2πx/λ) with a half-space; numbers have the shape of what they were found at.
 
-    Attributes
-    ----------
-    half_width : float or ndarray
-        Half-width a of the contact about each crest.
-    mean_pressure, mean_gap : float or ndarray
-        Mean pressure p̄ and mean gap.
-
     Notes
     -----
     Fields are at the distances x from a crest: the shape of the contacts, then that of x.
     """
 
-    half_width: Any
-    mean_pressure: Any
-    mean_gap: Any
+    _shown = ("half_width", "mean_pressure", "mean_gap")
 
-    _told = ("half_width", "mean_pressure", "mean_gap")
+    @property
+    def half_width(self) -> Any:
+        """Half-width a of the contact about each crest, a length."""
+        return self._state.half_width
+
+    @property
+    def mean_pressure(self) -> Any:
+        """Mean pressure p̄."""
+        return self._state.mean_pressure
+
+    @property
+    def mean_gap(self) -> Any:
+        """Mean gap, a length."""
+        return self._state.mean_gap
 
 
 @dataclass(frozen=True, repr=False)

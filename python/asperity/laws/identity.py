@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._asperity import Law
-from .laws import CutOff, Tabulated, Varying
+from .composite import CutOff, Varying
+from .tabulated import Tabulated
 
 
 def fields(law: Any) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, bool]:

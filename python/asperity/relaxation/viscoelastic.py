@@ -23,8 +23,8 @@ from ..answers.solution import Solution, Start
 from ..bodies.body import Symbol
 from ..common.units import number
 from ..common.words import PLURALS
+from ..laws.formulas import JKR
 from ..laws.identity import unwrapped
-from ..laws.laws import JKR
 from ..maps.arrays import field_of, mirrored
 from ..plot import figures
 
