@@ -52,7 +52,7 @@ pub enum Side {
     Contact,
 }
 
-/// Where a jump was seen, and the force that a shift of it by a length weighs as much as.
+/// Where a jump was seen, and the force that weighs as much as a shift of the jump by a length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
     /// its position
@@ -134,7 +134,7 @@ impl Curve {
         }
     }
 
-    /// Takes from values what a baseline explains.
+    /// Subtracts from values what a baseline explains.
     pub(crate) fn clear(&self, values: &mut [f64]) {
         for column in &self.baseline {
             let share: f64 = column.iter().zip(&*values).map(|(a, b)| a * b).sum();

@@ -99,9 +99,9 @@ impl Asked<'_> {
         fits
     }
 
-    /// Parameters to begin with, by the squares of some points over moduli and contact points that fit each: the best, and
-    /// the softest of those that fit about as well, as a soft spring hardly tells a hard contact from a rigid one; and those
-    /// of a fit without adhesion.
+    /// Parameters to begin with, by the squares of some points over moduli and contact points that fit each: the best,
+    /// and the softest of parameters that fit about as well, as a soft spring hardly tells a hard contact from a rigid
+    /// contact; and parameters of a fit without adhesion.
     fn begun(
         &self,
         few: &Curve,

@@ -4,8 +4,8 @@ use asperity::stability::ContactStiffness;
 use asperity::{Boussinesq, Control, Error, Grid, NoAdhesion, Problem, Result, Solver, Surface, Westergaard};
 use ndarray::ArrayView2;
 
-/// The mean pressure under which a punch with the outline of the contact is pressed, over E*, and its depth over the longer
-/// side: its displacements are far less than that.
+/// The mean pressure under which a punch with the outline of the contact is pressed, over E*, and its depth over the
+/// longer side: displacements are far less.
 const PRESSED: f64 = 1e-6;
 
 /// The conductance of a contact between two half-spaces, for electric current or for heat.

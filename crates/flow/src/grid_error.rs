@@ -1,4 +1,4 @@
-//! What the grid leaves in the transmissivity, from grids of half the resolution.
+//! The error of the grid in the transmissivity, from grids of half the resolution.
 
 use asperity::Result;
 
@@ -26,14 +26,14 @@ fn keep_largest(differences: &mut [f64; 2], fine: &Leak, coarse: &Leak) {
 }
 
 impl Leakage {
-    /// The estimated relative error of the grid in the transmissivity along both axes: the largest difference from that
-    /// on the even nodes alone, and from that on the odd ones, or what is left of such differences from grid to grid. None
-    /// without a passage, where a side has an odd number of nodes, and where the differences to grids of half and of a
-    /// quarter of the nodes hardly fall, as where open cells meet at corners.
+    /// The estimated relative error of the grid in the transmissivity along both axes: the largest difference from the
+    /// transmissivity on the even nodes alone, and on the odd nodes alone, or what is left of such differences from
+    /// grid to grid. None without a passage, where a side has an odd number of nodes, and where the differences to
+    /// grids of half and of a quarter of the nodes hardly fall, as where open cells meet at corners.
     ///
-    /// The network is right to second order in the spacing where the gap is resolved, and the difference is three times
-    /// its error then. Where it is not, as at a constriction of a few nodes, both differences scatter, up to one and
-    /// more. The estimate is no bound, and does not contain the error of the gap itself.
+    /// The network is right to second order in the spacing where the gap is resolved, and the difference is then three
+    /// times its error. Elsewhere, as at a constriction of a few nodes, both differences scatter, up to one and more.
+    /// The estimate is no bound, and does not contain the error of the gap itself.
     ///
     /// ```
     /// use asperity::Grid;

@@ -12,8 +12,8 @@ use crate::tree::Tree;
 /// The share of the tolerance from which on an error that brings the bounds no closer is rounding.
 const LEAST_SHARE: f64 = 1e-7;
 
-/// The share of the first error, squared, at which the residual is computed anew: what it has lost to rounding is then as
-/// small as the flow, and no longer as the flow that the first pressure drove through the widest gaps.
+/// The share of the first error, squared, at which the residual is computed anew: its rounding is then small compared
+/// with the flow, and not only with the flow of the first pressure through the widest gaps.
 const STALE: f64 = 1e-8;
 
 /// The memory that an open node and a closed one take at most, in bytes: a network, its cliques and its elimination,
@@ -25,7 +25,7 @@ const CLOSED: f64 = 64.0;
 ///
 /// The *transmissivity* along x is the flow, a volume per time, over the pressure Δp that falls from one side to the
 /// other, times the viscosity η: Qη/Δp, a length³, g³/12 for a slot of a square cell. In a periodic cell Δp falls over
-/// each period along x and nothing over that along y; what flows along y then is left to the gap. A free gap is fed at one
+/// each period along x and nothing over the period along y, where the gap chooses the flow. A free gap is fed at one
 /// side and drained at the opposite one, and the two other sides are tight.
 ///
 /// On the grid the gap is a network: between two neighbours flows c Δp/12η with the conductance c = 2/(1/g₁³ + 1/g₂³), times
@@ -40,7 +40,7 @@ const CLOSED: f64 = 64.0;
 /// harmonic mean along the axis of the arithmetic means of g³ across it; a flow along straight lines gives the
 /// arithmetic mean across the axis of the harmonic means along it. So a gap of stripes needs no iteration.
 ///
-/// The distance of the bounds does not tell what the grid itself leaves out: compare two grids for that.
+/// The distance of the bounds does not contain the error of the grid: compare two grids.
 ///
 /// Memory: see [`Leakage::memory`].
 ///
@@ -98,8 +98,8 @@ impl Bounds {
 pub struct Flow {
     /// The bounds of the transmissivity, a length³.
     pub transmissivity: Bounds,
-    /// The pressure, relative to that which falls from side to side, of the nodes through which or next to which the fluid
-    /// flows; NaN elsewhere. With a periodic gap its mean over the flow through the last side is ½.
+    /// The pressure, relative to the pressure that falls from side to side, of nodes in the flow and next to it; NaN
+    /// elsewhere. With a periodic gap its mean over the flow through the last side is ½.
     pub pressure: Array2<f64>,
     /// The flow at the nodes along x and along y, times η/Δp: a volume per time and width, a length².
     pub flow: [Array2<f64>; 2],

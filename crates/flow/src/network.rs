@@ -42,8 +42,8 @@ pub(crate) struct Way {
 ///
 /// A flow f on the edges is conserved at every vertex, and a pressure p at the vertices drives f = c (p_hub − p_rim +
 /// e), where the pressure that is held falls e times. In a periodic gap the edges across the last side have e = 1, and
-/// the held pressure falls by one over the cell; both axes have the same network. In a free one those at the first side
-/// have e = −1, and lead to the *ground*, which is both sides at once. The flow along the axis is Σ f e.
+/// the held pressure falls by one over the cell; both axes have the same network. In a free gap the edges at the first
+/// side have e = −1, and lead to the *ground*, which is both sides at once. The flow along the axis is Σ f e.
 ///
 /// The hubs are the nodes of one colour of a checkerboard, and the rims the nodes of the other. Flow is conserved at a
 /// hub with the mean pressure of its rims, weighted by conductances: the pressures of the rims suffice. Where two rims

@@ -88,7 +88,7 @@ impl Gap<'_> {
         Percolation { constrictions: Axis::BOTH.map(constriction), reach }
     }
 
-    /// Whether a node is among those before another one, or that one, as they are opened from the widest gap on.
+    /// Whether a node is opened before another node, or is that node, from the widest gap on.
     fn is_before(&self, node: usize, last: usize) -> bool {
         let (gap, least) = (self.at(node), self.at(last));
         gap > least || (gap == least && node <= last)

@@ -25,7 +25,8 @@ impl Tree {
         let mut edges: Vec<u64> = network.edges.iter().enumerate().map(key).collect();
         edges.sort_unstable();
         let mut clusters = Clusters::new(vertices);
-        // the number of edges at each vertex, and the exclusive or of their numbers: where one is left, it is that one
+        // the number of edges at each vertex, and the exclusive or of their numbers: where one edge is left, this is
+        // its number
         let (mut count, mut which) = (vec![0_u32; vertices], vec![0_u32; vertices]);
         for edge in edges.into_iter().map(|key| key as u32) {
             let Edge { hub, rim, .. } = network.edges[edge as usize];

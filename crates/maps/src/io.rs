@@ -86,8 +86,8 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 /// - `.npy`: floating-point numbers of 4 or 8 bytes or integers of 1 to 8 bytes, in either byte order and
 ///   either memory order. Integers beyond 2^53 are rounded.
 /// - `.npz`: as `.npy`, compressed or not, with exactly one array in it, or with one named `heights`. Arrays
-///   `lengths`, two numbers, `unit` or `units`, a text, and what [`write_topography`] says of mirrors and seeds are taken
-///   next to that; [`Topography::unread`] names all others.
+///   `lengths`, two numbers, `unit` or `units`, a text, and what [`write_topography`] says of mirrors and seeds are
+///   read, too; [`Topography::unread`] names all others.
 /// - Gwyddion's own files (`.gwy`): their only channel, or the only one with heights in a unit of length; a [`Reading`]
 ///   takes any. [`Topography::unread`] names the other channels, and a mask. Shown corrections are left where they are.
 /// - Gwyddion Simple Field (`.gsf`): with the side lengths XReal and YReal, and units.
@@ -250,7 +250,7 @@ fn ending(path: &Path) -> String {
     path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// A file and its size; `kinds` are those that can be read.
+/// A file and its size; `kinds` can be read.
 fn opened(path: &Path, kinds: &str) -> Parsed<(BufReader<File>, u64)> {
     // Before opening, which would wait for ever on a named pipe.
     let metadata = fs::metadata(path).map_err(unreadable)?;
@@ -274,7 +274,7 @@ enum Format {
     Npz,
     Sdf,
     Points,
-    /// A text, unless it cannot be read since it is binary, for this reason.
+    /// A text, or the reason why a binary file cannot be read as one.
     Text {
         binary: Option<String>,
     },
@@ -339,7 +339,7 @@ fn read_from(mut reader: impl BufRead + Seek, size: u64, ending: &str, reading: 
     }
 }
 
-/// Whether a length is one of a side.
+/// Whether a length can be a side length.
 fn is_side(length: f64) -> bool {
     length > 0.0 && length.is_finite()
 }

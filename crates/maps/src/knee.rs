@@ -9,7 +9,7 @@ use asperity::surface::Psd;
 const CLASSES: f64 = 8.0;
 /// The classes before the shortest waves of a grid that are flat where there is a floor: half an octave.
 const LAST: usize = 4;
-/// The least number of independent waves in these: of fewer the slope of the spectrum there is not known to 0.25.
+/// The least number of independent waves in these classes: with fewer, the slope of the spectrum is not known to 0.25.
 const LEAST_WAVES: f64 = 1600.0;
 /// The slopes of the logarithm of the density up to which a profile and a surface are flat: half of the self-affine
 /// slopes, −1 − 2H and −2 − 2H, at a Hurst exponent H of 0.
@@ -35,9 +35,9 @@ struct Class {
 ///
 /// White noise of an instrument has the same density at all wave numbers, and a surface less and less towards the
 /// short waves. There is a floor if the density of the last half octave before the shortest waves of the grid falls
-/// with less than the wave number, or its square root of a profile, half of what it does for a self-affine surface
-/// of a Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. At the knee the surface
-/// has the density of the floor, and the spectrum twice this density. Waves that are shorter tell of the noise:
+/// with less than the wave number, or its square root for a profile, half the slope of a self-affine surface with a
+/// Hurst exponent of 0, and the waves of the floor make more than 1e-6 of the rms height. At the knee the surface has
+/// the density of the floor, and the spectrum twice this density. Shorter waves are noise:
 /// [`Topography::low_pass`](crate::Topography::low_pass) leaves them out.
 ///
 /// The densities are means over eighths of an octave. Fewer than 1600 independent waves in the last half octave, as

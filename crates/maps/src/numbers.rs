@@ -32,8 +32,8 @@ pub fn rounded(value: f64, digits: usize, most: f64) -> String {
     trimmed(format!("{value:.*}", decimals as usize))
 }
 
-/// A number to four digits with its SI unit, and the prefix that makes it readable; one that is too large for any prefix
-/// has a power of ten, and one that is too small is zero, but for energies, which are that small on nanometres.
+/// A number to four digits with its SI unit, and the prefix that makes it readable. A number too large for any prefix
+/// has a power of ten, and a number too small is zero, but for energies, which are so small on nanometres.
 pub fn si(value: f64, unit: &str) -> String {
     // Rounded first, so that 999.96 n is 1 µ.
     let text = format!("{value:.3e}");

@@ -62,14 +62,14 @@ pub struct Topography {
     pub lengths: Option<(f64, f64)>,
     /// The unit of heights and side lengths, if it is known.
     pub unit: Option<String>,
-    /// The nodes along x and y of the original, if the map is that and its mirror images: see [`mirror`](Self::mirror).
+    /// The nodes along x and y of the original, if the map consists of an original and its mirror images: see
+    /// [`mirror`](Self::mirror).
     pub original: Option<(usize, usize)>,
     /// The seed of the [`SelfAffine`](asperity::SelfAffine) surface from which the map was made, if there is one.
     pub seed: Option<u64>,
     /// The threshold of the scars that were [removed](Self::remove_scars), if that was done.
     pub scars_removed: Option<f64>,
-    /// What stands next to the heights in a file and was not taken: arrays, channels, a mask, and lines that may tell a
-    /// size.
+    /// Contents of a file that were not read: arrays, channels, a mask, and lines that may tell a size.
     pub unread: Vec<String>,
 }
 
@@ -116,7 +116,7 @@ impl Topography {
         self.lengths.map(|_| rms_slope(self.heights.view(), self.spacing(), false))
     }
 
-    /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. Of a mirrored map it has no
+    /// The part of the map with the nodes `x` × `y`; the nodes keep their distances. A part of a mirrored map has no
     /// original.
     ///
     /// ```

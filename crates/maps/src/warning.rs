@@ -29,15 +29,14 @@ use relief::Relief;
 /// surfaces have up to about this. Heights in another unit than the lengths are beyond it by orders of magnitude.
 const STEEP: f64 = 0.5;
 
-/// The same of a measured map: offsets between scan lines and spikes, as far as they are left, make slopes of several
-/// tens.
+/// The same for a measured map: offsets between scan lines, and spikes, make slopes of several tens.
 const STEEP_MAP: f64 = 100.0;
 
 /// The range of heights, as a share of the greatest magnitude, up to which a surface is flat: a few roundings of `f64`.
 const FLAT: f64 = 4.0 * f64::EPSILON;
 
 /// The difference of contact between an original and the whole with its mirror images, as a share, from which the
-/// solution has lost their symmetry: beyond what nodes at the edge of the contact make.
+/// solution has lost the symmetry: more than nodes at the edge of the contact make.
 const UNLIKE: f64 = 0.05;
 
 /// A probable mistake in the input, or in an answer: a code, the number that shows it, and a remedy, on a line of at
@@ -47,7 +46,7 @@ const UNLIKE: f64 = 0.05;
 /// none. [`of_surface`](Self::of_surface) looks at the heights, [`of_modulus`](Self::of_modulus) at the unit of the
 /// contact modulus with them, [`of_law`](Self::of_law) at the adhesion on them, all before a solve,
 /// [`of_solution`](Self::of_solution) and [`of_hardness`](Self::of_hardness) at its answer, and
-/// [`of_images`](Self::of_images) at that on a mirrored map.
+/// [`of_images`](Self::of_images) at the answer on a mirrored map.
 ///
 /// ```
 /// use asperity_maps::warning::{Warning, WarningCode};
@@ -122,7 +121,7 @@ impl Warning {
         self.text.split("{}").zip(parts).flat_map(|(piece, part)| [piece.to_owned(), part]).collect()
     }
 
-    /// How bad it is, to choose the worst among warnings of one code: the figure of the message that exceeds its limit,
+    /// The severity, to choose the worst among warnings of one code: the figure of the message that exceeds its limit,
     /// as far as there is one; otherwise zero.
     ///
     /// ```
@@ -229,8 +228,8 @@ impl Warning {
     /// The probable mistakes in an answer: [`BeyondModulus`](WarningCode::BeyondModulus) where the contact modulus E*
     /// is positive, [`WindowEdge`](WarningCode::WindowEdge) with a free boundary, and [`Scars`](WarningCode::Scars) or
     /// [`Noise`](WarningCode::Noise) where more than 20 % of the load of at least 100 nodes stands on lines, or 33 % on
-    /// single nodes, that press three times as hard as those next to them. The remedy for scars depends on the
-    /// threshold of those that were [removed](Topography::scars_removed) from the heights.
+    /// single nodes, that press three times as hard as their neighbours. The remedy for scars depends on the threshold
+    /// of scars that were [removed](Topography::scars_removed) from the heights.
     pub fn of_solution<T: Real>(solution: &Solution<T>, scars_removed: Option<f64>) -> Vec<Self> {
         let modulus = solution.report.modulus;
         let pressures = || solution.contact_pressure.iter().map(|pressure| pressure.widen());

@@ -41,7 +41,7 @@ pub struct Chart<'a> {
     pub y_log: bool,
     /// The curves: their names, for the legend, and their points (x, y).
     pub curves: Vec<(&'a str, Vec<(f64, f64)>)>,
-    /// The styles of the curves in their order; those beyond the last one are solid, each in a colour of its own.
+    /// The styles of the curves in their order; further curves are solid, each in a colour of its own.
     pub styles: Vec<Style>,
     /// Jumps between two points of curves, which are drawn as dashed lines.
     pub jumps: Vec<[(f64, f64); 2]>,

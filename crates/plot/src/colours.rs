@@ -33,9 +33,9 @@ pub enum Colouring {
     /// 5 GPa; [`Map::signs`](crate::Map::signs) has the names of the two. Only a
     /// sign that nowhere reaches 1e-6 of the other, mere rounding, is drawn as zero.
     ///
-    /// A scale ends at the greatest magnitude, unless some nodes press far harder than those that carry most of the
-    /// load, as a [`LoadScale`] has it. The colour bar then has an arrow and the extreme value at this end, and the
-    /// caption the share of the load that is carried beyond it.
+    /// A scale ends at the greatest magnitude, unless some nodes press far harder than the nodes that carry most of the
+    /// load ([`LoadScale`]). The colour bar then has an arrow and the extreme value at this end, and the caption the
+    /// share of the load that is carried beyond it.
     Diverging,
     /// Classes of contact: black where the value is positive (contact), orange where it exceeds 1 (yielded), blue where
     /// it is negative (attractive), and white where it is zero (apart), with a legend;

@@ -269,7 +269,7 @@ impl<'a> Map<'a> {
         legend
     }
 
-    /// A pixel for each node, or where there are more nodes than pixels, the mean of those within.
+    /// A pixel for each node, or where there are more nodes than pixels, the mean of the nodes within.
     fn image(&self, plot: Area, colours: &Colours, dpi: f64) -> Image {
         let (nx, ny) = self.grid.shape();
         // A line along y is drawn along x.

@@ -1,4 +1,4 @@
-//! Blocks of rows of numbers in texts, with what is told on top of each.
+//! Blocks of rows of numbers in texts, with the heading of each.
 
 use std::io::BufRead;
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub(super) fn read_blocks(reader: impl BufRead, reading: &Reading) -> Parsed<(Ve
     Blocks::read(reader, reading).map(|text| (text.blocks, text.values))
 }
 
-/// A block of rows of numbers, with what is told above it.
+/// A block of rows of numbers, with its heading.
 pub(super) struct Block {
     pub heading: Heading,
     pub rows: usize,
@@ -43,7 +43,7 @@ impl Block {
 struct Blocks {
     blocks: Vec<Block>,
     values: Vec<f64>,
-    /// What is told behind the last row.
+    /// The heading behind the last row.
     heading: Heading,
     /// Whether a comment is behind the last row.
     is_remarked: bool,

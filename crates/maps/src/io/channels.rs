@@ -23,7 +23,7 @@ impl Channel {
     }
 }
 
-/// The place of the channel that is asked for by its number or title, or of the only one that it can be.
+/// The place of the channel with a number or title, or of the only candidate.
 pub(super) fn chosen(channels: &[Channel], asked: Option<&str>) -> Parsed<usize> {
     let places = |fits: &dyn Fn(&Channel) -> bool| -> Vec<usize> {
         channels.iter().enumerate().filter(|(_, channel)| fits(channel)).map(|(place, _)| place).collect()

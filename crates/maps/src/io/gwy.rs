@@ -58,7 +58,7 @@ fn fields(bytes: &[u8]) -> Parsed<BTreeMap<usize, Titled<'_>>> {
     let mut channels = BTreeMap::<usize, Titled<'_>>::new();
     for item in Bytes(container) {
         let (name, value) = item?;
-        // as /0/data and /0/data/title; what is deeper, or named otherwise, is how the channel is shown
+        // as /0/data and /0/data/title; deeper or other names say how the channel is shown
         let name = text(name);
         let Some((number, what)) = name.strip_prefix('/').and_then(|rest| rest.split_once('/')) else { continue };
         let Ok(number) = number.parse() else { continue };

@@ -1,4 +1,4 @@
-//! What the comments and the heading of a text tell: sizes, units and titles, as pairs of a name and a value.
+//! Comments and headings of texts: sizes, units and titles, as pairs of a name and a value.
 
 use super::columns::Columns;
 use super::units::{bare, per_metre, symbol};
@@ -141,7 +141,7 @@ pub(super) struct Heading {
     columns: Option<Columns>,
     /// The unit of heights in words, and whether x and y have this unit too.
     said: Option<(&'static str, bool)>,
-    /// Of the lines of words that are no comments the first and the last number, and why the first one is no row.
+    /// The first and the last number of lines of words that are no comments, and why the first line is no row.
     words: Option<(usize, usize, String)>,
 }
 
@@ -179,7 +179,7 @@ impl Heading {
         }
     }
 
-    /// Whether it says something of a block of numbers, so that one begins with it.
+    /// Whether it describes a block of numbers, so that a block begins with it.
     pub fn tells(&self) -> bool {
         let is_told =
             |pair: &Pair| pair.length().is_some() || meaning(&pair.name).is_some_and(|(kind, _)| kind.is_some());
@@ -198,13 +198,13 @@ impl Heading {
         self.columns.as_ref()
     }
 
-    /// The first value that is none of numbers.
+    /// The first value without numbers.
     pub fn title(&self) -> Option<String> {
         let first = self.pairs.first().filter(|pair| quantity(&pair.value).is_none());
         first.map(|pair| pair.value.clone()).filter(|title| !title.is_empty())
     }
 
-    /// The sizes and units that it tells of a block of numbers.
+    /// The sizes and units of a block of numbers.
     pub fn sizes(&self, (rows, columns): (usize, usize)) -> Parsed<Sizes> {
         let (nodes, mut lengths) = ([columns, rows], [None, None]);
         let mut sizes = Sizes { said: self.said, ..Sizes::default() };
@@ -281,7 +281,7 @@ impl Heading {
     }
 }
 
-/// The sizes and units that a heading tells of a block of numbers.
+/// The sizes and units of a block of numbers, by a heading.
 #[derive(Default)]
 pub(super) struct Sizes {
     /// The numbers of nodes along x and y.
@@ -301,7 +301,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    /// Takes numbers of nodes or lengths along axes, or along both of none.
+    /// Takes numbers of nodes or lengths along axes, or along both axes if the name has none.
     fn take(
         &mut self,
         pair: &Pair,

@@ -14,7 +14,7 @@ pub(super) enum Line<'a> {
     Empty(usize),
     /// A comment, without its mark.
     Comment(&'a str),
-    /// A row with a word among its numbers, and why it is none.
+    /// A row with a word among its numbers, and why the word is no number.
     Broken(&'a str, String),
     /// Words, and why they are no row.
     Heading(&'a str, String),
@@ -88,7 +88,7 @@ fn is_like_decimal(text: &str) -> bool {
     is_whole && !behind.is_empty() && (is_digits(mantissa) || mantissa.split_once('.').is_some_and(is_thousands))
 }
 
-/// Takes the numbers of a row, and tells whether its first and its last field are empty; or the word that is none.
+/// Takes the numbers of a row, and tells whether its first and its last field are empty; or the word that is no number.
 fn numbers<'a>(row: &'a str, reading: &Reading, values: &mut Vec<f64>) -> Parsed<Result<[bool; 2], &'a str>> {
     values.clear();
     let (mut first, mut last) = (None, "");

@@ -4,7 +4,7 @@ use std::fs;
 
 use asperity::{Error, Result};
 
-/// Bytes that are not asked for before they are taken: 64 MiB.
+/// Bytes that are taken without a look at the free memory: 64 MiB.
 pub const SMALL: f64 = 67_108_864.0;
 
 /// The free memory of the machine, in bytes; infinite where the system does not tell it.

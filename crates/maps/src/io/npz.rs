@@ -26,7 +26,7 @@ const ENTRY: usize = 1024;
 /// The arrays that an archive of a map may have.
 const ARRAYS: [&str; 7] = ["heights", "lengths", "unit", "units", "original", "seed", "scars_removed"];
 
-/// Reads the array `heights`, or the only one, of an archive of `size` bytes; and with it what else a map has.
+/// Reads the array `heights`, or the only one, of an archive of `size` bytes; and the other arrays of a map.
 pub(super) fn read_npz<R: Read + Seek>(mut reader: R, size: u64) -> Parsed<Topography> {
     check_counts(&mut reader, size).map_err(unreadable)?;
     let mut archive = ZipArchive::new(reader).map_err(damaged)?;
@@ -156,7 +156,7 @@ pub fn npz<T: Real>(grid: &Grid, fields: &[(&str, ArrayView2<'_, T>)]) -> Result
     archive(fields, &known).map_err(|e| Error::unwritable("fields.npz", e))
 }
 
-/// The bytes of a map as `.npz`, with what is known of it; see [`write_topography`](super::write_topography).
+/// The bytes of a map as `.npz`, with all that the map knows; see [`write_topography`](super::write_topography).
 ///
 /// # Errors
 ///

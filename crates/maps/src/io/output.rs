@@ -11,9 +11,9 @@ use asperity::{Error, Result};
 /// A folder that receives the results of one run, all of them or none.
 ///
 /// Files are written at [`path`](Self::path), in a hidden temporary folder on the file system of the
-/// destination, and appear in the destination on [`commit`](Self::commit). Dropped without it, nothing stays
-/// behind. A process that is killed leaves the temporary folder, `.asperity-` and a few letters, unless it can still
-/// call [`abandon_all`](Self::abandon_all).
+/// destination, and appear in the destination on [`commit`](Self::commit). A folder that is dropped without a commit
+/// leaves nothing behind. A process that is killed leaves the temporary folder, `.asperity-` and a few letters, unless
+/// it can still call [`abandon_all`](Self::abandon_all).
 ///
 /// ```
 /// use asperity_maps::io::{OutputFolder, write_npy};
@@ -139,8 +139,8 @@ impl OutputFolder {
         self.temporary.path().join("files")
     }
 
-    /// Removes the temporary folders of all that this process has not committed, before it ends by a signal. What
-    /// still uses them fails. As long as the value that is returned lives, no thread makes another one.
+    /// Removes the temporary folders that this process has not committed, before it ends by a signal. Users of these
+    /// folders fail. As long as the returned value lives, no thread makes another folder.
     ///
     /// ```
     /// use asperity_maps::io::OutputFolder;
@@ -164,7 +164,7 @@ impl OutputFolder {
 impl Drop for OutputFolder {
     fn drop(&mut self) {
         let mut all = live();
-        // while it is among them, so that it goes if the process ends by a signal
+        // while the folder is on the list, so that it goes if the process ends by a signal
         let _ = fs::remove_dir_all(self.temporary.path());
         all.retain(|folder| folder != self.temporary.path());
     }

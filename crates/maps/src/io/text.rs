@@ -38,7 +38,7 @@ impl Text {
         Ok(Self { blocks, values })
     }
 
-    /// What is told of a block, on top of it or of one before.
+    /// The heading of a block, on top of the block or of a block before.
     fn told_of(&self, place: usize) -> &Heading {
         let mut headings = self.blocks[..=place].iter().rev().map(|block| &block.heading);
         headings.find(|heading| heading.tells()).unwrap_or(&self.blocks[place].heading)
@@ -222,7 +222,7 @@ mod tests {
         // a heading of words may come late
         let long = format!("nx: 1\nny: 1200\n{}", "1\n".repeat(1200)).repeat(2);
         assert_eq!(channel(&long, "1").unwrap().heights.dim(), (1, 1200));
-        // what is told on top holds for all
+        // a heading on top holds for all
         let text = "# x-length: 1\n# y-length: 1\n# z-unit: nm\n1 2\n3 4\n\n5 6\n7 8\n";
         assert_eq!(channel(text, "1").unwrap().heights, array![[7e-9, 5e-9], [8e-9, 6e-9]]);
         // as are frames of one shape with comments between

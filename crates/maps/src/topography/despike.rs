@@ -88,7 +88,7 @@ impl Topography {
     }
 
     /// For each node in row-major order the median around it, NaN if nothing is, and what a spike has to exceed besides
-    /// the limit: the range of the neighbours if they are not in pairs.
+    /// the limit: the range of the neighbours, if neighbours are not in pairs.
     fn neighbourhoods(&self) -> Vec<(f64, f64)> {
         let (mut found, mut values) = (Vec::with_capacity(self.heights.len()), Vec::new());
         for ((i, j), h) in self.heights.indexed_iter() {

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use super::{Topography, Trend, named};
 use asperity::{Error, Result};
 
-/// The form of a body under its roughness, which [`Topography::remove_form`] takes away.
+/// The form of a body under its roughness, which [`Topography::remove_form`] removes.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
@@ -70,7 +70,7 @@ impl Topography {
         })
     }
 
-    /// Takes away the least-squares fit of a sphere or a cylinder, its tilt included.
+    /// Removes the least-squares fit of a sphere or a cylinder, with its tilt.
     ///
     /// ```math
     /// h → h − ẑ ,   ẑ = arg min over z of  Σ (h − z)²

@@ -53,7 +53,7 @@ impl RowAlignment {
 impl FromStr for RowAlignment {
     type Err = String;
 
-    /// An alignment by its name, of a polynomial with its order, which is 1 if it is left out.
+    /// An alignment by its name, for a polynomial with its order, 1 by default.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let text = text.trim();
         let refused = || {
@@ -73,9 +73,8 @@ impl Topography {
     /// Brings scan lines to one height: the offsets from line to line that the drift of an instrument leaves.
     ///
     /// Each line is shifted, or with [`RowAlignment::Polynomial`] straightened, on its own, by its measured points
-    /// alone, and the mean height of the map stays. Along the line, heights keep what they were; across the lines,
-    /// slopes of the surface that a whole line shares are taken for drift and go, too. Lines that are all missing stay
-    /// so.
+    /// alone, and the mean height of the map stays. Heights along the line stay; across the lines, slopes of the
+    /// surface that a whole line shares count as drift and go, too. Lines that are all missing stay so.
     ///
     /// ```
     /// use asperity_maps::{RowAlignment, ScanAxis};
@@ -126,7 +125,7 @@ impl Topography {
 pub(crate) struct LineSteps {
     /// The median over the lines of the step that a whole line shares, about their tilt.
     pub shared: f64,
-    /// The median change of that from one step to the next.
+    /// The median change of the shared step from one step to the next.
     pub change: f64,
     /// The rms step of single nodes about the step of their line, the median over the lines.
     pub single: f64,

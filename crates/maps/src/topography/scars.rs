@@ -22,7 +22,7 @@ pub struct Scars {
     pub map: Array2<bool>,
     /// The threshold, in rms differences of neighbouring lines.
     pub threshold: f64,
-    /// The same in height: that beyond the lines next to it from which a piece of a line is a scar.
+    /// The threshold as a height beyond the neighbouring lines.
     pub limit: f64,
 }
 
@@ -34,11 +34,11 @@ impl Topography {
     /// On average the piece stands out by more than the two lines next to it differ from the next, taken together: a
     /// wave along the scan lines is steeper next to its crest.
     ///
-    /// The tip of a microscope makes them where it sticks, or loses the surface, within a line. The rms is that by the
-    /// median of the magnitudes, 1.4826 median \|Δh\| about the median of Δh, which no scar carries. Rough surfaces,
-    /// even rounded ones, have no such pieces at a threshold of ⅔, which is Gwyddion's: a crest that follows a scan
-    /// line is less steep across it than the surface is. The first and the last line have no two next to them, and
-    /// missing points are on no scar and end it.
+    /// The tip of a microscope makes them where it sticks, or loses the surface, within a line. The rms follows from
+    /// the median of the magnitudes, 1.4826 median \|Δh\| about the median of Δh, which no scar carries. Rough
+    /// surfaces, even rounded ones, have no such pieces at a threshold of ⅔, which is Gwyddion's: a crest that follows
+    /// a scan line is less steep across it than the surface is. The first and the last line have no two next to them,
+    /// and missing points are on no scar and end it.
     ///
     /// # Errors
     /// [`Error::Value`] if the threshold is not positive and finite.
@@ -61,7 +61,7 @@ impl Topography {
         Ok(Scars { count, map, threshold, limit })
     }
 
-    /// Gives the nodes on [`scars`](Self::scars) the heights of a membrane between those next to them, as
+    /// Gives the nodes on [`scars`](Self::scars) the heights of a membrane between their neighbours, as
     /// [`fill`](Self::fill) does; all other heights stay as they are.
     ///
     /// Offsets between whole lines are scars, too, as far as they are of one to four lines:
@@ -85,8 +85,7 @@ impl Topography {
         self.without(&scars)
     }
 
-    /// The map with the heights on scars from those next to them, which [remembers](Self::scars_removed) their
-    /// threshold.
+    /// The map with heights on scars by their neighbours, which [remembers](Self::scars_removed) the threshold.
     ///
     /// # Errors
     /// [`Error::Shape`] if the scars are of another map, [`Error::Value`] if all heights are missing or on scars.

@@ -24,8 +24,8 @@ pub enum Trend {
 
 /// The least-squares fit of a [`Trend`], about the centre of the map; terms that the trend does not have are 0.
 ///
-/// Of a polynomial of higher order these are its derivatives there. Slopes and curvatures are in terms of the side
-/// lengths; if those are unknown, of spacings.
+/// For a polynomial of higher order they are its derivatives there. Slopes and curvatures are in terms of the side
+/// lengths; if these are unknown, of spacings.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
@@ -104,7 +104,7 @@ impl Topography {
         })
     }
 
-    /// Takes away the least-squares fit of a trend; what remains has the mean 0.
+    /// Removes the least-squares fit of a trend; the rest has the mean 0.
     ///
     /// ```math
     /// h → h − p̂ ,   p̂ = arg min over p of  Σ (h − p)²

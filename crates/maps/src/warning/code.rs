@@ -57,7 +57,7 @@ codes! {
     Cells = "cells",
     /// The range of adhesion exceeds the heights, or is too short for the grid.
     Range = "range",
-    /// The work of adhesion over the contact modulus E* is a length beyond the sides, or below any of solids.
+    /// The work of adhesion over the contact modulus E* is a length beyond the sides, or below the length of any solid.
     Work = "work",
     /// All heights are the same.
     Flat = "flat",
@@ -67,7 +67,7 @@ codes! {
     Images = "images",
     /// The lines along one axis are offset from one another at random, like scan lines of an instrument that drifts.
     LineOffsets = "line-offsets",
-    /// The lines across the scan lines that are to be brought to one height have by far the larger offsets.
+    /// Lines across the given scan lines have by far the larger offsets.
     ScanAxis = "scan-axis",
     /// Much of the load is on single lines, such as scars of a measurement.
     Scars = "scars",

@@ -31,7 +31,7 @@ const OPEN_EDGE: f64 = 3.0;
 const OPEN_END: f64 = 6.0;
 
 /// The rms step across the periodic edge from which it stands out, in the greatest rms step inside: a surface of
-/// steps, as a grating, may have one at the edge, but has equal ones inside.
+/// steps, as a grating, may have one at the edge, but has equal steps inside.
 const STANDS_OUT: f64 = 1.5;
 
 /// The fall of mean height to an edge, in the greatest difference between the means of neighbouring rows (columns),
@@ -151,8 +151,9 @@ pub(super) fn ends_at_edges(relief: &Relief, surface: &Surface) -> Option<Warnin
 
 impl Warning {
     /// A contact `modulus` E* that is probably in another unit than the lengths of the `grid` ask for,
-    /// [`Modulus`](WarningCode::Modulus): below 1 kPa with lengths in metres. These are in metres if their `unit` is
-    /// m, and without a unit if the nodes are less than 1e-7 apart. E* = 1 is none, as it makes all pressures relative.
+    /// [`Modulus`](WarningCode::Modulus): below 1 kPa with lengths in metres. Lengths are in metres if their `unit` is
+    /// m, or without a unit if the nodes are less than 1e-7 apart. E* = 1 has no warning, as it makes all pressures
+    /// relative.
     ///
     /// ```
     /// use asperity_maps::warning::{Warning, WarningCode};
@@ -202,7 +203,7 @@ pub(super) fn spikes(relief: &Relief) -> Option<Warning> {
 }
 
 impl Warning {
-    /// The probable mistake behind many spikes among the points of a map, which are its roughness then.
+    /// The probable mistake behind many spikes among the points of a map: they are its roughness.
     ///
     /// ```
     /// use asperity_maps::warning::Warning;

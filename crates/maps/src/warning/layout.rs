@@ -40,7 +40,7 @@ fn is_even(line: ArrayView1<'_, f64>) -> bool {
 }
 
 /// Whether the first of two lines is x, and the second a profile over it: x is even, or hardly turns, as along a traced
-/// line, and is not like the second one, as lines of a smooth surface are.
+/// line, and differs from the second line, unlike lines of a smooth surface.
 fn is_profile(x: ArrayView1<'_, f64>, z: ArrayView1<'_, f64>) -> bool {
     let turns = |line: ArrayView1<'_, f64>| {
         let (low, high) = range(line.iter().copied());

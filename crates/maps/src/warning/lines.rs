@@ -1,4 +1,4 @@
-//! The warnings about scan lines: they have offsets, or those along the other axis have them.
+//! The warnings about scan lines: offsets of lines, or of lines along the other axis.
 
 use ndarray::Array2;
 
@@ -9,8 +9,8 @@ use crate::topography::{LineSteps, ScanAxis, Topography};
 /// Fewer lines tell nothing: a few waves of a surface with a lay are steps from line to line like any others.
 const LEAST: usize = 64;
 
-/// The change from line to line of the steps that whole lines share, in that along the other axis, from which the
-/// offsets are by far the larger: long waves, which lines share as well, change little from line to line.
+/// The change from line to line of the steps that whole lines share, over the change along the other axis, from which
+/// the offsets are by far the larger: long waves, which lines share as well, change little from line to line.
 const FAR: f64 = 5.0;
 
 /// The steps that whole lines share, in the rms step of single nodes beyond them, from which the lines are offset: of
@@ -29,7 +29,7 @@ const ALIKE: f64 = 2.0;
 
 const AXES: [(ScanAxis, &str); 2] = [(ScanAxis::X, "x"), (ScanAxis::Y, "y")];
 
-/// Whether lines are offset at random, by a share of the steps of single nodes, and those along the other axis are not.
+/// Whether lines are offset at random, by a share of the steps of single nodes, and lines along the other axis are not.
 fn are_offset(lines: &LineSteps, others: &LineSteps, share: f64) -> bool {
     lines.change > FAR * others.change
         && lines.shared > share * lines.single

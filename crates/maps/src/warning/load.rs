@@ -11,8 +11,8 @@ const ALONE: f64 = 3.0;
 /// The least number of nodes of a piece of a line with all nodes alone across it: contacts of a rough surface are
 /// rounder.
 const LENGTH: usize = 8;
-/// The shares of the load from which it is much, on lines and on single nodes: where a contact of some hundred nodes has
-/// a few to each of its pieces, a quarter may stand on single ones.
+/// The shares of the load that are much, on lines and on single nodes: where a contact of some hundred nodes has a few
+/// to each of its pieces, a quarter may stand on single ones.
 const MUCH: [f64; 2] = [0.2, 1.0 / 3.0];
 /// Fewer nodes in contact tell nothing: they may be alone by chance.
 const LEAST_NODES: usize = 100;
@@ -127,8 +127,8 @@ impl Warning {
     }
 
     /// An elastic solution with most of its load above a tenth of the contact modulus E*,
-    /// [`Hardness`](WarningCode::Hardness): most solids yield there. On a steep surface only a hardness makes its
-    /// contact one of real surfaces.
+    /// [`Hardness`](WarningCode::Hardness): most solids yield there. On a steep surface only a hardness makes the
+    /// contact real.
     ///
     /// ```
     /// use asperity_maps::warning::Warning;

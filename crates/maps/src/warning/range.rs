@@ -1,5 +1,5 @@
-//! The warnings about adhesion: its range is too short for the grid, or exceeds the heights, and its work is not one of
-//! such a body.
+//! The warnings about adhesion: its range is too short for the grid, or exceeds the heights, and its work does not suit
+//! the body.
 
 use asperity::adhesion::{Discretisation, mu_rho};
 use asperity::{AdhesionLaw, Grid, Real, Report, Surface};
