@@ -1,6 +1,6 @@
 """Checks a built site: what its pages link to is there, and nothing is loaded from elsewhere.
 
-Pages under `rust/` are those of rustdoc, which checks its links itself; links into them are checked here.
+Pages under `rust/` come from rustdoc, which checks its links itself; links into them are checked here.
 """
 
 import re

@@ -1,6 +1,6 @@
 """Pages of the site that are kept elsewhere in the repository, and links to the documentation of the Rust crates.
 
-A page has the links that are right in the repository; here they become those of the site. Pages of `src/guide` are
+A page has the links that are right in the repository; here they become links of the site. Pages of `src/guide` are
 written for rustdoc: their links name items of Rust, and their code has hidden lines.
 """
 

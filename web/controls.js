@@ -1,6 +1,6 @@
 /* The names of keys in sentences of the library, in the words of the page's own inputs. */
 
-/* The keys with other inputs than those of their names, and the choice that they are. */
+/* The keys with inputs of other names, and the choice that they are. */
 const INPUTS = {
   fill: [["holes"], "fill"],
   absent_missing: [["holes"], "absent"],
@@ -10,7 +10,7 @@ const INPUTS = {
   lengths: [["made_lengths", "lengths"]],
 };
 
-/* The text of the input of a key, of several that of the one that is shown; none without one. */
+/* The text of the input of a key, of several inputs the one that is shown; none without an input. */
 function control(key) {
   const name = key.replaceAll("-", "_"),
     [names, choice] = INPUTS[name] ?? [[name]];

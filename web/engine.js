@@ -1,6 +1,6 @@
 /* The engine as the page calls it: one call after the other, on the thread of `worker.js`.
 
-   Keys are those of reports, as `work_of_adhesion`. Values are as they were typed: strings with units such as "70GPa", or
+   Keys are named as in reports, as `work_of_adhesion`. Values are as they were typed: strings with units such as "70GPa", or
    numbers; what is empty counts as not given. Every call is a promise, refused with the sentence of the program. Fields
    are typed arrays, node (i, j) at index i ny + j, with i along x and j along y.
 
@@ -145,24 +145,24 @@ export class Engine {
 
   /* Opens a map. The answer has `name`, `shape`, `lengths`, `unit`, `original`, `missing`, `unread`, `channels`, `heights`
      (f32, about their `mean`), `lowest`, `highest`, the `limits` of the colours, and `warnings` of `code` and `message`.
-     Of a file whose channel has to be chosen `heights` is null: call again with the number in front of one of its
+     For a file with a choice of channels `heights` is null: call again with the number in front of one of its
      `channels`. */
   open(name, bytes, { channel } = {}) {
     return this.call("open", [name, bytes, channel]);
   }
 
-  /* Makes a surface by the keys of `asperity surface`; the answer is that of `open`. */
+  /* Makes a surface by the keys of `asperity surface`; answers as `open`. */
   make(parameters) {
     return this.call("make", [JSON.stringify(parameters)]);
   }
 
-  /* Makes the surface of the map by the steps of `asperity prepare`, never of a prepared one; the answer is that of
+  /* Makes the surface of the map by the steps of `asperity prepare`, never of a prepared one; answers as
      `open`, with `log`, pairs of a step and what it did. */
   prepare(steps) {
     return this.call("prepare", [JSON.stringify(steps)]);
   }
 
-  /* `figures` and `rows` of the surface, as of `asperity stats`, its `spectrum` and the `histogram` of its heights. */
+  /* `figures` and `rows` of the surface, as by `asperity stats`, its `spectrum` and the `histogram` of its heights. */
   statistics() {
     return this.call("statistics", []);
   }

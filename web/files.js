@@ -38,7 +38,7 @@ export function files(onfile) {
   });
 }
 
-/* The buttons that save files, of which `get` has the content, and copy lines. */
+/* The buttons that save files, with the content by `get`, and copy lines. */
 export function takeAway(get, onerror) {
   const buttons = Object.entries(FILES).map(([file, text]) => {
     const button = document.createElement("button");

@@ -45,7 +45,7 @@ export const colouring = {
 };
 
 const scaled = (scale, missing, share, ranges) => {
-  // the last place is that of what is not finite
+  // the last place is for values that are not finite
   const table = Uint32Array.from({ length: 256 }, (_, k) => packed(k < 255 ? shade(scale, k / 254) : missing));
   const index = value => (Number.isFinite(value) ? Math.round(254 * Math.min(1, Math.max(0, share(value)))) : 255);
   const key = () => ranges.map(([low, high, from, to]) => ({ low, high, colours: along(scale, from, to) }));

@@ -42,7 +42,7 @@ export class Maps {
 
   /* Shows a solution, with lengths and pressures in these units. */
   showSolution({ shape, lengths, fields, limits, extremes }, length, pressure) {
-    // the least gap is that of the contact
+    // the least gap is the gap in contact
     this.limits = [...limits.pressure, extremes.gap[0], limits.gap[1]];
     this.solution = { shape, lengths, length, pressure, fields, extremes };
     this.paint();
@@ -78,7 +78,7 @@ export class Maps {
     show(this.gap, fields.gap, colouring.sequential(this.colours, gaps, ofGap));
   }
 
-  /* Reads all maps at a node, those of another shape at another one; a `press` draws the line of the profile to it. */
+  /* Reads all maps at a node, maps of another shape at another node; a `press` draws the line of the profile to it. */
   probe(node, by = "pointer", press = "") {
     this.node = node;
     const { surface, solution, profile } = this;

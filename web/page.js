@@ -98,7 +98,7 @@ class Page {
     const given = new URLSearchParams(link);
     this.awaited = given.get("form") === "file" && given.get("map") !== this.file?.name ? link : null;
     this.settings.takeLink(this.awaited ? "" : link);
-    // the load is that of the link
+    // the load of the link
     this.form = this.settings.value("form");
     this.isOther = this.isFresh = false;
     this.want("surface");

@@ -44,7 +44,7 @@ export class Settings {
       if (target.matches("input.quantity, [type=number]")) return;
       this.changed(target, onchange);
     });
-    // as `asperity prepare --clean`, whose parts are then there to be left out
+    // as `asperity prepare --clean`, with parts to be left out
     const clean = form.querySelector("#clean");
     clean.addEventListener("click", () => {
       [form.align_rows.value, form.detrend.value, form.holes.value] = ["median", "plane", "fill"];

@@ -7,7 +7,7 @@
    The first message is { module }, the compiled module. What is thrown besides an answer, the page hears as an error of
    the thread.
 
-   The page puts this text behind that of `asperity_web.js`, whose `initSync` and `Engine` it uses. */
+   The page puts this text behind `asperity_web.js`, and uses its `initSync` and `Engine`. */
 
 let engine, observed;
 

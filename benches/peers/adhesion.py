@@ -5,7 +5,7 @@ digit?
     python benches/peers/adhesion.py [NODES] [ASPERITY]
 
 Needs Adhesion (pip install Adhesion) and the tool of asperity (default: target/release/asperity), which makes the heights.
-Adhesion minimises at an offset by scipy's L-BFGS-B, whose mean gap asperity then holds. Compared are the gaps at every node,
+Adhesion minimises at an offset by scipy's L-BFGS-B; asperity then holds its mean gap. Compared are the gaps at every node,
 the nodes that repel each other, and the mean pressure. Lengths are in units of the side, pressures of E*.
 """
 

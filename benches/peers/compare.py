@@ -12,7 +12,7 @@ Rules
    the tables give the median of the ratios and, in brackets, the least and the largest.
 2. Solves: the time counts from the heights in memory to the solution in memory, on both sides, with the construction of
    operators, plans and problem; without start-up of the process and reading of the file. It is the time of the
-   processor, which other programs on the machine change less than that of the clock. Applications: warm, plans made
+   processor, which other programs on the machine change less than the time of the clock. Applications: warm, plans made
    before (FFTW_MEASURE), the median of many in each process. Of several builds of FFTW the fastest counts, row by row.
 3. Solves are compared at equal true error, not at equal tolerance, for no two programs mean the same by it. The reference
    is our solution at a tolerance of 1e-12 (or as low as it gets), cross-checked with the tightest of each peer. Two errors of
@@ -21,7 +21,7 @@ Rules
    then gets the loosest tolerance which meets the level, as do all tighter ones of its ladder (so that nobody wins by a
    lucky error that crosses zero); of several modes of a program the faster counts.
 4. Level "certified 1e-6": we have to certify the relative error in the energy norm by ourselves (tolerance 1e-6); for
-   the peer it is enough that its true error is below 1e-6, of which it need not know.
+   the peer it is enough that its true error is below 1e-6, which it need not know.
 5. Where the tightest solution of a peer differs from the reference by more than 1e-3 in either measure, the run fails.
 6. All rows are printed, whoever wins. A ratio above 1 means that asperity is faster. --csv writes every single
    measurement.
@@ -74,7 +74,7 @@ LEVELS = {
 }
 
 
-# what is kept of a measurement; round 0 is that of a ladder
+# what is kept of a measurement; round 0 belongs to a ladder
 COLUMNS = "table nodes given program tolerance round seconds processor area_error energy_error peak status".split()
 
 
@@ -376,7 +376,7 @@ def cell(step, reports):
 
 
 def compared(case, wanted):
-    """A row and the reports of both for each (our ladder, those of a peer, level, rounds)."""
+    """A row and the reports of both for each (our ladder, the ladder of a peer, level, rounds)."""
     found, todo = [], []
     for ours, modes, (name, error, limit), rounds in wanted:
         mine = ours[-1] if name.startswith("certified") else chosen(ours, error, limit)

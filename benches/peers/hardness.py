@@ -5,7 +5,7 @@
 
 asperity, Tamaas (`KatoSaturated`) and ContactMechanics (`PlasticTopography`) find the same pressures. Each runs at the
 loosest tolerance, in steps of ten, at which its pressures are within 1e-3 of the solution, in the root of the mean square
-compared with that of the pressures; the solution is asperity's to a certified 1e-10. Times are medians of three, from
+compared with the error of the pressures; the solution is asperity's to a certified 1e-10. Times are medians of three, from
 heights in memory to pressures in memory, of one thread; one run counts where it took longer than ten seconds.
 """
 

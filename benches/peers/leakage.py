@@ -4,11 +4,11 @@
     benches/peers/setup.sh                       (once)
     benches/peers/leakage.py [--sizes 512 1024] [--limit 300] [--memory 12]
 
-The gaps are those of a solve: a self-affine surface (k = 4…N/16, rms slope 0.1, seed 1) under a mean pressure of 0.0205 E*.
+The gaps come from a solve: a self-affine surface (k = 4…N/16, rms slope 0.1, seed 1) under a mean pressure of 0.0205 E*.
 Both programs take the cube of the gap at the nodes, its harmonic mean at the faces, and a periodic cell: they solve the same
 network. asperity encloses the transmissivities along x and along y between bounds of a relative distance of 1e-6;
 reynoldsflow solves for the flow along x, to its relative residual of 1e-12. Each measurement is a process of its own on one
-core. The time is that of the processor: of the whole process of asperity, and of the solve alone of reynoldsflow, once its
+core. The time is the processor's: of the whole process of asperity, and of the solve alone of reynoldsflow, once its
 functions are compiled. The memory is the peak of the process. A solver that passes the limit of seconds, or of memory in
 GiB, is left out on larger grids. The run fails where a flow lies further outside of the bounds than its residual allows.
 """

@@ -2,7 +2,7 @@
 """Draws the time of a solve to a certified 1e-6 against the nodes, from the tables of the README next to this file.
 
     benches/peers/picture.py [OUT.png]        (default: examples/pictures/peers.png; needs matplotlib)
-    benches/peers/picture.py --table          prints the time of the other programs over that of asperity
+    benches/peers/picture.py --table          prints the time of the other programs over the time of asperity
 """
 
 import re
@@ -41,7 +41,7 @@ def heavy(text):
 
 
 def table(kinds):
-    """The time of the other programs over that of asperity, in Markdown."""
+    """The time of the other programs over the time of asperity, in Markdown."""
     ratios = {}
     for kind, found in kinds.items():
         for side, given, peer, _, _, ratio in found:
