@@ -48,15 +48,15 @@ const CARRIED: f64 = 0.5;
 /// A coarser grid has every second node of the finer one along each side with more than one, and their heights; of an
 /// odd number n it has (n + 1)/2, with heights by cubic interpolation. Its displacement g + h is prolonged by cubic
 /// interpolation; the edge of contact follows from the gaps of the next two nodes, which open with the power 3/2 of the
-/// distance. On the finest grid iteration, certificate and tolerance are those of [`Solver`].
+/// distance. On the finest grid [`Solver`] has iteration, certificate and tolerance.
 ///
 /// Sizes are halved while both sides keep `coarsest` nodes; with [absent nodes](Surface::with_absent) or a law that
 /// [varies](crate::adhesion::Varying), while they are even. A coarser grid that does not resolve the adhesion
 /// ([`Problem::mu_rho`] above 0.5) would pin the contact on another branch: there [`Jkr`] of the same work of adhesion,
-/// whose range is that of the grid, takes the place of a law with a range, if the finest grid resolves that one.
-/// Otherwise, and of a law that varies or without a rigid wall, only grids that resolve the law are used. A law without a
-/// range leads from grid to grid with a smaller work of adhesion, so that a finer grid does not keep patches that touch on
-/// coarser ones alone; each coarser grid then has the law itself for its own figures. A law that jumps is
+/// with a range set by the grid, takes the place of a law with a range, if the finest grid resolves that one.
+/// Otherwise, and of a law that varies or without a rigid wall, only grids that resolve the law are used. A law without
+/// a range leads from grid to grid with a smaller work of adhesion, so that a finer grid does not keep patches that
+/// touch on coarser ones alone; each coarser grid then has the law itself for its own figures. A law that jumps is
 /// [smoothed](crate::adhesion::Discretisation::Smooth) on coarser grids, and on the finest on its way from there.
 ///
 /// The finest grid starts anew, by [`Start::Default`], where the coarsest one is nearly [`closed`](Self::closed), a
@@ -66,8 +66,8 @@ const CARRIED: f64 = 0.5;
 /// On a free half-space a part of the window that holds all contact and attraction of the start, on half of the nodes
 /// or fewer with a margin, is solved first, as a window of its own, and the whole from the deformation by its pressure.
 ///
-/// [`Nested::pays`] says where nested grids are faster. Memory per node of the finest grid is that of a solve on it
-/// alone; a surface that is handed over, and not lent, leaves before the solve on the finest grid.
+/// [`Nested::pays`] says where nested grids are faster. A node of the finest grid takes the memory of a solve on this
+/// grid alone; a surface that is handed over, and not lent, leaves before the solve on the finest grid.
 ///
 /// ```
 /// use asperity::{Control, Grid, Nested, NoAdhesion, SelfAffine, Solver, Status, Westergaard};
@@ -160,7 +160,7 @@ impl Nested {
     /// first, and with a free boundary on one of the same spacing for a part of the window.
     ///
     /// # Errors
-    /// Those of `operators`, [`Problem::new`] and [`Solver::solve_with`]; [`Error::Value`] if the coarse tolerance is
+    /// Errors of `operators`, [`Problem::new`] and [`Solver::solve_with`]; [`Error::Value`] if the coarse tolerance is
     /// not positive.
     pub fn solve<T: Real>(
         &self,
@@ -177,7 +177,7 @@ impl Nested {
     /// Where it stops a solve, the finer grids end with their first iteration.
     ///
     /// # Errors
-    /// Those of [`Nested::solve`].
+    /// As [`Nested::solve`].
     pub fn solve_observed<T: Real>(
         &self,
         solver: &mut Solver<dyn ContactConstraint<T>>,

@@ -47,8 +47,8 @@ pub use step::PathStep;
 /// next leads a *leg*. Mean gap below stands for the approach with a free boundary, and for the rest of a spring. A
 /// step starts from the extrapolation of the last two states, clipped to feasible gaps; its length adapts to how much
 /// the branch bends. A step to a state that has not converged is taken back and halved, unless its residual is at the
-/// floor of rounding, as in `f32` in light contact: then it is taken as it is, [`Stalled`](Status::Stalled). The wall
-/// is that of the solver: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
+/// floor of rounding, as in `f32` in light contact: then it is taken as it is, [`Stalled`](Status::Stalled). The solver
+/// has the wall: rigid, or [none](crate::NoWall) for a law that keeps the surfaces apart by itself.
 ///
 /// # Jumps
 ///
@@ -60,10 +60,9 @@ pub use step::PathStep;
 /// anywhere in it, the mean of the loads at its ends does the work, and the [standard error](PathStep::work_error) of
 /// that is told. A step is also halved where the tension breaks off a tenth below what it was to reach, or more.
 ///
-/// Where the traction of the law jumps, as that of [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
-/// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path and its reports are
-/// therefore those of the [smoothed](crate::adhesion::Discretisation::Smooth) law, whose pull-off force converges
-/// faster.
+/// Where the traction of the law jumps, as with [`MaugisDugdale`](crate::MaugisDugdale), every node that enters or
+/// leaves the adhesive zone is a small jump. Unless [`PathSettings::smooth`] is off, the path and its reports therefore
+/// take the [smoothed](crate::adhesion::Discretisation::Smooth) law: its pull-off force converges faster.
 ///
 /// # Limit points
 ///
@@ -153,7 +152,7 @@ pub struct Bench<'a, T: Real> {
 }
 
 impl<T: Real> Path<T> {
-    /// The path through `loads`, of which the first is the start.
+    /// The path through `loads`, from the first on.
     ///
     /// # Errors
     /// [`Error::Value`] for settings out of range.
@@ -201,8 +200,8 @@ impl<T: Real> Path<T> {
         self.course.share(self.legs.len())
     }
 
-    /// The last gaps, one ahead and the plastic depth, on the grid of the operator, and the softest mode, on that of the
-    /// surface: processes that share a grid gather these of a path that they keep.
+    /// The last gaps, one ahead and the plastic depth, on the grid of the operator, and the softest mode, on the grid
+    /// of the surface: processes that share a grid gather these of a path that they keep.
     pub fn fields(&mut self) -> impl Iterator<Item = &mut Array2<T>> {
         let gaps = self.places.iter_mut().chain(&mut self.ahead).map(|place| &mut place.gap);
         gaps.chain(&mut self.depth).chain(&mut self.watch.mode)
@@ -238,8 +237,8 @@ impl<T: Real> Path<T> {
     /// The next state; none at the end.
     ///
     /// # Errors
-    /// Those of [`Self::check`] and [`Solver::solve_with`], after which the path ends; [`Error::Shape`] for a problem on
-    /// another grid than that of the state before.
+    /// As [`Self::check`] and [`Solver::solve_with`], after which the path ends; [`Error::Shape`] for a problem on
+    /// another grid than the state before.
     pub fn next(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -251,7 +250,7 @@ impl<T: Real> Path<T> {
     /// The same with an observer of the iterations; if it stops a solve, the path ends with the state before.
     ///
     /// # Errors
-    /// Those of [`Self::next`].
+    /// As [`Self::next`].
     pub fn next_observed(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -366,7 +365,8 @@ impl<T: Real> Path<T> {
         let hints = bench.problem.law_on_grid().hints();
         let (w, range) = (hints.work_of_adhesion.widen(), hints.range.widen());
         let flat = bench.problem.flat.work * bench.problem.flat.padding;
-        // where surfaces hardly touch, the energy is the small difference of sums as large as that of flat surfaces
+        // where surfaces hardly touch, the energy is the small difference of sums as large as the energy of flat
+        // surfaces
         let rounding = ROUNDINGS * T::epsilon().widen() * flat;
         // the tolerance's share in it
         let left = report.tolerance.powi(2) * flat;

@@ -47,7 +47,7 @@ const CLOSEST: f64 = 0.01;
 ///
 /// With adhesion the contact jumps, and the search is for the mean gap, with a free boundary for the approach, under
 /// which more states are equilibria. It goes from its start towards the fraction, and never on from a state beyond it,
-/// to stay on its [branch](Branch): that of loading, if the settings name none.
+/// to stay on its [branch](Branch): loading, if the settings name none.
 ///
 /// The fraction is reached within one node or 1 %. Where the contact jumps past it, the state on the nearer side is
 /// returned, [`reached`](FoundContact::reached) is false, and [`below`](FoundContact::below) and
@@ -55,7 +55,7 @@ const CLOSEST: f64 = 0.01;
 /// error is 1e-3, is not solved further. A search continues from where the last one ended; with the feature `serde` it is
 /// its own checkpoint.
 ///
-/// Memory: four fields besides that of a solve, on a free half-space five, of which two are on the grid of the
+/// Memory: four fields besides the fields of a solve, on a free half-space five, two of them on the grid of the
 /// operator.
 ///
 /// ```
@@ -128,7 +128,7 @@ impl Axis {
         let &PressedFlat { rms_height, stiffness, height_span: span, .. } = flat;
         Error::positive("rms height of the surface", rms_height)?;
         match (adhesion, flat.boundary) {
-            // the waves of free heights begin and end at the edge of the window, those of the padding do not count
+            // the waves of free heights begin and end at the edge of the window, waves of the padding do not count
             (false, _) => Ok(Self::Pressure { flat: stiffness * rms_height }),
             (true, Boundary::Periodic) if flat.window.is_some() => Err(Error::Unsuited {
                 what: "contact-fraction",
@@ -157,7 +157,7 @@ impl Axis {
             }
             // as the contact of rough surfaces falls off with the gap
             Self::Gap { rms_height } => -(-0.5 * rms_height * fraction.ln()).ln(),
-            // as that of a paraboloid grows with the approach
+            // as the contact of a paraboloid grows with the approach
             Self::Approach { .. } => fraction,
         }
     }
@@ -205,7 +205,7 @@ impl<T: Real> ContactSearch<T> {
     /// # Errors
     /// [`Error::Value`] for a fraction that is not between 0 and 1, or less than a node, and for a flat surface;
     /// [`Error::Unsuited`] without a wall, where nothing is in contact, and with adhesion on a periodic surface with
-    /// absent nodes; those of [`Solver::solve_with`].
+    /// absent nodes; errors of [`Solver::solve_with`].
     pub fn at(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,
@@ -218,7 +218,7 @@ impl<T: Real> ContactSearch<T> {
     /// The same with an observer of the iterations; where it breaks off the search ends, short of the wanted state.
     ///
     /// # Errors
-    /// Those of [`Self::at`].
+    /// As [`Self::at`].
     pub fn at_observed(
         &mut self,
         solver: &mut Solver<dyn ContactConstraint<T>>,

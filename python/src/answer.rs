@@ -53,7 +53,7 @@ pub fn answer<'py, T: Scalar>(
     let displacements = PyCFunction::new_closure(py, None, None, move |given, _| seen.displacements(given.py()));
     found.set_item("displacements", displacements?)?;
     found.set_item("mode", mode.map(|mode| mode.into_pyarray(py)))?;
-    // those of an accuracy
+    // the grids of an accuracy
     if let Some(surface) = refined {
         found.set_item("heights", Topography::from(surface).heights.into_pyarray(py))?;
     }
@@ -104,7 +104,7 @@ impl<T: Scalar> Seen<T> {
     }
 }
 
-/// The warning of a cycle whose balance of energy misses much of the work, if it does.
+/// The warning of a cycle with a balance of energy that misses much of the work, if it does.
 #[pyfunction]
 pub fn unbalanced(greatest_work: f64, imbalance: f64) -> Option<String> {
     scene::unbalanced(greatest_work, imbalance, Skin::Keywords)

@@ -7,7 +7,7 @@ use asperity_tool::figures;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Runs the program with the arguments of a process, of which the first is its name; the exit code.
+/// Runs the program with the arguments of a process, its name first; the exit code.
 #[pyfunction]
 pub fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| asperity_tool::run(arguments))

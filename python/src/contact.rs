@@ -18,7 +18,7 @@ use crate::report::reported;
 /// Sizes and labels of clusters.
 type Found<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<i64>>);
 
-/// The clusters of a map, whose opposite sides meet if it is periodic.
+/// The clusters of a map; opposite sides meet if it is periodic.
 #[pyfunction]
 pub fn clusters<'py>(py: Python<'py>, map: PyReadonlyArray2<'_, bool>, periodic: bool) -> Found<'py> {
     let map = map.as_array();

@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::numbers::{Numbers, mapped, returned, tried};
 use crate::refusal::refusal;
 
-/// A function of a state and a place, at all places of all states: the shape of the states, then that of the places.
+/// A function of a state and a place, at all places of all states: the shape of the states, then the shape of the
+/// places.
 fn fields<'py, S>(
     py: Python<'py>,
     states: &ArrayD<S>,

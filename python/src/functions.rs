@@ -1,4 +1,4 @@
-//! Functions of Python that are asked for arrays: those of a law that is an object, and the stiffness of waves.
+//! Functions of Python that are asked for arrays: of a law that is an object, and the stiffness of waves.
 
 use std::sync::Arc;
 

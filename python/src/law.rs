@@ -1,4 +1,4 @@
-//! Adhesion laws: those of the library as classes, and any object of Python with the three functions of a law.
+//! Adhesion laws: laws of the library as classes, and any object of Python with the three functions of a law.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -229,7 +229,7 @@ pub fn cut_off(law: &Bound<'_, PyAny>, distance: Measure) -> PyResult<(Law, f64)
     Ok((Law { formula, adhesion, given }, distance))
 }
 
-/// A law of which the work of adhesion differs from node to node.
+/// A law with a work of adhesion that differs from node to node.
 #[pyfunction]
 pub fn varied(law: &Bound<'_, PyAny>, works: Field<'_>) -> PyResult<Law> {
     let Law { formula, adhesion, mut given } = Law::some(law)?;
@@ -249,15 +249,13 @@ pub fn varied(law: &Bound<'_, PyAny>, works: Field<'_>) -> PyResult<Law> {
 /// Parameters
 /// ----------
 /// law : object
-///     With the methods energy(gap), traction(gap) and slope(gap) of an array of gaps g ≥ 0, each of which returns an
-///     array of the same shape: the energy per area φ(g), its derivative φ'(g), positive where the surfaces attract
-///     each other, and the traction's derivative φ''(g). Attributes `work_of_adhesion`, −φ(0) by default, and `range`,
-///     the length over which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it. A law
-///     that repels below some gap, at which it rests, keeps the surfaces apart with ``wall="none"``; by default it has
-///     the work of adhesion −φ there, and the range w over its greatest attraction. It is asked for negative gaps, too,
-///     unless its energy is infinite at zero gap.
-/// largest_gap : float, optional
-///     Largest gap, a length; ten ranges by default.
+///     With the methods energy(gap), traction(gap) and slope(gap) of an array of gaps g ≥ 0, which return arrays of the
+///     same shape: the energy per area φ(g), its derivative φ'(g), positive where the surfaces attract each other, and
+///     the traction's derivative φ''(g). Attributes `work_of_adhesion`, −φ(0) by default, and `range`, the length over
+///     which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it. A law that repels below
+///     some gap, at which it rests, keeps the surfaces apart with ``wall="none"``; by default it has the work of
+///     adhesion −φ there, and the range w over its greatest attraction. It is asked for negative gaps, too, unless its
+///     energy is infinite at zero gap. largest_gap : float, optional Largest gap, a length; ten ranges by default.
 ///
 /// Raises
 /// ------

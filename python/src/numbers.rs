@@ -19,8 +19,8 @@ impl<T: asperity_scene::Scalar + Element> Scalar for T {}
 
 /// The numbers of an array: of any float type, order and stride; masked ones are NaN.
 ///
-/// The strides of ndarray count items, and its items are aligned. An array of which an item does not lie a whole number
-/// of items from the next, as the column of a packed record, is copied first.
+/// The strides of ndarray count items, and its items are aligned. An array with items that do not lie a whole number of
+/// items from the next, as the column of a packed record, is copied first.
 pub struct Items<'py, D: Dimension>(PyReadonlyArray<'py, f64, D>);
 
 /// Numbers of any shape: a number, a list, or an array.

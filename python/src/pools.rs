@@ -43,7 +43,7 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// A pool of so many threads, or that of all cores.
+    /// A pool of so many threads, or the pool of all cores.
     ///
     /// # Errors
     /// `ValueError` for no threads or too many, `RuntimeError` if they cannot be started.

@@ -77,7 +77,7 @@ pub struct At<'py> {
     pub observer: Option<Py<PyAny>>,
 }
 
-/// Does `work` on the shared pool and returns its result, or the exception of a signal, as of Ctrl-C, after which the
+/// Does `work` on the shared pool and returns its result, or the exception of a signal, as by Ctrl-C, after which the
 /// work is told not to continue.
 pub fn until_interrupted<R: Send>(py: Python<'_>, work: impl FnOnce(GoesOn<'_>) -> R + Send) -> PyResult<R> {
     let at = At { py, pool: Pool::of(None)?, observer: None };

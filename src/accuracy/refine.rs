@@ -8,12 +8,12 @@ use crate::solver::Status;
 use crate::surface::{Surface, mirror, refine};
 use crate::vector::range;
 
-/// How far interpolated heights may exceed the given ones, as a share of their span: those of a step by a tenth or more.
+/// How far interpolated heights may exceed the given ones, as a share of their span: at a step by a tenth or more.
 const OVERSHOOT: f64 = 0.1;
 
 /// The ratio of the contact areas on the given grid and on one of twice as many nodes, beyond which the heights in between
-/// decide, and what it may have more, over the root of the nodes in contact. That of white noise is 1.27 with 268 of them
-/// and 1.67 with 37, that of other rough surfaces at most 1.1, and that of plateaus with flanks of eight nodes 1.46 with 137.
+/// decide, and what it may have more, over the root of the nodes in contact. White noise has a ratio of 1.27 with 268
+/// of them and 1.67 with 37, other rough surfaces at most 1.1, and plateaus with flanks of eight nodes 1.46 with 137.
 const DECIDED: f64 = 1.35;
 const SCATTER: f64 = 5.0;
 
@@ -33,7 +33,7 @@ pub(super) fn refined(surface: &Surface, periodic: bool) -> Result<Surface> {
     Surface::new(Grid::new(shape, surface.grid().lengths())?, fine)
 }
 
-/// Whether interpolated heights exceed those of a surface, as they do next to steps.
+/// Whether interpolated heights exceed the heights of a surface, as they do next to steps.
 pub(super) fn overshoots(fine: &Surface, surface: &Surface) -> bool {
     let [(_, fine), (low, high)] = [fine, surface].map(|surface| range(&ordered(surface.heights().view())));
     fine - high > OVERSHOOT * (high - low)

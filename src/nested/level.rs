@@ -18,7 +18,8 @@ pub struct Level {
     pub status: Status,
     /// The number of steps on the whole grid, from its last start.
     pub iterations: usize,
-    /// The number of operator applications, with that of the problem; those on a part in units of one on the whole.
+    /// The number of operator applications, with the application of the problem; on a part in units of one on the
+    /// whole.
     pub operator_applications: usize,
     /// The certified relative error, [`Report::relative_error`](crate::Report::relative_error).
     pub relative_error: f64,

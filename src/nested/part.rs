@@ -74,7 +74,7 @@ impl Part {
         cut
     }
 
-    /// Calls `f` with the rows of a field that are in the part, and those of a field of the part.
+    /// Calls `f` with the rows of a field that are in the part, and the rows of a field of the part.
     fn meet<T: Real>(
         &self,
         (whole, to): (&mut Array2<T>, &Grid),
@@ -98,7 +98,7 @@ impl Part {
         Surface::new(grid, self.cut(surface.heights(), surface.grid(), &grid))
     }
 
-    /// The control of the part, whose highest node may be lower than that of the whole.
+    /// The control of the part: its highest node may be lower than the highest node of the whole.
     fn control(control: Control, whole: &Surface, part: &Surface) -> Control {
         let highest = |surface: &Surface| {
             let own = surface.heights().iter().fold(f64::NEG_INFINITY, |high, &h| high.max(h));
@@ -123,8 +123,8 @@ pub(super) struct OnPart<T: Real> {
 }
 
 impl<T: Real> OnPart<T> {
-    /// Whether the solution leads to that of the whole: contact at the end of the part may continue beyond it, and a
-    /// stalled solve may lead to another equilibrium, if there are several.
+    /// Whether the solution leads to the solution of the whole: contact at the end of the part may continue beyond it,
+    /// and a stalled solve may lead to another equilibrium, if there are several.
     pub(super) fn leads(&self, unique: bool) -> bool {
         let report = &self.solution.report;
         let found = report.status == Status::Converged || (unique && report.status == Status::Stalled);

@@ -56,7 +56,7 @@ fn line<'a, T>(rows: &'a Rows<'_, T>, row: usize) -> &'a [T] {
     contiguous(rows.row(row).to_slice())
 }
 
-/// The place of a node among those of another grid along a side.
+/// The place of a node among the nodes of another grid along a side.
 #[derive(Clone, Copy)]
 struct Stencil {
     /// The node before the one at or before the place, that node, and the two after it.
@@ -110,11 +110,11 @@ impl Side {
     }
 }
 
-/// The places of the nodes of one grid among those of another along a side. Beyond the window, nodes in the first half
-/// keep their distance from its end, those in the second half from its start.
+/// The places of the nodes of one grid among the nodes of another along a side. Beyond the window, nodes in the first
+/// half keep their distance from its end, nodes in the second half from its start.
 fn places(from: Side, to: Side) -> Vec<Stencil> {
     let place = |k: usize| {
-        // in nodes, times those of the window
+        // in nodes, times the nodes of the window
         let place = match 2 * k <= to.window + to.whole {
             true => k * from.window,
             false => (from.whole * to.window).saturating_sub((to.whole - k) * from.window),
@@ -258,7 +258,7 @@ mod tests {
     fn nodes_beyond_the_window_keep_their_distance_from_its_end_or_start() {
         let (coarse, fine) = (Side { window: 10, whole: 24 }, Side { window: 20, whole: 45 });
         for (k, place) in places(coarse, fine).iter().enumerate() {
-            // from the start of the window, or from that of the next one
+            // from the start of the window, or of the next one
             let (start, distance) = if k <= 32 { (0.0, 0.5 * k as f64) } else { (24.0, 0.5 * (k as f64 - 45.0)) };
             let [before, at, ..] = place.nodes;
             let unwrapped = |shift: usize| (at + shift) as f64 - 1.0;

@@ -16,7 +16,7 @@ const LOCATED_OF_ALL: f64 = 0.01;
 /// compared with all before are not located one by one.
 const MANY: f64 = 20.0;
 
-/// The share of the largest tension by which that before a jump may be larger than that of the last state.
+/// The share of the largest tension by which the tension before a jump may exceed the tension of the last state.
 const PEAK: f64 = 0.01;
 
 /// The same in a step without a jump: corners of the load, where nodes come into contact, are smaller.
@@ -89,7 +89,7 @@ impl Course {
         let energy = next.energy - here.energy;
         let product = step * (after - before);
         let drop = trapezoid((from, before), (target, after)) - change;
-        // under a corner of the load the integral is between this one and that of the branch before, continued
+        // under a corner of the load the integral is between this one and the integral of the branch before, continued
         let continued = integral(&points[..points.len() - 1], (from, target));
         let corner = allowed.max(product.abs()).max((along - continued).abs());
         let (peak, breaks_off) = self.peak(step, next.pressure, noise.max(left));

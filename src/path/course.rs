@@ -45,7 +45,7 @@ pub(super) struct Course {
     pub(super) account: Account,
     /// the last states on the branch, the latest last: at most four
     pub(super) places: Vec<Figures>,
-    /// the states of which the gaps are kept
+    /// the states with kept gaps
     pub(super) at: Vec<Figures>,
     pub(super) bracket: Option<Bracket>,
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::adhesion::{AdhesionLaw, Discretisation, Hints, Values};
 use crate::real::Real;
 
-/// A law of which no solve smooths the jumps.
+/// A law with jumps that no solve smooths.
 pub(super) struct Sharp<'a, T>(pub(super) &'a dyn AdhesionLaw<T>);
 
 impl<T: Real> AdhesionLaw<T> for Sharp<'_, T> {

@@ -3,6 +3,6 @@
 /// The program.
 pub const PROGRAM: &str = concat!("The asperity developers: asperity, version ", env!("CARGO_PKG_VERSION"), ".");
 
-/// The paper whose method the program builds on.
+/// The paper with the method that the program builds on.
 pub const PAPER: &str = "Rey, Anciaux, Molinari: Normal adhesive contact on rough surfaces: efficient algorithm for \
                          FFT-based BEM resolution, Computational Mechanics 60 (2017), doi:10.1007/s00466-017-1392-5.";

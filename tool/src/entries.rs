@@ -57,8 +57,8 @@ fn large_integer(table: &DeTable<'_>) -> Option<(String, Range<usize>)> {
     })
 }
 
-/// The options of a scene, those before the first section and those of all sections. Sections that have been taken out
-/// of the table are only named.
+/// The options of a scene, before the first section and in all sections. Sections that have been taken out of the table
+/// are only named.
 pub fn entries(table: Table, command: &Command, taken: &[&str]) -> Result<Vec<(String, Value)>, String> {
     let mut sections: Vec<_> = command.get_arguments().map(section).collect();
     sections.retain(|section| !section.is_empty());

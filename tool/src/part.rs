@@ -72,7 +72,7 @@ impl Part {
         self.wanted().map(|_| self.whole.shape())
     }
 
-    /// Whether opposite sides of the part meet: those of an original do not.
+    /// Whether opposite sides of the part meet: sides of an original do not.
     pub fn sides_meet<T: Real>(&self, solution: &Solution<T>) -> bool {
         self.wanted().is_none() && solution.report.boundary == elastic::Boundary::Periodic
     }

@@ -75,7 +75,7 @@ pub fn yellow(text: &str) -> String {
 /// Whether this process prints nothing but its errors, as another one prints for all.
 static SILENT: AtomicBool = AtomicBool::new(false);
 
-/// Leaves all printing but that of errors to another process.
+/// Leaves all printing but errors to another process.
 pub fn silence() {
     SILENT.store(true, Ordering::Relaxed);
 }

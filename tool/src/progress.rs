@@ -64,7 +64,7 @@ impl Progress {
         }
     }
 
-    /// The progress of a cycle, whose bar has the share of its way.
+    /// The progress of a cycle: its bar has the share of its way.
     pub fn follow(&mut self, pace: Option<Pace>) {
         if let Some(pace) = pace {
             self.bar.set_position((STEPS * pace.share()) as u64);

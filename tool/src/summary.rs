@@ -34,7 +34,7 @@ pub fn table(names: &[&str], solves: &[&Account], units: &Units) -> String {
     rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Warns of what a solve has not reached; `name` is that of the case.
+/// Warns of what a solve has not reached; `name` belongs to the case.
 pub fn warn(name: &str, account: &Account) {
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
     for (_, text) in shortfalls(account, Skin::Options) {

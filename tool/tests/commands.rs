@@ -271,7 +271,7 @@ fn examples_and_options_that_the_documentation_names_exist() {
     assert!(named.len() >= 8 && checked >= 2, "{named:?}, {checked} options");
 }
 
-/// The help of all commands, by name; that of the tool has none.
+/// The help of all commands, by name; the help of the tool has none.
 struct Help {
     of: HashMap<String, String>,
 }

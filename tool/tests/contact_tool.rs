@@ -114,7 +114,7 @@ fn the_densities_of_a_sphere_have_the_exponents_of_its_edge() {
     bench.said("solve --heights sphere.npz --boundary free --approach 0.086 --no-pictures --quiet --out pressed");
     let report = bench.reported("contact pressed");
     let exponent = |key: &str| report[key]["exponent"].as_f64().unwrap();
-    // at the edge g ∝ x^(3/2); p = p₀ √(1 − r²/a²), of which the density is p over all of the contact
+    // at the edge g ∝ x^(3/2); p = p₀ √(1 − r²/a²), with the density p over all of the contact
     assert!((exponent("gap_exponent") + 1.0 / 3.0).abs() < 0.05, "{report}");
     assert!((exponent("pressure_exponent") - 1.0).abs() < 0.05, "{report}");
     assert_eq!((report["clusters"].as_u64(), &report["correlation_length"]), (Some(1), &().into()));

@@ -49,7 +49,7 @@ fn a_solve_caps_the_pressure_and_reports_what_has_yielded() {
     let mean = number(&report["plastic_depth_mean"]);
     assert!((mean / depth.mean().unwrap() - 1.0).abs() < 1e-12);
     assert!((number(&report["plastic_energy"]) / (hardness * mean) - 1.0).abs() < 1e-12);
-    // an edge between the nodes is that of elastic surfaces
+    // elastic surfaces alone have an edge between the nodes
     assert!(report["corrected_contact_fraction"].is_null());
     // the scene repeats it
     assert!(

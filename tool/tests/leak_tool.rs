@@ -73,7 +73,7 @@ fn a_solve_leaks_with_its_sides_and_units_and_leaves_files() {
     let said = bench.said("leak pressed --viscosity 1mPas --picture-format svg --force --out leakage");
     assert!(said.contains("µm³/(Pa·s)") && !said.contains("e-"), "{said}");
     assert!(said.contains("results in leakage") && said.contains("flow_y.svg"), "{said}");
-    // a viscosity whose unit is unknown leaves a number
+    // a viscosity in an unknown unit leaves a number
     let said = bench.said("leak pressed --viscosity 0.001");
     let row = said.lines().find(|line| line.contains("flow per pressure")).unwrap();
     assert!(row.rsplit(' ').next().unwrap().parse::<f64>().is_ok(), "{row}");

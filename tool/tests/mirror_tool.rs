@@ -77,7 +77,7 @@ fn results_are_of_the_original_unless_the_whole_is_asked_for() {
         near(&again, key);
     }
     near(&loaded(&format!("--normal-force {} --whole", 4.0 * force)), "mean_pressure");
-    // and so is that of a spring
+    // and so is the force of a spring
     let (stiffness, gap) = (0.3, number(&part, "mean_gap"));
     let sprung = loaded(&format!("--spring-stiffness {stiffness} --spring-position {}", gap - force / stiffness));
     assert_eq!(sprung["spring_stiffness"], stiffness);

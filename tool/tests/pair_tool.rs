@@ -49,7 +49,7 @@ fn two_surfaces_are_the_one_between_them() {
     for more in ["", "--boundary free", "--reduced-pressure 0.1"] {
         let loaded = if more.starts_with("--r") { "--no-pictures" } else { PRESSED };
         let solve = |heights: &str, out: &str| {
-            // a pressure on a window reaches its edge, of which a warning tells
+            // a pressure on a window reaches its edge, as a warning tells
             assert!(bench.run(&format!("solve {heights} {loaded} {more} --out {out} --force")).status.success());
             bench.report(out)
         };

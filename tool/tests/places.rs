@@ -17,7 +17,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// The tool with a word more, as it is; its colours are those of a terminal.
+/// The tool with a word more, as it is, with the colours of a terminal.
 fn run_with(bench: &Bench, arguments: &str, word: impl AsRef<OsStr>) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
     command.current_dir(bench.path(".")).args(arguments.split_whitespace()).arg(word).env("CLICOLOR_FORCE", "1");

@@ -479,7 +479,7 @@ fn all_formats_hold_the_same_fields() {
     bench.refused_with("solve --heights h.npy --mean-gap 1 --format hdf5 --out x", &["hdf5", "npy", "npz", "vti"]);
 }
 
-/// A Python with numpy: that of `.ci/run` in the target folder, or any.
+/// A Python with numpy: by `.ci/run` in the target folder, or any.
 fn python() -> Option<PathBuf> {
     let target = Path::new(env!("CARGO_BIN_EXE_asperity")).ancestors().nth(2)?;
     let candidates = [target.join("numpy/bin/python"), PathBuf::from("python3")];
@@ -571,7 +571,7 @@ print('same')");
 #[test]
 fn offsets_of_lines_along_the_other_axis_are_told() {
     let bench = Bench::new();
-    // an image whose rows are the scan lines, each with an offset of its own
+    // an image with scan lines as rows, each with an offset of its own
     let drift = |row: usize| ((row as f64 * 0.618).fract() - 0.5).powi(3);
     let grain = |row: usize, column: usize| 1e-3 * ((row * 7 + column * 13) as f64 * 0.414).fract();
     let image = ndarray::Array2::from_shape_fn((96, 80), |(row, column)| drift(row) + grain(row, column));

@@ -74,7 +74,8 @@ fn kind(value: &Value) -> &'static str {
     }
 }
 
-/// The keys in a value with the kinds of their values; keys of inner tables stand behind that of the table and a dot.
+/// The keys in a value with the kinds of their values; keys of inner tables stand behind the key of the table and a
+/// dot.
 fn keys(value: &Value, before: &str, found: &mut BTreeMap<String, BTreeSet<&'static str>>) {
     match value {
         Value::Object(entries) => entries.iter().for_each(|(key, value)| {

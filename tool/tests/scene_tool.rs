@@ -221,7 +221,7 @@ fn a_scene_can_name_what_has_no_hyphens() {
     assert!(bench.refused("run measure.toml --psd heights.npy").contains("is read by this run"));
 }
 
-/// The keys of a report, with those of the reports in it.
+/// The keys of a report, with the keys of the reports in it.
 fn keys(report: &Value, found: &mut Vec<String>) {
     match report {
         Value::Object(entries) => entries.iter().for_each(|(key, value)| {
@@ -270,7 +270,7 @@ fn reports_are_one_document_whose_keys_are_documented() {
     let printed = bench.reported(&format!("solve {quick} --mean-gap 0.02 --out same"));
     let written: Value = serde_json::from_str(&bench.read("same/report.json")).unwrap();
     assert_eq!(printed, written);
-    // the last row is that of the table
+    // the last row of the table
     let report = bench.reported(&format!("sweep {quick} --mean-pressures 1e-3,1e-2 --out sweep.csv"));
     let table = bench.read("sweep.csv");
     let last = table.lines().last().unwrap().split(',').zip(table.lines().next().unwrap().split(','));

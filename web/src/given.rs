@@ -5,7 +5,7 @@ use asperity_scene::{Given, Key, Skin, Typed, worded};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-/// Reads an object of `known` keys and values, of which those that are empty count as not given.
+/// Reads an object of `known` keys and values; empty values count as not given.
 ///
 /// # Errors
 /// The key and the remedy, if it is not known or a value is none for it, and if some quantities have units and others
@@ -22,7 +22,7 @@ pub fn read(json: &str, known: impl IntoIterator<Item = &'static Key>) -> Outcom
     Ok(given)
 }
 
-/// A reason in the words of the page, which are those of Python.
+/// A reason in the words of the page, which are Python's.
 pub fn reason(text: impl AsRef<str>) -> String {
     worded(text.as_ref(), Skin::Keywords)
 }

@@ -1,4 +1,4 @@
-//! The clock: that of the system, or in a browser that of its page, as WebAssembly alone has none.
+//! The clock of the system, or in a browser of its page, as WebAssembly alone has none.
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 pub use std::time::Instant;

@@ -9,8 +9,8 @@ use asperity::{Error, Grid};
 
 use crate::outcome::Outcome;
 
-/// The most nodes of which each of several processes takes whole fields: for pictures, for warnings, for the state of a
-/// table, and for files that are not written in rows.
+/// The most nodes in whole fields of each of several processes: for pictures, for warnings, for the state of a table,
+/// and for files that are not written in rows.
 pub const WHOLE: usize = 4096 * 4096;
 
 /// The processes that solve one problem, and which of them this one is.
@@ -96,7 +96,7 @@ impl Processes {
     }
 }
 
-/// Whether an error is that of another process, which tells of it.
+/// Whether an error belongs to another process, which tells of it.
 pub fn is_elsewhere(error: &(dyn std::error::Error + 'static)) -> bool {
     matches!(error.downcast_ref(), Some(Error::Elsewhere { .. }))
 }

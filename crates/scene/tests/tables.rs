@@ -22,7 +22,7 @@ fn open(path: &Path, loads: &[f64]) -> Outcome<(Journal, Vec<u8>)> {
     Journal::open(path, HEADER, identity("1"), Some(loads), (false, false))
 }
 
-/// A sweep whose answer depends on the two loads and answers before, killed after so many rows.
+/// A sweep with answers that depend on the two loads and answers before, killed after so many rows.
 fn sweep(path: &Path, loads: &[f64], killed: usize) -> Outcome<String> {
     let (mut journal, mut place) = open(path, loads)?;
     for &load in &loads[journal.written().rows..killed] {

@@ -38,7 +38,7 @@ fn sum_path(rows: &Path) -> PathBuf {
     with_suffix(rows, ".sum")
 }
 
-/// The checksum of rows, with that of their warnings.
+/// The checksum of rows, with the checksum of their warnings.
 fn checksum(rows: &Path) -> asperity::Result<String> {
     let of_rows = Hash::NEW.of(&fs::read(rows).map_err(|e| Error::unreadable(rows, e))?);
     let warnings = fs::read(warnings::beside(rows)).unwrap_or_default();
@@ -52,7 +52,7 @@ struct Progress {
     left: VecDeque<usize>,
     elsewhere: Vec<usize>,
     done: usize,
-    /// The warnings with a code, each of which is said of one case, and not again of the next
+    /// The warnings with a code: each is said of one case, and not again of the next
     said: HashSet<String>,
     /// The first case that was refused for a reason, and how many were
     refused: HashMap<String, (usize, usize)>,

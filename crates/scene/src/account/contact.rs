@@ -10,8 +10,8 @@ use crate::key::{Boundary, LENGTH, PRESSURE, Units, record};
 /// The bins of a distribution in a decade, and the most decades.
 const PER_DECADE: usize = 8;
 const DECADES: usize = 9;
-/// The share of the nodes at the edge whose values are below the window of an exponent: the grid makes the distribution
-/// of those uniform.
+/// The share of the nodes at the edge with values below the window of an exponent: the grid makes their distribution
+/// uniform.
 const AT_EDGE: f64 = 0.99;
 /// The windows of the exponents, a ratio of values; and the least share of the median that must remain beyond them.
 const GAP_WINDOW: f64 = 10.0;
@@ -50,9 +50,9 @@ pub struct Density {
 
 /// An exponent of a density, by the most likely power law of the nodes in a window.
 ///
-/// The window begins above the values of nodes at the edge of the contact, whose density the grid makes uniform: along
-/// an edge in the continuum g ∝ x^(3/2) and λ ∝ x^(1/2) at a distance x, and from P dx uniform P(g) ∝ g^(−1/3) and
-/// P(λ) ∝ λ follow.
+/// The window begins above the values of nodes at the edge of the contact, as the grid makes their density uniform:
+/// along an edge in the continuum g ∝ x^(3/2) and λ ∝ x^(1/2) at a distance x, and from P dx uniform P(g) ∝ g^(−1/3)
+/// and P(λ) ∝ λ follow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exponent {
     /// The exponent.
@@ -101,7 +101,7 @@ record! {
 
 impl ContactTables {
     /// The tables of a gap, infinite at absent nodes, and a contact pressure on their grid: on all of a surface, or on
-    /// the original of a mirrored one, whose sides are no edges of the contact.
+    /// the original of a mirrored surface: its sides are no edges of the contact.
     ///
     /// # Errors
     /// [`Error::Shape`] if a field is not on the grid.
@@ -239,8 +239,8 @@ fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     Some(*values.select_nth_unstable_by(at, f64::total_cmp).1)
 }
 
-/// The rate t of which e^(t y), for y from 0 to a width, has a mean of y: the root of w/(1 − e^(−t w)) − 1/t = mean,
-/// which grows with t.
+/// The rate t at which e^(t y), for y from 0 to a width, has a given mean of y: the root of w/(1 − e^(−t w)) − 1/t =
+/// mean, which grows with t.
 fn most_likely(mean: f64, width: f64) -> f64 {
     let of = |rate: f64| match rate * width {
         product if product.abs() < 1e-4 => width * (0.5 + product / 12.0),
@@ -254,7 +254,7 @@ fn most_likely(mean: f64, width: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The neighbours of a node, whose cells share a side with its own, and the lengths of these sides.
+/// The neighbours of a node, by cells that share a side, and the lengths of these sides.
 fn neighbours((i, j): (usize, usize), grid: Grid, meets: bool) -> impl Iterator<Item = ((usize, usize), f64)> {
     let ((nx, ny), (dx, dy)) = (grid.shape(), grid.spacing());
     let along = move |at: usize, count: usize| {

@@ -9,21 +9,21 @@ use crate::key::Elastic;
 
 impl<T: Real> Sight<T> {
     /// The displacements of both bodies of a solution, each away from the other one, if both are elastic: û = p̂/k of
-    /// each wave of the elastic pressure. With a free boundary they vanish far away, and with a periodic one they have no
-    /// mean but that of a body whose mean compliance is known. Several processes may share a periodic grid.
+    /// each wave of the elastic pressure. With a free boundary they vanish far away, and with a periodic boundary they
+    /// have no mean but the mean of a body with a known mean compliance. Several processes may share a periodic grid.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`] and [`Elastic::body`].
+    /// As [`Elastic::operator`] and [`Elastic::body`].
     pub fn displacements(&self, elastic: &Elastic, pressure: ArrayView2<'_, T>) -> Result<Option<[Array2<f64>; 2]>> {
         let Some(other) = elastic.other() else { return Ok(None) };
         Ok(Some([self.displacement(&elastic.alone(), pressure)?, self.displacement(&other, pressure)?]))
     }
 
-    /// How far the mean of the waves of the displacement over the nodes that face the surface is from that of all, which
-    /// is zero: without absent nodes it is the same. With them one process has to have all of a periodic grid.
+    /// The mean of the waves of the displacement over the nodes that face the surface, less the mean over all nodes,
+    /// which is zero: without absent nodes it is the same. With them one process has to have all of a periodic grid.
     ///
     /// # Errors
-    /// Those of [`Elastic::operator`].
+    /// As [`Elastic::operator`].
     pub(crate) fn facing_displacement(&self, elastic: &Elastic, solution: &Solution<T>) -> Result<f64> {
         if solution.report.absent_nodes == 0 {
             return Ok(0.0);

@@ -39,7 +39,7 @@ pub fn touch(surface: &Surface) -> f64 {
 struct Function {
     /// The end of the name of its file.
     name: &'static str,
-    /// The names of the columns: that of the argument, and those of the values.
+    /// The names of the columns: of the argument, and of the values.
     columns: Vec<&'static str>,
     points: Vec<Vec<f64>>,
 }
@@ -57,7 +57,7 @@ impl Code {
         }
     }
 
-    /// Whether a text is that of such a file, of any rows: it begins with the names of its columns.
+    /// Whether a text belongs to such a file, of any rows: it begins with the names of its columns.
     pub fn wrote(text: &str) -> bool {
         let columns = match text.strip_prefix("*SURFACE INTERACTION, NAME=") {
             Some(rest) => rest.lines().nth(2).and_then(|line| line.strip_prefix("** ")),
@@ -66,8 +66,8 @@ impl Code {
         columns.is_some_and(|columns| ["closure", "mean_pressure"].iter().any(|name| columns.starts_with(name)))
     }
 
-    /// The files of the rows of a table, with or without adhesion: the ends of their names, and their texts. `name` is
-    /// that of the interface.
+    /// The files of the rows of a table, with or without adhesion: the ends of their names, and their texts. `name`
+    /// belongs to the interface.
     ///
     /// Pressure over closure, conductance over pressure, and transmissivity over pressure, each a function by points.
     /// Closure and conductance count from no pressure: without adhesion from first touch, with adhesion between the

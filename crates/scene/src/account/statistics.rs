@@ -23,7 +23,7 @@ pub fn figures(map: &Topography, (found, knee): &(SurfaceStatistics, Option<f64>
 }
 
 /// The statistics of a map for people: their names and texts, in the words of a skin, with the unit of length if it is
-/// known. Of a mirrored map they are those of all nodes.
+/// known. A mirrored map has statistics of all nodes.
 pub fn rows(
     map: &Topography,
     (found, knee): &(SurfaceStatistics, Option<f64>),

@@ -33,7 +33,7 @@ pub fn warnings_of_input<T: Real>(
 /// The codes for missing points in heights that were converted from a unit, as they stand in the file.
 fn codes_in_file(surface: &Surface, unit: &str) -> Vec<Told> {
     let Some(power) = power_of_length(unit) else { return Vec::new() };
-    // codes are whole numbers, of which the conversion may have rounded the last digit
+    // codes are whole numbers; the conversion may have rounded the last digit
     let in_file = surface.heights().mapv(|height| {
         let height = times_ten_to(-power, height);
         let whole = height.round();

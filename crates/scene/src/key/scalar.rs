@@ -13,7 +13,7 @@ pub trait Scalar: Real + Serialize + DeserializeOwned {
     /// A law in this precision.
     fn law(law: Formula) -> Arc<dyn AdhesionLaw<Self>>;
 
-    /// A field in this precision; in place, if it is that of the file.
+    /// A field in this precision; in place, if the file has this precision.
     fn field(field: Array2<f64>) -> Array2<Self> {
         field.mapv_into_any(Self::lit)
     }

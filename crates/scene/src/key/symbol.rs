@@ -61,7 +61,7 @@ impl Waves {
         (j * (2 * self.highest.0 + 1) + i).unsigned_abs() as usize
     }
 
-    /// The number of a wave and of its opposite; that of the mean is zero.
+    /// The number of a wave and of its opposite; the mean has zero.
     fn number(self, qx: f64, qy: f64) -> usize {
         self.number_of(((qx * self.lengths.0 / TAU).round() as i64, (qy * self.lengths.1 / TAU).round() as i64))
     }
@@ -75,7 +75,7 @@ impl Waves {
     }
 }
 
-/// A symbol whose stiffness is known for all waves of a grid.
+/// A symbol with a known stiffness for all waves of a grid.
 struct Known {
     symbol: Symbol,
     waves: Waves,
@@ -84,10 +84,10 @@ struct Known {
 }
 
 impl Symbol {
-    /// The body for the waves of a grid, of which the function is asked at once.
+    /// The body for the waves of a grid; the function is asked for all at once.
     ///
     /// # Errors
-    /// [`Error::Contract`] for a stiffness that is not positive and finite, or not even; those of the function.
+    /// [`Error::Contract`] for a stiffness that is not positive and finite, or not even; errors of the function.
     pub(crate) fn on(&self, grid: &Grid) -> Result<impl Body + use<>> {
         let waves = Waves::of(grid);
         let mut known = Vec::with_capacity(waves.count());
@@ -115,7 +115,7 @@ impl Symbol {
         Ok(Known { symbol: self.clone(), waves, stiffness: known })
     }
 
-    /// The fingerprint of the function: that of some of the waves of a grid, by which a table tells it from others.
+    /// The fingerprint of the function at some of the waves of a grid, by which a table tells it from others.
     pub(crate) fn fingerprint(&self, grid: &Grid) -> Hash {
         let waves = Waves::of(grid);
         let some = (1..=waves.count()).step_by(waves.count() / SAMPLES + 1);

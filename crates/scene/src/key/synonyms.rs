@@ -1,6 +1,6 @@
 //! Synonyms and misspellings of names, and the names that they stand for.
 
-/// Words for keys, with the keys that are meant, of which a command has one. A word stands for its plural as well.
+/// Words for keys, with the keys that are meant; a command has one of these. A word stands for its plural as well.
 pub const SYNONYMS: [(&str, &str); 30] = [
     ("pressure load stress normal-pressure applied-pressure nominal-pressure p", "mean-pressure mean-pressures"),
     ("force normal-load indentation-force f", "normal-force normal-forces"),

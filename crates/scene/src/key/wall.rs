@@ -16,7 +16,7 @@ choice! {
         None = "none",
         /// springs at zero gap, into which the surfaces sink by the contact pressure over the stiffness
         Penalty = "penalty",
-        /// springs whose multipliers take over the contact pressure, in rounds, until the wall is hard
+        /// springs with multipliers that take over the contact pressure, in rounds, until the wall is hard
         Uzawa = "uzawa",
     }
 }
@@ -31,7 +31,7 @@ impl Wall {
     /// if the surface yields.
     ///
     /// # Errors
-    /// Those of [`Penalty::new`] and [`Uzawa::new`]; a stiffness that is not given is zero.
+    /// As [`Penalty::new`] and [`Uzawa::new`]; a stiffness that is not given is zero.
     pub fn constraint<T: Real>(self, stiffness: Option<f64>, hardness: Option<Hardness>) -> Result<Constraint<T>> {
         let stiffness = stiffness.unwrap_or_default();
         Ok(match (self, hardness) {

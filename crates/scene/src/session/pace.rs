@@ -4,23 +4,23 @@ use asperity::path::PathSettings;
 
 use crate::session::fall::time;
 
-/// The time of a state without adhesion, over that of an operator application; rough surfaces take from 40 to 120.
+/// The time of a state without adhesion, over an operator application; rough surfaces take from 40 to 120.
 const STATE: f64 = 60.0;
 
-/// The time of a leg with adhesion, over that of an operator application: the balance of energy chooses the states, not
-/// the number of steps that is asked for. Legs on ten rough, smooth and measured surfaces take from 900 to 6200
-/// applications, in each of which the law, the search for jumps and the certificate take four times as long as the operator.
+/// The time of a leg with adhesion, over an operator application: the balance of energy chooses the states, not the
+/// number of steps that is asked for. Legs on ten rough, smooth and measured surfaces take from 900 to 6200
+/// applications; with each, the law, the search for jumps and the certificate take four times as long as the operator.
 const LEG: f64 = 12_000.0;
 
 /// The share of the way from which on the speed so far says something.
 const ENOUGH: f64 = 0.05;
 
-/// The pace of a cycle, of which the number of states is not known before.
+/// The pace of a cycle with a number of states that is not known before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
     /// The number of legs, and the least number of steps in each.
     asked: (usize, usize),
-    /// The seconds that all is likely to take, once those of an operator application are known.
+    /// The seconds that all is likely to take, once the seconds of an operator application are known.
     expected: Option<f64>,
     /// The number of states.
     states: usize,
@@ -45,7 +45,8 @@ impl Pace {
         Self { states, events, before: (states, 0.0), ..self }
     }
 
-    /// Takes the time of an operator application in seconds, from which that of a cycle with or without adhesion follows.
+    /// Takes the time of an operator application in seconds, from which the time of a cycle with or without adhesion
+    /// follows.
     pub fn expect(&mut self, application: f64, adhesive: bool) {
         let applications = if adhesive { LEG * self.asked.0 as f64 } else { STATE * self.least() as f64 };
         self.expected = Some(application * applications);
@@ -105,7 +106,7 @@ impl Pace {
     }
 }
 
-/// A number of things, whose name has an s if they are several.
+/// A number of things, with an s at their name if they are several.
 fn count(number: usize, name: &str) -> String {
     format!("{number} {name}{}", if number == 1 { "" } else { "s" })
 }

@@ -1,4 +1,4 @@
-//! Fields as files, of which each process writes its rows.
+//! Fields as files; each process writes its rows.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};

@@ -8,7 +8,7 @@ use crate::account::{Inputs, Slopes};
 use crate::hash::Hash;
 use crate::key::Adhesion;
 
-/// The inputs by name: all those of a report but for what does not change rows. A run continues only with equal ones;
+/// The inputs by name: all inputs of a report but for what does not change rows. A run continues only with equal ones;
 /// numbers come as text, which can be compared exactly.
 pub type Identity = Map<String, Value>;
 
@@ -25,7 +25,7 @@ pub struct Fields<'a> {
     pub hardness: Option<&'a ArrayRef2<f64>>,
     /// The gap from which to start, if it is given.
     pub start: Option<&'a ArrayRef2<f64>>,
-    /// Whether the law is another one than those of its name and parameters.
+    /// Whether the law differs from the laws of its name and parameters.
     pub law_differs: bool,
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn identity<T: Real>(
     law: &dyn AdhesionLaw<T>,
 ) -> Identity {
     let (surface, field) = (given.surface, |field: &ArrayRef2<f64>| Hash::NEW.of_numbers(field).to_string());
-    // the fields stand for their files; slopes follow from them, and the typed quantities are those of the other keys
+    // the fields stand for their files; slopes follow from them, and typed quantities from the other keys
     let adhesion =
         Adhesion { law_table: None, work_of_adhesion_map: None, hardness_map: None, ..inputs.adhesion.clone() };
     let heights = if inputs.shift.is_some() { "surfaces" } else { "heights" };
@@ -84,7 +84,7 @@ pub(crate) fn identity<T: Real>(
     identity
 }
 
-/// The fingerprint of a law: that of its energies and tractions at gaps from contact to 1024 ranges.
+/// The fingerprint of a law, by its energies and tractions at gaps from contact to 1024 ranges.
 fn fingerprint<T: Real>(law: &dyn AdhesionLaw<T>) -> Hash {
     let range = law.hints().range.widen();
     let gaps = (-256..=320).map(|step| T::lit(range * (f64::from(step) / 32.0).exp2()));

@@ -5,8 +5,8 @@
 //! the state is never ahead of the file, and the file is ahead of the state by at most one row, whole or not; this row
 //! is cut off and computed again. The file is locked as long as the journal is open.
 //!
-//! A case of a study saves its state, and waits for the disk, only if a second has passed since it did so last. The rows
-//! after those of its state are cut off and computed again; and of a case that is done, the study has a checksum.
+//! A case of a study saves its state, and waits for the disk, only if a second has passed since it did so last. The
+//! rows behind its state are cut off and computed again; the study has a checksum of a case that is done.
 
 mod lock;
 mod state;
@@ -56,9 +56,9 @@ pub struct Row<'a> {
 const REMEDY: &str = "choose another --out, or --force to start over";
 
 impl Journal {
-    /// Opens the file of a table, new or to continue; with `force` it is new in any case. The rows are those of
-    /// `loads`, where these are known before. While another run writes there, the file is refused, but for a case of a
-    /// study, which waits.
+    /// Opens the file of a table, new or to continue; with `force` it is new in any case. The rows belong to `loads`,
+    /// where these are known before. While another run writes there, the file is refused, but for a case of a study,
+    /// which waits.
     pub fn open(
         path: &Path,
         header: &str,
@@ -123,7 +123,7 @@ impl Journal {
         self.written
     }
 
-    /// Whether the next row has its state saved: that of a case of a study is, once it has run for a while.
+    /// Whether the next row has its state saved: for a case of a study, once it has run for a while.
     pub fn saves(&self) -> bool {
         !self.is_case || self.saved.elapsed() >= A_WHILE
     }

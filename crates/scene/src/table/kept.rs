@@ -35,7 +35,7 @@ impl Kept<'_> {
         self.0.map(present).into_iter().flatten().for_each(remove);
     }
 
-    /// Writes the fields of a row, the first of which is 1; each process its rows.
+    /// Writes the fields of a row, counted from 1; each process its rows.
     pub fn write<T: Scalar>(self, row: usize, solution: &Solution<T>, processes: &Processes) -> Outcome<()> {
         let Some(out) = self.0 else { return Ok(()) };
         let create = || Ok(OutputFolder::create(out, &[], true)?);

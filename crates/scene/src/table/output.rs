@@ -98,8 +98,8 @@ impl OutputFile {
         self.commit()
     }
 
-    /// Puts `files` in their places, and then this one, which stands for all of them: one of its name goes before, so
-    /// that it is never next to those of another run.
+    /// Puts `files` in their places, and then this one, which stands for all of them: a file of its name goes before,
+    /// so that it is never next to files of another run.
     pub fn commit_after(self, files: impl IntoIterator<Item = Self>) -> asperity::Result<()> {
         let place = self.parent.join(&self.name);
         match fs::remove_file(&place) {
@@ -118,7 +118,7 @@ pub fn write_text(path: &Path, text: &str) -> asperity::Result<()> {
     fs::write(path, text).map_err(|e| Error::unwritable(path, e))
 }
 
-/// The error of a hidden temporary file as that of the file in its destination `folder`.
+/// The error of a hidden temporary file as an error of the file in its destination `folder`.
 pub fn at_destination(error: Error, folder: &Path) -> Error {
     match error {
         Error::File { path, reason, cause } => {
@@ -129,7 +129,7 @@ pub fn at_destination(error: Error, folder: &Path) -> Error {
     }
 }
 
-/// The path of a file next to another, whose name it continues.
+/// The path of a file next to another, with a longer name.
 pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     let mut name = OsString::from(path);
     name.push(suffix);

@@ -1,4 +1,4 @@
-//! The warnings of a run, of which the worst of each code is kept, also next to a table.
+//! The warnings of a run: the worst of each code is kept, also next to a table.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -55,7 +55,7 @@ pub fn write_beside(table: &Path, warnings: &[Told]) -> Outcome<()> {
     Ok(file.commit()?)
 }
 
-/// The warnings of a run so far, each of which is told once; the worst of each code is kept.
+/// The warnings of a run so far, each told once; the worst of each code is kept.
 pub struct Warnings {
     of_input: Vec<Told>,
     found: Vec<Told>,
@@ -79,7 +79,7 @@ impl Warnings {
         Ok(())
     }
 
-    /// Keeps the warnings of a state, which come behind those of the input; an error, if warnings are.
+    /// Keeps the warnings of a state, behind the warnings of the input; an error, if warnings are.
     pub(crate) fn add(&mut self, new: Vec<Told>) -> Outcome<Vec<Told>> {
         // earlier rows of a table may have said the same without it
         if self.is_strict && !new.is_empty() {
@@ -93,10 +93,10 @@ impl Warnings {
         Ok(of_state)
     }
 
-    /// Keeps the warnings next to a table from here on, after those of the rows that it has already.
+    /// Keeps the warnings next to a table from here on, behind the warnings of rows that it has already.
     ///
     /// # Errors
-    /// Those of [`read_beside`] and [`write_beside`].
+    /// As [`read_beside`] and [`write_beside`].
     pub fn keep_beside(&mut self, table: &Path, has_rows: bool) -> Outcome<()> {
         keep(&mut self.found, if has_rows { read_beside(table)? } else { Vec::new() });
         self.told = self.found.len();
@@ -110,7 +110,7 @@ impl Warnings {
         &self.found[told..]
     }
 
-    /// Those of the input.
+    /// The warnings of the input.
     pub fn of_input(&self) -> &[Told] {
         &self.of_input
     }

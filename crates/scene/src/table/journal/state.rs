@@ -31,7 +31,7 @@ pub struct Written {
 }
 
 impl Written {
-    /// That of a table without rows.
+    /// The state of a table without rows.
     pub const NOTHING: Self = Self { rows: 0, unconverged: 0, loads: Hash::NEW, bytes: 0, content: Hash::NEW };
 }
 
