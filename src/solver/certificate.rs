@@ -1,7 +1,6 @@
 //! The certificate: the distance of the state from the solution, and the tests that end a solve.
 
 use super::driver::{End, Observer};
-use super::minimisation::Goal;
 use super::report::Status;
 use super::state::{SCALED, State};
 use super::touch::TOUCHING;
@@ -9,15 +8,6 @@ use crate::constraint::Wall;
 use crate::error::Result;
 use crate::problem::Load;
 use crate::real::Real;
-
-/// The tolerance on the way to a start: the edge of the adhesive zone has to be right to a node.
-const START: f64 = 1e-4;
-
-/// The tolerance of the wall alone as a start: adhesion changes the gap by more.
-const WALL: f64 = 1e-2;
-
-/// The tolerance at which a state shows how much tension it holds.
-const HOLD: f64 = 1e-3;
 
 /// The share of the best error below which an error is progress.
 const PROGRESS: f64 = 0.95;
@@ -147,17 +137,14 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The tolerance of a state from which a minimisation of another energy continues; none of the solution.
     pub(super) fn start_tolerance(&self) -> Option<f64> {
         let tolerance = self.tolerance();
-        let start = match self.posed.goal {
-            Goal::Wall => WALL,
-            Goal::Hold => HOLD,
-            Goal::Start => START,
-            Goal::Solution if self.posed.spreads => TOUCHING,
-            Goal::Solution if self.posed.leads_on => {
-                return Some(self.posed.constraint.round_tolerance()).filter(|&round| round > tolerance);
+        match self.posed.stage.tolerance {
+            Some(start) => Some(start.max(tolerance)),
+            None if self.posed.spreads => Some(TOUCHING.max(tolerance)),
+            None if self.posed.leads_on => {
+                Some(self.posed.constraint.round_tolerance()).filter(|&round| round > tolerance)
             }
-            Goal::Solution => return None,
-        };
-        Some(start.max(tolerance))
+            None => None,
+        }
     }
 
     /// Confirms convergence, and tells the observer of the iteration; the end, if it is one.

@@ -1,14 +1,13 @@
-//! The order of a solve: the loop of a minimisation, and the phases and rounds that call it.
+//! The order of a solve: the loop of a minimisation, and the stages and rounds that call it.
 
 use std::ops::ControlFlow;
 
-use super::minimisation::Goal;
 use super::operators::Operators;
+use super::plan::{Stage, plan};
 use super::posed::Posed;
 use super::report::{Iteration, Solved, Status};
 use super::start::{Begin, check_hardness, check_wall};
 use super::state::State;
-use super::tension::Hold;
 use super::{Branch, Method, Settings, rey2017};
 use crate::adhesion::{AdhesionLaw, SharedLaw};
 use crate::constraint::{ContactConstraint, Update};
@@ -42,7 +41,7 @@ pub(super) enum End {
     Cut(Status),
 }
 
-/// Minimises the energy of the present goal by the method of the settings.
+/// Minimises the energy of the present stage by the method of the settings.
 pub(super) fn minimise<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_>) -> Result<End> {
     match state.posed.settings.method {
         Method::Preconditioned => descend(state, observe),
@@ -81,7 +80,7 @@ fn descend<T: Real, Lo: Real>(state: &mut State<'_, T, Lo>, observe: Observer<'_
     }
 }
 
-/// Solves a problem: phases that lead to a start, and then the solution in rounds of the constraint.
+/// Solves a problem: the stages of its plan, and then the solution in rounds of the constraint.
 pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: Job<'_, T>) -> Result<Solved<T>> {
     let Job { law, given, flat, constraint, control, settings, begin, observe } = job;
     Error::positive("tolerance", settings.tolerance_in::<T>())?;
@@ -91,7 +90,6 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
     let branch = Branch::of_start(&begin, &settings, law, (load, constraint.wall()), flat)?;
     let preconditioned = settings.method == Method::Preconditioned;
     let smoothed = if preconditioned { smoothed_law(operators.state(), law) } else { None };
-    let from_afar = begin.is_default() && branch == Some(Branch::Loading);
     let mut posed = Posed {
         operators,
         adhesion: law,
@@ -105,33 +103,25 @@ pub(super) fn run<T: Real, Lo: Real>(operators: &mut dyn Operators<T, Lo>, job: 
         load,
         branch,
         settings,
-        goal: Goal::Solution,
-        // a given start is on a branch, which ends where the surfaces come apart
-        holds: if begin.is_default() && !from_afar { Hold::ALL.iter() } else { [].iter() },
-        by_wall: false,
+        stage: Stage::SOLUTION,
+        holds: [].iter(),
         leads_on: true,
         from_full_contact: begin.is_default() && branch == Some(Branch::Unloading),
     };
-    let is_torn = posed.is_torn();
-    posed.by_wall = posed.holds.len() > 0 && preconditioned && !is_torn && posed.nearly_rigid();
-    let starts = posed.by_wall || posed.smoothed.is_some() && !is_torn;
-    let phases = [from_afar.then_some(Goal::Wall), starts.then_some(Goal::Start)];
-    if from_afar {
-        posed.leave_adhesion();
-    } else if posed.by_wall {
-        posed.goal = Goal::Start;
-    }
+    let plan = plan(posed.facts(!begin.is_default()));
+    posed.holds = plan.holds.iter();
+    posed.begin(plan.starts.first().copied().unwrap_or(Stage::SOLUTION));
     let touches = law.hints().touches() && !begin.is_default() && branch != Some(Branch::Unloading);
     let mut state = State::new(posed, begin, touches)?;
-    for phase in phases.into_iter().flatten() {
-        state.enter(phase);
+    for stage in plan.starts {
+        state.enter(stage);
         let end = minimise(&mut state, &mut *observe)?;
-        state.leave(phase)?;
+        state.leave(stage)?;
         if let End::Cut(status) = end {
             return state.finish(status);
         }
     }
-    if is_torn {
+    if plan.torn {
         state.hold_apart();
     }
     loop {

@@ -1,20 +1,8 @@
-//! The parts of a minimisation: its goal, sums, steps and progress.
+//! The parts of a minimisation: its sums, steps and progress.
 
 use super::coarse::Coarse;
 use super::passes::Tally;
 use super::work::Work;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Goal {
-    /// The gap that the wall alone leaves, without adhesion: a start on the branch of loading.
-    Wall,
-    /// A start for the law itself, from the law with its jumps smoothed, or for springs, from a rigid wall.
-    Start,
-    /// A state at a given mean gap that holds a tensile load: a start under that load.
-    Hold,
-    /// The solution, to the tolerance of the settings.
-    Solution,
-}
 
 #[derive(Debug, Default)]
 pub(super) struct Totals {

@@ -4,8 +4,8 @@ use std::slice;
 
 use ndarray::{CowArray, Ix2};
 
-use super::minimisation::Goal;
 use super::operators::Operators;
+use super::plan::{Facts, Stage, StageLaw};
 use super::potential::Potential;
 use super::tension::Hold;
 use super::{Branch, Method, Settings, rey2017};
@@ -24,7 +24,7 @@ const HARDLY_PRESSED: f64 = 1e-3;
 /// rigid wall.
 const STIFF: f64 = 8.0;
 
-/// The energy to be minimised, and how well. A phase may change load and goal, and with the goal law and wall.
+/// The energy to be minimised, and how well. A stage has its law, wall and tolerance, and may have a load of its own.
 pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) operators: &'a mut dyn Operators<T, Lo>,
     /// the law itself
@@ -43,11 +43,9 @@ pub(super) struct Posed<'a, T: Real, Lo> {
     pub(super) load: Load,
     pub(super) branch: Option<Branch>,
     pub(super) settings: Settings,
-    pub(super) goal: Goal,
+    pub(super) stage: Stage,
     /// the states that may hold a load where surfaces come apart, which were not tried
     pub(super) holds: slice::Iter<'static, Hold>,
-    /// whether a rigid wall stands for springs on the way to the solution
-    pub(super) by_wall: bool,
     /// whether the present round of the constraint may lead to another one
     pub(super) leads_on: bool,
     /// whether full contact may have thrown the surfaces apart
@@ -70,45 +68,55 @@ impl<'a, T: Real, Lo: Real> Posed<'a, T, Lo> {
         Ok(())
     }
 
-    /// Poses the wall alone, under the load that it bears.
-    pub(super) fn leave_adhesion(&mut self) {
-        let separation = self.separation().unwrap_or_else(T::zero);
-        (self.goal, self.load) = (Goal::Wall, self.load.of_wall(separation.widen()));
+    /// What the plan of the solve depends on, of a start that is `given` or not.
+    pub(super) fn facts(&self, given: bool) -> Facts {
+        Facts {
+            given,
+            branch: self.branch,
+            jumps: self.smoothed.is_some(),
+            repels: self.separation().is_some(),
+            stiff: self.settings.method == Method::Preconditioned && self.nearly_rigid(),
+            torn: self.is_torn(),
+        }
     }
 
-    /// The law of the present goal, where surfaces touch.
+    /// Poses the first stage. The wall alone has the load that it bears.
+    pub(super) fn begin(&mut self, stage: Stage) {
+        self.stage = stage;
+        if stage.law == StageLaw::None {
+            let separation = self.separation().unwrap_or_else(T::zero);
+            self.load = self.load.of_wall(separation.widen());
+        }
+    }
+
+    /// The law of the present stage, where surfaces touch.
     pub(super) fn law(&self) -> &dyn AdhesionLaw<T> {
         match &self.touched {
-            Some(touched) if self.goal != Goal::Wall => touched,
+            Some(touched) if self.stage.law != StageLaw::None => touched,
             _ => self.formula(),
         }
     }
 
-    /// The law of the present goal, as a function of the gap.
+    /// The law of the present stage, as a function of the gap.
     pub(super) fn formula(&self) -> &'a dyn AdhesionLaw<T> {
-        match (self.goal, self.smoothed) {
-            (Goal::Wall, _) => &NoAdhesion,
-            (Goal::Start, Some(smoothed)) => smoothed,
-            _ => self.adhesion,
+        match self.stage.law {
+            StageLaw::None => &NoAdhesion,
+            StageLaw::Smoothed => self.smoothed.unwrap_or(self.adhesion),
+            StageLaw::Own => self.adhesion,
         }
     }
 
-    /// The wall of the present goal: without the law a rigid one stands for its repulsion.
+    /// The wall of the present stage.
     pub(super) fn wall(&self) -> Wall<'_, T> {
         self.present().wall()
     }
 
     fn present(&self) -> &dyn ContactConstraint<T> {
-        let rigid = match self.goal {
-            Goal::Wall => self.by_wall || self.separation().is_some(),
-            Goal::Start => self.by_wall,
-            _ => false,
-        };
-        if rigid { &Projection } else { &*self.constraint }
+        if self.stage.rigid { &Projection } else { &*self.constraint }
     }
 
     /// Whether springs end at a rigid wall, or are so stiff that their gap is near the gap at a rigid wall.
-    pub(super) fn nearly_rigid(&self) -> bool {
+    fn nearly_rigid(&self) -> bool {
         let Wall::Springs(springs) = self.constraint.wall() else { return false };
         let stiffness = springs.slope(0, self.pressed()).widen();
         self.constraint.ends_rigid() || stiffness > STIFF * self.stiffness_range().1

@@ -2,8 +2,9 @@
 
 use super::Method;
 use super::coarse::Coarse;
-use super::minimisation::{Counters, Goal, Made, Next, Residual, Steps, Totals};
+use super::minimisation::{Counters, Made, Next, Residual, Steps, Totals};
 use super::passes::{self, Continued, Fields, Taken, Working};
+use super::plan::StageLaw;
 use super::posed::Posed;
 use super::report::Iteration;
 use super::start::{Begin, given_start, uniform_start};
@@ -277,7 +278,7 @@ impl<'a, T: Real, Lo: Real> State<'a, T, Lo> {
             mean_gap: self.mean_gap(),
             contact_nodes: self.sums.tally.contact as usize,
             round: self.counters.rounds,
-            smoothed: self.posed.goal == Goal::Start && self.posed.smoothed.is_some(),
+            smoothed: self.posed.stage.law == StageLaw::Smoothed,
             control: self.posed.control,
         }
     }

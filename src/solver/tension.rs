@@ -2,8 +2,9 @@
 //! none.
 
 use super::driver::{End, Observer, minimise};
-use super::minimisation::{Goal, Nearness};
+use super::minimisation::Nearness;
 use super::passes::Fields;
+use super::plan::Stage;
 use super::posed::Posed;
 use super::state::State;
 use crate::error::Result;
@@ -38,7 +39,7 @@ const BETWEEN: f64 = 1.1;
 const REACH: f64 = 10.0;
 
 /// Where adhesion may hold surfaces that have come apart from full contact.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
     /// Where they touch, under no load before.
     Touching,
@@ -147,13 +148,13 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         let (load, smooths) = (self.posed.load, self.posed.smoothed.is_some());
         self.posed.from_full_contact = false;
         self.start_undeformed()?;
-        self.adhere(Load::Pressure(0.0), if smooths { Goal::Start } else { Goal::Hold })?;
+        self.adhere(Load::Pressure(0.0), if smooths { Stage::SMOOTHED } else { Stage::HOLD })?;
         let mut end = minimise(self, &mut *observe)?;
         if smooths && !matches!(end, End::Cut(_)) {
-            self.go_on(load, Goal::Start)?;
+            self.go_on(load, Stage::SMOOTHED)?;
             end = minimise(self, &mut *observe)?;
         }
-        self.go_on(load, Goal::Solution)?;
+        self.go_on(load, Stage::SOLUTION)?;
         // a solve that is cut short ends at once
         Ok(matches!(end, End::Cut(_)) || !self.is_apart())
     }
@@ -179,7 +180,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             gaps[side] = if side == 0 { interval[1] - GOLDEN * width } else { interval[0] + GOLDEN * width };
             held[side] = match self.tension_at(gaps[side], HARDLY_HELD * -load, &mut *observe)? {
                 Some(tension) if tension >= -load => {
-                    self.go_on(Load::Pressure(load), Goal::Solution)?;
+                    self.go_on(Load::Pressure(load), Stage::SOLUTION)?;
                     self.begins(Nearness::Near);
                     return Ok(true);
                 }
@@ -198,7 +199,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
                 next = Some(larger);
             }
         }
-        self.go_on(Load::Pressure(load), Goal::Solution)?;
+        self.go_on(Load::Pressure(load), Stage::SOLUTION)?;
         Ok(false)
     }
 
@@ -211,7 +212,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         } else if !self.posed.projects() && self.posed.flat.window.is_none() {
             self.open_to(gap);
         }
-        self.go_on(self.posed.holding(gap), Goal::Hold)?;
+        self.go_on(self.posed.holding(gap), Stage::HOLD)?;
         let end = minimise(self, observe)?;
         Ok((!matches!(end, End::Cut(_))).then(|| self.multiplier() - self.sums.given))
     }
@@ -235,8 +236,8 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         });
     }
 
-    fn go_on(&mut self, load: Load, goal: Goal) -> Result<()> {
-        (self.posed.load, self.posed.goal) = (load, goal);
+    fn go_on(&mut self, load: Load, stage: Stage) -> Result<()> {
+        (self.posed.load, self.posed.stage) = (load, stage);
         // the refresh scales the mean of the present gap to the one that is held
         self.count();
         self.refresh()?;

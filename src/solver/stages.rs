@@ -1,8 +1,9 @@
-//! The passage from phase to phase of a solve, each with an energy and a goal.
+//! The passage from stage to stage of a solve.
 
 use super::coarse::Coarse;
-use super::minimisation::{Goal, Nearness, Progress};
+use super::minimisation::{Nearness, Progress};
 use super::passes::Fields;
+use super::plan::{Stage, StageLaw};
 use super::start::uniform_start;
 use super::state::State;
 use crate::adhesion::Values;
@@ -24,20 +25,20 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
         }
     }
 
-    /// Continues with another goal, if it is another one.
-    pub(super) fn enter(&mut self, goal: Goal) {
-        if goal != self.posed.goal {
-            self.posed.goal = goal;
+    /// Continues with another stage, if it is another one.
+    pub(super) fn enter(&mut self, stage: Stage) {
+        if stage != self.posed.stage {
+            self.posed.stage = stage;
             self.restart();
         }
     }
 
-    /// Goes over from a phase to the law itself.
-    pub(super) fn leave(&mut self, phase: Goal) -> Result<()> {
-        if phase == Goal::Wall {
+    /// Goes over from a stage to the problem itself.
+    pub(super) fn leave(&mut self, stage: Stage) -> Result<()> {
+        if stage.law == StageLaw::None {
             return self.leave_wall();
         }
-        if self.posed.by_wall {
+        if stage.rigid {
             self.soften()?;
         }
         self.sharpen()
@@ -86,12 +87,12 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             }
             self.posed.touch(&self.fields.gap, None);
         }
-        self.adhere(load, Goal::Solution)
+        self.adhere(load, Stage::SOLUTION)
     }
 
     /// Continues with adhesion under a load, from a gap without it.
-    pub(super) fn adhere(&mut self, load: Load, goal: Goal) -> Result<()> {
-        (self.posed.load, self.posed.goal, self.steps.step_length) = (load, goal, 1.0);
+    pub(super) fn adhere(&mut self, load: Load, stage: Stage) -> Result<()> {
+        (self.posed.load, self.posed.stage, self.steps.step_length) = (load, stage, 1.0);
         // the contacts before are not those that adhesion makes
         self.steps.coarse.iter_mut().for_each(Coarse::forget);
         self.restart();
@@ -111,7 +112,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             borne.iter_mut().zip(pressure).for_each(|(borne, &p)| *borne = p + shift);
             local.contact_pressures(first, gap, &borne[..gap.len()], contact);
         });
-        (self.posed.by_wall, self.posed.goal) = (false, Goal::Solution);
+        self.posed.stage = Stage::SOLUTION;
         let pressures = self.posed.on_surface(&contact, T::zero());
         if !self.posed.constraint.bear(pressures.view(), self.relative_error()) {
             let local = self.posed.potential();
@@ -132,7 +133,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Continues with the law itself after the smoothed one. A given start is on a branch, which ends where the
     /// smoothed law lets go.
     fn sharpen(&mut self) -> Result<()> {
-        self.posed.goal = Goal::Solution;
+        self.posed.stage = Stage::SOLUTION;
         if self.posed.branch.is_some() && self.is_adrift() {
             // the law itself may hold this tension
             let uniform = uniform_start(self.posed.adhesion, self.posed.flat, self.posed.load);
