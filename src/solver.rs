@@ -28,6 +28,7 @@ mod preconditioned;
 mod preconditioner;
 mod report;
 mod rey2017;
+mod scale;
 mod stages;
 mod start;
 mod state;

@@ -2,9 +2,9 @@
 
 use super::driver::{End, Observer};
 use super::report::Status;
+use super::scale::Scale;
 use super::state::{SCALED, State};
 use super::touch::TOUCHING;
-use crate::constraint::Wall;
 use crate::error::Result;
 use crate::problem::Load;
 use crate::real::Real;
@@ -17,7 +17,7 @@ const STALL: (usize, usize) = (10, 30);
 
 /// The same numbers at the floor: where the error is at most [`NEAR_FLOOR`] times the error by rounding.
 const STALL_AT_FLOOR: (usize, usize) = (3, 6);
-const NEAR_FLOOR: f64 = 2.0;
+pub(super) const NEAR_FLOOR: f64 = 2.0;
 
 /// The roundings of a spring's length, and of K⁻¹h under no load, that count as no load, in units of ε.
 const NO_LOAD: f64 = 8.0;
@@ -25,65 +25,26 @@ const NO_LOAD: f64 = 8.0;
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// The certified relative error in the energy norm, √(certificate/⟨u, p⟩), and at least the error by rounding.
     pub(super) fn relative_error(&self) -> f64 {
-        let (scale, rounding) = self.error_scale();
+        let scale = self.error_scale();
         // where every node is in contact no gap is wrong
-        let rounding = if self.sums.certificate == 0.0 && self.sums.residual.working == 0.0 { 0.0 } else { rounding };
-        let square = self.sums.certificate.max(rounding);
-        let error = if square == 0.0 { 0.0 } else { (square / scale).sqrt() };
-        if error.is_nan() { f64::INFINITY } else { error }
-    }
-
-    /// The scale of a certificate, the mean of u·p, and the rounding floor. The floor is the certificate of a gap with
-    /// no error but rounding, ε²(⟨h, K⁻¹h⟩ + ½kḡ(ḡ + h_rms)). Its first term is the rounding of p = K⁻¹h + K⁻¹g where
-    /// the two cancel. Its second term is the rounding of the gap, which a transform spreads evenly over all waves,
-    /// with k the stiffness of the shortest wave.
-    pub(super) fn error_scale(&self) -> (f64, f64) {
-        let epsilon = T::epsilon().widen();
-        // flats that attract each other have waves by rounding alone
-        let traction = self.mean_traction();
-        let (softest, stiffest) = self.posed.stiffness_range();
-        // flats held apart by their mean gap, or by a law with gaps of its range, have no other waves
-        let lifted = match self.posed.wall() {
-            Wall::None => self.mean_gap().abs().max(self.posed.law().hints().range.widen()),
-            _ if self.sums.tally.contact > 0.0 => 0.0,
-            _ => self.mean_gap(),
-        };
-        let flat =
-            if softest > 0.0 { epsilon * (traction * traction / softest + softest * lifted * lifted) } else { 0.0 };
-        let mean = self.mean_gap().abs();
-        let carried = self.posed.flat.work + 0.5 * stiffest * mean * (mean + self.posed.flat.rms_height);
-        let rounding = epsilon * epsilon * carried;
-        let apart = if self.sums.tally.contact > 0.0 { 0.0 } else { self.posed.flat.work };
-        let mut waves = self.mean_work().max(apart);
-        // contact carries the attraction, so ⟨u, p⟩ ≈ 0: use the energy that attraction would cause without contact
-        let adhesion = self.attraction();
-        if traction.max(adhesion) >= self.sums.given.abs() && rounding > (self.tolerance() / NEAR_FLOOR).powi(2) * waves
-        {
-            let strongest = (self.posed.law().hints().work_of_adhesion / self.posed.law().hints().range).widen();
-            waves = waves.max(adhesion * strongest / stiffest);
-        }
-        if waves >= flat {
-            return (waves, rounding);
-        }
-        // flat surfaces held by the law alone: scale by the error of the load at each node
-        let held = if self.posed.has_no_wall() { traction.max(self.sums.given.abs()).powi(2) / stiffest } else { 0.0 };
-        (flat.max(held), 0.0)
+        let exact = self.sums.certificate == 0.0 && self.sums.residual.working == 0.0;
+        scale.error_of(if exact { 0.0 } else { self.sums.certificate.max(scale.rounding) })
     }
 
     /// The mean traction that has the energy of adhesion over its range; zero without adhesion.
-    fn attraction(&self) -> f64 {
+    pub(super) fn attraction(&self) -> f64 {
         let range = self.posed.law().hints().range.widen();
         let stored = -self.sums.tally.adhesive / self.posed.nodes();
         if stored > 0.0 && range > 0.0 { stored / range } else { 0.0 }
     }
 
-    fn tolerance(&self) -> f64 {
+    pub(super) fn tolerance(&self) -> f64 {
         self.posed.settings.tolerance_in::<T>()
     }
 
     pub(super) fn is_at_floor(&self) -> bool {
-        let (scale, rounding) = self.error_scale();
-        let floor = (rounding / scale).sqrt();
+        let Scale { energy, rounding } = self.error_scale();
+        let floor = (rounding / energy).sqrt();
         self.sums.certificate <= NEAR_FLOOR * NEAR_FLOOR * rounding && self.load_error() <= NEAR_FLOOR * floor
     }
 

@@ -142,7 +142,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
             status: self.final_status(status, load_error),
             branch: self.posed.branch,
             relative_error: self.relative_error(),
-            error_scale: padding * self.error_scale().0,
+            error_scale: padding * self.error_scale().energy,
             load_error,
             complementarity: self.scaled_complementarity(),
             iterations: self.counters.iterations,

@@ -149,7 +149,7 @@ impl<T: Real, Lo: Real> State<'_, T, Lo> {
     pub(super) fn update_constraint(&mut self) -> Update {
         let whole = || self.posed.on_surface(&self.fields.gap, T::infinity());
         let gap = matches!(self.posed.constraint.wall(), Wall::Springs(_)).then(whole);
-        let work = self.error_scale().0 * self.posed.nodes();
+        let work = self.error_scale().energy * self.posed.nodes();
         let outer = gap.map_or(Update::Done, |gap| self.posed.constraint.update(gap.view(), work));
         // a constraint that is met where a round ended early has to be met by the solution
         self.posed.leads_on = outer != Update::Done || self.start_tolerance().is_none();

@@ -102,24 +102,41 @@ impl<T: Real, Lo: Real> Posed<'_, T, Lo> {
 impl<T: Real, Lo: Real> State<'_, T, Lo> {
     /// Whether a load that does not press has left the surfaces apart: no contact, and hardly any traction.
     pub(super) fn is_apart(&self) -> bool {
-        let (hints, nodes) = (self.posed.law().hints(), self.posed.nodes());
-        if hints.zero || self.posed.is_gap_controlled() || self.sums.given > 0.0 || self.sums.tally.contact > 0.0 {
-            return false;
-        }
-        let (held, pulls) = (self.sums.tally.traction, -self.sums.given * nodes);
-        // what one node that touches has, if the law says over which range
-        let (range, node) = (hints.range.widen(), hints.work_of_adhesion.widen());
-        let one = if range > 0.0 { node / range } else { 0.0 };
-        let stored = -self.sums.tally.adhesive;
-        // a traction that rises with the gap is none at rest
-        let hardly = HARDLY_HELD * pulls.max(one);
-        let gone = held <= hardly && (hints.concave || range == 0.0 || stored <= hardly * range);
-        // With less than one node has at the law's strongest traction they fly apart, once their waves are at rest: all,
-        // if that is in contact. Where the law varies one node may have less than another.
+        let bears = self.posed.is_gap_controlled() || self.sums.given > 0.0 || self.sums.tally.contact > 0.0;
+        !self.posed.law().hints().zero && !bears && (self.has_let_go() || self.flies_apart())
+    }
+
+    /// The tension of the load in all.
+    fn pulled(&self) -> f64 {
+        -self.sums.given * self.posed.nodes()
+    }
+
+    /// Whether the law holds hardly any of the tension, or of the traction of one node that touches. A traction that rises
+    /// with the gap is none at rest: then the energy of adhesion tells.
+    fn has_let_go(&self) -> bool {
+        let hints = self.posed.law().hints();
+        let (range, work) = (hints.range.widen(), hints.work_of_adhesion.widen());
+        let one = if range > 0.0 { work / range } else { 0.0 };
+        let hardly = HARDLY_HELD * self.pulled().max(one);
+        let is_spent = hints.concave || range == 0.0 || self.stored() <= hardly * range;
+        self.sums.tally.traction <= hardly && is_spent
+    }
+
+    /// Whether surfaces under a pressure fly apart, once their waves are at rest: they store less energy of adhesion than one
+    /// node has at the strongest traction of the law, or at all if the traction is strongest in contact. Where the law varies
+    /// one node may have less than another.
+    fn flies_apart(&self) -> bool {
+        let hints = self.posed.law().hints();
         let least = if hints.concave { 1.0 - HARDLY_HELD } else { STRONGEST };
-        let pulled = held < pulls && (hints.concave || hints.shape.is_none());
-        let flies = stored < least * node && (pulled || pulls == 0.0 && self.posed.from_full_contact);
-        gone || flies && matches!(self.posed.load, Load::Pressure(_)) && self.relative_error() <= AT_REST
+        let exceeds = self.sums.tally.traction < self.pulled() && (hints.concave || hints.shape.is_none());
+        let flies = self.stored() < least * hints.work_of_adhesion.widen()
+            && (exceeds || self.pulled() == 0.0 && self.posed.from_full_contact);
+        flies && matches!(self.posed.load, Load::Pressure(_)) && self.relative_error() <= AT_REST
+    }
+
+    /// The energy of adhesion in all.
+    fn stored(&self) -> f64 {
+        -self.sums.tally.adhesive
     }
 
     /// Whether surfaces under a pressure have come apart and would drift for ever.
