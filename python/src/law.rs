@@ -255,7 +255,9 @@ pub fn varied(law: &Bound<'_, PyAny>, works: Field<'_>) -> PyResult<Law> {
 ///     which the traction decays, w/φ'(0) by default, say how far the grid has to resolve it. A law that repels below
 ///     some gap, at which it rests, keeps the surfaces apart with ``wall="none"``; by default it has the work of
 ///     adhesion −φ there, and the range w over its greatest attraction. It is asked for negative gaps, too, unless its
-///     energy is infinite at zero gap. largest_gap : float, optional Largest gap, a length; ten ranges by default.
+///     energy is infinite at zero gap.
+/// largest_gap : float, optional
+///     Largest gap, a length; ten ranges by default.
 ///
 /// Raises
 /// ------
