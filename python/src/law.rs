@@ -221,7 +221,7 @@ pub fn cut_off(law: &Bound<'_, PyAny>, distance: Measure) -> PyResult<(Law, f64)
     let Law { formula, adhesion, mut given } = Law::some(law)?;
     let distance = given.read("cut_off", distance)?;
     if formula.is_cut_off() {
-        return Err(PyValueError::new_err("the law is cut off already: give the law that it is made of"));
+        return Err(PyValueError::new_err("the law is cut off already: give the law itself"));
     }
     let formula = formula.cut_off(distance).map_err(refusal)?;
     // the innermost of several
@@ -235,7 +235,7 @@ pub fn varied(law: &Bound<'_, PyAny>, works: Field<'_>) -> PyResult<Law> {
     let Law { formula, adhesion, mut given } = Law::some(law)?;
     given.texts.retain(|(key, _)| key != "work_of_adhesion");
     if AdhesionLaw::<f64>::hints(&formula).shape.is_some() {
-        return Err(PyValueError::new_err("the law varies already: give the law that it is made of"));
+        return Err(PyValueError::new_err("the law varies already: give the law itself"));
     }
     let formula = formula.varied(works.as_array()).map_err(refusal_of_works)?;
     let work_of_adhesion_map = Some("array".to_owned());

@@ -129,7 +129,7 @@ def test_a_table_knows_its_function_by_its_values(rough, tmp_path):
     other = lambda q: 0.6 * q  # noqa: E731
     assert len(swept(first, [0.03])) == 1
     assert len(swept(lambda q: q / 2, [0.03, 0.02])) == 2
-    with pytest.raises(ValueError, match="table.csv: belongs to another run, whose symbol values"):
+    with pytest.raises(ValueError, match="table.csv: belongs to another run: its symbol values"):
         swept(other, [0.03, 0.02])
 
 

@@ -194,7 +194,7 @@ def test_other_inputs_are_refused_by_name(folder, rough):
     text = out.read_bytes()
     for other, message in [
         ({"modulus": 2.0}, "modulus is 1, and not 2: choose another out, or force=True to start over"),
-        ({"mean_pressures": [0.02]}, "whose first 1 loads are others"),
+        ({"mean_pressures": [0.02]}, "its first 1 loads are others"),
         ({"law": None}, "law is Linear, and not none"),
         ({"law": Linear(3e-5)}, "work of adhesion is"),
         ({"stiffness": True}, "stiffness is left out, and not asked for"),

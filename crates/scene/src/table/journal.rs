@@ -191,7 +191,7 @@ fn resume(
                     format!("belongs to another run, with another file of its {name}")
                 }
                 "surfaces" => "belongs to another run, with another of its two surfaces, or another shift".to_owned(),
-                _ => format!("belongs to another run, whose {name} is {}, and not {}", bare(there), bare(here)),
+                _ => format!("belongs to another run: its {name} is {}, and not {}", bare(there), bare(here)),
             });
         }
     }
@@ -199,7 +199,7 @@ fn resume(
         loads.get(..written.rows).is_some_and(|loads| Hash::NEW.of_numbers(loads) == written.loads)
     });
     if !same_loads {
-        return refuse(format!("belongs to another run, whose first {} loads are others", written.rows));
+        return refuse(format!("belongs to another run: its first {} loads are others", written.rows));
     }
     let (kept, rest) = content.split_at((written.bytes as usize).min(content.len()));
     // an interrupted write leaves at most one row, whole or not, and before the first one the header, whole or not; but
