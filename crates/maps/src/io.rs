@@ -9,6 +9,7 @@
 mod blocks;
 mod channels;
 mod columns;
+mod commas;
 mod foreign;
 mod fourier;
 mod gsf;
@@ -102,8 +103,9 @@ pub fn read_field(path: impl AsRef<Path>) -> Result<Array2<f64>> {
 ///     in [`Topography::unread`].
 ///   - Blocks of numbers with blank lines or headings between are channels; a [`Reading`] takes one.
 ///   - Three columns x, y and z of a whole grid are points, as in `.xyz`. A line with the names of the columns gives
-///     their order, and may name others. Without names, coordinates in other columns are refused, as are lines where
-///     each comma may be within a number.
+///     their order, and may name others. Without names, coordinates in other columns are refused. So are lines where
+///     each comma may be within a number, such as `1,5,2,5`, unless there are so many different numbers that decimal
+///     places would begin with a zero now and then.
 /// - text with a name that ends in `.xyz`: points x y z, one per line, of a regular grid parallel to the axes, in any
 ///   order. Nodes without a point are missing. Rounded or noisy coordinates may be off the grid by a tenth of its
 ///   spacing. A heading may tell units, as `X[um] Y[um] Z[nm]`, or a line below it. Nx and Ny follow from the spacings,

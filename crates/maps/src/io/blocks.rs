@@ -3,6 +3,7 @@
 use std::io::BufRead;
 use std::ops::Range;
 
+use super::commas::Commas;
 use super::heading::Heading;
 use super::lines::{Line, Row, for_each_line};
 use super::{Parsed, Reading, quoted, refuse, reserve};
@@ -51,13 +52,12 @@ struct Blocks {
     is_ended: bool,
     /// The fields of empty rows on top, and how many these are.
     empty: (usize, usize),
-    /// Whether each row may be one number with a decimal comma.
-    is_like_decimals: bool,
+    commas: Commas,
 }
 
 impl Blocks {
     fn read(reader: impl BufRead, reading: &Reading) -> Parsed<Self> {
-        let mut text = Self { is_like_decimals: true, ..Self::default() };
+        let mut text = Self::default();
         for_each_line(reader, reading, |number, line| {
             match line {
                 Line::Comment(comment) => {
@@ -91,10 +91,11 @@ impl Blocks {
         if let Some(block) = text.blocks.last_mut() {
             block.heading.append(told_last);
         }
-        if text.is_like_decimals && text.values.len() > 2 {
+        let are_named = text.blocks[0].heading.columns().is_some();
+        if text.commas.may_be_decimal() && text.values.len() > 2 && !are_named {
             return refuse(
                 "has lines in which each comma may be one within a number: are these decimal commas? write decimal points, or \
-                 tabs between two columns",
+                 tabs between the columns",
             );
         }
         text.join_remarked();
@@ -124,7 +125,7 @@ impl Blocks {
     }
 
     fn take(&mut self, number: usize, row: &Row<'_>) -> Parsed<()> {
-        self.is_like_decimals &= row.is_like_decimal;
+        self.commas.take(row.text);
         let is_hard = self.blocks.is_empty() || self.is_ended || self.heading.tells();
         let is_remarked = std::mem::take(&mut self.is_remarked) && !is_hard;
         if is_hard || is_remarked && self.blocks.last().is_some_and(|block| block.columns == row.values.len()) {
@@ -324,9 +325,12 @@ mod tests {
             "1,234.5\n2,345.0\n12,345",
             "1,5\n\u{2212}2,5\n3,25",
             ",5\n1,5",
+            "1,5,2,5\n4,5,5,5",
+            "1,5,2,5,\n4,5,5,5,",
         ] {
             assert_refused(read(lines), &["decimal commas?"]);
         }
+        assert_eq!(read("1,5,2,5\n4,5,-5,5").unwrap().dim(), (2, 4));
         assert_eq!(read("0.5,1\n1.5,2\n").unwrap().dim(), (2, 2));
         assert_eq!(read("1,-5\n2,5\n").unwrap().dim(), (2, 2));
         assert_eq!(read("1,2.5\n2,0.5\n").unwrap().dim(), (2, 2));

@@ -28,8 +28,8 @@ pub(super) struct Row<'a> {
     pub values: &'a [f64],
     /// Whether the first and the last field are empty.
     pub is_open: [bool; 2],
-    /// Whether each comma in it may be within a number.
-    pub is_like_decimal: bool,
+    /// Its text.
+    pub text: &'a str,
 }
 
 /// Hands on the lines of a text behind those that are skipped, each with its number.
@@ -57,10 +57,7 @@ pub(super) fn for_each_line(
             Line::Empty(if row.trim_matches(' ').is_empty() { 0 } else { fields(row).count() })
         } else {
             match numbers(row, reading, &mut values)? {
-                Ok(is_open) => {
-                    let is_like_decimal = row.trim().split(", ").all(|part| is_like_decimal(part.trim()));
-                    Line::Row(Row { values: &values, is_open, is_like_decimal })
-                }
+                Ok(is_open) => Line::Row(Row { values: &values, is_open, text: row }),
                 Err(word) => {
                     let reason = format!("line {number}: {} is not a number", quoted(word));
                     let is_number = |field: &&str| number_of(field, reading).is_some();
@@ -75,17 +72,6 @@ pub(super) fn for_each_line(
         take(number, found)?;
     }
     Ok(())
-}
-
-/// Whether a text with one comma may be one number: `-1,5`, `1.234,5`, `1,2E-7` or `1,234.5`, and not `1.5,2` or `1,-2`.
-fn is_like_decimal(text: &str) -> bool {
-    let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    let Some((before, behind)) = text.split_once(',') else { return false };
-    let mut groups = before.trim_start_matches(['-', '+', '\u{2212}']).split('.');
-    let is_whole = groups.next().is_some_and(is_digits) && groups.all(|group| group.len() == 3 && is_digits(group));
-    let mantissa = behind.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
-    let is_thousands = |(group, digits): (&str, &str)| group.len() == 3 && is_digits(group) && is_digits(digits);
-    is_whole && !behind.is_empty() && (is_digits(mantissa) || mantissa.split_once('.').is_some_and(is_thousands))
 }
 
 /// Takes the numbers of a row, and tells whether its first and its last field are empty; or the word that is no number.
