@@ -146,9 +146,9 @@ export class Engine {
   /* Opens a map. The answer has `name`, `shape`, `lengths`, `unit`, `original`, `missing`, `unread`, `channels`, `heights`
      (f32, about their `mean`), `lowest`, `highest`, the `limits` of the colours, and `warnings` of `code` and `message`.
      For a file with a choice of channels `heights` is null: call again with the number in front of one of its
-     `channels`. */
-  open(name, bytes, { channel } = {}) {
-    return this.call("open", [name, bytes, channel]);
+     `channels`. The `masked` points of a file of Gwyddion are missing. */
+  open(name, bytes, { channel, masked = false } = {}) {
+    return this.call("open", [name, bytes, channel, masked]);
   }
 
   /* Makes a surface by the keys of `asperity surface`; answers as `open`. */

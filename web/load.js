@@ -15,20 +15,32 @@ export class Load {
       onload();
     });
     this.value.addEventListener("change", () => {
+      this.isDragged = false;
       this.place();
       onload();
     });
     this.control.addEventListener("change", () => {
       const found = this.found?.[this.control.value];
-      this.value.value = Number.isFinite(found) ? written(found, this.unit(), 4) : this.text(START);
+      if (this.isChosen || !Number.isFinite(found)) this.choose();
+      else this.value.value = written(found, this.unit(), 4);
       this.place();
       onload();
     });
   }
 
+  /* Whether the page has chosen the load, which is the default of its input then. */
+  get isChosen() {
+    return this.value.value === this.value.defaultValue;
+  }
+
+  choose() {
+    this.value.value = this.value.defaultValue = this.text(START);
+  }
+
   /* Fits the loads to a surface: its heights over their mean, slope, sides and area, all in units of `length`, and the
-     modulus; `again` begins anew. */
-  fit({ lowest, highest, slope, area, length }, { value: modulus, unit }, boundary, again) {
+     modulus. A load that the page has chosen is chosen again, on `another` surface also one of the slider; a load that
+     was typed stays. */
+  fit({ lowest, highest, slope, area, length }, { value: modulus, unit }, boundary, another) {
     // a surface that is flat, or of absurd heights, has loads, too
     const sound = (value, otherwise) => (value > 0 && value < 1e50 ? value : otherwise);
     const free = boundary === "free",
@@ -47,11 +59,9 @@ export class Load {
     for (const option of this.control.options) {
       option.hidden = option.disabled = option.value === (free ? "mean_gap" : "approach");
     }
-    if (this.control.selectedOptions[0].disabled) {
-      this.control.value = free ? "normal_force" : "mean_pressure";
-      again = true;
-    }
-    if (again || !this.value.value) this.value.value = this.text(START);
+    const isOff = this.control.selectedOptions[0].disabled;
+    if (isOff) this.control.value = free ? "normal_force" : "mean_pressure";
+    if (isOff || this.isChosen || !this.value.value || (another && this.isDragged)) this.choose();
     this.place();
   }
 
@@ -69,6 +79,7 @@ export class Load {
 
   /* Takes the load at a share of the way. */
   to(share) {
+    this.isDragged = true;
     this.slider.value = share;
     this.value.value = this.text(share);
     this.tell();

@@ -60,7 +60,7 @@ const LINE = `<svg class="line" viewBox="0 0 1 1" preserveAspectRatio="none" ari
 
 export class FieldMap {
   /* `onprobe(node, by, press)` is called with the node under the pointer, or that the arrow keys reach; null where there
-     is none. Where the map has a line, a `press` begins it, or moves its end. */
+     is none. Where the map takes a line, a `press` begins it, or moves its end. */
   constructor(parent, title, onprobe) {
     this.figure = element("figure", "map", parent);
     this.title = title;
@@ -77,7 +77,7 @@ export class FieldMap {
         [nx, ny] = this.shape ?? [0, 0];
       const i = Math.floor(((event.clientX - x) / width) * nx),
         j = Math.floor((1 - (event.clientY - y) / height) * ny);
-      const press = this.hasLine && event.buttons ? event.type : "";
+      const press = this.takesLine && event.buttons ? event.type : "";
       // a line is drawn, and what is shown does not move
       if (press === "pointermove") event.stopImmediatePropagation();
       onprobe(i >= 0 && j >= 0 && i < nx && j < ny ? [i, j] : null, "pointer", press);
@@ -106,7 +106,7 @@ export class FieldMap {
       onprobe(
         from.map((at, k) => Math.min(this.shape[k] - 1, Math.max(0, at + step * way[k]))),
         "keys",
-        this.hasLine && (event.key === "Enter" ? "pointerdown" : "pointermove"),
+        this.takesLine && (event.key === "Enter" ? "pointerdown" : "pointermove"),
       );
     });
   }
@@ -134,18 +134,18 @@ export class FieldMap {
     this.zoom.measure(lx, unit);
     this.entries = colours.key(found);
     this.key.replaceChildren(
-      ...this.entries.flatMap(entry => {
+      ...this.entries.map(entry => {
         const text = document.createElement("span");
         if (entry.name) {
           element("i", "", text).style.background = entry.colour;
           text.append(entry.name);
-          return [text];
+          return text;
         }
-        const bar = element("span", "ramp"),
-          high = document.createElement("span");
-        bar.style.background = `linear-gradient(to right, ${entry.colours.join(",")})`;
-        [text.textContent, high.textContent] = [entry.low, entry.high];
-        return [text, bar, high];
+        // the bar above its ends
+        text.className = "scaled";
+        element("span", "ramp", text).style.background = `linear-gradient(to right, ${entry.colours.join(",")})`;
+        text.append(...[entry.low, entry.high].map(end => Object.assign(document.createElement("span"), { textContent: end })));
+        return text;
       }),
     );
   }
@@ -156,12 +156,11 @@ export class FieldMap {
     this.canvas.style.imageRendering = shown > this.field.clientWidth * devicePixelRatio ? "auto" : "pixelated";
   }
 
-  /* Draws a line between two places in shares of the sides, or none. */
-  drawLine(line) {
-    this.hasLine = Boolean(line);
-    this.field.style.touchAction = line ? "none" : "";
-    const [x, y, to_x, to_y] = line || [];
-    for (const path of this.line.children) path.setAttribute("d", line ? `M${x} ${1 - y}L${to_x} ${1 - to_y}` : "");
+  /* Draws a line between two places in shares of the sides, in the place of which it takes another one. */
+  drawLine([x, y, to_x, to_y], takesLine) {
+    this.takesLine = takesLine;
+    this.field.style.touchAction = takesLine ? "none" : "";
+    for (const path of this.line.children) path.setAttribute("d", `M${x} ${1 - y}L${to_x} ${1 - to_y}`);
   }
 
   /* Marks a node, or none. */

@@ -7,8 +7,19 @@ import { loadBeyond, told } from "./scale.js";
 
 /* The classes of contact, by their numbers. */
 const CLASSES = ["apart", "contact", "nothing there", "attractive", "yielded"];
-const WHITE = [255, 255, 255];
-const BLACK = [0, 0, 0];
+/* The colours of nodes apart and in contact, on a light and on a dark page. */
+const LIGHT = [
+  [255, 255, 255],
+  [0, 0, 0],
+];
+const DARK = [
+  [31, 34, 38],
+  [238, 238, 238],
+];
+
+/* The original of a mirrored field, which is its corner. */
+const cropped = (values, ny, [mx, my]) =>
+  Float32Array.from({ length: mx * my }, (_, k) => values[Math.floor(k / my) * ny + (k % my)]);
 
 export class Maps {
   /* `online()` is called when the line of the profile is another one. */
@@ -17,6 +28,8 @@ export class Maps {
     this.told = document.getElementById("probe");
     this.held = document.getElementsByName("held")[0];
     this.held.addEventListener("change", () => this.hold());
+    this.dark = matchMedia("(prefers-color-scheme: dark)");
+    this.dark.addEventListener("change", () => this.solution && this.paint());
     const map = (id, title) =>
       new FieldMap(document.getElementById(id), title, (node, by, press) => this.probe(node, by, press));
     this.heights = map("picture", "Heights");
@@ -31,12 +44,15 @@ export class Maps {
     return [this.contact, this.pressure, this.gap];
   }
 
-  /* Shows the heights of a surface. */
-  showSurface({ heights, shape, lengths, unit, lowest, highest, limits, mean }) {
+  /* Shows the heights of a surface, of a mirrored one those of the original. */
+  showSurface({ heights, shape, original, lengths, unit, lowest, highest, limits, mean }) {
     const length = unit ?? "";
     const [extremes, range] = [[lowest, highest], limits].map(ends => ends.map(height => height - mean));
     const colours = colouring.sequential(this.colours, range, told(range, extremes, length));
-    this.heights.show({ values: heights, shape, lengths: lengths ?? shape, unit: length, colours });
+    const part = original ?? shape,
+      sides = (lengths ?? shape).map((side, axis) => (side * part[axis]) / shape[axis]);
+    const values = original ? cropped(heights, shape[1], original) : heights;
+    this.heights.show({ values, shape: part, lengths: sides, unit: length, colours });
     this.surface = { heights, shape, lengths: lengths ?? shape, length };
   }
 
@@ -50,9 +66,9 @@ export class Maps {
     this.probe(this.node);
   }
 
-  /* The charts along the line of the profile; nothing without one. */
+  /* The charts along the line of the profile; nothing without a solution. */
   along() {
-    return this.solution && this.profile.line ? this.profile.charts(this.solution, this.surface) : null;
+    return this.solution && this.profile.charts(this.solution, this.surface);
   }
 
   /* Holds the ends of the colours as they are, in the value of the box, or lets them follow the solution. */
@@ -66,7 +82,8 @@ export class Maps {
   paint() {
     const { shape, lengths, length, pressure, fields, extremes } = this.solution;
     const { missing, attractive, yielded } = this.colours;
-    const classes = [WHITE, BLACK, missing, attractive, yielded].map((colour, k) => ({ name: CLASSES[k], colour }));
+    const ground = this.dark.matches ? DARK : LIGHT;
+    const classes = [...ground, missing, attractive, yielded].map((colour, k) => ({ name: CLASSES[k], colour }));
     const show = (map, values, colours, beyond) => map.show({ values, shape, lengths, unit: length, colours, beyond });
     const limits = this.held.checked ? this.held.value.split(" ").map(Number) : this.limits;
     const [pressures, gaps] = [limits.slice(0, 2), limits.slice(2)];
@@ -82,16 +99,18 @@ export class Maps {
   probe(node, by = "pointer", press = "") {
     this.node = node;
     const { surface, solution, profile } = this;
-    if (press && node && solution && profile.line) profile.draw(node, solution.shape, press === "pointerdown");
+    if (press && node && solution && profile.isOn) profile.draw(node, solution.shape, press === "pointerdown");
     const { shape, lengths, length } = solution ?? surface;
     const isSame = other => String(other) === String(shape);
     for (const map of [this.heights, ...this.ofSolution]) map.mark(node && isSame(map.shape) ? node : null);
     this.told.setAttribute("aria-live", by === "keys" ? "polite" : "off");
     this.told.textContent = "";
     if (!node || node.some((k, axis) => k >= shape[axis])) return;
-    const place = node[0] * shape[1] + node[1];
+    const placed = ([, ny]) => node[0] * ny + node[1];
+    const place = placed(shape);
     const [x, y] = node.map((k, axis) => read((k * lengths[axis]) / shape[axis], length));
-    const told = isSame(surface.shape) ? [`height ${read(surface.heights[place], surface.length)}`] : [];
+    // a solution on the original of a mirrored map is of its corner
+    const told = [`height ${read(surface.heights[placed(surface.shape)], surface.length)}`];
     if (solution) {
       const { contact, pressure, gap } = solution.fields;
       told.push(`gap ${read(gap[place], length)}`, `pressure ${read(pressure[place], solution.pressure)}`);

@@ -20,6 +20,9 @@ import { figure, folded, list, table } from "./words.js";
 const at = id => document.getElementById(id);
 const status = text => (at("status").textContent = text);
 
+/* The share of the original in the nodes of a mirrored map. */
+const partOf = ({ original, shape }) => original.reduce((share, nodes, axis) => (share * nodes) / shape[axis], 1);
+
 /* The rows of a summary that stand next to the maps. */
 const FIGURES =
   "contact, corrected for its edge, mean pressure, mean gap, normal force, approach, certified error, time".split(", ");
@@ -174,20 +177,23 @@ class Page {
       this.form = made.form;
       return this.found(map);
     }
-    const read = channel =>
-      engine.open(file.name, file.bytes, { channel }).catch(error => {
+    const read = reading =>
+      engine.open(file.name, file.bytes, reading).catch(error => {
         throw Object.assign(error, { isOfFile: true });
       });
-    let map = await read(file.isNew ? undefined : settings.channel);
+    let map = await read(file.isNew ? {} : settings.reading);
     // of several channels the first one
-    if (!map.heights) map = { ...(await read(map.channels[0].split(":")[0])), channels: map.channels };
+    if (!map.heights) map = { ...(await read({ channel: map.channels[0].split(":")[0] })), channels: map.channels };
     this.form = "file";
     this.measured = map;
     if (file.isNew) {
       file.isNew = false;
-      settings.takeMap(map);
+      settings.takeChannels(map);
+      settings.takeMap({ ...map, name: file.name });
       this.isOther = this.isFresh = true;
       if (this.awaited && new URLSearchParams(this.awaited).get("map") === file.name) return this.take(this.awaited);
+    } else {
+      settings.takeMap({ ...map, name: file.name });
     }
     return this.steps();
   }
@@ -195,8 +201,8 @@ class Page {
   /* The surface: the map after the steps of its preparation. */
   async steps() {
     const map = await this.engine.prepare(this.settings.steps(this.measured.shape));
-    const lines = map.log.map(([step, what]) => `${step}: ${what}`);
-    list("steps", lines);
+    this.lines = map.log.map(([step, what]) => `${step}: ${what}`);
+    list("steps", this.lines);
     return this.found(map);
   }
 
@@ -229,9 +235,11 @@ class Page {
     const length = modulus.unit && "m";
     const scale = length ? (typed(`1${map.unit ?? "m"}`)?.value ?? 1) : 1;
     const [lowest, highest] = [map.lowest, map.highest].map(height => scale * (height - map.mean));
-    const area = map.lengths[0] * (map.lengths[1] || 1) * scale ** 2;
-    const surface = { lowest, highest, slope: this.slope, area, length, pressure: modulus.unit };
     const boundary = settings.value("boundary");
+    // a force is that on the original of a mirrored map
+    const part = map.original && boundary === "periodic" ? partOf(map) : 1;
+    const area = part * map.lengths[0] * (map.lengths[1] || 1) * scale ** 2;
+    const surface = { lowest, highest, slope: this.slope, area, length, pressure: modulus.unit };
     this.load.fit(surface, modulus, boundary, this.isOther);
     this.legs.fit(surface, settings.scene().range, boundary, this.isOther);
     this.offer("table.csv", false);
@@ -255,10 +263,13 @@ class Page {
       at("progress").value = Math.min(1, Math.max(0, Math.log(error) / Math.log(tolerance)));
       status(`Solving at ${asked}: error ${reached} of ${wanted}, ${iteration} iterations`);
     };
-    const fields = ["contact", "pressure", "gap"];
     const scene = { ...settings.scene(), ...load.scene };
+    // without adhesion nothing acts on nodes apart, whose pressures are rounding
+    const pressure = scene.law ? "pressure" : "contact_pressure";
+    const fields = ["contact", pressure, "gap"];
     const found = await this.engine.solve(scene, { start, fields, histograms: 60, onprogress });
     if (!found) return;
+    for (const of of [found.fields, found.extremes]) of.pressure = of[pressure];
     if (this.isFresh && settings.takeWarnings(found.account.warnings)) {
       this.wanted.add("steps");
       this.isOther = true;
@@ -283,7 +294,9 @@ class Page {
     at("warned").hidden = !count;
     at("warned").textContent = count === 1 ? "1 warning" : `${count} warnings`;
     const from = started === "last" ? ", from the contact before" : "";
-    status(`${ended[0].toUpperCase()}${ended.slice(1)} at ${asked}: ${iterations} iterations${from}`);
+    const by = this.load.isChosen ? ", chosen by the page" : "";
+    if (this.settings.isFile) list("steps", [...this.lines, ...(by ? [`load: ${asked}${by} for this surface`] : [])]);
+    status(`${ended[0].toUpperCase()}${ended.slice(1)} at ${asked}${by}: ${iterations} iterations${from}`);
     at("stage").classList.remove("stale");
     this.curves.add(account);
     this.chart("area", this.curves.chart());
@@ -310,7 +323,6 @@ class Page {
   /* The charts along the line of the profile. */
   along() {
     const found = this.maps.along();
-    at("profiles").hidden = !found;
     for (const id of ["sides", "loads"]) this.chart(id, found?.[id]);
   }
 

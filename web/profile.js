@@ -2,19 +2,19 @@
 
 import { typed } from "./quantity.js";
 
-/* The line across the middle, in shares of the sides. */
-const MIDDLE = [0, 0.5, 1, 0.5];
-
 export class Profile {
-  /* `maps` draw the line; `onchange()` hears of another one. */
+  /* `maps` show the line, and take another one while the button is on; `onchange()` hears of it. */
   constructor(button, maps, onchange) {
-    Object.assign(this, { button, maps, onchange, input: document.getElementsByName("line")[0] });
-    button.addEventListener("click", () => this.set(this.line ? [] : MIDDLE));
+    Object.assign(this, { button, maps, onchange, isOn: false, input: document.getElementsByName("line")[0] });
+    button.addEventListener("click", () => {
+      this.isOn = !this.isOn;
+      this.show();
+    });
   }
 
-  /* The ends of the line in shares of the sides, from left to right and from below; nothing without a line. */
+  /* The ends of the line in shares of the sides, from left to right and from below. */
   get line() {
-    return this.input.value && this.input.value.split(" ").map(Number);
+    return this.input.value.split(" ").map(Number);
   }
 
   set(line) {
@@ -31,8 +31,8 @@ export class Profile {
 
   /* Shows the line on the maps. */
   show() {
-    this.button.setAttribute("aria-pressed", Boolean(this.line));
-    for (const map of this.maps) map.drawLine(this.line);
+    this.button.setAttribute("aria-pressed", this.isOn);
+    for (const map of this.maps) map.drawLine(this.line, this.isOn);
   }
 
   /* The charts along the line: surface and body, and the pressure. A solution of a part of the surface is of its corner. */

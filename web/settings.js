@@ -1,5 +1,6 @@
 /* The settings: what the form asks for, in the words of the engine, and the places of its faults. */
 
+import { own } from "./controls.js";
 import { word } from "./glossary.js";
 import { take } from "./link.js";
 import { read, typed, written } from "./quantity.js";
@@ -14,6 +15,9 @@ const PARAMETERS = {
 
 /* What need not be said. */
 const DEFAULTS = { boundary: "periodic", law: "none", precision: "f64" };
+
+/* The inputs of a file by which it is read once more. */
+const OF_READING = ["channel", "masked"];
 
 /* What a key without an input of its own belongs to. */
 const PLACES = {
@@ -57,7 +61,7 @@ export class Settings {
   }
 
   changed(input, onchange) {
-    const isStep = input.closest("[data-form=file]") && input.name !== "channel";
+    const isStep = input.closest("[data-form=file]") && !OF_READING.includes(input.name);
     onchange(isStep ? "steps" : input.closest("#surface") ? "surface" : "scene");
   }
 
@@ -76,9 +80,9 @@ export class Settings {
     return Object.keys(plain).every(name => this.value(name) === plain[name]) && !this.scene().absent_missing;
   }
 
-  /* The number of the channel that is read. */
-  get channel() {
-    return this.value("channel") || undefined;
+  /* How a file is read: the number of its channel, and whether masked points are missing. */
+  get reading() {
+    return { channel: this.value("channel") || undefined, masked: this.value("masked") };
   }
 
   /* Takes the settings of a link. */
@@ -98,8 +102,8 @@ export class Settings {
     this.show();
   }
 
-  /* Takes what a file has; its missing points are filled. */
-  takeMap({ name, shape, lengths, unit, missing, channels, unread }) {
+  /* Takes the channels of a file, none of whose steps is chosen. */
+  takeChannels({ channels }) {
     const { form } = this;
     for (const input of form.querySelectorAll("[data-form=file] :is(input, select)")) {
       if (input.type === "checkbox") input.checked = false;
@@ -107,12 +111,18 @@ export class Settings {
     }
     form.channel.replaceChildren(...channels.map(text => new Option(text, text.split(":")[0])));
     form.channel.parentElement.hidden = channels.length < 2;
-    if (missing) form.holes.value = "fill";
+  }
+
+  /* Takes what the map of a file has; its missing points are filled. */
+  takeMap({ name, shape, lengths, unit, missing, unread }) {
+    const { form } = this;
+    form.masked.parentElement.hidden = !form.masked.checked && !unread.some(text => text.startsWith("a mask "));
+    if (missing && !form.holes.value) form.holes.value = "fill";
     const told = [name, `${shape.join(" × ")} nodes`];
     if (lengths) told.push(lengths.map(side => read(side, unit ?? "")).join(" × "));
     if (missing) told.push(`${missing} missing points`);
     if (unread.length) told.push(`next to it ${unread.join(", ")}`);
-    document.getElementById("opened").textContent = told.join(", ");
+    document.getElementById("opened").textContent = own(told.join(", "));
   }
 
   /* Chooses to take a plane off a map that is tilted; false if there is nothing to do. */

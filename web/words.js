@@ -28,7 +28,12 @@ export function table(id, rows) {
 }
 
 /* A figure under its name. */
-export const figure = (name, content) => made("div", made("dt", word(name)), made("dd", content));
+export const figure = (name, content) => {
+  const text = made("dd", content);
+  // a long one is cut off
+  text.title = text.textContent;
+  return made("div", made("dt", word(name)), text);
+};
 
 /* A command on lines of some eighty characters; one with quoted words stays as it is. */
 export function folded(command) {

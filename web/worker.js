@@ -28,7 +28,7 @@ const seen = (iteration, error, tolerance, contact_fraction, nodes) =>
   observed({ iteration, error, tolerance, contact_fraction, nodes });
 
 const calls = {
-  open: (name, bytes, channel) => map(engine.open(name, new Uint8Array(bytes), channel)),
+  open: (name, bytes, channel, masked) => map(engine.open(name, new Uint8Array(bytes), channel, masked)),
   make: parameters => map(engine.make(parameters)),
   prepare: steps => map(engine.prepare(steps)),
   statistics: () => parsed(engine.statistics()),

@@ -51,12 +51,13 @@ impl Engine {
         Ok(self.problem.as_ref().ok_or("nothing is solved yet: solve first")?)
     }
 
-    /// Reads a map, or tells the channels of a file of which one has to be chosen.
+    /// Reads a map, or tells the channels of a file of which one has to be chosen; `masked` points of a `.gwy` file are
+    /// missing.
     ///
     /// # Errors
     /// Those of [`Reading::read_bytes`].
-    pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>) -> Outcome<Value> {
-        let read = Reading { channel: channel.clone(), ..Reading::default() }.read_bytes(name, bytes);
+    pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>, masked: bool) -> Outcome<Value> {
+        let read = Reading { channel: channel.clone(), masked, ..Reading::default() }.read_bytes(name, bytes);
         // what has one map alone has nothing else
         let is_one = read.as_ref().is_ok_and(|map| map.unread.is_empty());
         let channels = if is_one { Vec::new() } else { channels(name, bytes)? };
@@ -66,7 +67,9 @@ impl Engine {
         }
         let map = read?;
         check_memory("a map", map.heights.dim(), 32)?;
-        self.origin = Origin { source: Source::Opened { name: name.to_owned(), channel }, steps: None };
+        let chosen = [("channel", channel.map(Value::from)), ("masked", masked.then_some(true.into()))];
+        let reading = chosen.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect();
+        self.origin = Origin { source: Source::Opened { name: name.to_owned(), reading }, steps: None };
         let mut found = self.take(map, None);
         found["channels"] = told.into();
         Ok(found)

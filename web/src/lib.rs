@@ -78,8 +78,8 @@ impl Page {
     }
 
     /// See [`Engine::open`].
-    pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>) -> Result<String, JsError> {
-        told(self.0.open(name, bytes, channel).map(|found| found.to_string()))
+    pub fn open(&mut self, name: &str, bytes: &[u8], channel: Option<String>, masked: bool) -> Result<String, JsError> {
+        told(self.0.open(name, bytes, channel, masked).map(|found| found.to_string()))
     }
 
     /// See [`Engine::make`].

@@ -25,12 +25,12 @@ pub struct Origin {
 /// Where a map comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
-    /// A file, and its channel if that was chosen.
+    /// A file.
     Opened {
         /// The name of the file.
         name: String,
-        /// The channel.
-        channel: Option<String>,
+        /// How it is read, where that was chosen: its channel, and whether masked points are missing.
+        reading: Typed,
     },
     /// The keys of a made surface.
     Made(Typed),
@@ -46,7 +46,7 @@ impl Origin {
     /// The name of the file of the surface.
     pub fn name(&self) -> &str {
         match (&self.source, &self.steps) {
-            (Source::Opened { name, channel: None }, None) => name,
+            (Source::Opened { name, reading }, None) if reading.is_empty() => name,
             _ => HEIGHTS,
         }
     }
@@ -64,12 +64,12 @@ impl Origin {
             Source::Opened { name, .. } => name,
         };
         if self.name() == HEIGHTS && map != HEIGHTS {
-            let channel = match &self.source {
-                Source::Opened { channel: Some(channel), .. } => format!(" --channel {}", word(channel)),
-                _ => String::new(),
+            let reading = match &self.source {
+                Source::Opened { reading, .. } => options(reading),
+                Source::Made(_) => String::new(),
             };
             let steps = self.steps.as_ref().map(options).unwrap_or_default();
-            lines.push(format!("asperity prepare {}{channel}{steps} --out {HEIGHTS}", word(map)));
+            lines.push(format!("asperity prepare {}{reading}{steps} --out {HEIGHTS}", word(map)));
         }
         let start = if started { format!(" --initial-gap {START}") } else { String::new() };
         let heights = word(self.name());
@@ -85,9 +85,9 @@ impl Origin {
                 lines.extend(made(typed));
                 "surface".to_owned()
             }
-            Source::Opened { name, channel: None } => quoted(name),
-            Source::Opened { name, channel: Some(channel) } => {
-                lines.push(format!("surface = asperity.read({}, channel={})", quoted(name), quoted(channel)));
+            Source::Opened { name, reading } if reading.is_empty() => quoted(name),
+            Source::Opened { name, reading } => {
+                lines.push(format!("surface = asperity.read({}, {})", quoted(name), keywords(reading.iter())));
                 "surface".to_owned()
             }
         };

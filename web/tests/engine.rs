@@ -161,7 +161,7 @@ fn a_measured_map_is_prepared_and_solved_on_its_original() {
         text += &(heights.collect::<Vec<_>>().join(" ") + "\n");
     }
     let mut engine = Engine::default();
-    let map = engine.open("scan.txt", text.as_bytes(), None).unwrap();
+    let map = engine.open("scan.txt", text.as_bytes(), None, false).unwrap();
     assert_eq!((&map["missing"], &map["lengths"]), (&json!(1), &Value::Null));
     let scene = json!({ "modulus": "1GPa", "mean_pressure": "50MPa" });
     assert!(refused(&mut engine, scene.clone()).contains("give lengths"));

@@ -90,6 +90,11 @@ def check_probe(page):
     """A map is read under the pointer and by the arrow keys, and zoomed."""
     page.browser.mouse("mouseMoved", page.place("#maps .field", 0.3, 0.6))
     page.told("gap" in page.state()["probe"], "reads nothing under the pointer")
+    apart = set()
+    for across in [0.1, 0.3, 0.5, 0.7, 0.9]:
+        page.browser.mouse("mouseMoved", page.place("#maps .field", across, 0.6))
+        apart.update(re.findall(r"pressure .*, apart", page.state()["probe"]))
+    page.told(apart == {"pressure 0 Pa, apart"}, f"reads {apart}")
     page.browser.value("document.querySelector('#maps .field').focus()")
     before = page.state()["probe"]
     page.browser.key("ArrowRight")
@@ -230,6 +235,8 @@ def check_map(page, folder):
         "part of the mirrored map" in mirrored["rows"],
         f"does not mirror: {mirrored['errors']} {list(mirrored['rows'])}",
     )
+    sides = page.browser.value("[...document.querySelectorAll('canvas')].map(({ width, height }) => [width, height])")
+    page.told(sides == [[96, 96]] * 4, f"shows mirror images: {sides}")
     page.set(edges="")
     return state
 
@@ -431,16 +438,70 @@ def check_profile(page):
     page.set(**PLAIN)
     charts = "['sides', 'loads'].map(id => document.getElementById(id).innerHTML)"
     press = "document.getElementById('profile').click()"
-    page.browser.value(press)
     middle = page.browser.value(charts)
     page.told(all("<svg" in chart for chart in middle), "draws no profile")
+    page.browser.drag(page.place("#maps .field", 0.2, 0.3), (80, 60))
+    page.told(page.browser.value(charts) == middle, "takes another line before it is asked to")
+    page.browser.value(press)
     page.browser.drag(page.place("#maps .field", 0.2, 0.3), (80, 60))
     drawn = page.browser.value(charts)
     page.told(all(one != other for one, other in zip(middle, drawn, strict=True)), "draws the same profile")
     line = page.browser.value("document.getElementsByName('line')[0].value").split()
     page.told(abs(float(line[0]) - 0.2) < 0.02 and abs(float(line[1]) - 0.7) < 0.02, f"draws a line from {line}")
     page.browser.value(press)
-    page.told(not any(page.browser.value(charts)), "draws a profile without a line")
+    page.browser.drag(page.place("#maps .field", 0.4, 0.3), (80, 60))
+    page.told(page.browser.value(charts) == drawn, "takes another line after it was asked not to")
+
+
+def check_load(page, folder):
+    """A load that the page has chosen is chosen again for each surface, and says so; a load that is typed stays."""
+    page.set(**PLAIN)
+    chosen = "chosen by the page"
+    page.browser.value("history.replaceState(null, '', location.pathname); location.hash = 'size=128'; 0")
+    page.told(page.comes_true(f"document.getElementById('status').textContent.includes('{chosen}')"), "chooses no load")
+    page.drop(folder / "scarred.npy")
+    raw = page.set(lengths="500nm")
+    page.told(chosen in raw["status"] and chosen in raw["steps"][-1], f"{raw['status']}: {raw['steps']}")
+    clean = page.set(despike=True)
+    page.told(chosen in clean["steps"][-1] and clean["load"] != raw["load"], f"keeps {raw['load']} after a step")
+    page.set(value="3MPa")
+    state = page.set(despike=False)
+    page.told(state["load"] == "3MPa" and chosen not in state["status"] + state["steps"][-1], f"{state['status']}")
+    state = page.set(form="self-affine", size="64")
+    page.told(state["load"] == "3MPa", f"has {state['load']} in the place of the load that was typed")
+
+
+def check_mask(page, folder):
+    """The points under a mask of Gwyddion are missing where that is chosen, and the copied lines say so."""
+    (folder / "mask.gwy").write_bytes(masked_gwy())
+    label = "document.getElementsByName('masked')[0].parentElement.hidden"
+    state = page.drop(folder / "mask.gwy")
+    page.told(not page.browser.value(label) and "mask over 2 points" in state["steps"][0], f"{state['steps']}")
+    page.told("Masked points are missing" in state["steps"][0], f"{state['steps']}")
+    state = page.set(masked=True)
+    page.told("2 missing" in state["steps"][0] and "fill" in state["steps"][1], f"{state['steps']} {state['errors']}")
+    page.told("--masked" in state["command"] and "masked=True" in state["python"], f"{state['command']}")
+    page.drop(folder / "scarred.npy")
+    page.told(page.browser.value(label), "offers a mask of a file without one")
+
+
+def masked_gwy():
+    """A file of Gwyddion of 12 by 8 heights with a mask over two of them."""
+    item = lambda name, kind, value: name.encode() + b"\0" + kind + value
+    made = lambda name, items: name.encode() + b"\0" + struct.pack("<I", len(items)) + items
+    heights = [10e-9 * math.sin(0.7 * k) + 3e-9 * math.cos(0.4 * k * k) for k in range(96)]
+    mask = [float(k in (17, 50)) for k in range(96)]
+    sides = item("xreal", b"d", struct.pack("<d", 3e-6)) + item("yreal", b"d", struct.pack("<d", 2e-6))
+    nodes = item("xres", b"i", struct.pack("<i", 12)) + item("yres", b"i", struct.pack("<i", 8))
+    unit = item("si_unit_xy", b"o", made("GwySIUnit", item("unitstr", b"s", b"m\0")))
+    unit += item("si_unit_z", b"o", made("GwySIUnit", item("unitstr", b"s", b"m\0")))
+
+    def field(values):
+        data = item("data", b"D", struct.pack("<I96d", 96, *values))
+        return made("GwyDataField", nodes + sides + unit + data)
+
+    channel = item("/0/data", b"o", field(heights)) + item("/0/mask", b"o", field(mask))
+    return b"GWYP" + made("GwyContainer", channel)
 
 
 def check_measured(page):
@@ -580,6 +641,20 @@ TEXT = """Math.min(...[...document.querySelectorAll(".chart text")].map(text => 
 }))"""
 
 
+# the red of nodes apart and of nodes in contact
+GROUND = """(() => {
+  const canvas = document.querySelector("#maps canvas"), { width, height } = canvas;
+  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+  const counts = new Map();
+  for (let at = 0; at < data.length; at += 4) counts.set(data[at], (counts.get(data[at]) ?? 0) + 1);
+  return [...counts].sort(([, a], [, b]) => b - a).map(([red]) => red);
+})()"""
+
+# the height of the load, and the places of the contact and of the figures on the page
+PLACES = """[document.getElementById("load").offsetHeight,
+  ...["#maps canvas", "#figures"].map(at => document.querySelector(at).getBoundingClientRect().top)]"""
+
+
 def check_pictures(page):
     """The page in all windows, light and dark."""
     for window in WINDOWS:
@@ -591,6 +666,12 @@ def check_pictures(page):
             small = page.browser.value("""[...document.querySelectorAll("input, select, button, label")]
               .filter(input => input.offsetParent && input.getBoundingClientRect().right > innerWidth + 1).length""")
             page.told(small == 0, f"{small} inputs reach out of the window")
+            corner = page.browser.value(GROUND)
+            page.told((corner[0] < 64) == dark and (corner[1] < 64) != dark, f"has the colours {corner} of the contact")
+            if window == "phone":
+                high, contact, figures = page.browser.value(PLACES)
+                page.told(high < WINDOWS[window][1] / 5, f"has a load that is {high} pixels high")
+                page.told(contact < figures, "has figures above the contact")
             text = page.browser.value(TEXT)
             page.told(text >= 11, f"has text of {text:.1f} pixels in a chart")
             page.browser.picture(PICTURES / f"{window}-{'dark' if dark else 'light'}.png")
@@ -653,6 +734,8 @@ def main():
             ("path", check_path, []),
             ("words", check_words, []),
             ("profile", check_profile, []),
+            ("load", check_load, [folder]),
+            ("mask", check_mask, [folder]),
             ("measured", check_measured, []),
             ("undo", check_undo, []),
             ("large", check_large, []),

@@ -119,7 +119,8 @@ fn decimal_commas_between_commas_are_refused_and_whole_numbers_are_read() {
     for (rows, columns) in [(1, 2), (2, 2), (3, 4), (12, 3), (12, 8), (40, 40), (64, 33)] {
         for digits in 1..=6 {
             for (scale, least) in [(1.0, 0.0), (8.0, -4.0), (1000.0, 0.0), (300.0, 500.0), (0.7, 12.0), (2.5, 12.2)] {
-                let text = table(rows, columns, &|share| format!("{:.digits$}", scale * share + least).replace('.', ","));
+                let text =
+                    table(rows, columns, &|share| format!("{:.digits$}", scale * share + least).replace('.', ","));
                 assert!(read(&text).is_err(), "{text}");
                 let shortest = table(rows, columns, &|share| {
                     let number = (scale * share + least) * 10_f64.powi(digits as i32);

@@ -59,8 +59,7 @@ impl Commas {
 
     /// Whether each comma may be within a number, and nothing tells that the numbers are whole ones.
     pub fn may_be_decimal(&self) -> bool {
-        let are_whole =
-            self.most > 1 && !self.has_parts && self.before.len() == 3 && self.behind.len() == TELLING;
+        let are_whole = self.most > 1 && !self.has_parts && self.before.len() == 3 && self.behind.len() == TELLING;
         !self.separate && !are_whole
     }
 }
@@ -96,7 +95,16 @@ mod tests {
     #[test]
     fn commas_within_numbers_are_told_from_commas_between_numbers() {
         for text in [
-            "1,5", "1,5,2,5", "-1,5,2,5", "1,5, 2,5", "1,5 ,2,5", "1,5,2,5,", "1.234,5,2,5", "1,2E-7,3,4e+2", "1,234.5,2,345.0", ",5,1,5",
+            "1,5",
+            "1,5,2,5",
+            "-1,5,2,5",
+            "1,5, 2,5",
+            "1,5 ,2,5",
+            "1,5,2,5,",
+            "1.234,5,2,5",
+            "1,2E-7,3,4e+2",
+            "1,234.5,2,345.0",
+            ",5,1,5",
             "1,05,2,50\n3,25,4,75",
         ] {
             assert!(may_be_decimal(text), "{text}");
