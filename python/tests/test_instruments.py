@@ -98,10 +98,17 @@ def test_the_package_is_named_where_it_may_help(tmp_path, without):
     for name, start in [("a.tif", b"II*\0"), ("b.sur", b"DIGITAL SURF\0"), ("c.zon", b"KPK0"), ("d.dat", b"\5")]:
         path = tmp_path / name
         path.write_bytes(start + UNKNOWN)
-        with pytest.raises(ValueError, match=rf"{name}: is .*; or pip install 'asperity\[instruments\]', with which"):
+        with pytest.raises(ValueError, match=rf"{name}: is .*pip install 'asperity\[instruments\]'"):
             asperity.read(path)
         with pytest.raises(ValueError, match="instruments"):
             asperity.prepare(path)
+
+
+def test_a_named_format_is_tried_whatever_its_bytes_are(tmp_path, surface_topography):
+    path = tmp_path / "scan.spm"
+    path.write_bytes(b"\\*File list\r\n\\Version: 1\r\n")
+    with pytest.raises(ValueError, match="is a Nanoscope file.*; SurfaceTopography does not read it either: "):
+        asperity.read(path)
 
 
 @pytest.mark.parametrize(

@@ -269,7 +269,7 @@ def check_cycle(page, folder):
 
 # the text below a map of the solution: its key, and the load that it does not show
 KEYS = """[...document.querySelectorAll("#maps figure")].slice(1).map(map =>
-  [...map.querySelectorAll(".key span:not(.ramp), .hint")].map(text => text.textContent))"""
+  [...map.querySelectorAll(".key span:not(.ramp, .scaled), .hint")].map(text => text.textContent))"""
 
 
 def check_colours(page, folder):

@@ -19,13 +19,16 @@ _FINAL = (b"\x93NUMPY", b"GWYP", b"Gwyddion Simple Field", b"\xff\xfe", b"\xfe\x
 _LEFT_OUT = ("asc", "xyz", "npy", "npz", "gwy", "nms")
 #: The formats of arrays, in which y runs upwards; the others are images, with lines from the top.
 _ARRAYS = ("nc", "h5", "mat")
+#: What the refusal of a format that SurfaceTopography reads names, which may be the format of a text.
+_NAMED = "asperity[instruments]"
 #: The number of bytes by which readers know their formats.
 _START = 512
 
 
 def read(path: str, channel: int | str | None, refused: ValueError) -> Topography:
-    """The map in a binary file that asperity has refused; this refusal where nothing else reads it."""
-    if not _is_binary(path):
+    """The map in a file that asperity has refused, a binary one or one of a named format; this refusal where nothing else
+    reads it."""
+    if not (_is_binary(path) or _NAMED in str(refused)):
         raise refused
     try:
         with warnings.catch_warnings():
@@ -34,8 +37,7 @@ def read(path: str, channel: int | str | None, refused: ValueError) -> Topograph
             formats = importlib.import_module("SurfaceTopography.IO")
         readers, match = formats.readers, formats.MagicMatch
     except (ImportError, AttributeError):
-        remedy = "or pip install 'asperity[instruments]', with which this file may be read"
-        raise ValueError(f"{refused}; {remedy}") from None
+        raise refused from None
     why = "the format is unknown to it"
     with open(path, "rb") as file:
         start = file.read(_START)

@@ -1,7 +1,14 @@
 //! Formats that are not read, and how to convert them.
 
-const GWYDDION: &str = "read it in Python by asperity.read, after pip install 'asperity[instruments]'; \
-                        or open it in Gwyddion, and save it as .gwy or its heights as .gsf";
+/// The way of a format that the package SurfaceTopography reads, by which Python reads it, and another way.
+macro_rules! in_python {
+    ($or:literal) => {
+        concat!("read it in Python by asperity.read, after pip install 'asperity[instruments]'; or ", $or)
+    };
+}
+
+const INSTRUMENT: &str = in_python!("open it in Gwyddion, and save it as .gwy or its heights as .gsf");
+const GWYDDION: &str = "open it in Gwyddion, and save it as .gwy or its heights as .gsf";
 const TEXT: &str = "open it in Gwyddion, and save it as .gwy; or export its heights as a text matrix";
 const IMAGE: &str = "if its grey values are heights, import it in Gwyddion and save it as .gsf; \
                      else export the heights from the program of the instrument";
@@ -13,29 +20,29 @@ type Format = (&'static [&'static [u8]], &'static str, &'static str);
 /// The formats that are known by their first bytes.
 const STARTS: [Format; 31] = [
     (&[b"GWYO"], "a file of Gwyddion 1 (.gwy)", GWYDDION),
-    (&[b"\\*File list", b"?*File list"], "a Nanoscope file (.spm)", GWYDDION),
+    (&[b"\\*File list", b"?*File list"], "a Nanoscope file (.spm)", INSTRUMENT),
     (&[b"\"\\*File list"], "a text of a Nanoscope file", "open the file itself in Gwyddion, and save it as .gwy"),
     (&[b"Zygo XYZ Data File"], "a file of Zygo's points (.xyz)", TEXT),
     (&[b"Wyko ASCII Data File"], "a text of Wyko (.asc)", TEXT),
     (&[b"\\*Force file list"], "a Nanoscope file of force curves (.spm)", "save a map of heights instead"),
-    (&[b"DIGITAL SURF", b"DSCOMPRESSED"], "a Digital Surf file (.sur)", GWYDDION),
-    (&[b"AliconaImaging\0"], "an Alicona file (.al3d)", GWYDDION),
-    (&[b"\x01\0Directory"], "a Wyko file (.opd)", GWYDDION),
-    (&[b"VCA DATA\x01\0"], "a Bruker file (.opdx)", GWYDDION),
-    (&[b"\x01\xb0\x93\xff"], "an NT-MDT file (.mdt)", GWYDDION),
-    (&[b"bBCR-", b"bISO-"], "a binary surface data file (.sdf)", GWYDDION),
-    (&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"], "a MetroPro file (.dat)", GWYDDION),
-    (&[b"VK4_"], "a Keyence file (.vk4)", GWYDDION),
-    (&[b"FRTM_"], "a MicroProf file (.frt)", GWYDDION),
+    (&[b"DIGITAL SURF", b"DSCOMPRESSED"], "a Digital Surf file (.sur)", INSTRUMENT),
+    (&[b"AliconaImaging\0"], "an Alicona file (.al3d)", INSTRUMENT),
+    (&[b"\x01\0Directory"], "a Wyko file (.opd)", INSTRUMENT),
+    (&[b"VCA DATA\x01\0"], "a Bruker file (.opdx)", INSTRUMENT),
+    (&[b"\x01\xb0\x93\xff"], "an NT-MDT file (.mdt)", INSTRUMENT),
+    (&[b"bBCR-", b"bISO-"], "a binary surface data file (.sdf)", INSTRUMENT),
+    (&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"], "a MetroPro file (.dat)", INSTRUMENT),
+    (&[b"VK4_"], "a Keyence file (.vk4)", INSTRUMENT),
+    (&[b"FRTM_"], "a MicroProf file (.frt)", INSTRUMENT),
     (&[b":NANONIS_VERSION:"], "a Nanonis file (.sxm)", GWYDDION),
-    (&[b"WSxM file copyright"], "a WSxM file", GWYDDION),
+    (&[b"WSxM file copyright"], "a WSxM file", INSTRUMENT),
     (&[b"DSAA", b"DSBB", b"DSRB"], "a grid of Surfer (.grd)", "save it as an ESRI grid (.asc)"),
     (&[b"IGOR"], "a text of Igor (.itx)", "save its heights as a text matrix"),
     (&[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"], "a TIFF image (.tif)", TIFF),
     (&[b"\x89PNG\r\n\x1a\n"], "a PNG image", IMAGE),
     (&[b"\xff\xd8\xff"], "a JPEG image", IMAGE),
     (&[b"GIF8"], "a GIF image", IMAGE),
-    (&[b"\x89HDF\r\n\x1a\n"], "an HDF5 file", "in Python: numpy.save(\"heights.npy\", h5py.File(file)[name][()])"),
+    (&[b"\x89HDF\r\n\x1a\n"], "an HDF5 file", HDF5),
     (&[b"CDF\x01", b"CDF\x02", b"CDF\x05"], "a NetCDF file", NETCDF),
     (&[b"MATLAB 5.0", b"MATLAB 7.3"], "a MATLAB file (.mat)", MATLAB),
     (&[b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05"], "a Python pickle", PICKLE),
@@ -45,25 +52,28 @@ const STARTS: [Format; 31] = [
     (&[b"\xff\xfe", b"\xfe\xff"], "a text in UTF-16", "save it in UTF-8"),
 ];
 
-const TIFF: &str = "open it in Gwyddion, and save its heights as .gsf: its first page may be a thumbnail, and its numbers \
-                    counts; in Python look at all pages of tifffile.TiffFile(file)";
+const TIFF: &str = in_python!(
+    "open it in Gwyddion, and save its heights as .gsf: its first page may be a thumbnail, and its numbers counts; \
+     tifffile.TiffFile(file) has all pages"
+);
 const CONTAINER: &str = "in Python: asperity.from_topography(SurfaceTopography.read_container(file)[0][0])";
-const NETCDF: &str = "in Python: numpy.save(\"heights.npy\", xarray.open_dataset(file)[name])";
-const MATLAB: &str = "in MATLAB: writematrix(heights, \"heights.txt\", \"Delimiter\", \" \")";
+const HDF5: &str = in_python!("save an array: numpy.save(\"heights.npy\", h5py.File(file)[name][()])");
+const NETCDF: &str = in_python!("save an array: numpy.save(\"heights.npy\", xarray.open_dataset(file)[name])");
+const MATLAB: &str = in_python!("in MATLAB: writematrix(heights, \"heights.txt\", \"Delimiter\", \" \")");
 const PICKLE: &str = "load it in Python, and save its heights by numpy.save";
 
 /// The endings of binary files with starts that tell nothing.
 const ENDINGS: [(&str, &str, &str); 4] = [
-    ("ibw", "an Igor file (.ibw)", GWYDDION),
-    ("plu", "a Sensofar file (.plu)", GWYDDION),
-    ("mnt", "a Mountains document (.mnt)", "save its heights in Mountains as text, or as .sur for Gwyddion"),
+    ("ibw", "an Igor file (.ibw)", INSTRUMENT),
+    ("plu", "a Sensofar file (.plu)", INSTRUMENT),
+    ("mnt", "a Mountains document (.mnt)", in_python!("save its heights in Mountains as text")),
     ("mat", "a MATLAB file (.mat)", MATLAB),
 ];
 
 /// Members of zip archives that are no `.npz`.
 const MEMBERS: [(&str, &str, &str); 5] = [
-    ("main.xml", "a surface in the format of ISO 25178-72 (.x3p)", GWYDDION),
-    ("index.xml", "a Sensofar file (.plux)", GWYDDION),
+    ("main.xml", "a surface in the format of ISO 25178-72 (.x3p)", INSTRUMENT),
+    ("index.xml", "a Sensofar file (.plux)", INSTRUMENT),
     ("header.properties", "a JPK file of force curves (.jpk-force)", "save a map of heights instead"),
     ("meta.yml", "a container of contact.engineering", CONTAINER),
     ("[Content_Types].xml", "a document of an office program", "save the sheet of heights as text, with tabs"),
@@ -78,7 +88,7 @@ pub(super) fn by_start(start: &[u8]) -> Option<String> {
 /// Why a binary file cannot be read as a text; `ending` belongs to its name.
 pub(super) fn by_ending(start: &[u8], ending: &str) -> Option<String> {
     let known = || ENDINGS.iter().find(|(other, ..)| *other == ending);
-    let (_, name, remedy) = start.contains(&0).then(|| known().unwrap_or(&("", "a binary file", GWYDDION)))?;
+    let (_, name, remedy) = start.contains(&0).then(|| known().unwrap_or(&("", "a binary file", INSTRUMENT)))?;
     Some(format!("is {name}, of a format that is not read: {remedy}"))
 }
 
