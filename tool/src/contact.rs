@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::{Error, Grid};
-use asperity_plot::{Chart, Picture};
+use asperity_plot::{Chart, Paper, Picture};
 use asperity_scene::contact::{ContactFigures, ContactTables, Density, Spot};
 use clap::Args;
 use serde_json::{Value, json};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::csv;
 use crate::outcome::Outcome;
 use crate::output::write_text;
-use crate::pictures::{PictureFormat, Resolution};
+use crate::pictures::{PaperOptions, PictureFormat};
 use crate::printing::{Printing, aligned};
 use crate::quantity::{Dimension, LENGTH, PER_LENGTH, PER_PRESSURE, PRESSURE};
 use crate::report;
@@ -47,7 +47,7 @@ pub struct Options {
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
     picture_format: PictureFormat,
     #[command(flatten)]
-    resolution: Resolution,
+    size: PaperOptions,
     #[command(flatten)]
     printing: Printing,
 }
@@ -63,8 +63,7 @@ const NAMES: [&str; 4] = ["gap", "pressure", "autocorrelation", "clusters"];
 
 /// Runs the command; always successful if it ends.
 pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
-    let &Options { solved: ref folder, ref out, force, picture_format, resolution: Resolution { dpi }, printing } =
-        options;
+    let &Options { solved: ref folder, ref out, force, picture_format, size, printing } = options;
     let files = || results::files(&NAMES.map(|name| format!("{name}.csv")).each_ref().map(String::as_str), &NAMES);
     let results = out.as_deref().map(|out| Results { out, scene, files: files(), force });
     results.iter().try_for_each(|results| results.check(Solved::files(folder, &[GAP, CONTACT_PRESSURE])))?;
@@ -88,7 +87,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         report::report("contact", json!(figures), &inputs)
     };
     let write = |results: &Results<'_>| {
-        let found = Found { tables: &tables, grid, units: &units, dpi };
+        let found = Found { tables: &tables, grid, units: &units, paper: size.paper() };
         let parts = NAMES.into_iter().zip(found.parts()?).filter_map(|(name, part)| Some((name, part?)));
         let parts: Vec<_> = parts.collect();
         results.write(results.folder()?, |folder| {
@@ -123,7 +122,7 @@ fn rows<const N: usize>(folder: &Path, name: &str) -> Outcome<Vec<[f64; N]>> {
 }
 
 /// The contents of a folder of this command, with its report.
-pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
+pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents> {
     let (figures, units): (ContactFigures, _) = (serde_json::from_value(report.clone())?, units_of(report));
     let (shape, lengths) = serde_json::from_value(json!([report["shape"], report["lengths"]]))?;
     let density = |name: &str, exponent| {
@@ -139,7 +138,7 @@ pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
         spots: rows(folder, "clusters")?.iter().map(spot).collect(),
         mean_contact_pressure: figures.mean_contact_pressure,
     };
-    let found = Found { tables: &tables, grid: Grid::new(shape, lengths)?, units: &units, dpi };
+    let found = Found { tables: &tables, grid: Grid::new(shape, lengths)?, units: &units, paper };
     let pictures = found.parts()?.into_iter().flatten().map(|(_, chart)| chart).collect();
     Ok(Contents { figures: figures.rows(&units), shortfall: None, pictures })
 }
@@ -152,7 +151,7 @@ struct Found<'a> {
     tables: &'a ContactTables,
     grid: Grid,
     units: &'a Units,
-    dpi: f64,
+    paper: Paper,
 }
 
 impl Found<'_> {
@@ -201,7 +200,7 @@ impl Found<'_> {
             curves: [("", points)].into_iter().chain(guide.map(|guide| (law, guide))).collect(),
             ..Chart::default()
         };
-        Ok(Some((csv::density(names, &found.edges, &found.density), chart.draw(self.dpi)?)))
+        Ok(Some((csv::density(names, &found.edges, &found.density), chart.draw(self.paper)?)))
     }
 
     /// The autocorrelation of the pressure by the distance.
@@ -221,7 +220,7 @@ impl Found<'_> {
             ..Chart::default()
         };
         let lines = found.iter().map(|(distance, value)| format!("{distance:e},{value:e}"));
-        Ok(Some((csv::table(names, lines), chart.draw(self.dpi)?)))
+        Ok(Some((csv::table(names, lines), chart.draw(self.paper)?)))
     }
 
     /// The clusters of contact, the largest first.
@@ -247,6 +246,6 @@ impl Found<'_> {
             ..Chart::default()
         };
         let line = |spot: &Spot| format!("{},{:e},{:e},{:e}", spot.nodes, spot.area, spot.perimeter, spot.force);
-        Ok(Some((csv::table(names, spots.iter().map(line)), chart.draw(self.dpi)?)))
+        Ok(Some((csv::table(names, spots.iter().map(line)), chart.draw(self.paper)?)))
     }
 }

@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use crate::columns::Columns;
 use crate::options::{ProblemOptions, Scalar};
 use crate::outcome::Outcome;
-use crate::pictures::{Resolution, chart_of_columns, check_plot, write_picture};
+use crate::pictures::{PaperOptions, chart_of_columns, check_plot, write_picture};
 use crate::printing::{self, say, warn};
 use crate::processes::Processes;
 use crate::quantity::{FORCE, PRESSURE};
@@ -52,7 +52,7 @@ pub struct Options {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
     #[command(flatten)]
-    resolution: Resolution,
+    size: PaperOptions,
     #[command(flatten)]
     units: Chosen<UnitKeys>,
     #[command(flatten)]
@@ -205,6 +205,6 @@ impl Options {
             warn(format!("{}: {text}", printing::name(&self.out)));
         }
         let Some(plot) = &self.plot else { return Ok(()) };
-        table.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.resolution.dpi)?))
+        table.first(|| write_picture(plot, &chart_of_columns(&rows, x, y, units, self.size.paper())?))
     }
 }

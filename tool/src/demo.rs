@@ -16,7 +16,7 @@ use crate::heights::Origin;
 use crate::options::Problem;
 use crate::outcome::Outcome;
 use crate::part::Part;
-use crate::pictures::{self, PictureFormat, Resolution};
+use crate::pictures::{self, PaperOptions, PictureFormat};
 use crate::printing::{Printing, in_options, name, on_terminal};
 use crate::processes::Processes;
 use crate::progress::Progress;
@@ -43,7 +43,7 @@ pub struct Options {
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
     picture_format: PictureFormat,
     #[command(flatten)]
-    resolution: Resolution,
+    size: PaperOptions,
     #[command(flatten)]
     printing: Printing,
     /// Threads; the results do not depend on it [default: one per core]
@@ -70,7 +70,7 @@ const CASES: [(&str, &str); 2] = [("without adhesion", ""), ("with adhesion", "-
 
 /// Runs the command; whether both solves converged.
 pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
-    let &Options { ref out, printing, picture_format, resolution: Resolution { dpi }, .. } = options;
+    let &Options { ref out, printing, picture_format, size, .. } = options;
     let cases = CASES.map(|(name, _)| name.replace(' ', "-"));
     let map = |what: &str| cases.each_ref().map(|case| picture_format.file(&format!("{what}-{case}")));
     let (contacts, pressures, heights_map) = (map("contact"), map("pressure"), picture_format.file("heights"));
@@ -113,14 +113,15 @@ pub fn run(options: &Options, processes: &Processes) -> Outcome<bool> {
             unit: Some("m"),
             ..Map::new(heights.view(), grid, Colouring::Sequential)
         };
-        map.draw(dpi)?.write(folder.path(&heights_map))?;
+        map.draw(size.paper())?.write(folder.path(&heights_map))?;
         write_npy(folder.path("heights.npy"), &heights)?;
         for (k, solution) in [&bare, &sticky].into_iter().enumerate() {
             let [contact, pressure] = ["Contact", "Pressure"].map(|what| format!("{what} {}", CASES[k].0));
             let regions = solution.regions().mapv(f64::from);
-            pictures::draw_contact(grid, &contact, &units, &regions, None, dpi)?.write(folder.path(&contacts[k]))?;
+            pictures::draw_contact(grid, &contact, &units, &regions, None, size.paper())?
+                .write(folder.path(&contacts[k]))?;
             let (shown, titles) = (pictures::pressure_to_draw(solution, k == 1), (&*pressure, "mean 5 MPa"));
-            let picture = pictures::draw_pressure(grid, titles, &units, shown, None, dpi)?;
+            let picture = pictures::draw_pressure(grid, titles, &units, shown, None, size.paper())?;
             picture.write(folder.path(&pressures[k]))?;
         }
         Ok(())

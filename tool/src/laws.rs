@@ -12,7 +12,7 @@ use clap::builder::PossibleValuesParser;
 use crate::adhesion::uniform;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_apart};
-use crate::pictures::Resolution;
+use crate::pictures::PaperOptions;
 use crate::printing::{bold, in_options, say};
 use crate::scene::SceneFile;
 
@@ -33,7 +33,7 @@ pub struct Options {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
     #[command(flatten)]
-    resolution: Resolution,
+    size: PaperOptions,
     #[command(flatten)]
     units: Chosen<UnitKeys>,
     /// Replace a file that is there
@@ -102,7 +102,7 @@ pub fn run(options: &Options, scene: &SceneFile) -> Outcome<bool> {
         curves: vec![(chosen.name, gaps.map(|gap| (gap, law.traction(gap))).collect())],
         ..Chart::default()
     };
-    let picture = chart.draw(options.resolution.dpi)?;
+    let picture = chart.draw(options.size.paper())?;
     file.complete(|path| picture.write(path))?;
     Ok(true)
 }

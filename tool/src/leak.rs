@@ -7,7 +7,7 @@ use asperity::Grid;
 use asperity_flow::{Axis, Flow, Gap, Leak};
 use asperity_maps::Topography;
 use asperity_maps::io::{read_field, write_npy};
-use asperity_plot::{Colouring, Map, Picture};
+use asperity_plot::{Colouring, Map, Paper, Picture};
 use asperity_scene::{Boundary, Chosen, LeakKeys, Leaked, LengthsKeys, Narrowest, Skin};
 use clap::Args;
 use ndarray::Array2;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 
 use crate::heights::{self, check_room, converted, warn_of_unread};
 use crate::outcome::Outcome;
-use crate::pictures::{PictureFormat, Resolution};
+use crate::pictures::{PaperOptions, PictureFormat};
 use crate::printing::{Printing, aligned, complain, in_options, name, warn};
 use crate::quantity::LENGTH;
 use crate::report;
@@ -55,7 +55,7 @@ pub struct Options {
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
     picture_format: PictureFormat,
     #[command(flatten)]
-    resolution: Resolution,
+    size: PaperOptions,
     #[command(flatten)]
     printing: Printing,
 }
@@ -162,7 +162,7 @@ impl Options {
                 let picture_name = self.picture_format.file(PICTURES[axis as usize]);
                 let found = leak.percolation.along(axis);
                 let passage = (found.map(Narrowest::of), found.map_or(&[][..], |found| &found.path));
-                let picture = drawn(axis, (gap, &speed), passage, grid, units, self.resolution.dpi)?;
+                let picture = drawn(axis, (gap, &speed), passage, grid, units, self.size.paper())?;
                 picture.write(folder.path(&picture_name))?;
                 names.extend([pressure_name.to_owned(), flow_name.to_owned(), picture_name]);
             }
@@ -179,7 +179,7 @@ fn speed(flow: &Flow) -> Array2<f64> {
 }
 
 /// The contents of a folder of this command, with its report.
-pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
+pub fn contents(folder: &Path, report: &Value, paper: Paper) -> Outcome<Contents> {
     let (leaked, units): (Leaked, _) = (serde_json::from_value(report.clone())?, units_of(report));
     let (shape, lengths) = serde_json::from_value(json!([report["shape"], report["lengths"]]))?;
     let grid = Grid::new(shape, lengths)?;
@@ -193,7 +193,7 @@ pub fn contents(folder: &Path, report: &Value, dpi: f64) -> Outcome<Contents> {
             return Err("pressure and flow have not the shape of the report: they are of different runs".into());
         }
         let passage = (*leaked.constriction.along(axis), &[][..]);
-        pictures.push(drawn(axis, (&open, &speed), passage, grid, &units, dpi)?);
+        pictures.push(drawn(axis, (&open, &speed), passage, grid, &units, paper)?);
     }
     Ok(Contents { figures: leaked.rows(&units), shortfall: leaked.shortfall(Skin::Options), pictures })
 }
@@ -205,7 +205,7 @@ fn drawn(
     (narrowest, path): (Option<Narrowest>, &[(usize, usize)]),
     grid: Grid,
     units: &Units,
-    dpi: f64,
+    paper: Paper,
 ) -> asperity::Result<Picture> {
     let (open, sum) = speed.iter().filter(|speed| **speed > 0.0).fold((0, 0.0), |(n, sum), speed| (n + 1, sum + speed));
     let mean = sum / f64::from(open.max(1));
@@ -227,5 +227,5 @@ fn drawn(
         mark: narrowest.map(|found| found.node),
         ..Map::new(decades.view(), grid, Colouring::Sequential)
     };
-    map.draw(dpi)
+    map.draw(paper)
 }

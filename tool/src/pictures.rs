@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use asperity::contact::Clusters;
-use asperity::{Grid, Real, Result, Solution};
-use asperity_plot::{Chart, Colouring, DPI, Format, Map, Picture, Style};
+use asperity::{Grid, Real, Solution};
+use asperity_plot::{Chart, Colouring, DPI, Format, Map, Paper, Picture, Style};
 use asperity_scene::legs::{abscissa, legs, logarithmic, value};
 use asperity_scene::theories::{Curve, Theories};
 use clap::{Args, ValueEnum};
@@ -19,7 +19,7 @@ use crate::numbers::{percent, plain};
 use crate::options::Scalar;
 use crate::outcome::Outcome;
 use crate::output::{OutputFile, check_free};
-use crate::quantity::{PRESSURE, Quantity};
+use crate::quantity::{LENGTH, PRESSURE, Quantity};
 use crate::units::Units;
 
 /// The format of pictures of which the tool chooses the names.
@@ -48,13 +48,34 @@ impl PictureFormat {
     }
 }
 
-/// The resolution of pictures.
+/// The resolution and the width of pictures.
 #[derive(Args, Clone, Copy)]
-pub struct Resolution {
+pub struct PaperOptions {
     /// Pixels per inch of pictures, in .svg and .pdf of the maps in them; 300 to 600 for print
     #[arg(long, value_name = "N", default_value_t = DPI, allow_hyphen_values = true, value_parser = resolution)]
     #[arg(help_heading = "Output")]
-    pub dpi: f64,
+    dpi: f64,
+    /// Width of pictures, such as 85mm for a column of print; the text keeps its size [default: as the map needs]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = points, help_heading = "Output")]
+    width: Option<f64>,
+}
+
+impl PaperOptions {
+    /// The paper of the pictures.
+    pub fn paper(&self) -> Paper {
+        Paper { dpi: self.dpi, width: self.width }
+    }
+}
+
+/// The widths of pictures that are not refused, in metres.
+const WIDTHS: std::ops::RangeInclusive<f64> = 0.04..=2.0;
+
+/// A width in points of 1/72 inch, of a length with its unit.
+fn points(text: &str) -> Result<f64, String> {
+    let found = LENGTH.within(Range::POSITIVE)(text).ok();
+    let found = found.filter(|found| found.has_unit && WIDTHS.contains(&found.value));
+    let points = |found: Quantity| found.value / 0.0254 * 72.0;
+    found.map(points).ok_or_else(|| "it must be a length with a unit, from 40mm to 2m, such as 85mm".to_owned())
 }
 
 /// The colours of the maps of contact and pressure.
@@ -108,7 +129,7 @@ pub struct PlotOptions {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub plot: Option<std::path::PathBuf>,
     #[command(flatten)]
-    resolution: Resolution,
+    size: PaperOptions,
 }
 
 impl PlotOptions {
@@ -121,7 +142,7 @@ impl PlotOptions {
     /// Draws the chart of all `rows`, if it is wanted, with theories, if there are some.
     pub fn draw(&self, rows: &[Value], units: &Units, theories: Option<&Theories>) -> Outcome<()> {
         let Some(plot) = &self.plot else { return Ok(()) };
-        write_picture(plot, &chart_of_loads(rows, units, theories, self.resolution.dpi)?)
+        write_picture(plot, &chart_of_loads(rows, units, theories, self.size.paper())?)
     }
 }
 
@@ -139,7 +160,12 @@ pub fn write_picture(path: &Path, picture: &Picture) -> Outcome<()> {
 
 /// The chart that says most of the loads in the rows of a table, or of what varies between cases of a row each; with
 /// theories, if there are some, and then with both areas.
-pub fn chart_of_loads(rows: &[Value], units: &Units, theories: Option<&Theories>, dpi: f64) -> Result<Picture> {
+pub fn chart_of_loads(
+    rows: &[Value],
+    units: &Units,
+    theories: Option<&Theories>,
+    paper: Paper,
+) -> asperity::Result<Picture> {
     let has = |column: &str| rows.iter().any(|row| !row[column].is_null());
     let area = "contact_fraction";
     let (x, y) = match rows.first().and_then(|row| row["control"].as_str()) {
@@ -155,20 +181,20 @@ pub fn chart_of_loads(rows: &[Value], units: &Units, theories: Option<&Theories>
         Some(x) => (x, if y == area && has("wanted_contact_fraction") { "mean_pressure" } else { area }),
         None => (x, y),
     };
-    let Some(theories) = theories else { return chart_of_columns(rows, x, y, units, dpi) };
+    let Some(theories) = theories else { return chart_of_columns(rows, x, y, units, paper) };
     let pressures = || rows.iter().map(|row| value(row, "mean_pressure"));
     let high = pressures().fold(0.0, f64::max);
     let low = pressures().filter(|pressure| *pressure > 1e-3 * high).fold(high, f64::min);
     let areas = [("counted", area), ("corrected for the edge", "corrected_contact_fraction")];
     let ys = if y == area { &areas[..] } else { &[("solves", y)] };
-    chart(rows, (x, &Columns::label(x)), ys, theories.curves((x, y), low, high), units, dpi)
+    chart(rows, (x, &Columns::label(x)), ys, theories.curves((x, y), low, high), units, paper)
 }
 
 /// The chart of column `y` of a table over column `x`: a curve for each leg of a cycle, broken where the state jumps,
 /// for each part of a sweep in which the loads rise or fall, and for what varies in a study. For its axes see
 /// [`logarithmic`].
-pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, dpi: f64) -> Result<Picture> {
-    chart(rows, (x, &Columns::label(x)), &[("", y)], Vec::new(), units, dpi)
+pub fn chart_of_columns(rows: &[Value], x: &str, y: &str, units: &Units, paper: Paper) -> asperity::Result<Picture> {
+    chart(rows, (x, &Columns::label(x)), &[("", y)], Vec::new(), units, paper)
 }
 
 /// The chart of columns `ys` of one dimension, under their names if they have any, over column `x`, which has a name;
@@ -179,8 +205,8 @@ pub fn chart(
     ys: &[(&str, &str)],
     theories: Vec<Curve>,
     units: &Units,
-    dpi: f64,
-) -> Result<Picture> {
+    paper: Paper,
+) -> asperity::Result<Picture> {
     let (mut jumps, mut curves) = (Vec::new(), Vec::new());
     let columns = Columns::new(rows, units);
     let (mut colours, mut dashes) = (Vec::new(), Vec::new());
@@ -232,7 +258,7 @@ pub fn chart(
         jumps,
         ..Chart::default()
     };
-    chart.draw(dpi)
+    chart.draw(paper)
 }
 
 /// The place of a name in a list, to which it is added if it is new.
@@ -258,8 +284,8 @@ pub fn draw_contact(
     units: &Units,
     regions: &Array2<f64>,
     clusters: Option<bool>,
-    dpi: f64,
-) -> Result<Picture> {
+    paper: Paper,
+) -> asperity::Result<Picture> {
     let count = |of: fn(f64) -> bool| regions.iter().filter(|region| of(**region)).count();
     let facing = count(|region| !region.is_nan());
     let share = |part: usize, whole: usize| percent(part as f64 / whole as f64);
@@ -295,7 +321,7 @@ pub fn draw_contact(
         length_unit: units.length.as_deref(),
         ..Map::new(values.view(), grid, colouring)
     };
-    map.draw(dpi)
+    map.draw(paper)
 }
 
 /// The pressure that a map should show. Without adhesion this is the contact pressure: the pressure outside of the
@@ -311,8 +337,8 @@ pub fn draw_pressure<T: Scalar>(
     units: &Units,
     pressure: &Array2<T>,
     limits: Option<(f64, f64)>,
-    dpi: f64,
-) -> Result<Picture> {
+    paper: Paper,
+) -> asperity::Result<Picture> {
     let pressure = pressure.mapv(T::widen);
     let map = Map {
         title,
@@ -324,5 +350,5 @@ pub fn draw_pressure<T: Scalar>(
         signs: ["tension", "compression"],
         ..Map::new(pressure.view(), grid, Colouring::Diverging)
     };
-    map.draw(dpi)
+    map.draw(paper)
 }

@@ -47,7 +47,7 @@ pub fn files(others: &[&str], pictures: &[&str]) -> Vec<String> {
 
 /// An option of a command whose only files are in its folder: what those are like needs one.
 pub fn of_files(option: Arg) -> Arg {
-    let ids = ["format", "picture_format", "dpi", "colour_limits", "colour_clusters"];
+    let ids = ["format", "picture_format", "dpi", "width", "colour_limits", "colour_clusters"];
     if ids.contains(&option.get_id().as_str()) { option.requires("out") } else { option }
 }
 

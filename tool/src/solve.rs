@@ -19,7 +19,7 @@ use crate::allowed::bins;
 use crate::options::{Problem, ProblemOptions, Scalar};
 use crate::outcome::Outcome;
 use crate::part::Part;
-use crate::pictures::{MapColours, PictureFormat, Resolution};
+use crate::pictures::{MapColours, PaperOptions, PictureFormat};
 use crate::printing::{Printing, complain, in_options};
 use crate::processes::{Processes, WHOLE};
 use crate::progress::Progress;
@@ -78,7 +78,7 @@ pub struct Options {
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "png", help_heading = "Output")]
     picture_format: PictureFormat,
     #[command(flatten)]
-    resolution: Resolution,
+    size: PaperOptions,
     #[command(flatten)]
     colours: MapColours,
     #[command(flatten)]

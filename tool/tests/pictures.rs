@@ -31,6 +31,14 @@ fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
         // the numbers at the colour bars may be of other widths
         assert!(fine[1] == 2 * usual[1] && fine[0].abs_diff(2 * usual[0]) < 100, "{usual:?} {fine:?}");
     }
+    bench.said(&format!("{solve} --dpi 300 --width 85mm --out column"));
+    bench.said("sweep --heights heights.npy --mean-pressures 0.01,0.02 --out t.csv --plot t.png --width 60mm --quiet");
+    for (file, millimetres) in [("column/contact.png", 85.0), ("column/pressure.png", 85.0), ("t.png", 60.0)] {
+        let dots = if file == "t.png" { 144.0 } else { 300.0 };
+        let [width, _] = sides(&bench.bytes(file));
+        // of whole points
+        assert!((f64::from(width) - millimetres / 25.4 * dots).abs() < dots / 72.0, "{file}: {width}");
+    }
     bench.said(&format!("{solve} --picture-format svg --pressure-unit Pa --length-unit m --out svg"));
     let names = bench.names("svg");
     assert!(names.contains(&"contact.svg".to_owned()) && !names.contains(&"contact.png".to_owned()), "{names:?}");
@@ -47,6 +55,9 @@ fn pictures_come_in_the_format_and_the_resolution_that_is_asked_for() {
     bench.refused_with(&format!("{solve} --out no --colour-limits 2 1"), &["--colour-limits", "first"]);
     bench.refused_with(&format!("{solve} --out no --colour-limits 1 2"), &["--colour-limits 1 2", "zero"]);
     bench.refused_with(&format!("{solve} --out no --dpi 10"), &["--dpi", "from 36 to 1200"]);
+    for width in ["85", "1mm", "85kg"] {
+        bench.refused_with(&format!("{solve} --out no --width {width}"), &["--width", "with a unit, from 40mm to 2m"]);
+    }
     assert!(!bench.path("no").exists());
 }
 

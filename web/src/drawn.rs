@@ -1,6 +1,6 @@
 //! Charts and colours, those of the pictures of the program.
 
-use asperity_plot::{Chart, Colouring, DPI};
+use asperity_plot::{Chart, Colouring, DPI, Paper};
 use asperity_scene::LAWS;
 use asperity_scene::outcome::Outcome;
 use serde::Deserialize;
@@ -51,6 +51,9 @@ struct Given {
     width: f64,
 }
 
+/// The least width of a chart in points, as of a place that is not shown.
+const NARROWEST: f64 = 200.0;
+
 /// The chart as SVG.
 pub fn chart(given: &str) -> Outcome<String> {
     let given: Given = serde_json::from_str(given)?;
@@ -72,5 +75,5 @@ pub fn chart(given: &str) -> Outcome<String> {
         jumps: given.jumps,
         ..Chart::default()
     };
-    Ok(chart.draw_across(DPI, given.width)?.svg()?)
+    Ok(chart.draw(Paper { dpi: DPI, width: Some(given.width.max(NARROWEST)) })?.svg()?)
 }

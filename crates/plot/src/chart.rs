@@ -1,11 +1,11 @@
 //! The chart: curves over two axes.
 
-use crate::Picture;
 use crate::frame::{
     Entry, LINE, MARGIN, NUMBERS, STEP_BELOW, STEP_BESIDE, Texts, dashed, draw_axis_below, draw_axis_beside, room,
 };
 use crate::scale::{Axis, Part};
 use crate::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Shape};
+use crate::{Paper, Picture};
 use asperity::Result;
 
 /// Curves over two axes, such as the loads on a path over its mean gaps.
@@ -57,8 +57,6 @@ pub struct Style {
 }
 
 const SIZE: (f64, f64) = (360.0, 240.0);
-/// The least width and height of the area of the curves.
-const LEAST: f64 = 90.0;
 /// Blue, red, green, violet: distinct also to eyes that confuse two of them, by their lightness. Then sky blue, ochre,
 /// brown and grey.
 pub(super) const COLOURS: [Colour; 8] = [
@@ -103,41 +101,31 @@ impl Range<'_> {
 }
 
 impl Chart<'_> {
-    /// Draws the curves, for `dpi` pixels per inch: [`DPI`](super::DPI), or more.
+    /// Draws the curves on a [`Paper`], or for pixels per inch: [`DPI`](super::DPI), or more.
     ///
     /// # Errors
-    /// [`Error::Value`](asperity::Error::Value) if `dpi` is below 36 or above 1200.
-    pub fn draw(&self, dpi: f64) -> Result<Picture> {
-        self.draw_plot(dpi, SIZE.1, |_| SIZE.0)
-    }
-
-    /// As [`draw`](Self::draw), with the whole picture so wide, in points. The text has the same size at any width.
-    ///
-    /// # Errors
-    /// As [`draw`](Self::draw).
-    pub fn draw_across(&self, dpi: f64, width: f64) -> Result<Picture> {
-        self.draw_plot(dpi, (0.5 * width).max(LEAST), |left| (width - left - 3.0 * MARGIN).max(LEAST))
-    }
-
-    /// Draws on an area of a height, and of the width that `across` has besides what is at its left.
-    fn draw_plot(&self, dpi: f64, height: f64, across: impl Fn(f64) -> f64) -> Result<Picture> {
+    /// [`Error::Value`](asperity::Error::Value) if these are below 36 or above 1200, or the paper is too narrow.
+    pub fn draw(&self, paper: impl Into<Paper>) -> Result<Picture> {
+        let paper = paper.into();
+        let height = paper.width.map_or(SIZE.1, |width| 0.5 * width);
         let x = self.range(|point| point.0, self.x_log, self.x_unit);
         let y = self.range(|point| point.1, self.y_log, self.y_unit);
         let beside = Axis::new(&y.part(), self.y_label, (height / STEP_BESIDE) as i32);
         let left = room(&beside);
-        let width = across(2.0 * MARGIN + left);
+        let width = paper.across(5.0 * MARGIN + left, SIZE.0)?;
         let below = Axis::new(&x.part(), self.x_label, (width / STEP_BELOW) as i32);
         let entries = self.curves.iter().enumerate().map(|(k, (name, _))| {
             let (colour, dashes) = self.style(k);
             Entry { colour, line: Some(dashes), text: (*name).to_owned() }
         });
         let legend = entries.filter(|entry| !entry.text.is_empty()).collect();
-        let texts = Texts { title: self.title, caption: self.caption, legend };
+        let texts = Texts::new([self.title, self.caption], legend, paper.width.map(|_| width + 2.0 * MARGIN));
 
         let plot = Area::new(2.0 * MARGIN + left, texts.above(), width, height);
         let bottom = plot.bottom() + NUMBERS + LINE + MARGIN;
         let across = (width + 3.0 * MARGIN).max(texts.widest() + MARGIN);
-        let mut picture = Picture::new(self.title, ((plot.left + across).ceil(), bottom + texts.below(across)), dpi)?;
+        let mut picture =
+            Picture::new(self.title, ((plot.left + across).ceil(), bottom + texts.below(across)), paper.dpi)?;
         let (along, above) = (x.part(), y.part());
         if !y.logarithmic && y.low < 0.0 && y.high > 0.0 {
             let zero = plot.bottom() - plot.height * above.share(0.0);

@@ -45,18 +45,33 @@ impl Entry {
     }
 }
 
-/// The texts above and below a plot.
-pub(super) struct Texts<'a> {
-    pub(super) title: &'a str,
-    pub(super) caption: &'a str,
-    pub(super) legend: Vec<Entry>,
+/// The texts above and below a plot: lines of a size, and a legend.
+pub(super) struct Texts {
+    lines: Vec<(String, f64)>,
+    legend: Vec<Entry>,
 }
 
-impl Texts<'_> {
+impl Texts {
+    /// A title and a caption, in lines that are at most so wide where that is given, and a legend.
+    pub(super) fn new([title, caption]: [&str; 2], legend: Vec<Entry>, across: Option<f64>) -> Self {
+        let mut lines: Vec<(String, f64)> = Vec::new();
+        for (text, size) in [(title, TITLE), (caption, LABEL)] {
+            let first = lines.len();
+            for word in text.split_whitespace() {
+                match lines[first..].last_mut().map(|(line, _)| (format!("{line} {word}"), line)) {
+                    Some((longer, line)) if across.is_none_or(|across| width(&longer, size) <= across) => {
+                        *line = longer
+                    }
+                    _ => lines.push((word.to_owned(), size)),
+                }
+            }
+        }
+        Self { lines, legend }
+    }
+
     /// The height of the lines above a plot, with the margins.
     pub(super) fn above(&self) -> f64 {
-        let lines = [self.title, self.caption].iter().filter(|text| !text.is_empty()).count();
-        2.0 * MARGIN + lines as f64 * LINE
+        2.0 * MARGIN + self.lines.len() as f64 * LINE
     }
 
     /// The height below the plot and its axis, for a legend of this width.
@@ -68,7 +83,7 @@ impl Texts<'_> {
     /// The width of the longest line, where each entry of the legend may have a row of its own.
     pub(super) fn widest(&self) -> f64 {
         let legend = self.legend.iter().map(Entry::width).fold(0.0, f64::max);
-        width(self.title, TITLE).max(width(self.caption, LABEL)).max(legend)
+        self.lines.iter().map(|(line, size)| width(line, *size)).fold(legend, f64::max)
     }
 
     /// The columns and rows of the entries in a legend of this width.
@@ -85,14 +100,12 @@ impl Texts<'_> {
         self.legend.iter().map(&mut place).collect()
     }
 
-    /// Draws title and caption from the top, and the legend from `bottom` on, over the width `across`.
+    /// Draws the lines from the top, and the legend from `bottom` on, over the width `across`.
     pub(super) fn draw(&self, picture: &mut Picture, left: f64, bottom: f64, across: f64) {
         let mut row = MARGIN + 0.5 * LINE;
-        for (text, size) in [(self.title, TITLE), (self.caption, LABEL)] {
-            if !text.is_empty() {
-                picture.text(text, (left, row), size, Anchor::Start);
-                row += LINE;
-            }
+        for (line, size) in &self.lines {
+            picture.text(line, (left, row), *size, Anchor::Start);
+            row += LINE;
         }
         for (entry, (column, row)) in self.legend.iter().zip(self.places(across)) {
             let (column, top) = (left + column, bottom + row as f64 * LINE);

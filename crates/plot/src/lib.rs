@@ -34,6 +34,44 @@ use shape::{Anchor, Area, Colour, INK, Shape, Text};
 /// The resolution of pictures, in pixels per inch, where no other is wanted: two pixels for each point.
 pub const DPI: f64 = 144.0;
 
+/// The paper of a picture: pixels per inch, [`DPI`] or more, and a width, if it is to have one.
+///
+/// ```
+/// use asperity_plot::{Map, Colouring, Paper};
+/// use asperity::Grid;
+/// let grid = Grid::square(64, 1.0)?;
+/// let heights = grid.sample(|x, y| (9.0 * x).cos() * (9.0 * y).cos());
+/// let column = Paper { dpi: 300.0, width: Some(85.0 / 25.4 * 72.0) };
+/// Map::new(heights.view(), grid, Colouring::Sequential).draw(column)?;
+/// # Ok::<(), asperity::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paper {
+    /// Pixels per inch, from 36 to 1200.
+    pub dpi: f64,
+    /// The width of the whole picture, in points. The text has the same size at any width.
+    pub width: Option<f64>,
+}
+
+impl From<f64> for Paper {
+    fn from(dpi: f64) -> Self {
+        Self { dpi, width: None }
+    }
+}
+
+/// The least width of a map or of the area of a chart, in points.
+const LEAST: f64 = 90.0;
+
+impl Paper {
+    /// The width of a map or chart next to which axes and bars take `beside`; `otherwise` where the paper has no width.
+    fn across(&self, beside: f64, otherwise: f64) -> Result<f64> {
+        let Some(value) = self.width else { return Ok(otherwise) };
+        let left = value - beside;
+        let (name, requirement) = ("width of the picture in points", "wider, by 90 than axes and colour bars");
+        if left >= LEAST { Ok(left) } else { Err(Error::Value { name, value, requirement }) }
+    }
+}
+
 /// The resolutions that are not refused.
 const RESOLUTIONS: std::ops::RangeInclusive<f64> = 36.0..=1200.0;
 

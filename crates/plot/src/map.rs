@@ -2,7 +2,6 @@
 
 use ndarray::ArrayView2;
 
-use crate::Picture;
 use crate::chart::{COLOURS, WIDTH, pieces};
 use crate::colours::{ATTRACTIVE, Colouring, Colours, MISSING, YIELDED, cluster_colour};
 use crate::frame::{
@@ -10,6 +9,7 @@ use crate::frame::{
 };
 use crate::scale::{Axis, Part, drawable, three_digits};
 use crate::shape::{Area, BLACK, Colour, Curve, GREY, HAIRLINE, Image, Shape, WHITE};
+use crate::{Paper, Picture};
 use asperity::Grid;
 use asperity::{Error, Result};
 
@@ -23,6 +23,24 @@ const SPLIT: f64 = 10.0;
 const SHADES: usize = 100;
 /// The pixels of a map to a point, for which its size is chosen.
 const PIXELS: f64 = 2.0;
+
+/// The steps in which a map is fitted to the width of a paper.
+const FITS: usize = 3;
+
+/// The room at the left of a map, its sides, and the room at its right.
+struct Sides {
+    left: f64,
+    width: f64,
+    right: f64,
+    height: f64,
+}
+
+/// The room that an axis takes at the left of a map, and the room that colour bars take at its right.
+fn beside(y: Option<&Axis>, bars: &[Bar]) -> (f64, f64) {
+    let bars_room = bars.iter().map(|bar| room(&bar.axis)).fold(0.0, f64::max);
+    let right = if bars.is_empty() { 3.0 * MARGIN } else { GAP + BAR + bars_room + MARGIN };
+    (2.0 * MARGIN + y.map_or(0.0, room), right)
+}
 
 /// A picture of a field on a periodic rectangle, with its title, axes and legend.
 ///
@@ -102,17 +120,17 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// Draws the map, for `dpi` pixels per inch: [`DPI`](super::DPI), or more.
+    /// Draws the map on a [`Paper`], or for pixels per inch: [`DPI`](super::DPI), or more.
     ///
     /// # Errors
-    /// [`Error::Shape`] if the values are not on the grid, and [`Error::Value`] if `dpi` is below 36 or above 1200, or
-    /// the limits are not finite and in order.
-    pub fn draw(&self, dpi: f64) -> Result<Picture> {
-        self.draw_plot(dpi).map(|(picture, _)| picture)
+    /// [`Error::Shape`] if the values are not on the grid, and [`Error::Value`] if the pixels per inch are below 36 or
+    /// above 1200, the paper is too narrow, or the limits are not finite and in order.
+    pub fn draw(&self, paper: impl Into<Paper>) -> Result<Picture> {
+        self.draw_plot(paper.into()).map(|(picture, _)| picture)
     }
 
     /// The picture, and where in it the map or curve is.
-    pub(super) fn draw_plot(&self, dpi: f64) -> Result<(Picture, Area)> {
+    pub(super) fn draw_plot(&self, paper: Paper) -> Result<(Picture, Area)> {
         Error::shape("field to draw", self.values.dim(), self.grid.shape())?;
         if let Some((_, value)) = self.limits.filter(|(low, high)| !(low < high && drawable(*low) && drawable(*high))) {
             let (name, requirement) = ("upper limit of the colours", "finite and above the lower limit");
@@ -122,26 +140,21 @@ impl<'a> Map<'a> {
         if self.without.is_some() {
             colours.missing = GREY;
         }
-        let (width, height) = self.size();
-        let (x, y, bars) = self.axes(&colours, width, height);
+        let (x, y, bars, Sides { left, width, right, height }) = self.framed(&colours, &paper)?;
         let bars_height = bars.iter().map(|bar| bar.place.1).fold(0.0, f64::max);
         let beyond = if self.is_line() { None } else { colours.load_beyond(self.signs, self.unit) };
         let caption: Vec<_> =
             [self.caption].into_iter().chain(beyond.as_deref()).filter(|text| !text.is_empty()).collect();
         let caption = caption.join("; ");
-        let texts = Texts { title: self.title, caption: &caption, legend: self.legend() };
-
-        let left = 2.0 * MARGIN + y.as_ref().map_or(0.0, room);
-        let bars_room = bars.iter().map(|bar| room(&bar.axis)).fold(0.0, f64::max);
-        let right = if bars.is_empty() { 3.0 * MARGIN } else { GAP + BAR + bars_room + MARGIN };
+        let texts = Texts::new([self.title, &caption], self.legend(), paper.width.map(|_| width + right - MARGIN));
         let plot = Area::new(left, texts.above(), width, height);
         let bottom = plot.top + height.max(bars_height - NUMBERS - LINE) + NUMBERS + LINE + MARGIN;
         let across = (width + right).max(texts.widest() + MARGIN);
-        let mut picture = Picture::new(self.title, ((left + across).ceil(), bottom + texts.below(across)), dpi)?;
+        let mut picture = Picture::new(self.title, ((left + across).ceil(), bottom + texts.below(across)), paper.dpi)?;
         if y.is_some() && self.is_line() {
             self.draw_curve(&mut picture, plot, &colours);
         } else {
-            let image = self.image(plot, &colours, dpi);
+            let image = self.image(plot, &colours, paper.dpi);
             picture.shapes.push(Shape::Image(image));
             self.draw_path(&mut picture, plot);
         }
@@ -151,6 +164,7 @@ impl<'a> Map<'a> {
             draw_axis_beside(&mut picture, &y, plot, -1.0, room(&y));
         }
         for bar in bars {
+            let bars_room = right - GAP - BAR - MARGIN;
             bar.draw(&mut picture, (plot.right() + GAP, plot.top), bars_room, &colours);
         }
         texts.draw(&mut picture, left, bottom, across);
@@ -194,6 +208,23 @@ impl<'a> Map<'a> {
                 (f64::from(width) / PIXELS, f64::from(height) / PIXELS)
             }
         }
+    }
+
+    /// Axes and colour bars, and the sides that these leave to the map on a paper.
+    fn framed(&self, colours: &Colours, paper: &Paper) -> Result<(Axis, Option<Axis>, Vec<Bar>, Sides)> {
+        let (mut width, mut height) = self.size();
+        // numbers at the sides depend on the height, and it on their widths
+        for _ in 0..FITS {
+            let (_, y, bars) = self.axes(colours, width, height);
+            let (left, right) = beside(y.as_ref(), &bars);
+            let found = paper.across(left + right, width)?;
+            height *= if self.is_line() { 1.0 } else { found / width };
+            width = found;
+        }
+        let (x, y, bars) = self.axes(colours, width, height);
+        let (left, right) = beside(y.as_ref(), &bars);
+        let width = paper.across(left + right, width)?;
+        Ok((x, y, bars, Sides { left, width, right, height }))
     }
 
     /// The axis below, the one at the left, and the colour bars.

@@ -13,7 +13,7 @@ use asperity::Grid;
 /// Writes a map, and reads its width, height and pixels, and the corner and size of the plot.
 fn drawn(map: &Map<'_>, name: &str) -> (usize, usize, Vec<[u8; 3]>, [usize; 4]) {
     let path = std::env::temp_dir().join(format!("asperity-{}-{name}.png", std::process::id()));
-    let (picture, plot) = map.draw_plot(DPI).unwrap();
+    let (picture, plot) = map.draw_plot(DPI.into()).unwrap();
     picture.write(&path).unwrap();
     let mut reader = ::png::Decoder::new(BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];
@@ -223,7 +223,7 @@ fn a_narrow_chart_has_the_text_of_a_wide_one() {
     let chart = Chart { x_label: "load", y_label: "area", curves, ..Chart::default() };
     let sizes = |svg: &str| svg.split("font-size=\"").skip(1).map(|text| text[..1].to_owned()).collect::<Vec<_>>();
     for width in [260.0, 420.0] {
-        let picture = chart.draw_across(DPI, width).unwrap();
+        let picture = chart.draw(Paper { dpi: DPI, width: Some(width) }).unwrap();
         assert_eq!(picture.width, width);
         let svg = picture.svg().unwrap();
         assert!(sizes(&svg).len() > 6 && sizes(&svg).iter().all(|size| size == "8" || size == "9"), "{svg}");
@@ -261,7 +261,7 @@ fn more_pixels_per_inch_make_the_same_picture_larger() {
     let map = Map::new(values.view(), Grid::square(60, 1.0).unwrap(), Colouring::Sequential);
     let [usual, fine] = [DPI, 2.0 * DPI].map(|dpi| Raster::of(&map.draw(dpi).unwrap()));
     assert_eq!((fine.columns, fine.pixels.len()), (2 * usual.columns, 4 * usual.pixels.len()));
-    let plot = map.draw_plot(DPI).unwrap().1;
+    let plot = map.draw_plot(DPI.into()).unwrap().1;
     let (left, top) = ((2.0 * plot.left) as usize, (2.0 * plot.top) as usize);
     for (row, column) in (0..600).step_by(37).flat_map(|row| (0..600).step_by(37).map(move |column| (row, column))) {
         let at = |raster: &Raster, factor: usize| {

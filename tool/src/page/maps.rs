@@ -2,7 +2,7 @@
 
 use asperity::Grid;
 use asperity_maps::io::read_field;
-use asperity_plot::{Chart, Colouring, Distribution, Map};
+use asperity_plot::{Chart, Colouring, Distribution, Map, Paper};
 use asperity_scene::Boundary;
 use ndarray::Zip;
 
@@ -20,8 +20,8 @@ const NOTICEABLE: f64 = 0.01;
 const CLASSES: usize = 60;
 
 /// The resolution of a map with a pixel for each of the nodes along its longer side, which are 0.25 to 0.5 points wide.
-pub fn resolution(nodes: u64) -> f64 {
-    (0.288 * nodes as f64).clamp(FINE, FINEST)
+pub fn resolution(nodes: u64) -> Paper {
+    (0.288 * nodes as f64).clamp(FINE, FINEST).into()
 }
 
 /// Puts the maps of a solve on a page, with histograms of gap and pressure.
@@ -56,11 +56,11 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
             mark_yielded(&mut regions, depth.view());
         }
     }
-    let dpi = resolution(gap.dim().0.max(gap.dim().1) as u64);
+    let paper = resolution(gap.dim().0.max(gap.dim().1) as u64);
     let clusters = colours.clusters(solved.boundary() == Boundary::Periodic);
-    let contact = draw_contact(grid, "Contact", units, &regions, clusters, dpi)?;
+    let contact = draw_contact(grid, "Contact", units, &regions, clusters, paper)?;
     let drawn = if adhesive { &pressure } else { &contact_pressure };
-    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, colours.limits(), dpi)?;
+    let pressures = draw_pressure(grid, ("Pressure", ""), units, drawn, colours.limits(), paper)?;
     let gaps = Map {
         title: "Gap",
         length_unit: length,
@@ -68,7 +68,7 @@ pub fn draw(page: &mut Page, solved: &Solved<'_>, units: &Units, colours: &MapCo
         unit: length,
         ..Map::new(gap.view(), grid, Colouring::Sequential)
     };
-    let gaps = gaps.draw(dpi)?;
+    let gaps = gaps.draw(paper)?;
     for map in [contact, pressures, gaps] {
         page.map(&map, grid.lengths(), length)?;
     }

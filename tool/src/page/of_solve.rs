@@ -32,7 +32,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         serde_json::from_str(&text).map_err(|e| Error::file(&path, format!("is no report of asperity: {e}")))?;
     let command = report["command"].as_str().unwrap_or_default().to_owned();
     let longest = report["shape"].as_array().into_iter().flatten().filter_map(Value::as_u64).max();
-    let dpi = resolution(longest.unwrap_or_default());
+    let paper = resolution(longest.unwrap_or_default());
     match &*command {
         "solve" | "demo" => {}
         "pull-off" => {
@@ -41,8 +41,8 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
             all.extend(report.as_object().cloned().unwrap_or_default().into_iter().filter(|(key, _)| key != "last"));
             report = all.into();
         }
-        "leak" => return page_of(folder, &report, leak::contents(folder, &report, dpi)?),
-        "contact" => return page_of(folder, &report, contact::contents(folder, &report, FINE)?),
+        "leak" => return page_of(folder, &report, leak::contents(folder, &report, paper)?),
+        "contact" => return page_of(folder, &report, contact::contents(folder, &report, FINE.into())?),
         other => return Err(Error::file(&path, format!("is of asperity {other}, which has no page")).into()),
     }
     let solved = Solved { folder, report };

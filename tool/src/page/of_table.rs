@@ -184,7 +184,7 @@ fn head_of_cycle(rows: &[Value], units: &Units) -> Vec<(String, String)> {
 fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Picture>> {
     let differs = |column: &str| rows.iter().any(|row| row[column] != rows[0][column]);
     let is_there = |column: &str| rows.iter().any(|row| !row[column].is_null());
-    let drawn = |x: &str, label: &str, ys: &[(&str, &str)]| chart(rows, (x, label), ys, Vec::new(), units, FINE);
+    let drawn = |x: &str, label: &str, ys: &[(&str, &str)]| chart(rows, (x, label), ys, Vec::new(), units, FINE.into());
     let searched = is_there("wanted_contact_fraction");
     let load = if rows[0]["control"] == "normal-force" && !searched { "normal_force" } else { "mean_pressure" };
     let free = is_there("approach");
@@ -200,7 +200,7 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
     }
     let areas = [("counted", "contact_fraction"), ("corrected", "corrected_contact_fraction")];
     charts.push(match cycle || along.is_some() || !differs(load) {
-        true => chart_of_loads(rows, units, None, FINE)?,
+        true => chart_of_loads(rows, units, None, FINE.into())?,
         false if study || !is_there(areas[1].1) => drawn(load, &spaced(load), &[("", areas[0].1)])?,
         false => drawn(load, &spaced(load), &areas)?,
     });
@@ -223,7 +223,7 @@ fn charts(rows: &[Value], cycle: bool, units: &Units) -> asperity::Result<Vec<Pi
     }
     // what is the same in all rows needs no curve
     for (x, y) in pairs.into_iter().filter(|(x, y)| differs(x) && differs(y)) {
-        charts.push(chart_of_columns(rows, x, y, units, FINE)?);
+        charts.push(chart_of_columns(rows, x, y, units, FINE.into())?);
     }
     Ok(charts)
 }

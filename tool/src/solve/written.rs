@@ -10,7 +10,7 @@ use super::{DISTRIBUTION, FIELDS, Format, Job, NPZ, Options, PICTURES, VTI};
 use crate::csv;
 use crate::options::Scalar;
 use crate::output::write_text;
-use crate::pictures::{self, Resolution};
+use crate::pictures;
 use crate::results::write_report;
 use crate::units::Units;
 
@@ -49,15 +49,17 @@ impl Job<'_> {
         if !self.pictures {
             return Ok(None);
         }
-        let &Options { picture_format, resolution: Resolution { dpi }, ref colours, .. } = self.options;
+        let &Options { picture_format, ref size, ref colours, .. } = self.options;
         let [contact_name, pressure_name] = PICTURES.map(|name| path(&picture_format.file(name)));
         let mut regions = self.part.of_field(whole.regions())?.mapv(f64::from);
         let depth = solution.plastic_depth.as_ref();
         depth.into_iter().for_each(|depth| pictures::mark_yielded(&mut regions, depth.view()));
         let meet = self.part.sides_meet(whole);
-        pictures::draw_contact(shown, "Contact", units, &regions, colours.clusters(meet), dpi)?.write(contact_name)?;
+        pictures::draw_contact(shown, "Contact", units, &regions, colours.clusters(meet), size.paper())?
+            .write(contact_name)?;
         let pressure = pictures::pressure_to_draw(solution, self.problem.scene.adhesion.adheres());
-        let picture = pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, colours.limits(), dpi)?;
+        let picture =
+            pictures::draw_pressure(shown, ("Pressure", ""), units, pressure, colours.limits(), size.paper())?;
         picture.write(pressure_name)?;
         Ok(picture.load_beyond().map(str::to_owned))
     }
