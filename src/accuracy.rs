@@ -10,6 +10,7 @@ use crate::names::names;
 use crate::nested::Level;
 use crate::problem::Control;
 use crate::solver::Report;
+use crate::stability::ContactStiffness;
 #[cfg(doc)]
 use crate::stability::EdgeError;
 use crate::surface::{Surface, mirror};
@@ -39,15 +40,13 @@ pub enum Quantity {
     Approach,
     /// The mean external pressure, where it is not given.
     Pressure,
-    /// The contact stiffness, [`ContactStiffness`](crate::stability::ContactStiffness).
-    Stiffness,
 }
 
-names!(Quantity { Area = "area", Gap = "gap", Approach = "approach", Pressure = "pressure", Stiffness = "stiffness" });
+names!(Quantity { Area = "area", Gap = "gap", Approach = "approach", Pressure = "pressure" });
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure, Self::Stiffness];
+    pub const ALL: [Self; 4] = [Self::Area, Self::Gap, Self::Approach, Self::Pressure];
 
     /// Refuses a quantity that a control gives instead of finding it.
     ///
@@ -89,7 +88,6 @@ impl Quantity {
             Self::Gap => level.mean_gap,
             Self::Approach => level.approach?,
             Self::Pressure => level.mean_pressure,
-            Self::Stiffness => level.stiffness?.pressure_per_length,
         })
     }
 
@@ -102,7 +100,6 @@ impl Quantity {
             Self::Gap => edge.gap / level.mean_gap,
             Self::Approach => edge.gap / level.approach?,
             Self::Pressure => edge.gap * stiffness.pressure_per_length / level.mean_pressure,
-            Self::Stiffness => edge.stiffness / stiffness.pressure_per_length,
         };
         Some(error.abs()).filter(|error| error.is_finite())
     }
@@ -125,13 +122,7 @@ impl Quantity {
             return Some((share * difference).hypot(places).hypot(adhesion));
         }
         let edge = (counted - coarser_counted) / counted.max(coarser_counted).max(f64::MIN_POSITIVE);
-        let (share, of_edge) = match self {
-            // there all is of first order, or of second
-            Self::Stiffness if line => (1.0, 0.3),
-            _ if line => (1.0 / 3.0, 0.02),
-            Self::Stiffness => (0.3, 0.11),
-            _ => (0.15, 0.001),
-        };
+        let (share, of_edge) = if line { (1.0 / 3.0, 0.02) } else { (0.15, 0.001) };
         Some((share * difference).hypot(of_edge * edge))
     }
 
@@ -141,7 +132,6 @@ impl Quantity {
             Self::Area => (if line { 5.0 } else { 0.6 }, 2.0),
             Self::Gap | Self::Approach => (0.4, 3.0),
             Self::Pressure => (1.0, 3.0),
-            Self::Stiffness => (0.4, 2.0),
         };
         share * nodes_per_wave.powf(-order)
     }
@@ -156,7 +146,6 @@ impl Quantity {
             Self::Area => GridError::COVER * 0.3 / nodes_per_wave.powi(2),
             Self::Gap | Self::Approach => GridError::COVER * 0.05 / nodes_per_wave.powi(2),
             Self::Pressure => GridError::COVER * 0.1 / nodes_per_wave.powi(2),
-            Self::Stiffness => GridError::COVER * 0.06 / nodes_per_wave,
         }
     }
 }
@@ -172,6 +161,17 @@ fn at_edge(area: &ContactArea, nodes_per_wave: f64, mu_rho: f64) -> [f64; 2] {
     let [contact, apart] = [nodes, nodes / area.contact_fraction - nodes].map(|nodes| edges / nodes.max(1.0));
     let alike = (0.1 * contact * (contact + 2.0 * apart)).hypot(4.0 / nodes_per_wave.powi(2));
     [(0.03 * contact / area.places.sqrt()).hypot(alike / area.places), adhesion]
+}
+
+impl ContactStiffness {
+    /// The relative error of the stiffness, with the estimated error of the grid, of which the [edge](EdgeError) has the
+    /// size; none where that is not known.
+    pub fn error(&self) -> Option<f64> {
+        if self.pressure_per_length == 0.0 {
+            return Some(self.relative_error);
+        }
+        Some(self.relative_error + GridError::COVER * (self.edge?.stiffness? / self.pressure_per_length).abs())
+    }
 }
 
 impl Surface {
@@ -212,9 +212,9 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// The estimated relative error of the grid, of one quantity.
 ///
 /// With the contact stiffness k of the finest grid ([`Nested::stiffness`](crate::Nested::stiffness)) the errors of the
-/// mean gap, the mean pressure and the stiffness follow from its edge, [`EdgeError`]: that of the pressure under a
-/// given mean gap is k times that of the gap under a given pressure. To their squares are added those of 0.4/n³, 1/n³ and
-/// 0.4/n², with n the number of nodes in the shortest wave.
+/// mean gap and the mean pressure follow from its edge, [`EdgeError`]: the error of the pressure under a given mean gap
+/// is k times the error of the gap under a given pressure. To their squares are added those of 0.4/n³ and 1/n³, with n
+/// the number of nodes in the shortest wave.
 ///
 /// Otherwise, with δQ the relative difference of a quantity Q to the grid of half as many nodes along its sides, the
 /// size of the error is the root of the sum of the squares of
@@ -222,13 +222,12 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// | quantity | terms |
 /// |---|---|
 /// | corrected area A_c | δA_c/4, 0.03 κ/√M, 0.1 κ(κ + 2κ')/M, 4/(n² M), 0.1 μ_ρ^{3/2} ε |
-/// | contact stiffness k | 0.3 δk, 0.11 δA |
 /// | mean gap ḡ, mean pressure p̄ | 0.15 δḡ, 0.001 δA, and with p̄ likewise |
 ///
 /// where A is the area as nodes count it, and ε = A/A_c − 1; κ and κ' are the neighbours between which the edge runs
 /// ([`ContactArea::edges`]), over the nodes in contact and over those apart; M is the number of them that are
-/// independent ([`ContactArea::places`]). On a line the factors are 1/2 for the area, 1 and 0.3 for the
-/// stiffness, and 1/3 and 0.02 for gap and pressure. Without a coarser grid 0.6/n², on a line 5/n², takes the place of
+/// independent ([`ContactArea::places`]). On a line the factors are 1/2 for the area, and 1/3 and 0.02 for
+/// gap and pressure. Without a coarser grid 0.6/n², on a line 5/n², takes the place of
 /// δA_c/4, and the terms with M count twice.
 ///
 /// κ and δA have the scale of all that depends on where between the nodes the edge falls; δQ alone may be small by
@@ -251,12 +250,12 @@ const ORDERS: (f64, f64) = (0.5, 3.0);
 /// patch of contact is on one of them alone; and rough on one grid. To the squares are added those of an edge without
 /// adhesion: with M of the area above, on one grid twice, half of it for gap and pressure and 1.2 times for the approach,
 /// and on one grid 0.6/n² or 0.4/n³. The weaker the adhesion, the more the factors of δ are those without it. No estimate
-/// is zero. The stiffness has no estimate.
+/// is zero.
 ///
 /// A grid counts if it has the same waves, the shortest with at least four nodes ([`Surface::nodes_per_wave`]), a
 /// μ_ρ ≤ 0.5, and, if it is a coarser one, was solved to 3e-3. Sure are gap and pressure by the edge;
-/// and, with at least sixteen nodes in the shortest wave, the stiffness by the edge and, on a grid of more than one
-/// row, the area by a coarser grid. All others are [`rough`](Self::rough).
+/// and, with at least sixteen nodes in the shortest wave and on a grid of more than one row, the area by a coarser
+/// grid. All others are [`rough`](Self::rough).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -280,7 +279,7 @@ impl GridError {
     pub const LEAST_NODES_PER_WAVE: f64 = 4.0;
 
     /// The errors, as by [`GridError::of`], of all quantities that the control does not give.
-    pub fn of_all(levels: &[Level], report: &Report, nodes_per_wave: f64) -> [(Quantity, Option<Self>); 5] {
+    pub fn of_all(levels: &[Level], report: &Report, nodes_per_wave: f64) -> [(Quantity, Option<Self>); 4] {
         Quantity::ALL.map(|of| {
             let found = of.check(report.control).is_ok().then(|| Self::of(levels, of, nodes_per_wave, report.mu_rho));
             (of, found.flatten())
@@ -315,8 +314,7 @@ impl GridError {
         let line = finest.shape.0 == 1 || finest.shape.1 == 1;
         let waves = quantity.by_waves(nodes_per_wave, line);
         if let Some(size) = quantity.by_edge(finest).filter(|_| resolves(1.0)) {
-            let rough = quantity == Quantity::Stiffness && !fine;
-            return Some(Self { relative: Self::COVER * size.hypot(waves), order, rough });
+            return Some(Self { relative: Self::COVER * size.hypot(waves), order, rough: false });
         }
         let at_edge @ [places, adhesion] = at_edge(&finest.area, nodes_per_wave, mu_rho);
         let (size, sure) = match coarser {

@@ -17,6 +17,7 @@ pub(crate) use outline::{Edge, Outline};
 mod area;
 mod clusters;
 mod distribution;
+mod extremes;
 mod original;
 mod outline;
 mod patch;
@@ -25,6 +26,7 @@ mod places;
 pub use area::ContactArea;
 pub use clusters::Clusters;
 pub use distribution::{PressureDistribution, bulk};
+pub use extremes::PressureExtremes;
 pub use original::Original;
 pub use patch::Patch;
 

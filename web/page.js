@@ -304,7 +304,8 @@ class Page {
     this.wanted.add("rest");
   }
 
-  /* The figures at the maps. Coarser grids tell the error of the grid; a solve from the contact before has none. */
+  /* The figures at the maps. Coarser grids tell the error of the grid; a solve from the contact before has none,
+     and neither has one on one grid alone. */
   figures(rows, started) {
     const known = [...FIGURES, GRID_ERROR].flatMap(name => rows.filter(row => row[0] === name));
     const entries = known.map(([name, text]) => figure(name, own(text)));
@@ -316,6 +317,8 @@ class Page {
         this.want("solve");
       });
       entries.push(figure(GRID_ERROR, find));
+    } else if (!known.some(([name]) => name === GRID_ERROR)) {
+      entries.push(figure(GRID_ERROR, "unknown: it is solved on one grid alone"));
     }
     at("figures").replaceChildren(...entries);
   }

@@ -19,6 +19,8 @@ const GRIDS: usize = 3;
 const SLOPE: f64 = 0.1;
 /// An accuracy that no grid reaches, which the solver is to be far below.
 const NEVER: f64 = 1e-5;
+/// The error of the stiffness on each grid.
+const STIFFNESS: f64 = 1e-4;
 
 /// Maps by name: their shapes, the waves as shares of those that the grid has, and how often they are smoothed.
 type Kind = (&'static str, &'static [(usize, usize)], (f64, f64), (f64, f64));
@@ -79,7 +81,8 @@ pub fn measure(quick: bool) -> Outcome<()> {
             let surface = surface(kind, &mut state)?;
             let solve = |control| {
                 let mut solver = Solver::new(Settings::default().tolerance(0.02 * NEVER));
-                let wanted = Accuracy::new(NEVER, Quantity::Stiffness).memory(MEMORY);
+                let wanted = Accuracy::new(NEVER, Quantity::Area).memory(MEMORY);
+                let wanted = wanted.nested(wanted.nested.stiffness(STIFFNESS));
                 wanted.solve(&mut solver, &surface, half_space, NoAdhesion, control)
             };
             let mut found = solve(Control::MeanPressure(SLOPE * 0.004 * 150_f64.powf(unit(&mut state))))?;
@@ -94,10 +97,12 @@ pub fn measure(quick: bool) -> Outcome<()> {
                 let waves = waves * (longest(&levels[at]) / longest(&levels[given])) as f64;
                 let estimates = GridError::of_all(&levels[..=at], &found.solution.report, waves);
                 let periodic = estimates.into_iter().filter(|(quantity, _)| *quantity != Quantity::Approach);
+                let stiffness = levels[at].stiffness.and_then(|stiffness| stiffness.error());
+                let estimates = periodic.map(|(_, error)| error.map(|error| error.relative)).chain([stiffness]);
                 let both = values(&levels[at]).into_iter().zip(values(truth));
-                for (((_, estimate), (value, truth)), ratios) in periodic.zip(both).zip(&mut ratios) {
+                for ((estimate, (value, truth)), ratios) in estimates.zip(both).zip(&mut ratios) {
                     let error = (value / truth - 1.0).abs();
-                    ratios.extend(estimate.filter(|_| error.is_finite()).map(|estimate| estimate.relative / error));
+                    ratios.extend(estimate.filter(|_| error.is_finite()).map(|estimate| estimate / error));
                 }
             }
         }

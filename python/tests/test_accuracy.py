@@ -74,7 +74,7 @@ def test_an_accuracy_that_is_not_reached_is_a_warning_with_the_reason(coarse):
         raise StopIteration
 
     with pytest.warns(asperity.ConvergenceWarning, match="stopped"):
-        found = asperity.solve(coarse, accuracy=0.01, accuracy_of="stiffness", observe=stop, **PRESSED)
+        found = asperity.solve(coarse, accuracy=0.01, accuracy_of="gap", observe=stop, **PRESSED)
     assert found.gap.shape == (32, 32) and found.contact_stiffness is None
 
 

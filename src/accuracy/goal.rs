@@ -169,7 +169,6 @@ impl Accuracy {
         surface.grid().slab().alone("accuracy")?;
         let tolerance = self.tolerance(&solver.settings)?;
         self.of.check(control)?;
-        self.check_law(law)?;
         let boundary = operator.boundary();
         self.of.check_in(boundary)?;
         let nodes_per_wave = surface.nodes_per_wave(boundary);
@@ -206,13 +205,6 @@ impl Accuracy {
         }
         let applications = APPLICATIONS * growth.powi(refinements);
         Ok(Plan { nodes_per_wave, tolerance, shape: shape(refinements), bytes: bytes(refinements), applications })
-    }
-
-    fn check_law<T: Real>(&self, law: &dyn AdhesionLaw<T>) -> Result<()> {
-        let reason = "with a law that has the range of the grid it is that of edges which the nodes hold, and does not \
-                      converge: take the difference of two loads";
-        let holds = self.of == Quantity::Stiffness && law.hints().of_grid;
-        if holds { Err(Error::Unsuited { what: "accuracy of the stiffness", reason }) } else { Ok(()) }
     }
 
     fn asks_the_edge<T: Real>(&self, wall: Wall<'_, T>, surface: &Surface, law: &dyn AdhesionLaw<T>) -> bool {
@@ -271,9 +263,8 @@ impl Accuracy {
     ) -> Result<AccurateSolution<T>> {
         let tolerance = self.tolerance(&solver.settings)?;
         self.of.check(control)?;
-        self.check_law(&law)?;
         let mut nested = self.nested.coarse_tolerance(tolerance);
-        if self.of == Quantity::Stiffness || self.asks_the_edge(solver.constraint.wall(), surface, &law) {
+        if self.asks_the_edge(solver.constraint.wall(), surface, &law) {
             let needed = tolerance.min(ContactStiffness::TOLERANCE);
             nested = nested.stiffness(nested.stiffness.map_or(needed, |given| given.min(needed)));
         }

@@ -3,6 +3,8 @@
 use ndarray::{CowArray, Ix2};
 
 use super::tangent::Tangent;
+use crate::contact::ContactArea;
+use crate::error::Result;
 use crate::grid::Grid;
 use crate::real::Real;
 use crate::solver::Solution;
@@ -45,13 +47,18 @@ pub struct EdgeError {
     /// The error of the mean gap under a given load, a length; times the stiffness, the error of the mean pressure
     /// under a given mean gap.
     pub gap: f64,
-    /// The error of the stiffness, a pressure per length.
-    pub stiffness: f64,
+    /// The error of the stiffness, a pressure per length. None with adhesion, by which edges move, and of strips on a
+    /// plane, where fewer than half of the neighbours across the edge are at [places](ContactArea::places) of their own.
+    pub stiffness: Option<f64>,
 }
 
 impl EdgeError {
     /// The error of a solution in a periodic cell, by its tangent at a mean gap of 1 and its stiffness.
-    pub(super) fn of<T: Real>(solution: &Solution<T>, tangent: &Tangent<T>, stiffness: f64) -> Self {
+    pub(super) fn of<T: Real>(
+        solution: &Solution<T>,
+        tangent: &Tangent<T>,
+        (stiffness, is_adhesive): (f64, bool),
+    ) -> Result<Self> {
         let (grid, modulus) = (&solution.grid, solution.report.modulus);
         let (nx, ny) = grid.shape();
         let fields = [&solution.gap, &solution.contact_pressure, &tangent.opening, &tangent.pressure];
@@ -94,10 +101,13 @@ impl EdgeError {
         let line = grid.shape().0 == 1 || grid.is_line();
         let [of_stiffness, of_gap] = if line { [&ON_LINES; 2] } else { [&STIFFNESS, &GAP] };
         let nodes = grid.nodes() as f64;
-        Self {
+        let area = ContactArea::of_solution(solution)?;
+        let is_strip = !line && 2.0 * area.places < area.edges as f64;
+        let is_told = !is_adhesive && !is_strip;
+        Ok(Self {
             gap: of_gap.size(wave, waves, 0.0) / (nodes * stiffness.abs()),
-            stiffness: of_stiffness.size(jump, jumps, excess) / nodes,
-        }
+            stiffness: is_told.then(|| of_stiffness.size(jump, jumps, excess) / nodes),
+        })
     }
 }
 

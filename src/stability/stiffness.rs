@@ -129,7 +129,8 @@ impl ContactStiffness {
         let near = Near::Of(solution.touched.as_ref());
         let slopes = slopes(&solution.gap, (followed, constraint), near, (&*operator, window))?;
         let rigid = matches!(constraint.wall(), Wall::Rigid) && window.is_none();
-        let at_edge = rigid && solution.report.contact_nodes > 0 && !law.hints().of_grid;
+        let (is_adhesive, of_grid) = (!law.hints().zero, law.hints().of_grid);
+        let at_edge = rigid && solution.report.contact_nodes > 0 && !of_grid;
         let smoothed = smoothed.is_some();
         let mut hessian = Hessian::new(operator, slopes, Load::Gap(0.0));
         hessian.hold(flat.stiffness);
@@ -142,7 +143,7 @@ impl ContactStiffness {
         let series = if on_grid == 0.0 { 0.0 } else { (on_grid.recip() + flat.boundary.mean_compliance()).recip() };
         let pressure_per_length = flat.padding * series;
         let force_per_length = pressure_per_length * flat.area;
-        let edge = tangent.map(|tangent| EdgeError::of(solution, &tangent, on_grid));
+        let edge = tangent.map(|tangent| EdgeError::of(solution, &tangent, (on_grid, is_adhesive))).transpose()?;
         Ok(Self { pressure_per_length, force_per_length, relative_error, smoothed, operator_applications, edge })
     }
 }

@@ -225,7 +225,6 @@ fn the_law_without_a_range_has_that_of_the_grid() {
         ("--wall none", &["--law jkr does not repel"]),
         ("--cut-off 1", &["ends by itself"]),
         ("--accuracy 0.1 --accuracy-of approach", &["accuracy of the approach", "in a periodic cell have none"]),
-        ("--accuracy 0.1 --accuracy-of stiffness", &["accuracy of the stiffness", "does not converge"]),
     ] {
         bench.refused_with(&format!("{SOLVE} {law} {options} --out no"), parts);
     }

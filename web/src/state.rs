@@ -123,7 +123,7 @@ impl<T: Scalar> State<T> {
         let rows: Vec<_> = rows.into_iter().map(|(name, texts)| (name, texts.concat())).collect();
         let mut ends = json!({
             "gap": of(&part.gap),
-            "pressure": of(&part.pressure),
+            "pressure": of(pressure),
             "contact_pressure": of(&part.contact_pressure),
         });
         part.plastic_depth.iter().for_each(|depth| ends["plastic_depth"] = json!(of(depth)));

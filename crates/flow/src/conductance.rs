@@ -60,8 +60,7 @@ impl Conductance {
             let requirement = "at least zero: take the stiffness of a problem without adhesion";
             return Err(Error::Value { name: "contact stiffness", value: pressure_per_length, requirement });
         }
-        let grid = stiffness.edge.map_or(0.0, |edge| (edge.stiffness / pressure_per_length).abs());
-        let error = stiffness.relative_error + grid;
+        let error = stiffness.error().unwrap_or(stiffness.relative_error);
         Self::checked((pressure_per_length, stiffness.force_per_length, error), modulus, resistivities)
     }
 

@@ -85,7 +85,7 @@ record! {
         equivalent_applications: Option<f64> = found.equivalent_applications,
         /// The estimated errors of the finest of nested grids, known after a look.
         grid_error: Option<GridErrors> = None,
-        /// The reason why that of the area is not told, after a look.
+        /// The reason why the error of the area, or of the quantity that has an accuracy, is not told, after a look.
         grid_error_reason: Option<String> = None,
         /// The end of a solve to an accuracy.
         accuracy: Option<Reached> = found.accuracy,
@@ -133,6 +133,9 @@ record! {
         min_pressure: Option<f64> [PRESSURE] = None,
         /// The greatest elastic pressure, known after a look.
         max_pressure: Option<f64> [PRESSURE] = None,
+        /// How far the pressure is below zero without adhesion, as a share of the greatest one, after a look.
+        #[serde(skip)]
+        pressure_residue: f64 = 0.0,
         /// The elastic energy.
         elastic_energy: f64 [ENERGY_PER_AREA] = report.elastic_energy,
         /// The adhesive energy.
@@ -149,6 +152,8 @@ record! {
         stability: Option<Steadiness> = found.stability,
         /// The contact stiffness, a pressure per length, if it was asked for.
         contact_stiffness: Option<f64> [PRESSURE_PER_LENGTH] = found.stiffness.map(|found| found.pressure_per_length),
+        /// The relative error of the contact stiffness, the estimated one of the grid included; none where that is unknown.
+        stiffness_error: Option<f64> = found.stiffness.and_then(|found| found.error()),
         /// The normal stiffness, a force per length, with the contact stiffness.
         normal_stiffness: Option<f64> [FORCE_PER_LENGTH] = found.stiffness.map(|found| share * found.force_per_length),
         /// The conductance per area, if it was asked for.
@@ -240,7 +245,7 @@ impl<T: Real> Sight<T> {
     /// # Errors
     /// [`Error::Shape`](asperity::Error::Shape) if a field does not have the shape of the grid.
     pub fn look(&mut self, account: &mut Account, fields: [ArrayView2<'_, T>; 3]) -> Result<ContactStatistics> {
-        let (found, (min_pressure, max_pressure)) = self.seen(fields)?;
+        let (found, pressures) = self.seen(fields)?;
         if let Some((waves, levels)) = self.open.take() {
             self.estimate(&levels, waves.nodes(self.report.boundary));
         }
@@ -250,8 +255,9 @@ impl<T: Real> Sight<T> {
         account.repulsive_fraction = Some(found.repulsive_fraction);
         account.attractive_fraction = Some(found.attractive_fraction);
         account.patches = Some(found.patches.clone());
-        account.min_pressure = Some(min_pressure);
-        account.max_pressure = Some(max_pressure);
+        account.min_pressure = Some(pressures.least);
+        account.max_pressure = Some(pressures.greatest);
+        account.pressure_residue = pressures.residue;
         Ok(found)
     }
 
@@ -259,7 +265,8 @@ impl<T: Real> Sight<T> {
     fn tell(&self, account: &mut Account) {
         if let Some((errors, nodes_per_wave)) = self.errors {
             (account.grid_error, account.nodes_per_wave) = (Some(errors), nodes_per_wave);
-            account.grid_error_reason = errors.area.is_none().then(|| untold(account));
+            let is_told = errors.in_words(account.accuracy.map(|reached| reached.of)).is_some();
+            account.grid_error_reason = (!is_told || errors.area.is_none()).then(|| untold(account));
         }
     }
 }

@@ -24,7 +24,7 @@ const OUTCOME: &str = "\
     spring_stiffness net_pressure mean_contact_pressure contact_fraction contact_nodes absent_nodes \
     edge_traction adhesive_contact_fraction jkr_contact_fraction corrected_contact_fraction perimeter repulsive_fraction attractive_fraction patches min_gap \
     min_pressure max_pressure elastic_energy adhesive_energy plastic_fraction plastic_depth_max \
-    plastic_depth_mean plastic_energy stability contact_stiffness normal_stiffness \
+    plastic_depth_mean plastic_energy stability contact_stiffness stiffness_error normal_stiffness \
     conductance percolates constriction transmissivity \
     departures peak_traction mu_rho mu_rho_node under_resolved warnings seconds control control_value";
 const INPUTS: &str = "\
@@ -139,7 +139,7 @@ fn nested_grids_tell_their_errors_after_a_look_and_those_of_an_accuracy_at_once(
     nested.look().unwrap();
     let report = json!(nested.account);
     assert_eq!(keys(&report["levels"][0]), words(LEVEL));
-    assert_eq!(keys(&report["grid_error"]), ["area", "gap", "approach", "pressure", "stiffness"]);
+    assert_eq!(keys(&report["grid_error"]), ["area", "gap", "approach", "pressure"]);
 
     let goal = Goal { accuracy: 0.05, of: Quantity::Area, memory: None };
     let Solved { found, account } = solved(&Asked { goal: Some(goal), ..under });

@@ -228,10 +228,8 @@ class Solution:
         metre = in_unit("length_unit", unit) if given.get() else 1.0
         lx, ly = (metre * (length if nodes == part else length / part * nodes) for length, nodes, part in shares)
         per_area, _, error = _asperity.conductance(gap <= 0, (lx, ly), self.boundary, (first, second))
-        grids = self.report["grid_error"] if self._told["law"] == "none" else None
-        grid = None if grids is None else grids["stiffness"]
+        of_grid = self._told["stiffness_error"] if self._told["law"] == "none" else None
         lx, ly = self.lengths
-        of_grid = None if grid is None else grid["relative"]
         return Conductance(per_area, per_area * lx * ly * metre**2, None if of_grid is None else error + of_grid)
 
     @cached_property

@@ -124,7 +124,7 @@ class AccuracyKeywords(TypedDict, total=False):
     """The accuracy that is asked for."""
 
     accuracy: float | None
-    accuracy_of: Literal["area", "gap", "approach", "pressure", "stiffness"] | None
+    accuracy_of: Literal["area", "gap", "approach", "pressure"] | None
     memory: float | None
 
 

@@ -103,7 +103,6 @@ class GridErrors(TypedDict):
     gap: GridError | None
     approach: GridError | None
     pressure: GridError | None
-    stiffness: GridError | None
 
 
 class Reached(TypedDict):
@@ -223,6 +222,7 @@ class Report(TypedDict):
     plastic_energy: float | None
     stability: Steadiness | None
     contact_stiffness: float | None
+    stiffness_error: float | None
     normal_stiffness: float | None
     conductance: Conducted | None
     percolates: dict[str, bool] | None

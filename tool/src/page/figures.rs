@@ -19,7 +19,7 @@ pub const GROUPS: [(&str, &str); 8] = [
     (
         "Contact",
         "contact_fraction jkr_contact_fraction corrected_contact_fraction adhesive_contact_fraction contact_nodes absent_nodes perimeter clusters largest_cluster \
-         repulsive_fraction attractive_fraction plastic_fraction patches contact_stiffness normal_stiffness",
+         repulsive_fraction attractive_fraction plastic_fraction patches contact_stiffness stiffness_error normal_stiffness",
     ),
     ("Gap", "mean_gap min_gap approach plastic_depth_max plastic_depth_mean"),
     ("Pressures", "hardness mean_contact_pressure min_pressure max_pressure peak_traction edge_traction"),
@@ -30,7 +30,7 @@ pub const GROUPS: [(&str, &str); 8] = [
     ),
     (
         "Error",
-        "status criterion relative_error load_error grid_error grid_error_reason accuracy mu_rho mu_rho_node under_resolved",
+        "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved",
     ),
     ("Cost", "iterations operator_applications equivalent_applications seconds"),
 ];

@@ -5,7 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use asperity::Error;
-use asperity_scene::{corrected, dimension_of};
+use asperity::accuracy::Quantity;
+use asperity_scene::{GridErrors, corrected, dimension_of};
+use serde::Deserialize;
 use serde_json::Value;
 
 use super::figures::{GROUPS, OF_ADHESION, is_constant, place, shown};
@@ -88,7 +90,7 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         .as_object()
         .into_iter()
         .flatten()
-        .filter(|(key, _)| *key != "warnings" && (place(key) == usize::MAX || is_constant(key, report)))
+        .filter(|(key, _)| *key != "warnings" && *key != "grid_error_reason" && (place(key) == usize::MAX || is_constant(key, report)))
         .partition(|(key, _)| *key == "levels");
     let others = others.into_iter().filter_map(|(key, value)| Some((key.clone(), shown(key, value, &number)?)));
     page.figures(Some("All inputs"), &others.collect::<Vec<_>>());
@@ -145,6 +147,13 @@ fn number_of<'a>(report: &'a Value, units: &'a Units) -> impl Fn(&str, f64) -> S
     }
 }
 
+/// The error of the grid in the words of a summary, or the reason why there is none; nothing without nested grids.
+fn error_of_grid(report: &Value) -> Option<String> {
+    let errors = GridErrors::deserialize(&report["grid_error"]).ok()?;
+    let words = errors.in_words(Quantity::deserialize(&report["accuracy"]["of"]).ok());
+    words.or_else(|| Some(format!("unknown: {}", report["grid_error_reason"].as_str()?)))
+}
+
 /// The figures of a report by their names, in groups with a heading.
 pub fn groups(report: &Value, units: &Units) -> Vec<(&'static str, Vec<(String, String)>)> {
     let number = number_of(report, units);
@@ -159,6 +168,9 @@ pub fn groups(report: &Value, units: &Units) -> Vec<(&'static str, Vec<(String, 
         _ => true,
     };
     let figure = |key: &str| {
+        if key == "grid_error" {
+            return Some(("error_of_the_grid".to_owned(), error_of_grid(report)?));
+        }
         let name = if key == given { format!("{key}, given") } else { key.to_owned() };
         Some((name, shown(key, report.get(key)?, &number)?))
     };

@@ -6,9 +6,10 @@ use asperity::path::{Event, PathStep};
 use asperity::search::FoundContact;
 use asperity::stability::{Departure, Stability, Verdict};
 use asperity::{Branch, Real, Report, Status};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::key::record;
+use crate::numbers::percent;
 
 record! {
     /// The equilibrium on the other branch, and its distance.
@@ -76,8 +77,8 @@ record! {
 
 record! {
     /// The estimated errors of the finest of nested grids, by quantity; none where one cannot be told, or is given.
-    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-    GridErrors of (all: [(Quantity, Option<GridError>); 5]) {
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+    GridErrors of (all: [(Quantity, Option<GridError>); 4]) {
         /// That of the corrected area.
         area: Option<GridError> = all[0].1,
         /// That of the mean gap.
@@ -86,17 +87,30 @@ record! {
         approach: Option<GridError> = all[2].1,
         /// That of the mean pressure.
         pressure: Option<GridError> = all[3].1,
-        /// That of the contact stiffness.
-        stiffness: Option<GridError> = all[4].1,
     }
 }
 
 impl GridErrors {
     /// The errors with their quantities.
-    pub fn all(&self) -> [(Quantity, Option<GridError>); 5] {
-        let Self { area, gap, approach, pressure, stiffness } = *self;
-        let errors = [area, gap, approach, pressure, stiffness];
+    pub fn all(&self) -> [(Quantity, Option<GridError>); 4] {
+        let Self { area, gap, approach, pressure } = *self;
+        let errors = [area, gap, approach, pressure];
         std::array::from_fn(|i| (Quantity::ALL[i], errors[i]))
+    }
+
+    /// The errors in words: of the quantity that has an accuracy; or of the area, and of quantities with a sure error.
+    /// None where no such error can be told.
+    pub fn in_words(&self, of_accuracy: Option<Quantity>) -> Option<String> {
+        let counts = |of: Quantity, error: &GridError| match of_accuracy {
+            Some(wanted) => of == wanted,
+            None => of == Quantity::Area || !error.rough,
+        };
+        let told = self.all().into_iter().filter_map(|(of, error)| {
+            let error = error.filter(|error| counts(of, error))?;
+            Some(format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" }))
+        });
+        let words: Vec<_> = told.collect();
+        (!words.is_empty()).then(|| words.join(", "))
     }
 }
 

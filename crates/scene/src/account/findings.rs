@@ -1,7 +1,5 @@
 //! The findings after a solve: the conductance of the contact, and the flow through its gap.
 
-use asperity::accuracy::GridError;
-use asperity::stability::ContactStiffness;
 use asperity::{Grid, Real, Result};
 use asperity_flow::{Conductance, Gap, Leakage};
 use serde::Serialize;
@@ -33,8 +31,6 @@ record! {
 /// The findings after a solve, besides the contact stiffness.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
-    /// The relative error of the contact stiffness, the estimated one of the grid included; none where that is unknown.
-    pub stiffness_error: Option<f64>,
     /// The conductance.
     pub conductance: Option<Conducted>,
     /// Whether open nodes connect the sides.
@@ -49,7 +45,6 @@ impl Findings {
     /// The cells of the columns of a table.
     pub(crate) fn cells(&self) -> Map<String, Value> {
         let mut cells = Map::new();
-        cells.insert("stiffness_error".to_owned(), json!(self.stiffness_error));
         if let Some(found) = &self.conductance {
             cells.insert(found.conductors.column().to_owned(), json!(found.value));
             cells.insert(ERROR.to_owned(), json!(found.relative_error));
@@ -73,11 +68,7 @@ impl<T: Real> Found<T> {
             return Ok(Findings::default());
         }
         let conductance = after.conductors.map(|conductors| self.conductance(conductors, elastic));
-        let mut findings = Findings {
-            stiffness_error: self.stiffness.as_ref().and_then(stiffness_error),
-            conductance: conductance.transpose()?.flatten(),
-            ..Findings::default()
-        };
+        let mut findings = Findings { conductance: conductance.transpose()?.flatten(), ..Findings::default() };
         if !after.percolation && after.leakage.is_none() {
             return Ok(findings);
         }
@@ -118,18 +109,9 @@ impl<T: Real> Found<T> {
             (found, (found.per_area == 0.0).then_some(0.0))
         } else {
             let found = Conductance::of(stiffness, solution.report.modulus, resistivities)?;
-            (found, stiffness_error(stiffness))
+            (found, stiffness.error())
         };
         let share = self.sight.original.map_or(1.0, |original| original.share());
         Ok(Some(Conducted::of(found, share, relative_error, conductors)))
     }
-}
-
-/// The relative error of a contact stiffness, as far as that of the grid is known; none without any contact.
-fn stiffness_error(stiffness: &ContactStiffness) -> Option<f64> {
-    let ContactStiffness { pressure_per_length, relative_error, edge, .. } = *stiffness;
-    if pressure_per_length == 0.0 {
-        return Some(relative_error);
-    }
-    Some(relative_error + GridError::COVER * (edge?.stiffness / pressure_per_length).abs())
 }

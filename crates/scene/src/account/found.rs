@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use asperity::accuracy::GridError;
-use asperity::contact::{ContactArea, ContactStatistics, Original};
+use asperity::contact::{ContactArea, ContactStatistics, Original, PressureExtremes};
 use asperity::elastic::Boundary;
 use asperity::nested::Level;
 use asperity::stability::ContactStiffness;
@@ -84,8 +84,8 @@ impl Waves {
     }
 }
 
-/// The statistics of the contact, and the least and the greatest elastic pressure.
-pub(crate) type Seen = (ContactStatistics, (f64, f64));
+/// The statistics of the contact, and the extremes of the elastic pressure.
+pub(crate) type Seen = (ContactStatistics, PressureExtremes);
 
 /// The name of a wall of springs in reports.
 const SPRINGS: &str = "springs";
@@ -153,14 +153,7 @@ impl<T: Real> Sight<T> {
         if has_yielded(&self.report) {
             found.corrected_contact_fraction = f64::NAN;
         }
-        let fold = |start, of: fn(f64, f64) -> f64| {
-            let own = pressure.iter().fold(start, |extreme, p| of(extreme, p.widen()));
-            self.grid.each(own).into_iter().fold(start, of)
-        };
-        let (least, greatest) = (fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max));
-        // without adhesion nothing pulls: what is below zero is rounding, and what the tolerance leaves
-        let least = if law.hints().zero { least.max(0.0) } else { least };
-        Ok((found, (least, greatest)))
+        Ok((found, PressureExtremes::of(pressure, &self.grid, !law.hints().zero)))
     }
 
     /// Estimates the errors of nested grids of a surface, with the nodes of its shortest wave.

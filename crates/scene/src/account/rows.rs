@@ -83,7 +83,11 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     row("traction at the edge", &|s| share(s.edge_traction?));
     row("net pressure", &|s| pressure(s.net_pressure));
     row("mean contact pressure", &|s| pressure(s.mean_contact_pressure));
-    row("least pressure", &|s| pressure(s.min_pressure?));
+    row("least pressure", &|s| {
+        let residue = s.pressure_residue;
+        let left = if residue > 0.0 { format!(", to {residue:.0e} of the greatest") } else { String::new() };
+        Some(pressure(s.min_pressure?)? + &left)
+    });
     row("greatest pressure", &|s| pressure(s.max_pressure?));
     row("elastic energy per area", &|s| energy(s.elastic_energy));
     if adhesive {
@@ -97,7 +101,8 @@ pub fn rows(solves: &[&Account], units: &Units, skin: Skin) -> Vec<(String, Vec<
     row("plastic work per area", &|s| energy(s.plastic_energy?));
     row("contact stiffness", &|s| {
         let held = if s.peak_traction.is_some() { ", of edges that the nodes hold" } else { "" };
-        Some(format!("{}{held}", units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)))
+        let error = s.stiffness_error.map(|error| format!(", to {} %", percent(error))).unwrap_or_default();
+        Some(format!("{}{held}{error}", units.number(s.contact_stiffness?, PRESSURE_PER_LENGTH)))
     });
     row("conductance per area", &|s| {
         let found = s.conductance?;

@@ -1,10 +1,10 @@
 //! The accuracy that is planned, and the shortfalls of an answer, in words.
 
 use asperity::Status;
-use asperity::accuracy::{GridError, Plan, Quantity};
+use asperity::accuracy::{GridError, Plan};
 use asperity::stability::Verdict;
 
-use crate::account::{Account, GridErrors, Reached, Search};
+use crate::account::{Account, Reached, Search};
 use crate::key::{Boundary, GIB, Goal, Precision, Skin, worded};
 use crate::numbers::percent;
 
@@ -130,24 +130,14 @@ fn bytes(bytes: f64) -> String {
     if bytes < GIB { format!("{:.0} MiB", bytes * 1024.0 / GIB) } else { format!("{:.1} GiB", bytes / GIB) }
 }
 
-/// The estimated error of the grid in words: that of the quantity that has an accuracy; or that of the area, if it can
-/// be told, and those that are sure; or why there is none, with a remedy where the waves of the surface are the reason.
+/// The estimated error of the grid in words; or why there is none, with a remedy where the waves of the surface are the
+/// reason.
 pub(crate) fn estimate(account: &Account) -> String {
     let of_accuracy = account.accuracy.map(|reached| reached.of);
-    let counts = |of: Quantity, error: &GridError| match of_accuracy {
-        Some(wanted) => of == wanted,
-        None => of == Quantity::Area || !error.rough,
-    };
-    let told = account.grid_error.iter().flat_map(GridErrors::all).filter_map(|(of, error)| {
-        let error = error.filter(|error| counts(of, error))?;
-        Some(format!("{} % of the {of}{}", percent(error.relative), if error.rough { ", roughly" } else { "" }))
-    });
-    let words: Vec<_> = told.collect();
-    if !words.is_empty() {
-        return words.join(", ");
-    }
     let coarse = of_accuracy.is_none() && account.nodes_per_wave < GridError::LEAST_NODES_PER_WAVE;
-    format!("unknown: {}{}", untold(account), if coarse { ": refine the map ({accuracy})" } else { "" })
+    let remedy = if coarse { ": refine the map ({accuracy})" } else { "" };
+    let words = account.grid_error.and_then(|errors| errors.in_words(of_accuracy));
+    words.unwrap_or_else(|| format!("unknown: {}{remedy}", untold(account)))
 }
 
 /// Why an error of the grid is not told.

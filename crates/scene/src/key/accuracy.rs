@@ -54,7 +54,6 @@ fn quantities() -> Vec<Word> {
         Quantity::Gap => "Mean gap",
         Quantity::Approach => "Approach, with a free boundary",
         Quantity::Pressure => "Mean pressure",
-        Quantity::Stiffness => "Contact stiffness",
         _ => "",
     };
     Quantity::ALL.iter().map(|quantity| Word { name: quantity.name(), help: help(*quantity) }).collect()
