@@ -28,10 +28,7 @@ pub const GROUPS: [(&str, &str); 8] = [
         "elastic_energy adhesive_energy plastic_energy work dissipated imbalance work_error event energy_drop \
          stability departures other_branch",
     ),
-    (
-        "Error",
-        "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved",
-    ),
+    ("Error", "status criterion relative_error load_error grid_error accuracy mu_rho mu_rho_node under_resolved"),
     ("Cost", "iterations operator_applications equivalent_applications seconds"),
 ];
 

@@ -90,7 +90,9 @@ pub fn page(folder: &Path, colours: &MapColours) -> Outcome<String> {
         .as_object()
         .into_iter()
         .flatten()
-        .filter(|(key, _)| *key != "warnings" && *key != "grid_error_reason" && (place(key) == usize::MAX || is_constant(key, report)))
+        .filter(|(key, _)| {
+            *key != "warnings" && *key != "grid_error_reason" && (place(key) == usize::MAX || is_constant(key, report))
+        })
         .partition(|(key, _)| *key == "levels");
     let others = others.into_iter().filter_map(|(key, value)| Some((key.clone(), shown(key, value, &number)?)));
     page.figures(Some("All inputs"), &others.collect::<Vec<_>>());
