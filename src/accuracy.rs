@@ -136,17 +136,19 @@ impl Quantity {
         share * nodes_per_wave.powf(-order)
     }
 
-    /// The estimate to be expected with so many nodes in the shortest wave, by that of rough surfaces; with a law that
-    /// has the range of the grid, by the median of the estimates.
-    fn expected(self, nodes_per_wave: f64, of_grid: bool, line: bool) -> f64 {
-        match self {
-            Self::Area if of_grid => 0.7 / nodes_per_wave,
-            _ if of_grid => 0.3 / nodes_per_wave,
+    /// The estimate to be expected with so many nodes in the shortest wave, by the estimates of rough surfaces: with
+    /// an adhesion in the limit of no range, by their median.
+    fn expected(self, nodes_per_wave: f64, adhesion: f64, line: bool) -> f64 {
+        let without = match self {
             Self::Area if line => GridError::COVER * 0.6 / nodes_per_wave.powi(2),
             Self::Area => GridError::COVER * 0.3 / nodes_per_wave.powi(2),
             Self::Gap | Self::Approach => GridError::COVER * 0.05 / nodes_per_wave.powi(2),
             Self::Pressure => GridError::COVER * 0.1 / nodes_per_wave.powi(2),
-        }
+        };
+        // the range over the gap that surfaces without adhesion have a node away from the edge
+        let zone = ((13.0 * adhesion).sqrt() * nodes_per_wave).min(1.0);
+        let with = if self == Self::Area { 0.7 } else { 0.3 } / nodes_per_wave;
+        without + zone * (with - without)
     }
 }
 
@@ -191,6 +193,12 @@ impl Surface {
         };
         of(&self.whole())
     }
+}
+
+/// The work of adhesion over E*h'²λ, of the rms slope h' and the shortest wave λ of a surface, from w/E*.
+fn adhesion(surface: &Surface, nodes_per_wave: f64, length: f64) -> f64 {
+    let wave = nodes_per_wave * surface.grid().largest_spacing();
+    length / (surface.whole().spectrum().rms_slope().powi(2) * wave)
 }
 
 /// The relative error of the solver on a coarser grid above which its difference to a finer one says nothing.

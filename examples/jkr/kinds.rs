@@ -28,6 +28,9 @@ const BRACKET: f64 = 3e-3;
 /// The nodes along a side of the coarsest grid on which a pull-off is found.
 const SMALL: usize = 64;
 
+/// The difference of the finer grids beyond that of the coarser ones, as a share, which is a jump.
+const JUMP: f64 = 0.01;
+
 /// Every so many scenes the pull-off is found.
 const PULLED: usize = 4;
 
@@ -263,10 +266,19 @@ fn value(of: Quantity, level: &Level) -> f64 {
 /// The true error and the estimate of a quantity of a scene.
 type Told = (f64, f64);
 
-pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
+/// The limit of a value on a grid and on two finer ones: that of the finer two, or the finest value where these differ by
+/// more than the coarser two, as where the state jumps between them.
+fn limit(here: f64, half: f64, fine: f64) -> f64 {
+    let jumps = (fine - half).abs() > (half - here).abs() + JUMP * fine.abs();
+    if jumps { fine } else { extrapolated(fine, half) }
+}
+
+/// The tables of all kinds, with the pull-off of each fourth scene; or of one kind, with the pull-off of each.
+pub fn tables(count: usize, seed: u64, quick: bool, only: Option<&str>) -> Outcome<()> {
     let mut told: BTreeMap<(usize, usize), Vec<Told>> = BTreeMap::new();
     let mut missing: BTreeMap<usize, usize> = BTreeMap::new();
-    for (number, kind) in KINDS.into_iter().enumerate() {
+    let is_wanted = |kind: &str| only.is_none_or(|only| kind == only);
+    for (number, kind) in KINDS.into_iter().enumerate().filter(|(_, kind)| is_wanted(kind)) {
         let mut draw = Draw::new(seed + 1000 * number as u64);
         for scene in 0..count.div_ceil(KINDS.len()) {
             let scene_of = Scene::drawn(kind, &mut draw)?;
@@ -285,7 +297,8 @@ pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
                 }
             };
             for (at, (of, error)) in errors.iter().enumerate() {
-                let (found, truth) = (value(*of, here), extrapolated(value(*of, fine), value(*of, half)));
+                let [found, half, fine] = [here, half, fine].map(|level| value(*of, level));
+                let truth = limit(found, half, fine);
                 if let Some(error) = error {
                     let off = (found / truth - 1.0).abs();
                     say(of.name(), off, error.relative, &format!("{found:.5e} {truth:.5e}"));
@@ -294,7 +307,7 @@ pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
                     *missing.entry(number).or_default() += 1;
                 }
             }
-            if scene % PULLED == 0 {
+            if only.is_some() || scene % PULLED == 0 {
                 let small = Scene { n: SMALL, ..scene_of };
                 let [on_grid, half, fine] = [1, 2, 4].map(|finer| small.pull_off(finer));
                 if let (Some(Pulled { told: Some((limit, error)), .. }), Some(half), Some(fine)) =
@@ -314,7 +327,7 @@ pub fn tables(count: usize, seed: u64, quick: bool) -> Outcome<()> {
          or below",
         &["kind", "area", "gap", "approach", "pressure", "pull-off", "no area"],
     );
-    for (number, kind) in KINDS.into_iter().enumerate() {
+    for (number, kind) in KINDS.into_iter().enumerate().filter(|(_, kind)| is_wanted(kind)) {
         let cell = |at: usize| {
             let all = told.get(&(number, at)).map_or(&[][..], |all| &all[..]);
             if all.is_empty() {

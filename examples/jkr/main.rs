@@ -69,6 +69,9 @@ struct Arguments {
     /// The seed of the random scenes
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     seed: u64,
+    /// The only kind of the table of kinds, such as "rough, strong adhesion", with the pull-off of each scene
+    #[arg(long, value_name = "KIND")]
+    kind: Option<String>,
     /// The threads of all solves
     #[arg(long, value_name = "N", default_value_t = 1)]
     threads: usize,
@@ -78,7 +81,8 @@ struct Arguments {
 }
 
 fn main() -> Outcome<()> {
-    let Arguments { table, quick, largest, scenes, seed, threads, out } = arguments::read(include_str!("main.rs"));
+    let Arguments { table, quick, largest, scenes, seed, kind, threads, out } =
+        arguments::read(include_str!("main.rs"));
     let wants = |one: Table| table.is_none_or(|table| table == one);
     ThreadPoolBuilder::new().num_threads(threads).build()?.install(|| {
         if wants(Table::Sphere) {
@@ -105,9 +109,11 @@ fn main() -> Outcome<()> {
             errors::tables(if quick { scenes.min(6) } else { scenes }, seed, quick, &path)?;
         }
         if wants(Table::Kinds) {
-            kinds::tables(scenes, seed, quick)?;
-            kinds::spheres(if quick { 6 } else { 60 })?;
-            kinds::weak(if quick { 2 } else { 20 }, seed)?;
+            kinds::tables(scenes, seed, quick, kind.as_deref())?;
+            if kind.is_none() {
+                kinds::spheres(if quick { 6 } else { 60 })?;
+                kinds::weak(if quick { 2 } else { 20 }, seed)?;
+            }
         }
         Ok(())
     })

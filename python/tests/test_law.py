@@ -42,7 +42,10 @@ def test_the_law_without_a_range_is_that_of_the_grid():
     told = asperity.solve(rough, law=asperity.JKR(0.05), accuracy=0.1, **options)
     assert told.report["grid_error"]["area"]["relative"] < 0.1
     assert told.report["jkr_contact_fraction"] == pytest.approx(report["jkr_contact_fraction"], rel=0.1)
-    found = asperity.pull_off(rough, modulus=1e9, law=asperity.JKR(0.05), preload=5e6)
+    strong = asperity.pull_off(rough, modulus=1e9, law=asperity.JKR(0.05), preload=5e6)
+    assert strong.limit_pressure is None and "adhesion is strong" in strong.limit_reason
+    fine = asperity.surface.self_affine(128, 1e-6, rms_height=3e-9, k_l=2, k_s=8, seed=3)
+    found = asperity.pull_off(fine, modulus=1e9, law=asperity.JKR(0.01), preload=5e6)
     assert 0 < found.limit_pressure <= found.pressure and 0 < found.limit_error < 1 and found.accuracy is None
     with pytest.raises(TypeError, match="range"):
         asperity.JKR(0.05, range=1e-9)

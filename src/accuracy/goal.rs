@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 
 use super::refine::{is_of_interpolation, overshoots, refined, twice};
-use super::{GridError, Quantity, resolves_adhesion};
+use super::{GridError, Quantity, adhesion, resolves_adhesion};
 use crate::adhesion::{AdhesionLaw, Discretisation, SharedLaw, mu_rho};
 use crate::constraint::{ContactConstraint, Wall};
 use crate::elastic::{Boundary, ElasticOperator, OnGrids};
@@ -175,9 +175,11 @@ impl Accuracy {
         let refinable = is_refinable(surface, law);
         let line = surface.grid().shape().0 == 1 || surface.grid().shape().1 == 1;
         let by_edge = self.asks_the_edge(solver.constraint.wall(), surface, law) && boundary == Boundary::Periodic;
-        let (mu_rho, of_grid) = (mu_rho(law, surface.grid(), operator.modulus()), law.hints().of_grid);
+        let (mu_rho, hints) = (mu_rho(law, surface.grid(), operator.modulus()), law.hints());
+        let length = if hints.of_grid { hints.work_of_adhesion.widen() / operator.modulus() } else { 0.0 };
+        let adhesion = adhesion(surface, nodes_per_wave, length);
         let needed = |smaller| {
-            if refinable { self.refinements((nodes_per_wave, mu_rho), (by_edge, of_grid, line), smaller) } else { 0 }
+            if refinable { self.refinements((nodes_per_wave, mu_rho), (by_edge, adhesion, line), smaller) } else { 0 }
         };
         let refinements = needed(1.0);
         let nodes = operator.grid().nodes() as f64;
@@ -197,7 +199,7 @@ impl Accuracy {
                 bytes: bytes(refinements),
                 available: self.memory,
                 affordable: if resolved {
-                    self.of.expected(nodes_per_wave * finer, of_grid, line)
+                    self.of.expected(nodes_per_wave * finer, adhesion, line)
                 } else {
                     f64::INFINITY
                 },
@@ -216,7 +218,7 @@ impl Accuracy {
     fn refinements(
         &self,
         (nodes_per_wave, mu_rho): (f64, f64),
-        (by_edge, of_grid, line): (bool, bool, bool),
+        (by_edge, adhesion, line): (bool, f64, bool),
         smaller: f64,
     ) -> i32 {
         // without a coarser grid the waves tell the error of the area, and the edge that of the others
@@ -227,7 +229,7 @@ impl Accuracy {
             let nodes = nodes_per_wave * finer;
             resolves_adhesion(mu_rho, finer)
                 && nodes >= least
-                && self.of.expected(nodes, of_grid, line) <= smaller * self.target
+                && self.of.expected(nodes, adhesion, line) <= smaller * self.target
         };
         (0..40).find(enough).unwrap_or(40)
     }

@@ -21,8 +21,7 @@ class PullOff(NamedTuple):
     limit_pressure, limit_force : float or None
         Pull-off in the limit of zero range, with `JKR`: of the tension and the tension less the share of the process
         zone at the edges of the contacts the one that changed less from a grid of half as many nodes along the sides. None
-        where more than three quarters of a periodic cell are in contact by their adhesive energy, as closed surfaces have
-        no limit, and where a few nodes bear the tension.
+        where its error is unknown.
     limit_error : float or None
         Estimated relative error of the limit, by a grid of half as many nodes along the sides.
     limit_reason : str or None

@@ -80,6 +80,11 @@ fn reason<T: Real>(accurate: Result<&AccuratePullOff<T>, &str>) -> Option<String
             "the surfaces are closed, {} % of them in contact: the grid decides where they begin to peel",
             percent(share)
         ),
+        Untold::Strong(adhesion) => format!(
+            "the adhesion is strong, with w = {adhesion:.2} E*h'^2 of the shortest wave: the grid decides which contacts \
+             peel first"
+        ),
+        Untold::Edge => "contacts reach the edge of the map, where each grid ends elsewhere".to_owned(),
         Untold::Waves(nodes) => {
             format!("the shortest wave has {nodes:.1} nodes and needs {}", 2.0 * GridError::LEAST_NODES_PER_WAVE)
         }
