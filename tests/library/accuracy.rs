@@ -397,6 +397,13 @@ fn a_plan_says_the_grid_that_is_taken() {
     let plan = wanted.plan(&Solver::default(), &surface, &mut operator, &NoAdhesion, PRESSED).unwrap();
     assert!((3.9..5.0).contains(&plan.nodes_per_wave) && plan.tolerance == 1e-3, "{plan:?}");
     assert!([64, 128].contains(&plan.shape.0) && plan.bytes > 0.0 && plan.applications >= 40.0, "{plan:?}");
+    // in the limit of no range next to no adhesion takes the grid of a hard wall, and more adhesion a finer one
+    let mut in_the_limit = |work: f64| {
+        let law = Jkr::new(work).unwrap();
+        wanted.plan(&Solver::default(), &surface, &mut operator, &law, PRESSED).unwrap().shape
+    };
+    assert_eq!(in_the_limit(1e-15), plan.shape);
+    assert!(in_the_limit(2.5e-5).0 > 2 * plan.shape.0);
     // an adhesion that the grid does not resolve takes a finer one: μ_ρ is to be halved twice, which is 16 times as fine
     let mut with = |mu_rho: f64| {
         let law = Exponential::new(32.0 * (1e-3 * mu_rho).powi(2), 1e-3).unwrap();

@@ -250,7 +250,7 @@ fn the_law_without_a_range_has_that_of_the_grid() {
             assert!(number(&found, "limit_pressure") <= number(&found, "pull_off_pressure"));
         }
         let reason = found["limit_reason"].as_str().unwrap_or("told");
-        assert!(reason.contains(if known { "told" } else { "adhesion is strong, with w = 0.2" }), "{reason}");
+        assert!(reason.contains(if known { "told" } else { "adhesion is strong, w is 0.2" }), "{reason}");
         assert!(found["to_report"].is_string(), "{found}");
     }
     // nor one of contacts that reach the edge of the map
