@@ -19,7 +19,7 @@ fn the_conductance_is_that_of_the_stiffness_with_its_error_and_unit() {
     let expected = 2.0 * stiffness / (1e9 * (17e-9 + 24e-9));
     assert!((found["value"].as_f64().unwrap() / expected - 1.0).abs() < 1e-12, "{found}");
     assert!((found["whole"].as_f64().unwrap() / (expected * 4e-10) - 1.0).abs() < 1e-12, "{found}");
-    assert!(found["relative_error"].as_f64().unwrap() < 0.02, "{found}");
+    assert!(found["relative_error"].as_f64().unwrap() < 0.03, "{found}");
     assert_eq!(found["relative_error"], report["stiffness_error"]);
     assert_eq!((&found["resistivities"][1], &found["conductivities"]), (&2.4e-8.into(), &().into()));
     let said = bench.said(&format!("{solve} --conductivities 400W/mK 15W/mK"));

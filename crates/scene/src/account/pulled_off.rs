@@ -81,7 +81,7 @@ fn reason<T: Real>(accurate: Result<&AccuratePullOff<T>, &str>) -> Option<String
             percent(share)
         ),
         Untold::Strong(adhesion) => format!(
-            "the adhesion is strong, w is {adhesion:.2} E*h'^2 times the shortest wave: the grid decides which contacts \
+            "the adhesion is strong, w is {adhesion:.3} E*h'^2 times the shortest wave: the grid decides which contacts \
              peel first"
         ),
         Untold::Edge => "contacts reach the edge of the map, where each grid ends elsewhere".to_owned(),
