@@ -162,7 +162,7 @@ fn a_report_is_one_page_that_loads_nothing() {
     bench.said("report results");
     let page = bench.read("results/report.html");
     assert_eq!((unbalanced(&page), loaded(&page)), (vec![], vec![]));
-    // the figures come first, and the slopes are those of the report and of `stats`
+    // the figures come first, and the slopes as in the report and in `stats`
     assert!(page.find("<h2>Numbers").unwrap() < page.find("<h2>Maps").unwrap());
     let (found, stats) = (bench.report("results"), bench.reported("stats heights.npy --lengths 1"));
     for (key, name) in [("rms_slope", "rms slope"), ("rms_slope_differences", "rms slope differences")] {
@@ -253,7 +253,7 @@ fn what_follows_a_solve_has_its_own_page() {
     bench.said("contact pressed --picture-format svg --quiet --out tables");
     let tables = page(&bench, "tables", "tables/report.html");
     assert!(tables.contains("correlation length") && !tables.contains("has not converged"));
-    // the charts are those of the folder
+    // the charts of the folder
     for name in ["gap", "pressure", "autocorrelation", "clusters"] {
         assert!(tables.contains(&bench.read(&format!("tables/{name}.svg"))), "{name}");
     }

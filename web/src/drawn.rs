@@ -1,4 +1,4 @@
-//! Charts and colours, those of the pictures of the program.
+//! Charts and colours, as in the pictures of the program.
 
 use asperity_plot::{Chart, Colouring, DPI, Paper};
 use asperity_scene::LAWS;
@@ -31,7 +31,7 @@ pub fn about() -> Value {
     json!({ "version": env!("CARGO_PKG_VERSION"), "laws": laws, "colours": colours })
 }
 
-/// The name of a curve and its points, of which a `null` breaks it.
+/// The name of a curve and its points; a `null` breaks it.
 type Curve = (String, Vec<(Option<f64>, Option<f64>)>);
 
 /// A chart by the keys of `Chart`, and the width of its picture in points.

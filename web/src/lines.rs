@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 
 /// The file of the surface.
 const HEIGHTS: &str = "heights.npz";
-/// The file of a made surface of which steps of preparation make another one.
+/// The file of a made surface before steps of preparation.
 const MADE: &str = "made.npz";
 /// The file of the gap from which a solve with adhesion started.
 pub const START: &str = "start.npz";
